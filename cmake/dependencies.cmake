@@ -1,0 +1,36 @@
+# Everything the library links, collected in BARCHAN_LIBRARIES. All headers come in as SYSTEM.
+set(MPI_CXX_SKIP_MPICXX ON)  # the C interface only: MPI's C++ bindings are gone from the standard
+find_package(MPI REQUIRED COMPONENTS CXX)
+
+include(cmake/kokkos.cmake)
+
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "The HDF5 found in ${HDF5_INCLUDE_DIRS} is serial; a parallel (MPI) one is needed.")
+endif()
+
+# FFTW ships no CMake package that can be relied on; FFTW3_ROOT is honoured by find_*.
+find_path(FFTW3_INCLUDE_DIR fftw3.h REQUIRED)
+find_library(FFTW3_LIBRARY fftw3 REQUIRED)
+find_library(FFTW3_OMP_LIBRARY fftw3_omp)
+add_library(barchan_fftw INTERFACE)
+target_include_directories(barchan_fftw SYSTEM INTERFACE "${FFTW3_INCLUDE_DIR}")
+if(FFTW3_OMP_LIBRARY)
+  target_link_libraries(barchan_fftw INTERFACE "${FFTW3_OMP_LIBRARY}")
+  target_compile_definitions(barchan_fftw INTERFACE BARCHAN_FFTW_OMP)
+endif()
+target_link_libraries(barchan_fftw INTERFACE "${FFTW3_LIBRARY}")
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
+
+add_library(barchan_headers INTERFACE)
+target_include_directories(barchan_headers SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
+
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX hdf5::hdf5 barchan_fftw Eigen3::Eigen CLI11::CLI11
+    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_headers)

@@ -1,0 +1,20 @@
+# Compile options of our own code, carried by barchan_flags.
+add_library(barchan_flags INTERFACE)
+target_include_directories(barchan_flags INTERFACE "${CMAKE_SOURCE_DIR}")
+
+# errno and trapping arithmetic would keep loops from being vectorised. Not -ffast-math: results must
+# be reproducible, and not-a-number must stay visible to the checks that stop a run.
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -fno-math-errno -fno-trapping-math")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+
+target_compile_options(barchan_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2
+  -Wfloat-conversion -Werror)
+if(BARCHAN_NATIVE)
+  target_compile_options(barchan_flags INTERFACE -march=native)
+endif()
+if(BARCHAN_SANITIZE)
+  target_compile_options(barchan_flags INTERFACE -fsanitize=${BARCHAN_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=undefined)
+  target_link_options(barchan_flags INTERFACE -fsanitize=${BARCHAN_SANITIZE})
+endif()
