@@ -9,7 +9,7 @@ set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
 
 target_compile_options(barchan_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2
-  -Wfloat-conversion -Werror)
+  -Wconversion -Werror)
 if(BARCHAN_NATIVE)
   target_compile_options(barchan_flags INTERFACE -march=native)
 endif()

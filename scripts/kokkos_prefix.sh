@@ -76,16 +76,16 @@ repair() {
     [ -e "$libdir/$name" ] || ar rc "$libdir/$name"
   done
   # 3. Programs that link Kokkos run with the run time in this prefix.
-  loader="$(find "$libdir" -maxdepth 1 -name 'ld-linux*.so.*' -printf '%f\n' | head -n 1)"
+  loader="$(cd "$prefix" && find runtime/usr/lib -maxdepth 2 -name 'ld-linux*.so.*' | head -n 1)"
   [ -n "$loader" ] || { echo "no dynamic linker in the packages" >&2; return 1; }
   cat >> "$targets" <<REPAIR
 
 # Added by scripts/kokkos_prefix.sh: this Kokkos needs the newer C and C++ run time beside it.
-get_filename_component(_barchan_libdir "\${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
+get_filename_component(_barchan_prefix "\${CMAKE_CURRENT_LIST_DIR}/../../../../.." ABSOLUTE)
 set_property(TARGET Kokkos::kokkoscore APPEND PROPERTY INTERFACE_LINK_OPTIONS
-  "-Wl,--dynamic-linker=\${_barchan_libdir}/$loader" "-Wl,-rpath,\${_barchan_libdir}"
-  "-Wl,--allow-shlib-undefined")
-unset(_barchan_libdir)
+  "-Wl,--dynamic-linker=\${_barchan_prefix}/$loader"
+  "-Wl,-rpath,\${_barchan_prefix}/$(dirname "$loader")" "-Wl,--allow-shlib-undefined")
+unset(_barchan_prefix)
 REPAIR
 }
 
@@ -103,7 +103,12 @@ obtain() {
 obtain || die "could not get Kokkos (libkokkos-dev of Debian unstable) from this machine's apt mirror; is the network up? Or install Kokkos 4.6 or newer and set Kokkos_ROOT."
 rm -rf "$prefix"
 mkdir -p "$prefix"
-for package in "$scratch"/packages/*.deb; do dpkg -x "$package" "$prefix"; done
+for package in "$scratch"/packages/*.deb; do
+  case "$(basename "$package")" in
+    libkokkos*) dpkg -x "$package" "$prefix" ;;
+    *) dpkg -x "$package" "$prefix/runtime" ;;  # apart, so that only programs are sent there, not the linker
+  esac
+done
 repair || die "the Kokkos packages of Debian unstable are not laid out as expected."
 env -u Kokkos_ROOT -u Kokkos_DIR BARCHAN_DEPS="$(dirname "$prefix")" "$here/probe_kokkos.sh" > "$scratch/log" 2>&1 ||
   { tail -n 15 "$scratch/log" >&2; die "the unpacked Kokkos does not build a small program."; }
