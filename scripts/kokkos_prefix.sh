@@ -84,7 +84,8 @@ repair() {
 get_filename_component(_barchan_prefix "\${CMAKE_CURRENT_LIST_DIR}/../../../../.." ABSOLUTE)
 set_property(TARGET Kokkos::kokkoscore APPEND PROPERTY INTERFACE_LINK_OPTIONS
   "-Wl,--dynamic-linker=\${_barchan_prefix}/$loader"
-  "-Wl,-rpath,\${_barchan_prefix}/$(dirname "$loader")" "-Wl,--allow-shlib-undefined")
+  "-Wl,-rpath,\${_barchan_prefix}/$(dirname "$loader")" "-Wl,--allow-shlib-undefined"
+  "-Wl,--disable-new-dtags")  # rpath, not runpath: also for libm and libgomp of other libraries
 unset(_barchan_prefix)
 REPAIR
 }
