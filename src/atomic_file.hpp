@@ -1,0 +1,21 @@
+// Files that are either the old one or the new one, never half of one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace barchan {
+
+/// Writes `text` beside `path` and renames it into place: a reader, or a kill at any moment, sees
+/// the old content or the new one. Throws std::runtime_error naming the file and the reason.
+void write_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// Brings `from` to the disk and renames it to `to`, also when the machine stops right after.
+/// Throws std::runtime_error naming the file and the reason.
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// The whole of a text file. Throws std::runtime_error naming the file and the reason.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace barchan

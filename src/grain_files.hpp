@@ -1,0 +1,34 @@
+// Initial grains from a CSV table, a result file or a restart file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "kernels/vec3.hpp"
+
+namespace barchan {
+
+/// Grains in the order of the file; all vectors have the same length.
+struct InitialGrains {
+  std::vector<std::int64_t> id;
+  std::vector<double> diameter;  // [m]
+  std::vector<Vec3> x;           // centre [m]
+  std::vector<Vec3> u;           // velocity [m/s]
+  std::vector<Vec3> omega;       // spin [rad/s]
+
+  std::size_t size() const { return id.size(); }
+};
+
+/// By the ending: .csv, or .h5, which is a grains.h5 (its last frame) or a restart file (arrays
+/// grains/id and grains/kin). Throws std::runtime_error with a sentence for the user.
+InitialGrains read_grains(const std::filesystem::path& file);
+
+/// Columns by header in any order: id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz (SI units).
+/// Empty lines and lines that start with # are skipped. Throws std::runtime_error
+/// "heap.csv:12: ..." for a missing or unknown column, a bad or not finite number, a wrong number
+/// of columns, a diameter that is not positive, an id used twice. Overlap is not looked at.
+InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name);
+
+}  // namespace barchan

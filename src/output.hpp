@@ -1,0 +1,69 @@
+// fields.h5 and grains.h5 with their XDMF descriptions (formats: docs/conventions.md).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/fluid_state.hpp"
+#include "src/frame_file.hpp"
+#include "src/grain_state.hpp"
+#include "src/provenance.hpp"
+
+namespace barchan {
+
+/// One more cell-centred field of a frame (a mean, a second moment).
+struct NamedField {
+  std::string name, units;
+  const Field* field = nullptr;
+};
+
+/// One force on every grain, in the order of the grains [N].
+struct NamedForce {
+  std::string name;  // "force_drag", "force_contact_normal", ...
+  Kokkos::View<const Vec3*> values;
+};
+
+/// This rank's cells within the whole grid. Default: the whole.
+struct GridPlace {
+  int nx = 0, nz = 0;            // of the whole grid; 0: this rank has all
+  int first_i = 0, first_k = 0;  // of this rank's first cell
+  double x0 = 0, z0 = 0;         // corner of the whole grid [m]
+};
+
+/// Appends frames. Each is complete on the disk or not there at all; earlier frames survive a kill
+/// at any moment. Files are open only while a frame is written, so that viewers can look.
+/// Collective over the communicator. Members throw Hdf5Error or std::runtime_error with the reason.
+class OutputFiles {
+ public:
+  /// `restart_time` empty: a new run, files of an earlier one are replaced at the first frame.
+  /// Otherwise frames later than it are dropped and numbering goes on.
+  OutputFiles(const std::filesystem::path& folder, Provenance provenance,
+              std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF);
+
+  /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
+  /// Upper faces are read from the ghost layer, which must be valid.
+  void write_fields(const FluidState& fluid, double t, std::int64_t step,
+                    std::span<const NamedField> more = {}, const GridPlace& place = {});
+
+  /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
+  void write_grains(const GrainState& grains, double t, std::int64_t step,
+                    std::span<const NamedForce> forces = {});
+
+  const std::vector<FrameInfo>& field_frames() const { return fields_.frames(); }
+  const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
+
+ private:
+  void write_grid(Hdf5File& file, const Grid& grid, const GridPlace& place);
+
+  MPI_Comm communicator_;
+  FrameFile fields_, grains_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace barchan

@@ -1,0 +1,85 @@
+// What the user sees: lines on the terminal and in log.txt, and one live line while a run goes on.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace barchan {
+
+namespace report {
+
+enum class Level { info, warning, error };
+
+/// Terminal output from now on; `quiet` keeps warnings and errors only; ranks other than 0 are
+/// silent. Until called: not quiet, rank 0.
+void start(bool quiet, int rank = 0);
+/// Copies every line, also those that `quiet` hides, to a file. `append` keeps its content.
+/// Throws std::runtime_error naming the file.
+void log_to(const std::filesystem::path& file, bool append);
+/// Ends log_to(): what was said is in the file.
+void stop_log();
+
+void line(Level level, std::string_view text);
+
+template <class... Args>
+void info(fmt::format_string<Args...> format, Args&&... args) {
+  line(Level::info, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void warn(fmt::format_string<Args...> format, Args&&... args) {
+  line(Level::warning, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void error(fmt::format_string<Args...> format, Args&&... args) {
+  line(Level::error, fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace report
+
+/// What the live line shows. Leave out what a run does not have.
+struct Progress {
+  double t = 0, t_start = 0, t_end = 0;  // simulated time: now, at the start of this run, end [s]
+  double grain_steps_per_second = 0;     // 0: no grains
+  double cell_steps_per_second = 0;      // 0: no fluid
+  double cfl = 0;
+  double pressure_iterations = 0;  // mean over the last interval
+  std::int64_t n_grains = 0;
+  std::optional<double> dune_width, dune_length;  // [m]
+};
+
+/// One line of progress. eta_seconds < 0: not known yet.
+std::string format_progress(const Progress& progress, double eta_seconds);
+/// "42 s", "3 min 05 s", "2 h 07 min", "4 d 03 h".
+std::string format_duration(double seconds);
+
+/// One line that is written over on a terminal; elsewhere (and in log.txt) a plain line about every
+/// ten seconds of wall time. The time to go is estimated from the pace since construction.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Cheap enough for every fluid step; draws only when a line is due.
+  void update(const Progress& progress);
+  /// True when the next update() would draw: lets the caller skip gathering the numbers.
+  bool due() const;
+  /// Leaves the last state on the screen and ends the line.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_, last_live_, last_plain_;
+  bool terminal_ = false;
+  std::string last_;
+};
+
+}  // namespace barchan
