@@ -1,0 +1,201 @@
+// Neighbour search in columns: grains are binned in x-z columns and sorted by height inside a
+// column, so only columns that hold grains exist and empty water costs nothing.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/grain.hpp"
+
+namespace barchan {
+
+/// The x-z columns of the domain, each at least one cutoff wide.
+struct Columns {
+  int nx = 1, nz = 1;
+  Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
+  Real height = 0;                                // scale of the y part of the key [m]
+  bool periodic_x = false, periodic_z = false;
+
+  KOKKOS_FUNCTION static int clamp(int a, int n) { return a < 0 ? 0 : (a >= n ? n - 1 : a); }
+
+  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const {
+    const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
+    const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);
+    return static_cast<std::uint32_t>(ix) * static_cast<std::uint32_t>(nz) +
+           static_cast<std::uint32_t>(iz);
+  }
+  /// Sort key: column, then height. The largest key is kept for grains to be dropped.
+  KOKKOS_FUNCTION std::uint64_t key_of(const Vec3& x) const {
+    Real level = (x.y / height + 1) / 3;  // heights of -1 .. 2 domain heights
+    level = level < 0 ? 0 : (level > 1 ? 1 : level);
+    const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
+    return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
+  }
+  /// Column at an offset of (dx, dz) columns; false outside the domain.
+  KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
+    int ix = static_cast<int>(column) / nz + dx;
+    int iz = static_cast<int>(column) % nz + dz;
+    if (periodic_x) ix = (ix + nx) % nx;
+    if (periodic_z) iz = (iz + nz) % nz;
+    if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
+    result = static_cast<std::uint32_t>(ix) * static_cast<std::uint32_t>(nz) +
+             static_cast<std::uint32_t>(iz);
+    return true;
+  }
+};
+
+inline constexpr std::uint64_t kDroppedKey = ~std::uint64_t{0};
+inline constexpr int kForwardColumns = 4;  // half of the eight columns around one
+
+/// The columns that hold grains, in key order.
+struct OccupiedColumns {
+  int n = 0;
+  Kokkos::View<std::uint32_t*> id;          // (n) ascending
+  Kokkos::View<int*> start;                 // (n + 1) first grain of each
+  Kokkos::View<int*> of_grain;              // (grains) occupied column of each grain
+  Kokkos::View<int* [kForwardColumns]> forward;  // (n) occupied column or -1
+
+  /// Position of a column id in `id`, or -1.
+  KOKKOS_FUNCTION int find(std::uint32_t column) const {
+    int low = 0, high = n;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (id(middle) < column) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low < n && id(low) == column ? low : -1;
+  }
+};
+
+/// Fills `forward`: half of the neighbouring columns, so that each pair is met once.
+struct LinkColumns {
+  Columns columns;
+  OccupiedColumns occupied;
+
+  KOKKOS_FUNCTION void operator()(int c) const {
+    const int dx[kForwardColumns] = {0, 1, 1, 1};
+    const int dz[kForwardColumns] = {1, -1, 0, 1};
+    for (int m = 0; m < kForwardColumns; ++m) {
+      std::uint32_t other = 0;
+      const bool exists = columns.neighbor(occupied.id(c), dx[m], dz[m], other);
+      occupied.forward(c, m) = exists ? occupied.find(other) : -1;
+    }
+  }
+};
+
+/// Walks the candidates of one grain and calls f(j) for each within r_i + r_j + skin.
+struct PairSearch {
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+  PeriodicBox box;
+  Real skin = 0;     // [m]
+  Real r_max = 0;    // largest radius [m]
+
+  template <class Action>
+  KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
+    const GrainKinematics a = grains(i);
+    const Real reach = a.r + r_max + skin;
+    for (int j = begin; j < end; ++j) {
+      const GrainKinematics& b = grains(j);
+      if (b.x.y < a.x.y - reach) continue;
+      if (b.x.y > a.x.y + reach) break;  // sorted by height
+      const Vec3 s = box.nearest_image(a.x - b.x);
+      const Real cutoff = a.r + b.r + skin;
+      if (dot(s, s) < cutoff * cutoff) action(j);
+    }
+  }
+  template <class Action>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_partner(int i, const Action& action) const {
+    const int c = occupied.of_grain(i);
+    scan(i, i + 1, occupied.start(c + 1), action);
+    for (int m = 0; m < kForwardColumns; ++m) {
+      const int other = occupied.forward(c, m);
+      if (other >= 0) scan(i, occupied.start(other), occupied.start(other + 1), action);
+    }
+  }
+};
+
+/// Number of partners of each grain, into first(i) before the prefix sum.
+struct CountPairs {
+  PairSearch search;
+  Kokkos::View<int*> count;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int n = 0;
+    search.for_each_partner(i, [&n](int) { ++n; });
+    count(i) = n;
+  }
+};
+
+/// Writes the pairs of each grain and takes over the history of those that were listed before.
+/// `previous` is the old list, `old_row` the old row of each grain.
+struct FillPairs {
+  PairSearch search;
+  PairList list, previous;
+  Kokkos::View<const int*> old_row;
+  bool has_previous = false, has_rolling = false;
+
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int slot = list.first(i);
+    search.for_each_partner(i, [&](int j) {
+      list.i(slot) = i;
+      list.j(slot) = j;
+      carry_history(slot, i, j);
+      ++slot;
+    });
+  }
+  /// The old slot of pair (a, b) listed under a, or -1.
+  KOKKOS_FUNCTION int old_slot(int a, int b) const {
+    for (int p = previous.first(a); p < previous.first(a + 1); ++p) {
+      if (previous.j(p) == b) return p;
+    }
+    return -1;
+  }
+  KOKKOS_FUNCTION void carry_history(int slot, int i, int j) const {
+    int p = -1;
+    Real sign = 1;
+    if (has_previous) {
+      p = old_slot(old_row(i), old_row(j));
+      if (p < 0) {
+        p = old_slot(old_row(j), old_row(i));
+        sign = -1;  // xi_t and the rolling torque are those of the first grain
+      }
+    }
+    const bool known = p >= 0;
+    list.touching(slot) = known ? previous.touching(p) : std::uint8_t{0};
+    list.xi_t(slot) = known ? sign * previous.xi_t(p) : Vec3{};
+    if (has_rolling) list.rolling(slot) = known ? sign * previous.rolling(p) : Vec3{};
+    PairLine line = known ? previous.line(p) : PairLine{};
+    line.force = sign * line.force;  // twist = n x F_t keeps its sign
+    list.line(slot) = line;
+  }
+};
+
+/// Registers each slot with its second grain; `cursor` holds the next free place of each grain.
+struct RegisterOthers {
+  PairList list;
+  Kokkos::View<int*> cursor;
+  KOKKOS_FUNCTION void operator()(int slot) const {
+    const int place = Kokkos::atomic_fetch_add(&cursor(list.j(slot)), 1);
+    list.other_slot(place) = slot;
+  }
+};
+
+/// Ascending order of each grain's other slots, whatever order the threads came in.
+struct SortOthers {
+  PairList list;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const int begin = list.other_first(g), end = list.other_first(g + 1);
+    for (int a = begin + 1; a < end; ++a) {
+      const int slot = list.other_slot(a);
+      int b = a;
+      for (; b > begin && list.other_slot(b - 1) > slot; --b) {
+        list.other_slot(b) = list.other_slot(b - 1);
+      }
+      list.other_slot(b) = slot;
+    }
+  }
+};
+
+}  // namespace barchan

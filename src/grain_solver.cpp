@@ -1,0 +1,152 @@
+#include "src/grain_solver.hpp"
+
+#include "kernels/grain_motion.hpp"
+#include "kernels/pair_forces.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
+constexpr int kBlock =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
+                               Kokkos::DefaultExecutionSpace::memory_space>::accessible
+        ? 64
+        : 1;
+
+StiffnessLaw make_law(const GrainConfig& grains, const Material& a, const Material& b) {
+  const Real damping = damping_ratio(b.restitution);
+  if (grains.contact_model == ContactModel::linear) {
+    return LinearSpring{.k_n = grains.linear_stiffness, .damping = damping};
+  }
+  const Elastic first{.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio};
+  const Elastic second{.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio};
+  return HertzMindlin{.e_eff = effective_youngs_modulus(first, second),
+                      .g_eff = effective_shear_modulus(first, second),
+                      .damping = damping};
+}
+
+RollingLaw make_rolling(const GrainConfig& grains) {
+  if (grains.material.rolling_friction == 0 && grains.wall.rolling_friction == 0) {
+    return NoRolling{};  // every model vanishes with mu_r
+  }
+  switch (grains.rolling_model) {
+    case RollingModel::epsd2: return Epsd2{};
+    case RollingModel::theta_m: return ThetaM{.theta_m = grains.rolling_theta_m};
+    case RollingModel::cdt: return ConstantTorque{};
+    case RollingModel::none: break;
+  }
+  return NoRolling{};
+}
+
+Friction friction_of(const Material& m) {
+  return {.sliding = m.sliding_friction, .rolling = m.rolling_friction};
+}
+
+}  // namespace
+
+GrainSolver::GrainSolver(const Config& config, GrainState& grains)
+    : list_(config, grains.r_max),
+      pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
+      wall_law_(make_law(*config.grains, config.grains->material, config.grains->wall)),
+      rolling_(make_rolling(*config.grains)),
+      pair_friction_(friction_of(config.grains->material)),
+      wall_friction_(friction_of(config.grains->wall)),
+      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit),
+      lx_(config.size[0]) {
+  const auto add = [this](Vec3 normal, Real offset) { plane_[n_walls_++] = {normal, offset}; };
+  add({0, 1, 0}, 0);
+  add({0, -1, 0}, -config.size[1]);
+  if (config.grains->boundary_x == GrainBoundaryX::wall) {
+    add({1, 0, 0}, 0);
+    add({-1, 0, 0}, -config.size[0]);
+  }
+  if (config.grains->boundary_z == GrainBoundaryZ::wall) {
+    add({0, 0, 1}, 0);
+    add({0, 0, -1}, -config.size[2]);
+  }
+  using WallHistory = decltype(grains.wall_xi_t);
+  const auto n = static_cast<std::size_t>(grains.n);
+  grains.wall_xi_t = WallHistory("wall xi_t", n, static_cast<std::size_t>(n_walls_));
+  grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
+  list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
+  list_.rebuild(grains, true);
+}
+
+template <class Stiffness, class Rolling>
+void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains,
+                            int n, Real dt) {
+  const auto motion = [&] {
+    return KickAndDrift{.dt = dt,
+                        .grains = grains.kin,
+                        .contact_force = grains.contact_force,
+                        .contact_torque = grains.contact_torque,
+                        .x_reference = grains.x_reference,
+                        .fluid = grains.fluid};
+  };
+  Real moved = 0;
+  Kokkos::parallel_reduce("grains: first kick and drift", grains.n, motion(),
+                          Kokkos::Max<Real>(moved));
+  for (int s = 0; s < n; ++s) {
+    if (list_.is_stale(moved)) list_.rebuild(grains, false);
+    const int n_blocks = (grains.list.n_pairs + kBlock - 1) / kBlock;
+    Kokkos::parallel_for("grains: pair forces", n_blocks,
+                         PairForces<Stiffness, Rolling, kBlock>{.law = law,
+                                                                .rolling = rolling,
+                                                                .friction = pair_friction_,
+                                                                .box = list_.box(),
+                                                                .dt = dt,
+                                                                .grains = grains.kin,
+                                                                .list = grains.list});
+    SumKickDrift<Stiffness, Rolling> sum{.motion = motion(),
+                                         .list = grains.list,
+                                         .walls = {.n = n_walls_,
+                                                   .plane = {},
+                                                   .law = std::get<Stiffness>(wall_law_),
+                                                   .rolling = rolling,
+                                                   .friction = wall_friction_,
+                                                   .xi_t = grains.wall_xi_t,
+                                                   .torque = grains.wall_torque,
+                                                   .touching = grains.wall_touching},
+                                         .has_rolling = list_.with_rolling,
+                                         .last = s + 1 == n};
+    for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
+    Kokkos::parallel_reduce("grains: sum, kick and drift", grains.n, sum, Kokkos::Max<Real>(moved));
+  }
+}
+
+void GrainSolver::advance(GrainState& grains, int n, Real dt) {
+  if (grains.n == 0 || n == 0) return;
+  std::visit([&](const auto& law, const auto& rolling) { sub_steps(law, rolling, grains, n, dt); },
+             pair_law_, rolling_);
+}
+
+void GrainSolver::remove_left(GrainState& grains) {
+  if (!exit_x_) return;
+  const auto kin = grains.kin;
+  const Real lx = lx_;
+  int n_outside = 0;
+  Kokkos::parallel_reduce(
+      "grains: count beyond the outlet", grains.n,
+      KOKKOS_LAMBDA(int g, int& count) { count += kin(g).x.x >= 0 && kin(g).x.x <= lx ? 0 : 1; },
+      n_outside);
+  if (n_outside > 0) list_.rebuild(grains, true);
+}
+
+ContactSummary GrainSolver::contacts(const GrainState& grains) const {
+  ContactSummary summary;
+  const PairList list = grains.list;
+  const auto kin = grains.kin;
+  Kokkos::parallel_reduce(
+      "grains: contact summary", list.n_pairs,
+      KOKKOS_LAMBDA(int p, std::int64_t& count, Real& overlap) {
+        if (!list.touching(p)) return;
+        ++count;
+        const Real relative = list.line(p).delta_n / (kin(list.i(p)).r + kin(list.j(p)).r);
+        overlap = relative > overlap ? relative : overlap;
+      },
+      summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
+  return summary;
+}
+
+}  // namespace barchan

@@ -1,0 +1,56 @@
+// The grains' equations of motion over the sub-steps of one fluid step.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "kernels/contact_law.hpp"
+#include "kernels/rolling_resistance.hpp"
+#include "kernels/wall_contact.hpp"
+#include "src/config.hpp"
+#include "src/grain_state.hpp"
+#include "src/neighbor_list.hpp"
+
+namespace barchan {
+
+using StiffnessLaw = std::variant<HertzMindlin, LinearSpring>;
+using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
+
+/// What the contacts look like now.
+struct ContactSummary {
+  std::int64_t n_contacts = 0;  // grain-grain
+  Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
+};
+
+/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet.
+class GrainSolver {
+ public:
+  /// Sets up walls and history; builds the first list.
+  GrainSolver(const Config& config, GrainState& grains);
+
+  /// n sub-steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
+  /// sub-step, bit for bit.
+  void advance(GrainState& grains, int n, Real dt);
+  /// Drops the grains that have passed the outlet (counted in n_left).
+  void remove_left(GrainState& grains);
+  /// Contacts and largest overlap from the last sub-step.
+  ContactSummary contacts(const GrainState& grains) const;
+  /// The list as the last rebuild left it, after the rows of a restart were read.
+  void restore_list(GrainState& grains) { list_.restore(grains); }
+  std::int64_t rebuilds() const { return list_.rebuilds(); }
+
+ private:
+  template <class Stiffness, class Rolling>
+  void sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n, Real dt);
+
+  NeighborList list_;
+  StiffnessLaw pair_law_, wall_law_;
+  RollingLaw rolling_;
+  Friction pair_friction_, wall_friction_;
+  Plane plane_[kMaxWalls];
+  int n_walls_ = 0;
+  bool exit_x_ = false;
+  Real lx_ = 0;
+};
+
+}  // namespace barchan

@@ -1,0 +1,36 @@
+// Everything the grains remember from one sub-step to the next.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/grain.hpp"
+#include "kernels/grain_motion.hpp"
+#include "src/grain_files.hpp"
+
+namespace barchan {
+
+/// Grains [0, n). Rows are in spatial order, which a list rebuild changes; `id` never changes.
+struct GrainState {
+  int n = 0;
+  Kokkos::View<GrainKinematics*> kin;                  // position, velocity, spin, radius, mass
+  Kokkos::View<std::int64_t*> id;                      // never reused
+  Kokkos::View<Vec3*> contact_force, contact_torque;   // at the current positions [N], [N m]
+  Kokkos::View<Vec3*> x_reference;                     // positions at the last list rebuild [m]
+  FluidOnGrains fluid;                                 // constant over one fluid step
+  Kokkos::View<Vec3*> u_start;                         // velocity as the fluid step began [m/s]
+  Kokkos::View<Vec3*> carried_impulse;                 // owed by the fluid's implicit drag [N s]
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;  // (n, wall) tangential displacement [m]
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // (n, wall) rolling torque [N m]
+  Kokkos::View<std::uint8_t*> wall_touching;           // bit per wall
+  PairList list;                                       // neighbours and their contact history
+  Real r_max = 0, r_min = 0;                           // [m], of the initial grains
+  std::int64_t n_initial = 0, n_left = 0;              // grains at t = 0; left through the outlet
+};
+
+/// Grains at rest in the list's eyes: no history, no fluid. density [kg/m^3].
+GrainState make_grain_state(const InitialGrains& initial, Real density);
+
+/// Takes the rows in the order of `row` (new row -> old row) and keeps the first n of them.
+void permute(GrainState& grains, const Kokkos::View<int*>& row, int n);
+
+}  // namespace barchan

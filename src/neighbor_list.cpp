@@ -1,0 +1,218 @@
+#include "src/neighbor_list.hpp"
+
+#include <Kokkos_Sort.hpp>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace barchan {
+
+namespace {
+
+int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
+  const int n = std::max(1, static_cast<int>(std::floor(extent / cutoff)));
+  if (periodic && n < 3) {
+    throw std::runtime_error(std::string("the domain is too narrow along ") + axis +
+                             " for periodic grains: it must be at least three contact ranges (" +
+                             std::to_string(3 * cutoff) + " m) wide");
+  }
+  return n;
+}
+
+/// Room for n entries, kept between rebuilds; grows by a quarter more than asked.
+template <class View>
+void reserve(View& view, const char* label, int n) {
+  if (static_cast<int>(view.extent(0)) < n) {
+    view = View(Kokkos::view_alloc(label, Kokkos::WithoutInitializing),
+                static_cast<std::size_t>(n + n / 4 + 64));
+  }
+}
+
+/// Turns counts in [0, n) into starts, the total at n. Returns the total.
+int counts_to_starts(const Kokkos::View<int*>& a, int n) {
+  int total = 0;
+  Kokkos::parallel_scan(
+      "neighbors: prefix sum", n,
+      KOKKOS_LAMBDA(int i, int& sum, bool final) {
+        const int count = a(i);
+        if (final) a(i) = sum;
+        sum += count;
+      },
+      total);
+  Kokkos::deep_copy(Kokkos::subview(a, n), total);
+  return total;
+}
+
+}  // namespace
+
+NeighborList::NeighborList(const Config& config, Real r_max)
+    : skin_(config.grains->skin),
+      r_max_(r_max),
+      lx_(config.size[0]),
+      ly_(config.size[1]),
+      lz_(config.size[2]),
+      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit) {
+  const Real cutoff = 2 * r_max + skin_;
+  columns_.periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  columns_.nx = column_count(lx_, cutoff, columns_.periodic_x, "x");
+  columns_.nz = column_count(lz_, cutoff, columns_.periodic_z, "z");
+  columns_.inverse_width_x = columns_.nx / lx_;
+  columns_.inverse_width_z = columns_.nz / lz_;
+  columns_.height = ly_;
+  box_.lx = columns_.periodic_x ? lx_ : 0;
+  box_.lz = columns_.periodic_z ? lz_ : 0;
+}
+
+void NeighborList::check_positions(const GrainState& grains) const {
+  const auto kin = grains.kin;
+  int bad = grains.n;
+  Kokkos::parallel_reduce(
+      "neighbors: find not-finite grain", grains.n,
+      KOKKOS_LAMBDA(int g, int& first) {
+        const Vec3& x = kin(g).x;
+        if (!Kokkos::isfinite(x.x + x.y + x.z) && g < first) first = g;
+      },
+      Kokkos::Min<int>(bad));
+  if (bad >= grains.n) return;
+  std::int64_t id = 0;
+  Kokkos::deep_copy(id, Kokkos::subview(grains.id, bad));
+  throw std::runtime_error("the position of grain " + std::to_string(id) +
+                           " is not finite: the grain step may be too long, or grains overlapped "
+                           "at the start");
+}
+
+void NeighborList::wrap(GrainState& grains) const {
+  const auto kin = grains.kin;
+  const PeriodicBox box = box_;
+  Kokkos::parallel_for(
+      "neighbors: wrap positions", grains.n, KOKKOS_LAMBDA(int g) {
+        Vec3& x = kin(g).x;
+        if (box.lx > 0) x.x -= box.lx * Kokkos::floor(x.x / box.lx);
+        if (box.lz > 0) x.z -= box.lz * Kokkos::floor(x.z / box.lz);
+      });
+}
+
+void NeighborList::sort(GrainState& grains, bool drop) {
+  const int n = grains.n;
+  if (static_cast<int>(key_.extent(0)) != n) {
+    key_ = Kokkos::View<std::uint64_t*>("sort key", static_cast<std::size_t>(n));
+    row_ = Kokkos::View<int*>("old row", static_cast<std::size_t>(n));
+  }
+  const auto key = key_;
+  const auto row = row_;
+  const auto kin = grains.kin;
+  const Columns columns = columns_;
+  const Real lx = lx_;
+  const bool drops = drop && exit_x_;
+  int n_dropped = 0;
+  Kokkos::parallel_reduce(
+      "neighbors: sort keys", n,
+      KOKKOS_LAMBDA(int g, int& dropped) {
+        const bool outside = drops && !(kin(g).x.x >= 0 && kin(g).x.x <= lx);
+        key(g) = outside ? kDroppedKey : columns.key_of(kin(g).x);
+        row(g) = g;
+        dropped += outside ? 1 : 0;
+      },
+      n_dropped);
+  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, row);
+  permute(grains, row, n - n_dropped);
+  grains.n_left += n_dropped;
+}
+
+void NeighborList::find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n) {
+  reserve(occupied_.of_grain, "column of grain", n);
+  reserve(occupied_.id, "occupied columns", n);
+  reserve(occupied_.start, "column starts", n + 1);
+  const Columns columns = columns_;
+  const OccupiedColumns occupied = occupied_;
+  Kokkos::parallel_scan(
+      "neighbors: occupied columns", n,
+      KOKKOS_LAMBDA(int g, int& count, bool final) {
+        const std::uint32_t column = columns.column_of(kin(g).x);
+        const bool opens = g == 0 || columns.column_of(kin(g - 1).x) != column;
+        count += opens ? 1 : 0;
+        if (!final) return;
+        occupied.of_grain(g) = count - 1;
+        if (opens) occupied.id(count - 1) = column, occupied.start(count - 1) = g;
+      },
+      occupied_.n);
+  Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
+  if (static_cast<int>(occupied_.forward.extent(0)) < occupied_.n) {
+    occupied_.forward = Kokkos::View<int* [kForwardColumns]>(
+        "forward columns", static_cast<std::size_t>(occupied_.n + occupied_.n / 4 + 64));
+  }
+  Kokkos::parallel_for("neighbors: link columns", occupied_.n,
+                       LinkColumns{.columns = columns_, .occupied = occupied_});
+}
+
+void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
+                          bool has_previous) {
+  const int n = grains.n;
+  find_columns(kin, n);
+  std::swap(grains.list, previous_);
+  PairList& list = grains.list;
+  reserve(list.first, "pairs: first", n + 1);
+  reserve(list.other_first, "pairs: other first", n + 1);
+  const PairSearch pair_search{
+      .grains = kin, .occupied = occupied_, .box = box_, .skin = skin_, .r_max = r_max_};
+  Kokkos::parallel_for("neighbors: count", n,
+                       CountPairs{.search = pair_search, .count = list.first});
+  list.n_pairs = counts_to_starts(list.first, n);
+  reserve(list.i, "pairs: i", list.n_pairs);
+  reserve(list.j, "pairs: j", list.n_pairs);
+  reserve(list.other_slot, "pairs: other slot", list.n_pairs);
+  reserve(list.line, "pairs: line", list.n_pairs);
+  reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
+  reserve(list.touching, "pairs: touching", list.n_pairs);
+  if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
+  Kokkos::parallel_for("neighbors: fill", n,
+                       FillPairs{.search = pair_search,
+                                 .list = list,
+                                 .previous = previous_,
+                                 .old_row = row_,
+                                 .has_previous = has_previous,
+                                 .has_rolling = with_rolling});
+  const PairList filled = list;
+  Kokkos::deep_copy(filled.other_first, 0);
+  Kokkos::parallel_for(
+      "neighbors: count others", filled.n_pairs,
+      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&filled.other_first(filled.j(slot))); });
+  counts_to_starts(list.other_first, n);
+  reserve(cursor_, "pairs: cursor", n + 1);
+  const auto span = std::pair<int, int>(0, n + 1);
+  Kokkos::deep_copy(Kokkos::subview(cursor_, span), Kokkos::subview(list.other_first, span));
+  Kokkos::parallel_for("neighbors: register others", list.n_pairs,
+                       RegisterOthers{.list = list, .cursor = cursor_});
+  Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
+}
+
+void NeighborList::rebuild(GrainState& grains, bool drop) {
+  check_positions(grains);
+  wrap(grains);
+  sort(grains, drop);
+  const auto kin = grains.kin;
+  const auto reference = grains.x_reference;
+  Kokkos::parallel_for(
+      "neighbors: reference positions", grains.n,
+      KOKKOS_LAMBDA(int g) { reference(g) = kin(g).x; });
+  search(grains, grains.kin, rebuilds_ > 0);
+  ++rebuilds_;
+}
+
+void NeighborList::restore(GrainState& grains) {
+  const Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
+                                                    static_cast<std::size_t>(grains.n));
+  const auto kin = grains.kin;
+  const auto reference = grains.x_reference;
+  Kokkos::parallel_for(
+      "neighbors: restore reference", grains.n, KOKKOS_LAMBDA(int g) {
+        at_reference(g) = kin(g);
+        at_reference(g).x = reference(g);
+      });
+  search(grains, at_reference, false);
+  ++rebuilds_;
+}
+
+}  // namespace barchan

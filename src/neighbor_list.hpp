@@ -1,0 +1,48 @@
+// When to rebuild the Verlet list, and how.
+#pragma once
+
+#include "kernels/neighbor_search.hpp"
+#include "src/config.hpp"
+#include "src/grain_state.hpp"
+
+namespace barchan {
+
+/// Half Verlet list with skin: valid until a grain has moved half the skin from where it was at the
+/// last rebuild. A rebuild sorts the grains in space, keeps the contact history and, when asked,
+/// drops grains beyond the outlet. Throws std::runtime_error naming the grain if a position is not
+/// finite or left the domain where it cannot.
+class NeighborList {
+ public:
+  NeighborList(const Config& config, Real r_max);
+
+  /// True when the list no longer covers a motion of sqrt(distance2) [m^2] (NaN included).
+  bool is_stale(Real distance2) const { return !(distance2 <= skin_ * skin_ / 4); }
+  /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
+  void rebuild(GrainState& grains, bool drop);
+  /// Searches again from x_reference in the present order: the list as the last rebuild left it.
+  void restore(GrainState& grains);
+  std::int64_t rebuilds() const { return rebuilds_; }
+  bool with_rolling = false;  // keep a rolling torque per pair
+  const PeriodicBox& box() const { return box_; }
+
+ private:
+  void sort(GrainState& grains, bool drop);
+  void find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n);
+  void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
+              bool has_previous);
+  void check_positions(const GrainState& grains) const;
+  void wrap(GrainState& grains) const;
+
+  Columns columns_;
+  PeriodicBox box_;
+  Real skin_ = 0, r_max_ = 0;
+  Real lx_ = 0, ly_ = 0, lz_ = 0;
+  bool exit_x_ = false;
+  std::int64_t rebuilds_ = 0;
+  OccupiedColumns occupied_;
+  PairList previous_;
+  Kokkos::View<std::uint64_t*> key_;
+  Kokkos::View<int*> row_, identity_, cursor_;
+};
+
+}  // namespace barchan
