@@ -1,0 +1,383 @@
+// In-line dune analytics against shapes whose width, length, height and horns are known.
+
+#include "src/dune_analytics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace barchan {
+namespace {
+
+constexpr double d = 2e-4;       // grain diameter [m]
+constexpr double bin = 2.5 * d;  // the resolution that is promised [m]
+constexpr double mm = 1e-3;      // [m]
+const DuneDomain channel{.length_x = 0.1, .length_z = 0.05};
+
+struct Grains {
+  std::vector<double> centres, diameters;
+
+  void add(double x, double y, double z) {
+    centres.insert(centres.end(), {x, y, z});
+    diameters.push_back(d);
+  }
+  [[nodiscard]] GrainCloud cloud() const { return {centres, diameters}; }
+  [[nodiscard]] Grains moved(double dx, double dz, const DuneDomain& domain) const {
+    Grains result = *this;
+    for (std::size_t p = 0; p < diameters.size(); ++p) {
+      double& x = result.centres[3 * p];
+      double& z = result.centres[3 * p + 2];
+      x += dx;
+      z += dz;
+      if (domain.periodic_x) x -= std::floor(x / domain.length_x) * domain.length_x;
+      if (domain.periodic_z) z -= std::floor(z / domain.length_z) * domain.length_z;
+    }
+    return result;
+  }
+};
+
+using Height = std::function<double(double x, double z)>;  // [m]; zero or less: no sand
+
+/// Columns of touching grains on a square lattice that just cover the height; `x`, `z` are the
+/// middle of a square of half width `half`.
+void pile(Grains& grains, double x, double z, double half, const Height& height) {
+  const int n = static_cast<int>(std::ceil(half / d));
+  for (int i = -n; i <= n; ++i) {
+    for (int k = -n; k <= n; ++k) {
+      const double h = height(i * d, k * d);
+      for (int j = 0; j * d < h; ++j) grains.add(x + i * d, (j + 0.5) * d, z + k * d);
+    }
+  }
+}
+
+Height cone(double radius, double top) {
+  return [=](double x, double z) { return top * (1.0 - std::hypot(x, z) / radius); };
+}
+
+/// A disc of 10 mm radius less one of the same radius `offset` downstream, rising inwards from the
+/// outline at slope 0.3 and from the lee foot at slope 0.6.
+Height crescent(double offset) {
+  return [=](double x, double z) {
+    const double from_outline = 10.0 * mm - std::hypot(x, z);
+    const double from_lee = std::hypot(x - offset, z) - 10.0 * mm;
+    return std::min(0.3 * from_outline, 0.6 * from_lee);
+  };
+}
+
+/// A slab of 5 x 20 mm with two arms of 4 mm width downstream: a crescent with blunt horns.
+Height slab_with_arms(double left, double right) {
+  return [=](double x, double z) {
+    const bool body = std::abs(x) < 2.5 * mm && std::abs(z) < 10.0 * mm;
+    const double arm = z < 0.0 ? left : right;
+    const bool in_arm =
+        std::abs(z) > 6.0 * mm && std::abs(z) < 10.0 * mm && x > 0.0 && x < 2.5 * mm + arm;
+    return body || in_arm ? 1.0 * mm : 0.0;
+  };
+}
+
+DuneRow only_dune(const Grains& grains, const DuneDomain& domain = channel) {
+  const std::vector<DuneRow> rows = measure_dunes(grains.cloud(), domain);
+  EXPECT_EQ(rows.size(), 1u);
+  return rows.empty() ? DuneRow{} : rows.front();
+}
+
+void expect_same_shape(const DuneRow& a, const DuneRow& b, double tolerance) {
+  EXPECT_EQ(a.n_grains, b.n_grains);
+  EXPECT_NEAR(a.W, b.W, tolerance);
+  EXPECT_NEAR(a.L, b.L, tolerance);
+  EXPECT_NEAR(a.H, b.H, tolerance);
+  EXPECT_NEAR(a.Cy, b.Cy, 1e-9);
+  EXPECT_NEAR(a.horn_left, b.horn_left, tolerance);
+  EXPECT_NEAR(a.horn_right, b.horn_right, tolerance);
+}
+
+TEST(DuneAnalytics, ConeIsItsDiameterAndHasNoHorns) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 13.0 * mm, cone(13.0 * mm, 3.0 * mm));
+  const DuneRow dune = only_dune(grains);
+  EXPECT_NEAR(dune.W, 26.0 * mm, bin);
+  EXPECT_NEAR(dune.L, 26.0 * mm, bin);
+  EXPECT_NEAR(dune.H, 3.0 * mm, bin);
+  EXPECT_NEAR(dune.Cx, 0.03, 0.1 * d);
+  EXPECT_NEAR(dune.Cz, 0.02, 0.1 * d);
+  EXPECT_NEAR(dune.crest_x, 0.03, bin);
+  EXPECT_EQ(dune.horn_left, 0.0);
+  EXPECT_EQ(dune.horn_right, 0.0);
+  // Single grains may stick out of the outline.
+  const auto n = static_cast<double>(dune.n_grains);
+  EXPECT_NEAR(n, static_cast<double>(grains.diameters.size()), 0.005 * n);
+  EXPECT_NEAR(dune.volume, n * std::numbers::pi / 6.0 * d * d * d, 1e-9 * dune.volume);
+}
+
+TEST(DuneAnalytics, CentroidIsWeightedByVolume) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 5.0 * mm, [](double, double) { return 1.0 * mm; });
+  const double before = only_dune(grains).Cx;
+  for (std::size_t p = 0; p < grains.diameters.size(); ++p) {
+    if (grains.centres[3 * p] > 0.03) grains.diameters[p] *= 0.5;
+  }
+  EXPECT_LT(only_dune(grains).Cx, before - 1.0 * mm);
+}
+
+TEST(DuneAnalytics, CrescentHornsReachTheTips) {
+  const double offset = 8.0 * mm;
+  Grains grains;
+  pile(grains, 0.04, 0.025, 10.0 * mm, crescent(offset));
+  const DuneRow dune = only_dune(grains);
+  // The circles meet at x = offset / 2; the lee foot on the centreline is at offset - 10 mm.
+  const double horn = 0.5 * offset - (offset - 10.0 * mm);
+  EXPECT_NEAR(dune.horn_left, horn, bin);
+  EXPECT_NEAR(dune.horn_right, horn, bin);
+  EXPECT_NEAR(dune.W, 20.0 * mm, bin);
+  EXPECT_NEAR(dune.L, offset, bin);
+  // On the centreline the slopes meet at 0.3 (10 mm + x) = 0.6 (-2 mm - x).
+  const double crest = -14.0 / 3.0 * mm;
+  EXPECT_NEAR(dune.crest_x, 0.04 + crest, bin);
+}
+
+TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
+  Grains grains;
+  pile(grains, 0.04, 0.025, 20.0 * mm, slab_with_arms(3.0 * mm, 9.0 * mm));
+  const DuneRow dune = only_dune(grains);
+  EXPECT_NEAR(dune.horn_left, 3.0 * mm, bin);
+  EXPECT_NEAR(dune.horn_right, 9.0 * mm, bin);
+  EXPECT_NEAR(dune.L, 5.0 * mm, bin);
+  EXPECT_NEAR(dune.W, 20.0 * mm, bin);
+  EXPECT_NEAR(dune.H, 1.0 * mm, d);
+  EXPECT_GT(dune.Cz, 0.025);
+}
+
+TEST(DuneAnalytics, SandBetweenTheHornsIsNotLength) {
+  Grains grains;
+  const Height arms = slab_with_arms(9.0 * mm, 9.0 * mm);
+  pile(grains, 0.04, 0.025, 20.0 * mm, arms);
+  const DuneRow clean = only_dune(grains);
+  pile(grains, 0.04, 0.025, 20.0 * mm, [](double x, double z) {
+    // A bar that joins the tips of the horns.
+    return x > 9.5 * mm && x < 11.5 * mm && std::abs(z) < 6.0 * mm ? 1.0 * mm : 0.0;
+  });
+  const DuneRow joined = only_dune(grains);
+  EXPECT_NEAR(joined.L, clean.L, 1e-9);
+  EXPECT_NEAR(joined.horn_left, 9.0 * mm, bin);
+}
+
+TEST(DuneAnalytics, TwoDunesAreOrderedBySize) {
+  Grains grains;
+  pile(grains, 0.03, 0.025, 4.0 * mm, cone(4.0 * mm, 1.5 * mm));
+  pile(grains, 0.06, 0.025, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  const std::vector<DuneRow> rows = measure_dunes(grains.cloud(), channel);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].dune, 0);
+  EXPECT_NEAR(rows[0].Cx, 0.06, 0.1 * d);
+  EXPECT_NEAR(rows[0].W, 16.0 * mm, bin);
+  EXPECT_EQ(rows[1].dune, 1);
+  EXPECT_NEAR(rows[1].Cx, 0.03, 0.1 * d);
+  EXPECT_NEAR(rows[1].W, 8.0 * mm, bin);
+}
+
+TEST(DuneAnalytics, StrayGrainsNeitherEnlargeNorBridge) {
+  Grains grains;
+  pile(grains, 0.02, 0.025, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  pile(grains, 0.04, 0.025, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  const std::vector<DuneRow> clean = measure_dunes(grains.cloud(), channel);
+  ASSERT_EQ(clean.size(), 2u);
+  // A sparse carpet: a tenth of the wall covered outside the dunes, a few grains in flight.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int p = 0; p < 15000; ++p) {
+    const double x = channel.length_x * uniform(random), z = channel.length_z * uniform(random);
+    const bool on_dune =
+        std::hypot(x - 0.02, z - 0.025) < 8.0 * mm || std::hypot(x - 0.04, z - 0.025) < 8.0 * mm;
+    if (!on_dune) grains.add(x, p % 20 == 0 ? 5.0 * mm * uniform(random) : 0.5 * d, z);
+  }
+  const std::vector<DuneRow> rows = measure_dunes(grains.cloud(), channel);
+  ASSERT_EQ(rows.size(), 2u);
+  for (const DuneRow& row : rows) {
+    EXPECT_NEAR(row.W, 16.0 * mm, 2.0 * bin);
+    EXPECT_NEAR(row.L, 16.0 * mm, 2.0 * bin);
+    EXPECT_NEAR(row.H, clean[0].H, 1e-9);
+  }
+}
+
+TEST(DuneAnalytics, FlyingGrainsDoNotRaiseTheCrest) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 13.0 * mm, cone(13.0 * mm, 3.0 * mm));
+  const DuneRow before = only_dune(grains);
+  grains.add(0.03, 6.0 * mm, 0.02);
+  grains.add(0.035, 5.0 * mm, 0.02);
+  const DuneRow after = only_dune(grains);
+  EXPECT_NEAR(after.H, before.H, d);
+  EXPECT_NEAR(after.crest_x, before.crest_x, bin);
+}
+
+TEST(DuneAnalytics, DuneAcrossThePeriodicBoundaryIsOneDune) {
+  Grains grains;
+  pile(grains, 0.04, 0.025, 20.0 * mm, slab_with_arms(3.0 * mm, 9.0 * mm));
+  const DuneRow inside = only_dune(grains);
+  const DuneDomain both{.length_x = 0.1, .length_z = 0.05, .periodic_x = true};
+  // Whole bins, so that the same grains share a bin before and after.
+  const double half_x = 100 * 0.1 / 200, half_z = 50 * 0.05 / 100;
+  const DuneRow across_z = only_dune(grains.moved(0.0, half_z, channel));
+  expect_same_shape(across_z, inside, 1e-9);
+  EXPECT_NEAR(across_z.Cz, std::fmod(inside.Cz + half_z, channel.length_z), 1e-9);
+  EXPECT_NEAR(across_z.crest_x, inside.crest_x, 1e-9);
+  const DuneRow across_x = only_dune(grains.moved(half_x + 0.01, half_z, both), both);
+  expect_same_shape(across_x, inside, 1e-9);
+  EXPECT_NEAR(across_x.Cx, std::fmod(inside.Cx + half_x + 0.01, 0.1), 1e-9);
+}
+
+TEST(DuneAnalytics, RidgeAcrossThePeriodIsAsWideAsTheDomain) {
+  Grains grains;
+  pile(grains, 0.05, 0.025, 25.0 * mm,
+       [](double x, double) { return std::abs(x) < 5.0 * mm ? 1.0 * mm : 0.0; });
+  const DuneRow ridge = only_dune(grains);
+  EXPECT_NEAR(ridge.W, channel.length_z, bin);
+  EXPECT_LE(ridge.W, channel.length_z);
+  EXPECT_NEAR(ridge.L, 10.0 * mm, bin);
+}
+
+TEST(DuneAnalytics, ErrorStaysBelowABinAtAnyPositionOnTheBins) {
+  Grains grains;
+  pile(grains, 0.04, 0.025, 20.0 * mm, slab_with_arms(3.0 * mm, 9.0 * mm));
+  for (int i = 0; i < 10; ++i) {
+    const DuneRow dune = only_dune(grains.moved(0.1 * i * bin, 0.13 * i * bin, channel));
+    EXPECT_NEAR(dune.L, 5.0 * mm, bin);
+    EXPECT_NEAR(dune.W, 20.0 * mm, bin);
+    EXPECT_NEAR(dune.horn_left, 3.0 * mm, bin);
+    EXPECT_NEAR(dune.horn_right, 9.0 * mm, bin);
+  }
+}
+
+TEST(DuneTracker, TranslationGivesCelerityAndLabelsStay) {
+  Grains small, large;
+  pile(small, 0.02, 0.025, 4.0 * mm, cone(4.0 * mm, 1.5 * mm));
+  pile(large, 0.05, 0.025, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  DuneTracker tracker(channel);
+  std::vector<DuneRow> rows;
+  for (int step = 0; step <= 30; ++step) {
+    const double t = 0.1 * step;  // the small one is faster and crosses the edge in z
+    Grains both = small.moved(6.0 * mm * t, 10.0 * mm * t, channel);
+    const Grains other = large.moved(2.0 * mm * t, 0.0, channel);
+    both.centres.insert(both.centres.end(), other.centres.begin(), other.centres.end());
+    both.diameters.insert(both.diameters.end(), other.diameters.begin(), other.diameters.end());
+    rows = tracker.update(t, both.cloud());
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(std::isnan(rows[0].celerity), step == 0);
+  }
+  EXPECT_DOUBLE_EQ(rows[0].t, 3.0);
+  EXPECT_NEAR(rows[0].Cx, 0.056, 0.1 * d);
+  EXPECT_NEAR(rows[0].celerity, 2.0 * mm, 0.02 * mm);
+  EXPECT_NEAR(rows[1].celerity, 6.0 * mm, 0.06 * mm);
+  EXPECT_EQ(rows[0].n_lost, 0);
+}
+
+TEST(DuneTracker, CelerityGoesOnAcrossAPeriodicOutlet) {
+  const DuneDomain loop{.length_x = 0.1, .length_z = 0.05, .periodic_x = true};
+  Grains grains;
+  pile(grains, 0.09, 0.025, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  DuneTracker tracker(loop);
+  for (int step = 0; step <= 20; ++step) {
+    const auto rows = tracker.update(0.1 * step, grains.moved(step * mm, 0.0, loop).cloud());
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].dune, 0);
+    if (step > 0) {
+      EXPECT_NEAR(rows[0].celerity, 10.0 * mm, 0.1 * mm);
+    }
+  }
+}
+
+TEST(DuneTracker, LabelSurvivesAGapAndANewDuneGetsANewOne) {
+  Grains first, second, none;
+  pile(first, 0.02, 0.025, 4.0 * mm, cone(4.0 * mm, 1.5 * mm));
+  pile(second, 0.07, 0.025, 6.0 * mm, cone(6.0 * mm, 2.0 * mm));
+  DuneTracker tracker(channel);
+  EXPECT_EQ(tracker.update(0.0, first.cloud()).at(0).dune, 0);
+  EXPECT_TRUE(tracker.update(0.1, none.cloud()).empty());
+  EXPECT_EQ(tracker.update(0.2, first.cloud()).at(0).dune, 0);
+  EXPECT_EQ(tracker.update(0.3, second.cloud()).at(0).dune, 1);
+  EXPECT_EQ(tracker.update(0.4, second.cloud()).at(0).dune, 1);
+}
+
+TEST(DuneTracker, CountsLostGrains) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  DuneTracker tracker(channel);
+  tracker.update(0.0, grains.cloud());
+  grains.centres.resize(grains.centres.size() - 3 * 17);
+  grains.diameters.resize(grains.diameters.size() - 17);
+  EXPECT_EQ(tracker.update(0.1, grains.cloud()).at(0).n_lost, 17);
+  EXPECT_EQ(tracker.n_lost(), 17);
+  EXPECT_TRUE(tracker.update(0.2, Grains{}.cloud()).empty());
+}
+
+TEST(DuneTracker, RestoredStateContinuesTheSame) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
+  DuneTracker straight(channel), resumed(channel);
+  for (int step = 0; step < 5; ++step)
+    straight.update(0.3 * step, grains.moved(0.3 * mm * step * step, 0.0, channel).cloud());
+  resumed.set_state(straight.state());
+  const Grains later = grains.moved(9.0 * mm, 0.0, channel);
+  const DuneRow a = straight.update(1.5, later.cloud()).at(0);
+  const DuneRow b = resumed.update(1.5, later.cloud()).at(0);
+  EXPECT_EQ(a.celerity, b.celerity);
+  EXPECT_EQ(a.dune, b.dune);
+  EXPECT_EQ(straight.state(), resumed.state());
+
+  std::vector<double> broken = straight.state();
+  broken.pop_back();
+  EXPECT_THROW(resumed.set_state(broken), std::invalid_argument);
+  EXPECT_EQ(straight.state(), resumed.state());
+}
+
+TEST(DuneAnalytics, NothingGivesNothing) {
+  EXPECT_TRUE(measure_dunes({}, channel).empty());
+  DuneTracker tracker(channel);
+  EXPECT_TRUE(tracker.update(0.0, {}).empty());
+  EXPECT_EQ(tracker.n_lost(), 0);
+}
+
+TEST(DuneAnalytics, OddInputIsHandled) {
+  Grains grains;
+  pile(grains, 0.03, 0.02, 4.0 * mm, cone(4.0 * mm, 1.5 * mm));
+  const DuneRow clean = only_dune(grains);
+  grains.add(std::numeric_limits<double>::quiet_NaN(), d, d);
+  grains.add(1e30, d, d);
+  expect_same_shape(only_dune(grains), clean, 1e-12);
+  grains.diameters.pop_back();
+  EXPECT_THROW(measure_dunes(grains.cloud(), channel), std::invalid_argument);
+  EXPECT_THROW(measure_dunes({}, DuneDomain{}), std::invalid_argument);
+}
+
+TEST(DuneCsv, WritesTheColumnsOfTheHeader) {
+  std::ostringstream out;
+  write_dune_csv_header(out);
+  write_dune_csv_row(out, {.t = 0.25,
+                           .dune = 1,
+                           .n_grains = 42,
+                           .W = 0.02,
+                           .L = 0.01,
+                           .H = 0.003,
+                           .Cx = 0.04,
+                           .Cy = 0.001,
+                           .Cz = 0.05,
+                           .horn_left = 0.0,
+                           .horn_right = 0.0025,
+                           .crest_x = 0.041,
+                           .volume = 4.25e-7,
+                           .celerity = std::numeric_limits<double>::quiet_NaN(),
+                           .n_lost = 7});
+  EXPECT_EQ(out.str(),
+            "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost\n"
+            "0.25,1,42,0.02,0.01,0.003,0.04,0.001,0.05,0,0.0025,0.041,4.25e-07,nan,7\n");
+}
+
+}  // namespace
+}  // namespace barchan
