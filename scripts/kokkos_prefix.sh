@@ -70,6 +70,7 @@ repair() {
   [ -n "$targets" ] || { echo "no KokkosTargets.cmake in the packages" >&2; return 1; }
   libdir="$(dirname "$(dirname "$(dirname "$targets")")")"
   # 1. The include path is absolute (made for an installation at /).
+  # shellcheck disable=SC2016  # ${_IMPORT_PREFIX} is CMake's
   sed -i 's#\([";]\)/usr/include#\1${_IMPORT_PREFIX}/include#g' "$targets"
   # 2. Two archives it names hold no objects and are not shipped.
   for name in libkokkosalgorithms.a libkokkossimd.a; do

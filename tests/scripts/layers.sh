@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# The direction of knowledge: kernels know only Kokkos and each other; src knows kernels; tests and perf
+# know both, not each other; no header includes itself in a circle. And no file grows past 400 lines.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+max_lines=400
+failures=0
+complain() {
+  echo "$*"
+  failures=$((failures + 1))
+}
+
+# Standard headers that make sense on a device. No strings, streams, clocks, containers.
+device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdint|limits|numbers|tuple|type_traits|utility'
+
+mapfile -d '' sources < <(find kernels src tests perf \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
+includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[>"]' "${sources[@]}" |
+  sed -E 's/:[[:space:]]*#[[:space:]]*include[[:space:]]*/ /')"  # "file:line target" a line
+
+while read -r place target; do
+  name="${target:1:-1}"
+  case $target in
+    \"kernels/* | \"src/* | \"tests/* | \"perf/*)
+      [ -e "$name" ] || complain "$place: $target does not exist" ;;
+    \"barchan_version.hpp\") ;;
+    \"*) complain "$place: $target: write it from the root, as in \"src/$(basename "$name")\"" ;;
+  esac
+  case $place in
+    kernels/*)
+      [[ $target == \"kernels/* || $target == \<Kokkos_* || $name =~ ^($device_headers)$ ]] ||
+        complain "$place: kernels may not include $target" ;;
+    src/*) [[ $target != \"tests/* && $target != \"perf/* ]] || complain "$place: src may not include $target" ;;
+    tests/*) [[ $target != \"perf/* ]] || complain "$place: tests may not include $target" ;;
+    perf/*) [[ $target != \"tests/* ]] || complain "$place: perf may not include $target" ;;
+  esac
+done <<< "$includes"
+
+circle="$(sed -n 's/^\(.*\):[0-9]* "\(.*\)"$/\1 \2/p' <<< "$includes" | tsort 2>&1 > /dev/null | sed -n 's/^tsort: //p')"
+[ -z "$circle" ] || complain "headers include each other in a circle:" "$circle"
+
+while IFS= read -r -d '' file; do
+  lines="$(wc -l < "$file")"
+  [ "$lines" -le "$max_lines" ] || complain "$file: $lines lines, more than $max_lines; split it by noun"
+done < <(find barchan src kernels tests perf analysis scripts cmake -type f \
+  \( -name barchan -o -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0)
+
+[ "$failures" -eq 0 ] || { echo "$failures problem(s)"; exit 1; }
+echo "layers: ${#sources[@]} files are in order"
