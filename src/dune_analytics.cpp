@@ -1,11 +1,8 @@
 #include "src/dune_analytics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <ostream>
 #include <stdexcept>
 
 namespace barchan {
@@ -94,15 +91,15 @@ std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
 }
 
 double DuneTracker::distance(const Track& track, const DuneRow& row) const {
-  return std::hypot(nearest(row.Cx - track.x, domain_.length_x, domain_.periodic_x),
-                    nearest(row.Cz - track.z, domain_.length_z, domain_.periodic_z));
+  return std::hypot(nearest(row.cx - track.x, domain_.length_x, domain_.periodic_x),
+                    nearest(row.cz - track.z, domain_.length_z, domain_.periodic_z));
 }
 
 void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
-  double x = row.Cx;
+  double x = row.cx;
   if (!track.samples.empty()) {
     const double last = track.samples.back().x;
-    x = last + nearest(row.Cx - last, domain_.length_x, domain_.periodic_x);
+    x = last + nearest(row.cx - last, domain_.length_x, domain_.periodic_x);
   }
   track.samples.push_back({t, x});
   // The sample before the last stays even when it is older than the window. The tolerance keeps
@@ -110,9 +107,9 @@ void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
   const double oldest = t - criteria_.celerity_window * (1.0 + 1e-9);
   while (track.samples.size() > 2 && track.samples.front().t < oldest) track.samples.pop_front();
   track.missed = false;
-  track.x = row.Cx;
-  track.z = row.Cz;
-  track.reach = std::max(row.W, row.L);
+  track.x = row.cx;
+  track.z = row.cz;
+  track.reach = std::max(row.w, row.l);
 }
 
 std::vector<double> DuneTracker::state() const {
@@ -151,24 +148,6 @@ void DuneTracker::set_state(std::span<const double> numbers) {
   }
   if (position != numbers.size()) throw std::invalid_argument("dune tracker: state too long");
   *this = fresh;
-}
-
-void write_dune_csv_header(std::ostream& out) {
-  out << "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost\n";
-}
-
-void write_dune_csv_row(std::ostream& out, const DuneRow& row) {
-  const auto number = [&](double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.9g,", value);
-    out << text.data();
-  };
-  number(row.t);
-  out << row.dune << ',' << row.n_grains << ',';
-  for (const double value : {row.W, row.L, row.H, row.Cx, row.Cy, row.Cz, row.horn_left,
-                             row.horn_right, row.crest_x, row.volume, row.celerity})
-    number(value);
-  out << row.n_lost << '\n';
 }
 
 }  // namespace barchan

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -55,8 +54,5 @@ class DuneTracker {
   int next_label_ = 0;
   std::int64_t n_initial_ = -1, n_lost_ = 0;  // n_initial_ -1: no call yet
 };
-
-void write_dune_csv_header(std::ostream& out);
-void write_dune_csv_row(std::ostream& out, const DuneRow& row);
 
 }  // namespace barchan

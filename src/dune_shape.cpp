@@ -69,7 +69,7 @@ class DuneMeasurement {
   }
   [[nodiscard]] bool in_strip(double z, const Region& region) const {
     const double half_width = criteria_.centreline_half_width * map_.mean_diameter();
-    return std::abs(z - region.row.Cz) < half_width;
+    return std::abs(z - region.row.cz) < half_width;
   }
 
   /// Number, volume, centroid, extents.
@@ -82,16 +82,16 @@ class DuneMeasurement {
       DuneRow& row = region->row;
       ++row.n_grains;
       row.volume += volume;
-      row.Cx += volume * x;
-      row.Cy += volume * grains_.centres[3 * p + 1];
-      row.Cz += volume * z;
+      row.cx += volume * x;
+      row.cy += volume * grains_.centres[3 * p + 1];
+      row.cz += volume * z;
       region->x.include(x - 0.5 * d, x + 0.5 * d);
       region->z.include(z - 0.5 * d, z + 0.5 * d);
     }
     for (Region& region : regions_) {
-      region.row.Cx /= region.row.volume;
-      region.row.Cy /= region.row.volume;
-      region.row.Cz /= region.row.volume;
+      region.row.cx /= region.row.volume;
+      region.row.cy /= region.row.volume;
+      region.row.cz /= region.row.volume;
     }
   }
 
@@ -104,7 +104,7 @@ class DuneMeasurement {
       if (bin.region < 0) continue;
       Region& region = regions_[bin.region];
       surface[b] = map_.smoothed_surface(bin);
-      region.row.H = std::max(region.row.H, surface[b]);
+      region.row.h = std::max(region.row.h, surface[b]);
       if (in_strip(map_.unwrapped_centre(bin).z, region))
         region.crest_height = std::max(region.crest_height, surface[b]);
     }
@@ -121,7 +121,7 @@ class DuneMeasurement {
     }
     for (Region& region : regions_) {
       DuneRow& row = region.row;
-      row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.Cx;
+      row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.cx;
     }
   }
 
@@ -141,7 +141,7 @@ class DuneMeasurement {
         const int column = map_.bins()[map_.bin_of_grain()[p]].ux - region->first_column;
         region->strip[column].include(x - radius, x + radius);
       } else {
-        double& tip = z < region->row.Cz ? region->left_tip : region->right_tip;
+        double& tip = z < region->row.cz ? region->left_tip : region->right_tip;
         tip = std::max(tip, x + radius);
       }
     }
@@ -169,17 +169,17 @@ class DuneMeasurement {
     DuneRow row = region.row;
     const Extent line = centreline(region);
     if (line.empty()) {
-      row.L = region.x.size();
+      row.l = region.x.size();
     } else {
-      row.L = line.size();
+      row.l = line.size();
       row.horn_left = std::max(0.0, region.left_tip - line.high);
       row.horn_right = std::max(0.0, region.right_tip - line.high);
     }
-    row.W = region.z.size();
-    if (domain_.periodic_z) row.W = std::min(row.W, domain_.length_z);
-    if (domain_.periodic_x) row.L = std::min(row.L, domain_.length_x);
-    row.Cx = to_period(row.Cx, domain_.length_x, domain_.periodic_x);
-    row.Cz = to_period(row.Cz, domain_.length_z, domain_.periodic_z);
+    row.w = region.z.size();
+    if (domain_.periodic_z) row.w = std::min(row.w, domain_.length_z);
+    if (domain_.periodic_x) row.l = std::min(row.l, domain_.length_x);
+    row.cx = to_period(row.cx, domain_.length_x, domain_.periodic_x);
+    row.cz = to_period(row.cz, domain_.length_z, domain_.periodic_z);
     row.crest_x = to_period(row.crest_x, domain_.length_x, domain_.periodic_x);
     row.celerity = not_known;
     return row;
