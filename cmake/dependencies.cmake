@@ -4,10 +4,23 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 
 include(cmake/kokkos.cmake)
 
-set(HDF5_PREFER_PARALLEL ON)
-find_package(HDF5 REQUIRED COMPONENTS C)
-if(NOT HDF5_IS_PARALLEL)
-  message(FATAL_ERROR "The HDF5 found in ${HDF5_INCLUDE_DIRS} is serial; a parallel (MPI) one is needed.")
+# Parallel HDF5, C interface. By pkg-config where it can: CMake's own search runs HDF5's compiler
+# wrapper, which fails in a folder with a space in its name.
+if(NOT DEFINED HDF5_ROOT AND NOT DEFINED ENV{HDF5_ROOT})
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_search_module(BARCHAN_HDF5 IMPORTED_TARGET hdf5-mpi hdf5-openmpi hdf5-mpich)
+  endif()
+endif()
+if(BARCHAN_HDF5_FOUND)
+  set(hdf5_target PkgConfig::BARCHAN_HDF5)
+else()
+  set(HDF5_PREFER_PARALLEL ON)
+  find_package(HDF5 REQUIRED COMPONENTS C)
+  if(NOT HDF5_IS_PARALLEL)
+    message(FATAL_ERROR "The HDF5 in ${HDF5_INCLUDE_DIRS} is serial; a parallel (MPI) one is needed.")
+  endif()
+  set(hdf5_target hdf5::hdf5)
 endif()
 
 # FFTW ships no CMake package that can be relied on; FFTW3_ROOT is honoured by find_*.
@@ -32,5 +45,5 @@ find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
 add_library(barchan_headers INTERFACE)
 target_include_directories(barchan_headers SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
 
-set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX hdf5::hdf5 barchan_fftw Eigen3::Eigen CLI11::CLI11
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fftw Eigen3::Eigen CLI11::CLI11
     fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_headers)

@@ -1,5 +1,5 @@
-// Entry of the performance suite: MPI and Kokkos live for the whole run, and every result says where
-// it was measured.
+// Entry of the performance suite: MPI and Kokkos live for the whole run, and every result says
+// where it was measured.
 #include <benchmark/benchmark.h>
 #include <mpi.h>
 
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     benchmark::AddCustomContext("version", BARCHAN_VERSION);
     benchmark::AddCustomContext("git_hash", BARCHAN_GIT_HASH);
     benchmark::AddCustomContext("backend", Kokkos::DefaultExecutionSpace::name());
-    benchmark::AddCustomContext("threads",
+    benchmark::AddCustomContext("kokkos_threads",
                                 std::to_string(Kokkos::DefaultHostExecutionSpace().concurrency()));
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

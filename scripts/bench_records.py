@@ -12,7 +12,7 @@ import sys
 
 # Of Google Benchmark's context: what decides whether two records may be compared.
 CONTEXT_KEYS = ("date", "host_name", "num_cpus", "mhz_per_cpu", "version", "git_hash", "backend",
-                "device", "threads", "ranks")
+                "device", "kokkos_threads", "ranks")
 # Bookkeeping of Google Benchmark that says nothing about the measurement.
 DROPPED_KEYS = ("run_name", "family_index", "per_family_instance_index", "repetition_index")
 
