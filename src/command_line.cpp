@@ -61,9 +61,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     nothing.text = nothing.exit_code == 0 ? out.str() : err.str();
     return nothing;
   }
-  line.command = run->parsed()     ? Command::run
-                 : check->parsed() ? Command::check
-                                   : Command::info;
+  line.command = run->parsed() ? Command::run : check->parsed() ? Command::check : Command::info;
   return line;
 }
 

@@ -16,29 +16,37 @@ enum class RollingModel { none, epsd2, theta_m, cdt };
 enum class ContactModel { hertz_mindlin, linear };
 enum class GrainBoundaryX { exit, periodic, wall };
 enum class GrainBoundaryZ { periodic, wall };
-enum class DragLaw { gidaspow, di_felice, koch_hill, syamlal_obrien, beetstra, paper_repaired, none };
+enum class DragLaw {
+  gidaspow,
+  di_felice,
+  koch_hill,
+  syamlal_obrien,
+  beetstra,
+  paper_repaired,
+  none
+};
 enum class VoidFraction { divided, cfdem_faithful, centre };
 enum class Preconditioner { fft, local_fft, jacobi, none };
 
 /// [time]
 struct TimeConfig {
-  double end = 0;                 // [s], required
-  double fluid_step = 2.5e-4;     // [s]; without [fluid] the interval between checks and output
-  double grain_step = 2.5e-6;     // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
-  double wall_clock_limit = 0;    // [s] of wall time, 0: none; then a restart and exit code 3
+  double end = 0;               // [s], required
+  double fluid_step = 2.5e-4;   // [s]; without [fluid] the interval between checks and output
+  double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
+  double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
 
   bool operator==(const TimeConfig&) const = default;
 };
 
 /// [fluid]
 struct FluidConfig {
-  std::array<int, 3> cells{};        // nx, ny, nz, required
-  double first_cell_height = 0;      // [m]; 0: uniform in y
-  double density = 1000;             // [kg/m^3]
-  double kinematic_viscosity = 1e-6; // [m^2/s]
-  double mean_velocity = 0;          // [m/s], held by a body force
+  std::array<int, 3> cells{};               // nx, ny, nz, required
+  double first_cell_height = 0;             // [m]; 0: uniform in y
+  double density = 1000;                    // [kg/m^3]
+  double kinematic_viscosity = 1e-6;        // [m^2/s]
+  double mean_velocity = 0;                 // [m/s], held by a body force
   std::optional<double> pressure_gradient;  // [Pa/m], instead of mean_velocity
-  double ramp_time = 0;              // [s] over which mean_velocity is brought up from its start
+  double ramp_time = 0;  // [s] over which mean_velocity is brought up from its start
   Turbulence turbulence = Turbulence::wale;
   double wale_constant = 0.325;
   WallFlow bottom = WallFlow::no_slip;
@@ -49,7 +57,7 @@ struct FluidConfig {
 
 /// [grains] material; [grains.wall] overrides what it names.
 struct Material {
-  double youngs_modulus = 5e6;    // [Pa]
+  double youngs_modulus = 5e6;  // [Pa]
   double poisson_ratio = 0.45;
   double restitution = 0.1;
   double sliding_friction = 0.6;
@@ -88,13 +96,14 @@ struct GrainConfig {
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
-  double skin = 2e-5;            // [m], Verlet skin
+  double skin = 2e-5;                          // [m], Verlet skin
   std::optional<AmbientConfig> ambient;
 
   bool operator==(const GrainConfig&) const = default;
 };
 
-struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stress", "added_mass", "buoyancy"]
+struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stress", "added_mass",
+                        // "buoyancy"]
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
 
   bool operator==(const ForceSwitches&) const = default;
@@ -114,8 +123,8 @@ struct CouplingConfig {
 /// [initial] grains = { pour = {...} }: a jittered lattice cone above the floor that settles.
 struct PourConfig {
   std::array<double, 2> centre{0.04, 0.05};  // x, z [m]
-  double radius = 0;                          // of the unrelaxed cone's foot [m], required
-  double drop_height = 0;                     // lowest grain above the floor [m]
+  double radius = 0;                         // of the unrelaxed cone's foot [m], required
+  double drop_height = 0;                    // lowest grain above the floor [m]
   std::uint64_t seed = 1;
 
   bool operator==(const PourConfig&) const = default;
@@ -126,7 +135,7 @@ struct InitialConfig {
   std::string fluid = "still";  // "still", "turbulent", a .h5 or a .toml (path resolved)
   std::string grains;           // a .csv, .h5 or .toml (path resolved); empty with `pour`
   std::optional<PourConfig> pour;
-  std::uint64_t seed = 1;       // of the perturbation of "turbulent"
+  std::uint64_t seed = 1;  // of the perturbation of "turbulent"
 
   bool operator==(const InitialConfig&) const = default;
 };
@@ -144,8 +153,8 @@ struct OutputConfig {
 
 /// [restart]
 struct RestartConfig {
-  double interval = 0;          // simulated seconds, 0: off
-  double wall_interval = 600;   // wall seconds, 0: off
+  double interval = 0;         // simulated seconds, 0: off
+  double wall_interval = 600;  // wall seconds, 0: off
   int keep = 2;
 
   bool operator==(const RestartConfig&) const = default;
@@ -155,7 +164,7 @@ struct RestartConfig {
 struct SolverConfig {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int max_iterations = 200;
-  int correctors = 1;                // pressure corrections per step
+  int correctors = 1;  // pressure corrections per step
   Preconditioner preconditioner = Preconditioner::local_fft;
 
   bool operator==(const SolverConfig&) const = default;

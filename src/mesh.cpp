@@ -24,8 +24,9 @@ double stretching_ratio(double ly, int ny, double first) {
   const double uniform = ly / ny;
   if (first == 0 || std::abs(first - uniform) <= 1e-9 * uniform) return 1;
   if (first > uniform || ny == 1) {
-    throw std::invalid_argument(fmt::format(
-        "first row of {} m: {} rows over {} m need {} {} m", first, ny, ly, ny == 1 ? "exactly" : "at most", uniform));
+    throw std::invalid_argument(fmt::format("first row of {} m: {} rows over {} m need {} {} m",
+                                            first, ny, ly, ny == 1 ? "exactly" : "at most",
+                                            uniform));
   }
   // The sum grows with q and its last term alone exceeds ly / first at the upper end.
   const double target = ly / first;

@@ -1,0 +1,63 @@
+// A TOML document as a small tree that remembers where each value was written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace barchan {
+
+/// Where a value was written: a line of a file (line 0: the file as a whole), or "--set key".
+struct Location {
+  std::string file;
+  int line = 0;
+};
+
+/// "file.toml:14", or the file alone when there is no line.
+std::string to_string(const Location& where);
+
+struct Node;
+using NodeArray = std::vector<Node>;
+using NodeTable = std::vector<std::pair<std::string, Node>>;
+struct DateOrTime {  // no key of ours takes one; kept to say so
+  std::string text;
+};
+
+struct Node {
+  std::variant<NodeTable, bool, std::int64_t, double, std::string, NodeArray, DateOrTime> value;
+  Location where;
+
+  const NodeTable* table() const { return std::get_if<NodeTable>(&value); }
+  NodeTable* table() { return std::get_if<NodeTable>(&value); }
+  /// The entry `key` of a table, or nullptr.
+  const Node* find(std::string_view key) const;
+};
+
+/// Something is wrong with what was typed, at `where`.
+struct Problem {
+  Location where;
+  std::string text;
+};
+
+/// Parses a document; `name` stands for the file in locations. On a syntax error the problem is
+/// added and an empty table returned.
+Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems);
+
+/// Applies "a.b=value" (as after --set) to the tree, creating tables on the way. The value is
+/// TOML; anything that is not (a bare word) is a string. The value's location is "--set a.b".
+void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems);
+
+/// The value as one would write it in a file, cut after 60 characters.
+std::string toml_text(const Node& node);
+
+/// A string quoted and escaped for TOML.
+std::string toml_quoted(std::string_view text);
+
+/// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
+std::string toml_number(double value);
+
+}  // namespace barchan
