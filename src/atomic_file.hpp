@@ -15,6 +15,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view text);
 /// Throws std::runtime_error naming the file and the reason.
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Writes all of `text` to an open descriptor; `path` is for the complaint.
+void write_all(int descriptor, std::string_view text, const std::filesystem::path& path);
+
 /// The whole of a text file. Throws std::runtime_error naming the file and the reason.
 std::string read_text(const std::filesystem::path& path);
 

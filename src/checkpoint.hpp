@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -124,9 +125,19 @@ class CheckpointWriter {
   std::filesystem::path commit(int keep);
 
  private:
-  std::filesystem::path target_, temporary_;
+  template <class T>
+  void put_scalar(const std::string& path, T value);
+
+  std::int64_t step_;
+  std::filesystem::path target_;
   Hdf5File file_;
-  bool root_ = true, committed_ = false;
+  MPI_Comm communicator_;
+  bool committed_ = false;
+};
+
+/// A scalar is an attribute of a group of its own.
+struct CheckpointScalar {
+  std::string group, name;
 };
 
 /// Reads a restart file. Every member throws std::runtime_error with a sentence for the user.
@@ -135,7 +146,7 @@ class CheckpointReader {
   explicit CheckpointReader(const std::filesystem::path& file,
                             MPI_Comm communicator = MPI_COMM_SELF);
 
-  /// Step the file was written at, and simulated time if a scalar "t" was stored.
+  /// Step the file was written at.
   std::int64_t step() const;
   Provenance provenance() const { return read_provenance(file_); }
 
@@ -162,10 +173,14 @@ class CheckpointReader {
   const std::filesystem::path& path() const { return file_.path(); }
 
  private:
+  CheckpointScalar find_scalar(const std::string& path) const;
   [[noreturn]] void fail(const std::string& what) const;
 
   Hdf5File file_;
 };
+
+/// Restart files of a folder by step; none where the folder does not exist.
+std::map<std::int64_t, std::filesystem::path> list_checkpoints(const std::filesystem::path& folder);
 
 /// The restart file of the highest step in a folder, if there is one.
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);

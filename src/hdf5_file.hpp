@@ -18,7 +18,7 @@ struct Hdf5Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Extents of an array, slowest first; ranks 1 to 3.
+/// Extents of an array, slowest first; ranks 1 to 4.
 using Extents = std::vector<std::uint64_t>;
 
 /// "62 x 30 x 25".
@@ -39,7 +39,7 @@ struct Share {
 
 /// One open HDF5 file. With a communicator of more than one rank it is opened in parallel; every
 /// call is then collective, with equal arguments except the values and the shares.
-/// Object names are paths ("grid/x_face"); groups on the way are made as needed.
+/// Object names are paths ("grid/x_face"); groups on the way to an array are made as needed.
 /// Every member throws Hdf5Error naming the file and the reason.
 class Hdf5File {
  public:
@@ -55,9 +55,12 @@ class Hdf5File {
   void flush();
 
   bool exists(const std::string& name) const;
+  bool is_group(const std::string& name) const;
   /// Names directly below a group, in alphabetical order.
   std::vector<std::string> children(const std::string& group = "/") const;
   void remove(const std::string& name);
+  /// Makes a group and those on the way, where missing.
+  void make_group(const std::string& name);
 
   /// Makes a group that nothing leads to yet, fills it through the names below `as`, and is made
   /// visible as `as` by publish_group(), after all its content is on the disk. A kill at any moment
@@ -94,11 +97,21 @@ class Hdf5File {
  private:
   using Id = std::int64_t;  // hid_t, kept out of the header
 
-  /// The group that a name leads to and the rest of the name, as hidden groups have no path yet.
-  Id base_of(const std::string& name, std::string& rest) const;
-  [[noreturn]] void fail(const std::string& what) const;
+  /// Where to look up a name, and the name there: a hidden group has no path yet.
+  struct Place {
+    Id base;
+    std::string name;
+  };
+  Place place_of(const std::string& name) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& object) const;
+  /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>
-  Code check(Code code, const char* what) const;
+  Code check(Code code, const std::string& object = {}) const;
+  void put_attribute(const std::string& object, const std::string& name, Id type,
+                     const void* value);
+  /// `kind`: the H5T_class_t the stored attribute must have.
+  void get_attribute(const std::string& object, const std::string& name, int kind, Id type,
+                     void* value) const;
 
   std::filesystem::path path_;
   Mode mode_;

@@ -59,11 +59,12 @@ class OutputFiles {
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
-  void write_grid(Hdf5File& file, const Grid& grid, const GridPlace& place);
+  static void write_grid(Hdf5File& file, const Grid& grid, const GridPlace& place);
+  void describe_fields() const;
+  void describe_grains() const;
 
   MPI_Comm communicator_;
   FrameFile fields_, grains_;
-  std::filesystem::path folder_;
 };
 
 }  // namespace barchan

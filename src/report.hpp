@@ -79,7 +79,6 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_, last_live_, last_plain_;
   bool terminal_ = false;
-  std::string last_;
 };
 
 }  // namespace barchan

@@ -1,0 +1,189 @@
+#include "src/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "src/atomic_file.hpp"
+#include "src/communicator.hpp"
+
+namespace barchan {
+
+namespace {
+
+const std::string prefix = "restart_";
+const std::string ending = ".h5";
+// Raised when the meaning of stored names changes, so that old files are refused with a sentence.
+constexpr std::int64_t format_version = 1;
+
+std::filesystem::path temporary_of(const std::filesystem::path& target) {
+  return std::filesystem::path(target).concat(".tmp");
+}
+
+/// Step of a restart file's name; -1 for any other name.
+std::int64_t step_of(const std::string& name) {
+  std::int64_t step = -1;
+  if (!name.starts_with(prefix) || !name.ends_with(ending)) return -1;
+  const char* end = name.data() + name.size() - ending.size();
+  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, step);
+  return error == std::errc() && stop == end ? step : -1;
+}
+
+CheckpointScalar split(const std::string& path) {
+  const auto slash = path.rfind('/');
+  if (slash == std::string::npos) return {"scalars", path};
+  return {"scalars/" + path.substr(0, slash), path.substr(slash + 1)};
+}
+
+}  // namespace
+
+std::string checkpoint_name(std::int64_t step) {
+  return fmt::format("{}{:010}{}", prefix, step, ending);
+}
+
+std::map<std::int64_t, std::filesystem::path> list_checkpoints(
+    const std::filesystem::path& folder) {
+  std::map<std::int64_t, std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (const auto step = step_of(entry.path().filename().string()); step >= 0) {
+      files[step] = entry.path();
+    }
+  }
+  return files;
+}
+
+std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder) {
+  const auto files = list_checkpoints(folder);
+  if (files.empty()) return {};
+  return files.rbegin()->second;
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int64_t step,
+                                   const Provenance& provenance, MPI_Comm communicator)
+    : step_(step),
+      target_(folder / checkpoint_name(step)),
+      file_(temporary_of(target_), Hdf5File::Mode::create, communicator),
+      communicator_(communicator) {
+  write_provenance(file_, provenance);
+  file_.set_attribute("/", "kind", "restart");
+  file_.set_attribute("/", "format", format_version);
+  file_.set_attribute("/", "step", step);
+}
+
+CheckpointWriter::~CheckpointWriter() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove(temporary_of(target_), ignored);
+}
+
+template <class T>
+void CheckpointWriter::put_scalar(const std::string& path, T value) {
+  const auto [group, name] = split(path);
+  file_.make_group(group);
+  file_.set_attribute(group, name, value);
+}
+
+void CheckpointWriter::scalar(const std::string& name, double value) { put_scalar(name, value); }
+void CheckpointWriter::scalar(const std::string& name, std::int64_t value) {
+  put_scalar(name, value);
+}
+void CheckpointWriter::scalar(const std::string& name, std::string_view value) {
+  put_scalar(name, value);
+}
+
+void CheckpointWriter::array(const std::string& name, std::span<const double> values,
+                             const Extents& extents, const Share& share) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "SI", share);
+}
+
+void CheckpointWriter::array(const std::string& name, std::span<const std::int64_t> values,
+                             const Extents& extents, const Share& share) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "1", share);
+}
+
+std::filesystem::path CheckpointWriter::commit(int keep) {
+  file_.close();
+  committed_ = true;
+  if (rank_of(communicator_) == 0) {
+    rename_durably(temporary_of(target_), target_);
+    auto files = list_checkpoints(target_.parent_path());
+    auto last = files.upper_bound(step_);
+    for (auto later = last; later != files.end(); ++later) std::filesystem::remove(later->second);
+    auto surplus = std::distance(files.begin(), last) - std::max(keep, 1);
+    for (auto old = files.begin(); surplus > 0; ++old, --surplus) {
+      std::filesystem::remove(old->second);
+    }
+  }
+  if (mpi_runs()) MPI_Barrier(communicator_);  // the file is there for every rank that returns
+  return target_;
+}
+
+CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm communicator)
+    : file_(file, Hdf5File::Mode::read, communicator) {
+  if (!file_.has_attribute("/", "kind") || file_.text_attribute("/", "kind") != "restart") {
+    fail("it is not a restart file");
+  }
+  const auto format = file_.integer_attribute("/", "format");
+  if (format != format_version) {
+    fail(fmt::format("it was written in format {} by version {}; this version reads format {}",
+                     format, provenance().version, format_version));
+  }
+}
+
+void CheckpointReader::fail(const std::string& what) const {
+  throw std::runtime_error("cannot restart from " + path().string() + ": " + what);
+}
+
+std::int64_t CheckpointReader::step() const { return file_.integer_attribute("/", "step"); }
+
+bool CheckpointReader::has(const std::string& name) const {
+  const auto [group, attribute] = split(name);
+  return file_.exists(name) || (file_.exists(group) && file_.has_attribute(group, attribute));
+}
+
+CheckpointScalar CheckpointReader::find_scalar(const std::string& path) const {
+  const auto [group, name] = split(path);
+  if (!file_.exists(group) || !file_.has_attribute(group, name)) {
+    fail("it holds no \"" + path + "\", which this run needs");
+  }
+  return {group, name};
+}
+
+double CheckpointReader::real(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.real_attribute(place.group, place.name);
+}
+
+std::int64_t CheckpointReader::integer(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.integer_attribute(place.group, place.name);
+}
+
+std::string CheckpointReader::text(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.text_attribute(place.group, place.name);
+}
+
+Extents CheckpointReader::extents(const std::string& name) const {
+  if (!file_.exists(name)) fail("it holds no \"" + name + "\", which this run needs");
+  return file_.info(name).extents;
+}
+
+template <class T>
+std::vector<T> CheckpointReader::array(const std::string& name, const Extents& expected) const {
+  const Extents found = extents(name);
+  if (!expected.empty() && found != expected) {
+    fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
+                     to_string(found), to_string(expected)));
+  }
+  constexpr auto wanted =
+      std::is_integral_v<T> ? ElementType::int64 : ElementType::float64;  // bit for bit
+  if (file_.info(name).type != wanted) fail(name + " holds numbers of another type");
+  return file_.read<T>(name);
+}
+template std::vector<double> CheckpointReader::array(const std::string&, const Extents&) const;
+template std::vector<std::int64_t> CheckpointReader::array(const std::string&,
+                                                           const Extents&) const;
+
+}  // namespace barchan

@@ -1,0 +1,226 @@
+#include "src/grain_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "src/atomic_file.hpp"
+#include "src/checkpoint.hpp"
+#include "src/frame_file.hpp"
+#include "src/grain_state.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr std::array<std::string_view, 11> columns{"id", "diameter", "x",  "y",  "z", "vx",
+                                                   "vy", "vz",       "wx", "wy", "wz"};
+constexpr std::size_t n_required = 5;
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Takes the text up to the next separator off `rest`.
+std::string_view take(std::string_view& rest, char separator) {
+  const auto end = rest.find(separator);
+  const auto part = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  return part;
+}
+
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, std::string_view file_name) : rest_(text), name_(file_name) {}
+
+  InitialGrains read() {
+    if (!next_line()) fail("it is empty");
+    read_header();
+    // Lines are about this long at least: fewer reallocations.
+    reserve(rest_.size() / 40);
+    while (next_line()) read_row();
+    if (grains_.size() == 0) fail("it has a header but no grains");
+    check_ids();
+    return std::move(grains_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { fail(line_number_, what); }
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
+  }
+
+  /// The next line that holds something; false at the end.
+  bool next_line() {
+    while (!rest_.empty()) {
+      ++line_number_;
+      line_ = trimmed(take(rest_, '\n'));
+      if (!line_.empty() && line_.front() != '#') return true;
+    }
+    return false;
+  }
+
+  void reserve(std::size_t n) {
+    grains_.id.reserve(n);
+    grains_.diameter.reserve(n);
+    grains_.x.reserve(n);
+    grains_.u.reserve(n);
+    grains_.omega.reserve(n);
+    lines_.reserve(n);
+  }
+
+  void read_header() {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (line_.starts_with(byte_order_mark)) line_.remove_prefix(byte_order_mark.size());
+    std::string_view rest = line_;
+    while (!rest.empty()) {
+      const auto title = trimmed(take(rest, ','));
+      const auto found = std::find(columns.begin(), columns.end(), title);
+      if (found == columns.end()) {
+        fail(fmt::format(
+            "unknown column \"{}\"; columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz",
+            title));
+      }
+      const auto column = static_cast<std::size_t>(found - columns.begin());
+      if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
+        fail(fmt::format("column \"{}\" appears twice", title));
+      }
+      order_.push_back(column);
+    }
+    for (std::size_t column = 0; column < n_required; ++column) {
+      if (std::find(order_.begin(), order_.end(), column) == order_.end()) {
+        fail(
+            fmt::format("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]));
+      }
+    }
+  }
+
+  void read_row() {
+    std::array<double, columns.size()> value{};
+    std::int64_t id = 0;
+    std::string_view rest = line_;
+    std::size_t n_fields = 0;
+    for (bool more = true; more; ++n_fields) {
+      more = rest.find(',') != std::string_view::npos;
+      const auto field = trimmed(take(rest, ','));
+      if (n_fields >= order_.size()) continue;
+      const auto column = order_[n_fields];
+      if (column == 0) {
+        id = number<std::int64_t>(field, column);
+      } else {
+        value[column] = number<double>(field, column);
+      }
+    }
+    if (n_fields != order_.size()) {
+      fail(fmt::format("{} values, but the header has {} columns", n_fields, order_.size()));
+    }
+    if (value[1] <= 0) fail(fmt::format("diameter = {}: must be above 0", value[1]));
+    lines_.push_back(line_number_);
+    grains_.id.push_back(id);
+    grains_.diameter.push_back(value[1]);
+    grains_.x.push_back({value[2], value[3], value[4]});
+    grains_.u.push_back({value[5], value[6], value[7]});
+    grains_.omega.push_back({value[8], value[9], value[10]});
+  }
+
+  template <class T>
+  T number(std::string_view field, std::size_t column) const {
+    T value{};
+    if (field.starts_with('+')) field.remove_prefix(1);  // from_chars knows no plus sign
+    const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || stop != field.data() + field.size()) {
+      fail(fmt::format("{} = \"{}\": must be {}", columns[column], field,
+                       std::is_integral_v<T> ? "a whole number" : "a number"));
+    }
+    if constexpr (!std::is_integral_v<T>) {
+      if (!std::isfinite(value)) {
+        fail(fmt::format("{} = {}: must be finite", columns[column], field));
+      }
+    }
+    return value;
+  }
+
+  void check_ids() const {
+    std::unordered_map<std::int64_t, std::size_t> first_line;
+    first_line.reserve(grains_.size());
+    for (std::size_t p = 0; p < grains_.size(); ++p) {
+      const auto [earlier, is_new] = first_line.emplace(grains_.id[p], lines_[p]);
+      if (!is_new) {
+        fail(lines_[p],
+             fmt::format("id {} was used before, in line {}", grains_.id[p], earlier->second));
+      }
+    }
+  }
+
+  std::string_view rest_, name_, line_;
+  std::size_t line_number_ = 0;
+  std::vector<std::size_t> order_;  // column of each field of a row
+  std::vector<std::size_t> lines_;  // line of each grain
+  InitialGrains grains_;
+};
+
+std::vector<Vec3> to_vectors(const std::vector<double>& numbers) {
+  std::vector<Vec3> vectors(numbers.size() / 3);
+  for (std::size_t p = 0; p < vectors.size(); ++p) {
+    vectors[p] = {numbers[3 * p], numbers[3 * p + 1], numbers[3 * p + 2]};
+  }
+  return vectors;
+}
+
+InitialGrains read_last_frame(const Hdf5File& file) {
+  const auto frames = list_frames(file);
+  if (frames.empty()) throw std::runtime_error(file.path().string() + " holds no frames of grains");
+  const std::string group = frames.back().name + "/";
+  InitialGrains grains;
+  grains.id = file.read<std::int64_t>(group + "id");
+  const std::uint64_t n = grains.id.size();
+  grains.diameter = file.read<double>(group + "d", {n});
+  grains.x = to_vectors(file.read<double>(group + "x", {n, 3}));
+  grains.u = to_vectors(file.read<double>(group + "u", {n, 3}));
+  grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
+  return grains;
+}
+
+InitialGrains read_restart(const std::filesystem::path& path) {
+  const CheckpointReader file(path);
+  constexpr std::uint64_t width = checkpoint_detail::Stored<GrainKinematics>::count;
+  InitialGrains grains;
+  grains.id = file.array<std::int64_t>("grains/id");
+  const std::size_t n = grains.id.size();
+  const auto numbers = file.array<double>("grains/kin", {n, width});
+  std::vector<GrainKinematics> kin(n);
+  if (n > 0) std::memcpy(static_cast<void*>(kin.data()), numbers.data(), n * sizeof(kin[0]));
+  for (const auto& grain : kin) {
+    grains.diameter.push_back(2.0 * grain.r);
+    grains.x.push_back(grain.x);
+    grains.u.push_back(grain.u);
+    grains.omega.push_back(grain.omega);
+  }
+  return grains;
+}
+
+}  // namespace
+
+InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name) {
+  return CsvReader(text, file_name).read();
+}
+
+InitialGrains read_grains(const std::filesystem::path& file) {
+  if (file.extension() == ".csv") return parse_grains_csv(read_text(file), file.string());
+  if (file.extension() != ".h5") {
+    throw std::runtime_error("cannot read grains from " + file.string() +
+                             ": the name must end with .csv or .h5");
+  }
+  const Hdf5File opened(file, Hdf5File::Mode::read);
+  return opened.has_attribute("/", "kind") ? read_restart(file) : read_last_frame(opened);
+}
+
+}  // namespace barchan

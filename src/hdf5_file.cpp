@@ -1,0 +1,153 @@
+#include "src/hdf5_file.hpp"
+
+#include <utility>
+
+#include "src/communicator.hpp"
+#include "src/hdf5_handle.hpp"
+
+namespace barchan {
+
+using hdf5::Handle;
+
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+// Room for this many links in the root's first table, and for their names (16 bytes each): while
+// they last, adding a frame rewrites two blocks in place, the names first.
+constexpr unsigned root_links = 2048;
+constexpr std::size_t name_bytes = 16;
+
+Handle access_list(bool parallel, MPI_Comm communicator) {
+  Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (parallel) H5Pset_fapl_mpio(list.get(), communicator, MPI_INFO_NULL);
+  // A viewer that has the file open must not be able to stop a run.
+  H5Pset_file_locking(list.get(), false, true);
+  return list;
+}
+
+Handle creation_list() {
+  Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_sym_k(list.get(), 0, root_links / 2);
+  H5Pset_local_heap_size_hint(list.get(), root_links * name_bytes);
+  return list;
+}
+
+}  // namespace
+
+std::string to_string(const Extents& extents) {
+  std::string text;
+  for (const auto extent : extents) {
+    if (!text.empty()) text += " x ";
+    text += std::to_string(extent);
+  }
+  return text;
+}
+
+void Hdf5File::fail(const std::string& reason, const std::string& object) const {
+  std::string text = mode_ == Mode::read ? "cannot read " : "cannot write ";
+  text += path_.string() + ": " + reason;
+  if (!object.empty()) text += " (" + object + ")";
+  throw Hdf5Error(text);
+}
+
+template <class Code>
+Code Hdf5File::check(Code code, const std::string& object) const {
+  if (code < 0) fail(hdf5::last_reason(), object);
+  return code;
+}
+template int Hdf5File::check(int, const std::string&) const;
+template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
+    : path_(path), mode_(mode) {
+  hdf5::start_library();
+  parallel_ = rank_count(communicator) > 1;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder", {});
+  const Handle access = access_list(parallel_, communicator);
+  if (mode == Mode::create) {
+    const Handle creation = creation_list();
+    file_ = check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
+  } else {
+    const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
+    file_ = check(H5Fopen(path.c_str(), flags, access.get()));
+  }
+}
+
+Hdf5File::~Hdf5File() {
+  if (hidden_ >= 0) H5Gclose(hidden_);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::close() {
+  if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
+  if (file_ < 0) return;
+  flush();  // where a full disk shows: a failed flush leaves the file to the destructor
+  check(H5Fclose(std::exchange(file_, -1)));
+}
+
+void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL)); }
+
+Hdf5File::Place Hdf5File::place_of(const std::string& name) const {
+  if (hidden_ >= 0 && name == hidden_name_) return {hidden_, "."};
+  if (hidden_ >= 0 && name.starts_with(hidden_name_ + "/")) {
+    return {hidden_, name.substr(hidden_name_.size() + 1)};
+  }
+  return {file_, name};
+}
+
+bool Hdf5File::exists(const std::string& name) const {
+  const auto [base, rest] = place_of(name);
+  if (rest == "." || rest == "/") return true;
+  // The library wants every group on the way to be asked for on its own.
+  for (std::size_t end = rest.find('/', 1);; end = rest.find('/', end + 1)) {
+    if (check(H5Lexists(base, rest.substr(0, end).c_str(), H5P_DEFAULT), name) == 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+bool Hdf5File::is_group(const std::string& name) const {
+  const auto [base, rest] = place_of(name);
+  const Handle object(check(H5Oopen(base, rest.c_str(), H5P_DEFAULT), name), H5Oclose);
+  return H5Iget_type(object.get()) == H5I_GROUP;
+}
+
+std::vector<std::string> Hdf5File::children(const std::string& group) const {
+  const auto [base, rest] = place_of(group);
+  const Handle open(check(H5Gopen2(base, rest.c_str(), H5P_DEFAULT), group), H5Gclose);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(open.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), group);
+  return names;
+}
+
+void Hdf5File::remove(const std::string& name) {
+  const auto [base, rest] = place_of(name);
+  check(H5Ldelete(base, rest.c_str(), H5P_DEFAULT), name);
+}
+
+void Hdf5File::make_group(const std::string& name) {
+  if (exists(name)) return;
+  const auto [base, rest] = place_of(name);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  check(H5Pset_create_intermediate_group(links.get(), 1), name);
+  const Handle group(
+      check(H5Gcreate2(base, rest.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT), name), H5Gclose);
+}
+
+void Hdf5File::begin_hidden_group(const std::string& as) {
+  hidden_ = check(H5Gcreate_anon(file_, H5P_DEFAULT, H5P_DEFAULT), as);
+  hidden_name_ = as;
+}
+
+void Hdf5File::publish_group() {
+  flush();  // all that the new link leads to is there before the link
+  check(H5Olink(hidden_, file_, hidden_name_.c_str(), H5P_DEFAULT, H5P_DEFAULT), hidden_name_);
+  check(H5Gclose(std::exchange(hidden_, -1)), hidden_name_);
+}
+
+}  // namespace barchan

@@ -1,0 +1,38 @@
+// Inside of hdf5_file: an identifier that closes itself, and the reason of the last failure.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+
+namespace barchan::hdf5 {
+
+/// Closes with the function that belongs to the kind of object. Invalid (negative) ids are allowed,
+/// so that a checker can look at get() afterwards.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t get() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Starts the library once, without its printing of error stacks.
+void start_library();
+
+/// The innermost message of the library's error stack in the user's words.
+/// Call it before any other HDF5 function: each clears the stack.
+std::string last_reason();
+
+}  // namespace barchan::hdf5
