@@ -1,0 +1,54 @@
+// What is added up over the flow for reports.
+#pragma once
+
+#include "kernels/stencil.hpp"
+
+namespace barchan {
+
+/// A cell field weighted with the height of its row.
+struct HeightSum {
+  Grid grid;
+  Field a;
+  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return a(i, j, k) * grid.dy(j);
+  }
+};
+
+/// alpha u_x dy on x-faces [m^2/s].
+struct FlowRate {
+  Grid grid;
+  Field u, alpha;
+  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return cell_to_xface(alpha, i, j, k) * u(i, j, k) * grid.dy(j);
+  }
+};
+
+/// alpha |u|^2 dy / 2 with the face values' own volumes [m^3/s^2]: the energy that the convection
+/// conserves. Ghosts of alpha must be valid.
+struct KineticEnergy {
+  Grid grid;
+  FaceVector u;
+  Field alpha;
+  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real x = u.x(i, j, k), y = u.y(i, j, k), z = u.z(i, j, k);
+    const Real horizontal =
+        cell_to_xface(alpha, i, j, k) * x * x + cell_to_zface(alpha, i, j, k) * z * z;
+    const Real vertical = cell_to_yface(grid, alpha, i, j, k) * y * y;
+    return Real(0.5) * (horizontal * grid.dy(j) + vertical * grid.dy_centre(j));
+  }
+};
+
+/// Slope dU/dy at the walls from the first row [1/s], with the sign it has at the floor.
+struct WallShear {
+  Grid grid;
+  Field u;
+  bool bottom, top;  // which walls count
+  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    Real slope = 0;
+    if (bottom && j == 0) slope += 2 * u(i, 0, k) / grid.dy(0);
+    if (top && j == grid.ny - 1) slope += 2 * u(i, j, k) / grid.dy(j);
+    return slope;
+  }
+};
+
+}  // namespace barchan

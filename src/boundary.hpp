@@ -1,0 +1,42 @@
+// Boundary treatment of every field: the one table.
+#pragma once
+
+#include "kernels/boundary_values.hpp"
+#include "src/config.hpp"
+#include "src/halo.hpp"
+
+namespace barchan {
+
+enum class FieldKind { velocity_x, velocity_y, velocity_z, scalar, eddy_viscosity };
+
+/// Field x wall -> ghost rule:
+///
+/// | field             | no slip   | free slip | x, z     |
+/// |-------------------|-----------|-----------|----------|
+/// | velocity_x, _z    | opposite  | same      | periodic |
+/// | velocity_y        | wall_face | wall_face | periodic |
+/// | scalar: p, alpha_f| same      | same      | periodic |
+/// | eddy_viscosity    | opposite  | same      | periodic |
+GhostRule ghost_rule(FieldKind kind, WallFlow wall);
+
+/// Fills ghost cells: the walls at y = 0 and y = Ly by the table, x and z through the halo.
+class Boundary {
+ public:
+  Boundary(const Grid& grid, WallFlow bottom, WallFlow top)
+      : grid_(grid), halo_(grid), bottom_(bottom), top_(top) {}
+
+  void fill(const Field& f, FieldKind kind) const;
+  void fill_velocity(const FaceVector& u) const;
+  /// Only x and z, for face vectors that no wall rule applies to.
+  void fill_periodic(const FaceVector& f) const;
+  const Halo& halo() const { return halo_; }
+  WallFlow bottom() const { return bottom_; }
+  WallFlow top() const { return top_; }
+
+ private:
+  Grid grid_;
+  Halo halo_;
+  WallFlow bottom_, top_;
+};
+
+}  // namespace barchan

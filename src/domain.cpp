@@ -1,0 +1,38 @@
+#include "src/domain.hpp"
+
+#include "src/mesh.hpp"
+
+namespace barchan {
+
+Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces) {
+  Grid grid;
+  grid.nx = nx;
+  grid.ny = static_cast<int>(y_faces.size()) - 1;
+  grid.nz = nz;
+  grid.lx = lx;
+  grid.ly = y_faces.back() - y_faces.front();
+  grid.lz = lz;
+  grid.dx = lx / nx;
+  grid.dz = lz / nz;
+  grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);
+  grid.y_centre_ = Kokkos::View<Real*>("grid: y centres", grid.ny + 2);
+
+  const auto face = Kokkos::create_mirror_view(grid.y_face_);
+  const auto centre = Kokkos::create_mirror_view(grid.y_centre_);
+  const std::size_t last = y_faces.size() - 1;
+  for (std::size_t j = 0; j <= last; ++j) face(j + 1) = y_faces[j];
+  face(0) = 2 * y_faces[0] - y_faces[1];
+  face(last + 2) = 2 * y_faces[last] - y_faces[last - 1];
+  for (std::size_t j = 0; j < last + 2; ++j) centre(j) = 0.5 * (face(j) + face(j + 1));
+  Kokkos::deep_copy(grid.y_face_, face);
+  Kokkos::deep_copy(grid.y_centre_, centre);
+  return grid;
+}
+
+Grid make_grid(const Config& config) {
+  const FluidConfig& fluid = config.fluid.value();
+  return make_grid(fluid.cells[0], fluid.cells[2], config.size[0], config.size[2],
+                   stretched_faces(config.size[1], fluid.cells[1], fluid.first_cell_height));
+}
+
+}  // namespace barchan

@@ -1,0 +1,18 @@
+// The grid of a run.
+#pragma once
+
+#include <vector>
+
+#include "kernels/grid.hpp"
+#include "src/config.hpp"
+
+namespace barchan {
+
+/// nx x nz uniform cells over lx x lz [m], rows between the given ny + 1 faces [m], which increase.
+/// The corner is at the origin.
+Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces);
+
+/// The grid of [domain] and [fluid]; `config.fluid` must be there.
+Grid make_grid(const Config& config);
+
+}  // namespace barchan

@@ -1,0 +1,33 @@
+// Real Fourier transforms over x and z of every row of a grid field.
+#pragma once
+
+#include <memory>
+
+#include "kernels/grid.hpp"
+
+namespace barchan {
+
+/// Fourier coefficients (kx, j, kz), kx = 0 .. nx/2 fastest, y untransformed.
+using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
+
+/// Both directions without normalisation: backward(forward(f)) = nx nz f. Plans do not depend on
+/// timing, so that two runs give the same bits.
+class PlaneFft {
+ public:
+  explicit PlaneFft(const Grid& grid);
+  ~PlaneFft();
+  PlaneFft(const PlaneFft&) = delete;
+  PlaneFft& operator=(const PlaneFft&) = delete;
+
+  Spectrum make_spectrum(const char* label) const;
+  void forward(const Field& in, const Spectrum& out) const;
+  /// Destroys `in`. Ghosts of `out` are left alone.
+  void backward(const Spectrum& in, const Field& out) const;
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+  int nx_, ny_, nz_;
+};
+
+}  // namespace barchan

@@ -1,0 +1,142 @@
+// Loops over the grid. On a CPU rows (j, k) run in parallel and i is vectorised; on a device
+// every cell is a work item.
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/grid.hpp"
+
+namespace barchan {
+
+/// Half-open index box. Faces take the range of the cells above them; ghosts are reached with
+/// bounds from -1 to n + 1.
+struct CellRange {
+  int i0, i1, j0, j1, k0, k1;
+};
+inline CellRange owned_cells(const Grid& grid) { return {0, grid.nx, 0, grid.ny, 0, grid.nz}; }
+
+inline constexpr bool runs_on_host =
+    std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
+
+namespace launch_detail {
+
+using Policy = Kokkos::RangePolicy<Kokkos::DefaultExecutionSpace, Kokkos::IndexType<int>>;
+
+inline Policy policy(const CellRange& r) {
+  const int rows = (r.j1 - r.j0) * (r.k1 - r.k0);
+  return Policy(0, runs_on_host ? rows : rows * (r.i1 - r.i0));
+}
+
+/// Index of a row (host) or of a cell (device) back to i, j, k.
+struct Place {
+  int i, j, k;
+  KOKKOS_INLINE_FUNCTION static Place of_row(const CellRange& r, int row) {
+    const int rows_y = r.j1 - r.j0;
+    return {r.i0, r.j0 + row % rows_y, r.k0 + row / rows_y};
+  }
+  KOKKOS_INLINE_FUNCTION static Place of_cell(const CellRange& r, int cell) {
+    const int length = r.i1 - r.i0;
+    Place place = of_row(r, cell / length);
+    place.i += cell % length;
+    return place;
+  }
+};
+
+template <class Functor>
+struct Loop {
+  Functor functor;
+  CellRange range;
+  KOKKOS_FUNCTION void operator()(int index) const {
+    if constexpr (runs_on_host) {
+      const Functor body = functor;  // a local copy: its members stay in registers
+      const Place at = Place::of_row(range, index);
+      const int end = range.i1;
+#pragma omp simd
+      for (int i = at.i; i < end; ++i) body(i, at.j, at.k);
+    } else {
+      const Place at = Place::of_cell(range, index);
+      functor(at.i, at.j, at.k);
+    }
+  }
+};
+
+template <class Functor>
+struct SumLoop {
+  Functor functor;
+  CellRange range;
+  KOKKOS_FUNCTION void operator()(int index, Real& sum) const {
+    if constexpr (runs_on_host) {
+      const Functor body = functor;
+      const Place at = Place::of_row(range, index);
+      const int end = range.i1;
+      Real row_sum = 0;
+#pragma omp simd reduction(+ : row_sum)
+      for (int i = at.i; i < end; ++i) row_sum += body(i, at.j, at.k);
+      sum += row_sum;
+    } else {
+      const Place at = Place::of_cell(range, index);
+      sum += functor(at.i, at.j, at.k);
+    }
+  }
+};
+
+template <class Functor>
+struct MaxLoop {
+  Functor functor;
+  CellRange range;
+  KOKKOS_FUNCTION void operator()(int index, Real& largest) const {
+    if constexpr (runs_on_host) {
+      const Functor body = functor;
+      const Place at = Place::of_row(range, index);
+      const int end = range.i1;
+      Real row_max = largest;
+#pragma omp simd reduction(max : row_max)
+      for (int i = at.i; i < end; ++i) {
+        const Real value = body(i, at.j, at.k);
+        row_max = value > row_max ? value : row_max;
+      }
+      largest = row_max;
+    } else {
+      const Place at = Place::of_cell(range, index);
+      const Real value = functor(at.i, at.j, at.k);
+      largest = value > largest ? value : largest;
+    }
+  }
+};
+
+}  // namespace launch_detail
+
+/// functor(i, j, k) for every index of the range.
+template <class Functor>
+void for_each_cell(const char* label, const CellRange& range, const Functor& functor) {
+  Kokkos::parallel_for(label, launch_detail::policy(range),
+                       launch_detail::Loop<Functor>{functor, range});
+}
+template <class Functor>
+void for_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+  for_each_cell(label, owned_cells(grid), functor);
+}
+
+/// Sum of functor(i, j, k), which may also write. The order of additions depends only on the
+/// grid and the number of threads.
+template <class Functor>
+Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+  Real sum = 0;
+  const CellRange range = owned_cells(grid);
+  Kokkos::parallel_reduce(label, launch_detail::policy(range),
+                          launch_detail::SumLoop<Functor>{functor, range}, sum);
+  return sum;
+}
+
+/// Largest functor(i, j, k), for values that are not negative.
+template <class Functor>
+Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+  Real largest = 0;
+  const CellRange range = owned_cells(grid);
+  Kokkos::parallel_reduce(label, launch_detail::policy(range),
+                          launch_detail::MaxLoop<Functor>{functor, range},
+                          Kokkos::Max<Real>(largest));
+  return largest;
+}
+
+}  // namespace barchan
