@@ -27,12 +27,16 @@ cleanup() {
 trap cleanup EXIT
 trap 'exit 130' INT TERM
 
-# Mirrors of this machine's own apt, the distribution's first. REPO_URI of third parties may come
-# after; a mirror without the wanted suite is skipped.
+# Mirrors that this machine's own apt is set to, those with the suite of this system first (third
+# parties and security updates have suites of other names); works before the first apt-get update too.
 list_mirrors() {
-  # shellcheck disable=SC2016  # $(LABEL) is apt's own syntax
-  apt-get indextargets --format '$(LABEL)|$(REPO_URI)' 'Created-By: Packages' 'Component: main' |
-    awk -F'|' '$1 == "Debian" { print "0 " $2; next } { print "1 " $2 }' | sort -u | cut -d' ' -f2-
+  local codename
+  # shellcheck source=/dev/null
+  codename="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
+  apt-get update --print-uris |
+    sed -nE "s#^'(.*)/dists/(.+)/InRelease'.*#\2 \1#p" |
+    awk -v suite="$codename" '{ print ($1 == suite ? 0 : 1), $2 }' | sort -s -k 1,1 |
+    awk '!seen[$2]++ { print $2 }'
 }
 
 private_apt() {  # apt-get with sources, lists and caches of its own: the user's state stays untouched
@@ -93,12 +97,13 @@ REPAIR
 
 obtain() {
   local mirror suite
+  echo "apt names no mirror" > "$scratch/log"
   for suite in sid testing; do
     while read -r mirror; do
       if fetch_packages "$mirror" "$suite" > "$scratch/log" 2>&1; then return 0; fi
     done < <(list_mirrors)
   done
-  tail -n 5 "$scratch/log" >&2 || true
+  tail -n 5 "$scratch/log" >&2
   return 1
 }
 
