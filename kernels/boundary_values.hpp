@@ -18,10 +18,10 @@ struct FillWallGhosts {
   int ny;
   GhostRule bottom, top;
 
-  KOKKOS_INLINE_FUNCTION static Real ghost(GhostRule rule, Real inside) {
+  KOKKOS_FORCEINLINE_FUNCTION static Real ghost(GhostRule rule, Real inside) {
     return rule == GhostRule::same ? inside : -inside;
   }
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
     if (bottom == GhostRule::wall_face) {
       f(i, -1, k) = ny > 1 ? -f(i, 1, k) : 0;
       f(i, 0, k) = 0;

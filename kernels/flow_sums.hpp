@@ -9,7 +9,7 @@ namespace barchan {
 struct HeightSum {
   Grid grid;
   Field a;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * grid.dy(j);
   }
 };
@@ -18,7 +18,7 @@ struct HeightSum {
 struct FlowRate {
   Grid grid;
   Field u, alpha;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return cell_to_xface(alpha, i, j, k) * u(i, j, k) * grid.dy(j);
   }
 };
@@ -29,7 +29,7 @@ struct KineticEnergy {
   Grid grid;
   FaceVector u;
   Field alpha;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real x = u.x(i, j, k), y = u.y(i, j, k), z = u.z(i, j, k);
     const Real horizontal =
         cell_to_xface(alpha, i, j, k) * x * x + cell_to_zface(alpha, i, j, k) * z * z;
@@ -43,7 +43,7 @@ struct WallShear {
   Grid grid;
   Field u;
   bool bottom, top;  // which walls count
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     Real slope = 0;
     if (bottom && j == 0) slope += 2 * u(i, 0, k) / grid.dy(0);
     if (top && j == grid.ny - 1) slope += 2 * u(i, j, k) / grid.dy(j);

@@ -14,7 +14,7 @@ struct Convection {
   FaceVector u;     // velocity [m/s], with ghosts
   FaceVector flux;  // alpha u [m/s], with ghosts
 
-  KOKKOS_INLINE_FUNCTION Real x(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
     const Field &q = u.x, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real c = q(i, j, k);
     const Real ex = (fx(i, j, k) + fx(i + 1, j, k)) * (c + q(i + 1, j, k)) -
@@ -27,7 +27,7 @@ struct Convection {
            ez * (Real(-0.25) / grid.dz);
   }
 
-  KOKKOS_INLINE_FUNCTION Real y(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
     const Field &q = u.y, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real below = grid.dy(j - 1), above = grid.dy(j);
     const Real per_height = 1 / (below + above);  // the momentum cell is half of that high
@@ -42,7 +42,7 @@ struct Convection {
            ez * (Real(-0.5) * per_height / grid.dz);
   }
 
-  KOKKOS_INLINE_FUNCTION Real z(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
     const Field &q = u.z, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real c = q(i, j, k);
     const Real ex = (fx(i + 1, j, k - 1) + fx(i + 1, j, k)) * (c + q(i + 1, j, k)) -
@@ -67,45 +67,45 @@ struct StressDivergence {
 
   /// Components of 2 (nu + nu_t) S [m^2/s^2]: xx, yy, zz at cells, xy at the edge of x-face i and
   /// y-face j, and so on.
-  KOKKOS_INLINE_FUNCTION Real xx(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real xx(int i, int j, int k) const {
     return (nu + nu_t(i, j, k)) * (2 / grid.dx) * (u.x(i + 1, j, k) - u.x(i, j, k));
   }
-  KOKKOS_INLINE_FUNCTION Real yy(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real yy(int i, int j, int k) const {
     return (nu + nu_t(i, j, k)) * (2 / grid.dy(j)) * (u.y(i, j + 1, k) - u.y(i, j, k));
   }
-  KOKKOS_INLINE_FUNCTION Real zz(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real zz(int i, int j, int k) const {
     return (nu + nu_t(i, j, k)) * (2 / grid.dz) * (u.z(i, j, k + 1) - u.z(i, j, k));
   }
-  KOKKOS_INLINE_FUNCTION Real xy(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real xy(int i, int j, int k) const {
     const Real n = nu + Real(0.25) * (nu_t(i - 1, j - 1, k) + nu_t(i, j - 1, k) +
                                       nu_t(i - 1, j, k) + nu_t(i, j, k));
     return n * ((u.x(i, j, k) - u.x(i, j - 1, k)) * (1 / grid.dy_centre(j)) +
                 (u.y(i, j, k) - u.y(i - 1, j, k)) * (1 / grid.dx));
   }
-  KOKKOS_INLINE_FUNCTION Real xz(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real xz(int i, int j, int k) const {
     const Real n = nu + Real(0.25) * (nu_t(i - 1, j, k - 1) + nu_t(i, j, k - 1) +
                                       nu_t(i - 1, j, k) + nu_t(i, j, k));
     return n * ((u.x(i, j, k) - u.x(i, j, k - 1)) * (1 / grid.dz) +
                 (u.z(i, j, k) - u.z(i - 1, j, k)) * (1 / grid.dx));
   }
-  KOKKOS_INLINE_FUNCTION Real yz(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real yz(int i, int j, int k) const {
     const Real n = nu + Real(0.25) * (nu_t(i, j - 1, k - 1) + nu_t(i, j, k - 1) +
                                       nu_t(i, j - 1, k) + nu_t(i, j, k));
     return n * ((u.y(i, j, k) - u.y(i, j, k - 1)) * (1 / grid.dz) +
                 (u.z(i, j, k) - u.z(i, j - 1, k)) * (1 / grid.dy_centre(j)));
   }
 
-  KOKKOS_INLINE_FUNCTION Real x(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
     return (xx(i, j, k) - xx(i - 1, j, k)) * (1 / grid.dx) +
            (xy(i, j + 1, k) - xy(i, j, k)) * (1 / grid.dy(j)) +
            (xz(i, j, k + 1) - xz(i, j, k)) * (1 / grid.dz);
   }
-  KOKKOS_INLINE_FUNCTION Real y(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
     return (xy(i + 1, j, k) - xy(i, j, k)) * (1 / grid.dx) +
            (yy(i, j, k) - yy(i, j - 1, k)) * (1 / grid.dy_centre(j)) +
            (yz(i, j, k + 1) - yz(i, j, k)) * (1 / grid.dz);
   }
-  KOKKOS_INLINE_FUNCTION Real z(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
     return (xz(i + 1, j, k) - xz(i, j, k)) * (1 / grid.dx) +
            (yz(i, j + 1, k) - yz(i, j, k)) * (1 / grid.dy(j)) +
            (zz(i, j, k) - zz(i, j, k - 1)) * (1 / grid.dz);
@@ -139,9 +139,9 @@ struct Predict {
   AdamsBashforth weight;
   Real per_density;  // 1 / rho [m^3/kg]
 
-  KOKKOS_INLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
-                                      const Real alpha_here, const Real u, const Real impulse,
-                                      const Real implicit) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
+                                           const Real alpha_here, const Real u, const Real impulse,
+                                           const Real implicit) const {
     const Real explicit_part = momentum + weight.now * n + weight.before * n_before;
     if constexpr (with_exchange) {
       const Real m = implicit * per_density;
@@ -150,13 +150,13 @@ struct Predict {
       return explicit_part / alpha_here;
     }
   }
-  KOKKOS_INLINE_FUNCTION static Real at(const Field& f, int i, int j, int k) {
+  KOKKOS_FORCEINLINE_FUNCTION static Real at(const Field& f, int i, int j, int k) {
     if constexpr (with_exchange) return f(i, j, k);
     return 0;
   }
 
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const FaceVector &u = convection.u, &flux = convection.flux;
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
@@ -167,18 +167,17 @@ struct Predict {
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
-    const Real ny =
-        convection.y(i, j, k) + cell_to_yface(grid, alpha, i, j, k) * stress.y(i, j, k);
-    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k),
-                            cell_to_yface(grid, alpha_new, i, j, k), u.y(i, j, k),
-                            at(exchange.impulse.y, i, j, k), at(exchange.implicit.y, i, j, k));
+    const Real ny = convection.y(i, j, k) + cell_to_yface(grid, alpha, i, j, k) * stress.y(i, j, k);
+    const Real uy =
+        advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
+                u.y(i, j, k), at(exchange.impulse.y, i, j, k), at(exchange.implicit.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
     const Real nz = convection.z(i, j, k) + cell_to_zface(alpha, i, j, k) * stress.z(i, j, k);
-    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k),
-                            cell_to_zface(alpha_new, i, j, k), u.z(i, j, k),
-                            at(exchange.impulse.z, i, j, k), at(exchange.implicit.z, i, j, k));
+    const Real uz =
+        advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
+                u.z(i, j, k), at(exchange.impulse.z, i, j, k), at(exchange.implicit.z, i, j, k));
     rate.z(i, j, k) = nz;
     u_star.z(i, j, k) = uz;
     return alpha_x * ux * grid.dy(j);
@@ -192,7 +191,7 @@ struct MassFlux {
   Field alpha;
   FaceVector flux;
 
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     flux.x(i, j, k) = cell_to_xface(alpha, i, j, k) * u.x(i, j, k);
     flux.y(i, j, k) = cell_to_yface(grid, alpha, i, j, k) * u.y(i, j, k);
     flux.z(i, j, k) = cell_to_zface(alpha, i, j, k) * u.z(i, j, k);

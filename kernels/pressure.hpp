@@ -15,10 +15,10 @@ struct UpdateMobility {
   Real per_density;     // 1 / rho
   FaceVector c;
 
-  KOKKOS_INLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
+  KOKKOS_FORCEINLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
 
   /// Returns c_x dy: what a unit driving force would add to the flow rate here.
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
     const Real cx = mobility(cell_to_xface(alpha, i, j, k), per_density * implicit.x(i, j, k));
     const Real cy =
@@ -32,21 +32,21 @@ struct UpdateMobility {
 };
 
 /// -div(c grad p) in a cell; c vanishes on walls, so ghosts of p behind them do not matter.
-KOKKOS_INLINE_FUNCTION Real pressure_operator(const Grid& grid, const FaceVector& c,
-                                              const Field& p, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const Grid& grid, const FaceVector& c,
+                                                   const Field& p, int i, int j, int k) {
   const Real centre = p(i, j, k);
-  const Real x = c.x(i, j, k) * (centre - p(i - 1, j, k)) +
-                 c.x(i + 1, j, k) * (centre - p(i + 1, j, k));
+  const Real x =
+      c.x(i, j, k) * (centre - p(i - 1, j, k)) + c.x(i + 1, j, k) * (centre - p(i + 1, j, k));
   const Real y = c.y(i, j, k) * (centre - p(i, j - 1, k)) * (1 / grid.dy_centre(j)) +
                  c.y(i, j + 1, k) * (centre - p(i, j + 1, k)) * (1 / grid.dy_centre(j + 1));
-  const Real z = c.z(i, j, k) * (centre - p(i, j, k - 1)) +
-                 c.z(i, j, k + 1) * (centre - p(i, j, k + 1));
+  const Real z =
+      c.z(i, j, k) * (centre - p(i, j, k - 1)) + c.z(i, j, k + 1) * (centre - p(i, j, k + 1));
   return x * (1 / (grid.dx * grid.dx)) + y * (1 / grid.dy(j)) + z * (1 / (grid.dz * grid.dz));
 }
 
 /// Diagonal of the operator above [1/m^2].
-KOKKOS_INLINE_FUNCTION Real pressure_diagonal(const Grid& grid, const FaceVector& c, int i, int j,
-                                              int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const Grid& grid, const FaceVector& c, int i,
+                                                   int j, int k) {
   return (c.x(i, j, k) + c.x(i + 1, j, k)) * (1 / (grid.dx * grid.dx)) +
          (c.y(i, j, k) / grid.dy_centre(j) + c.y(i, j + 1, k) / grid.dy_centre(j + 1)) *
              (1 / grid.dy(j)) +
@@ -61,7 +61,7 @@ struct InitialResidual {
   Grid grid;
   FaceVector c;
   Field p, r;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = r(i, j, k) - pressure_operator(grid, c, p, i, j, k);
     r(i, j, k) = value;
     return value * value * grid.dy(j);
@@ -72,7 +72,7 @@ struct ApplyOperator {
   Grid grid;
   FaceVector c;
   Field d, q;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = pressure_operator(grid, c, d, i, j, k);
     q(i, j, k) = value;
     return value * d(i, j, k) * grid.dy(j);
@@ -83,7 +83,7 @@ struct AdvanceIterate {
   Grid grid;
   Field d, q, p, r;
   Real a;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     p(i, j, k) += a * d(i, j, k);
     const Real value = r(i, j, k) - a * q(i, j, k);
     r(i, j, k) = value;
@@ -94,7 +94,7 @@ struct AdvanceIterate {
 struct NextDirection {
   Field z, d;
   Real b;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     d(i, j, k) = z(i, j, k) + b * d(i, j, k);
   }
 };
@@ -102,19 +102,19 @@ struct NextDirection {
 struct InnerProduct {
   Grid grid;
   Field a, b;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * b(i, j, k) * grid.dy(j);
   }
 };
 struct Subtract {
   Field a;
   Real constant;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
 };
 /// A first guess: the line through the last two pressures, in the place of the older one.
 struct ExtrapolatePressure {
   Field last, before;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     before(i, j, k) = 2 * last(i, j, k) - before(i, j, k);
   }
 };
@@ -123,7 +123,7 @@ struct ScaleByDiagonal {
   Grid grid;
   FaceVector c;
   Field r, z;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     z(i, j, k) = r(i, j, k) / pressure_diagonal(grid, c, i, j, k);
   }
 };
@@ -141,7 +141,7 @@ struct PressureSource {
   Real density, dt;
   Field b;
 
-  KOKKOS_INLINE_FUNCTION Real continuity(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real continuity(int i, int j, int k) const {
     if constexpr (!with_grains) return div_at_cell(grid, u, i, j, k);
     const auto x = [&](int ii) {
       return cell_to_xface(alpha, ii, j, k) * u.x(ii, j, k) + drive_dt * c.x(ii, j, k);
@@ -149,10 +149,9 @@ struct PressureSource {
     const auto y = [&](int jj) { return cell_to_yface(grid, alpha, i, jj, k) * u.y(i, jj, k); };
     const auto z = [&](int kk) { return cell_to_zface(alpha, i, j, kk) * u.z(i, j, kk); };
     return (x(i + 1) - x(i)) * (1 / grid.dx) + (y(j + 1) - y(j)) * (1 / grid.dy(j)) +
-           (z(k + 1) - z(k)) * (1 / grid.dz) +
-           (alpha(i, j, k) - alpha_before(i, j, k)) * (1 / dt);
+           (z(k + 1) - z(k)) * (1 / grid.dz) + (alpha(i, j, k) - alpha_before(i, j, k)) * (1 / dt);
   }
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     b(i, j, k) = -(density / dt) * continuity(i, j, k);
   }
 };
@@ -161,7 +160,7 @@ struct PressureSource {
 template <bool with_grains>
 struct ContinuityResidual {
   PressureSource<with_grains> source;
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return Kokkos::abs(source.continuity(i, j, k)) * source.dt;
   }
 };
@@ -179,21 +178,19 @@ struct CorrectVelocity {
   Real drive_dt, dt;
   FaceVector u, du_dt;
 
-  KOKKOS_INLINE_FUNCTION Real share(Real a, const Field& m, int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const Field& m, int i, int j, int k) const {
     if constexpr (!with_grains) return 1;
     return a / (a + per_density * m(i, j, k));
   }
   /// Returns the Courant number of the new velocity.
-  KOKKOS_INLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
     const Real push = dt * per_density;
     const Real gx = share(cell_to_xface(alpha, i, j, k), implicit.x, i, j, k);
     const Real gy = share(cell_to_yface(grid, alpha, i, j, k), implicit.y, i, j, k);
     const Real gz = share(cell_to_zface(alpha, i, j, k), implicit.z, i, j, k);
-    const Real ux =
-        u_star.x(i, j, k) + gx * (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
-    const Real uy =
-        inside * (u_star.y(i, j, k) - gy * push * ddy_at_yface(grid, p, i, j, k));
+    const Real ux = u_star.x(i, j, k) + gx * (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
+    const Real uy = inside * (u_star.y(i, j, k) - gy * push * ddy_at_yface(grid, p, i, j, k));
     const Real uz = u_star.z(i, j, k) - gz * push * ddz_at_zface(grid, p, i, j, k);
     du_dt.x(i, j, k) = (ux - u.x(i, j, k)) * (1 / dt);
     du_dt.y(i, j, k) = (uy - u.y(i, j, k)) * (1 / dt);

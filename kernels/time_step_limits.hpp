@@ -16,8 +16,7 @@ KOKKOS_INLINE_FUNCTION Real courant_number(const Vec3& u, const Vec3& spacing, R
 /// Adams-Bashforth is stable for real eigenvalues up to 1.
 KOKKOS_INLINE_FUNCTION Real viscous_number(Real nu, const Vec3& spacing, Real dt) {
   return 4 * nu * dt *
-         (1 / (spacing.x * spacing.x) + 1 / (spacing.y * spacing.y) +
-          1 / (spacing.z * spacing.z));
+         (1 / (spacing.x * spacing.x) + 1 / (spacing.y * spacing.y) + 1 / (spacing.z * spacing.z));
 }
 
 }  // namespace barchan

@@ -11,7 +11,7 @@ namespace barchan {
 /// S the symmetric part of the velocity gradient [1/s], Sd the symmetric traceless part of its
 /// square, c_w_delta = C_w times the filter width [m]. Zero in pure shear, ~ y^3 at a wall;
 /// 0/0 (no motion) is zero.
-KOKKOS_INLINE_FUNCTION Real wale_viscosity(const Mat3& grad_u, Real c_w_delta) {
+KOKKOS_FORCEINLINE_FUNCTION Real wale_viscosity(const Mat3& grad_u, Real c_w_delta) {
   const Mat3 square = grad_u * grad_u;
   const Real third = trace(square) / 3;
   Mat3 deviator = square;
@@ -25,16 +25,25 @@ KOKKOS_INLINE_FUNCTION Real wale_viscosity(const Mat3& grad_u, Real c_w_delta) {
   return c_w_delta * c_w_delta * dd * Kokkos::sqrt(dd) / (rate + Real(1e-300));
 }
 
-/// nu_t of a cell; filter width: cube root of the cell's volume.
+/// C_w Delta [m] of row j, Delta the cube root of a cell's volume.
+struct FilterWidth {
+  Grid grid;
+  Real c_w;
+  Kokkos::View<Real*> c_w_delta;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int j) const {
+    c_w_delta(j) = c_w * Kokkos::cbrt(grid.cell_volume(j));
+  }
+};
+
+/// nu_t of the cells.
 struct UpdateEddyViscosity {
   Grid grid;
   FaceVector u;  // with ghosts
   Field nu_t;
-  Real c_w;
+  Kokkos::View<const Real*> c_w_delta;  // C_w times the filter width of row j [m]
 
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real width = Kokkos::cbrt(grid.cell_volume(j));
-    nu_t(i, j, k) = wale_viscosity(gradient_at_cell(grid, u, i, j, k), c_w * width);
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    nu_t(i, j, k) = wale_viscosity(gradient_at_cell(grid, u, i, j, k), c_w_delta(j));
   }
 };
 

@@ -40,14 +40,13 @@ PlaneFft::PlaneFft(const Grid& grid)
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
   plans_->x_forward = checked(fftw_plan_many_dft_r2c(1, &nx_, ny_, real.origin, nullptr, 1,
                                                      real.stride_y, z, nullptr, 1, modes, flags));
-  plans_->x_backward = checked(fftw_plan_many_dft_c2r(1, &nx_, ny_, z, nullptr, 1, modes,
-                                                      real.origin, nullptr, 1, real.stride_y,
-                                                      flags));
+  plans_->x_backward = checked(fftw_plan_many_dft_c2r(
+      1, &nx_, ny_, z, nullptr, 1, modes, real.origin, nullptr, 1, real.stride_y, flags));
   const int stride = modes * ny_;
   plans_->z_forward = checked(fftw_plan_many_dft(1, &nz_, modes, z, nullptr, stride, 1, z, nullptr,
                                                  stride, 1, FFTW_FORWARD, flags));
-  plans_->z_backward = checked(fftw_plan_many_dft(1, &nz_, modes, z, nullptr, stride, 1, z,
-                                                  nullptr, stride, 1, FFTW_BACKWARD, flags));
+  plans_->z_backward = checked(fftw_plan_many_dft(1, &nz_, modes, z, nullptr, stride, 1, z, nullptr,
+                                                  stride, 1, FFTW_BACKWARD, flags));
 }
 
 PlaneFft::~PlaneFft() = default;

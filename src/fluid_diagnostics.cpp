@@ -1,4 +1,4 @@
-// Numbers of the flow that reports ask for.
+// What reports and grains ask of the flow.
 #include <cmath>
 
 #include "kernels/flow_sums.hpp"
@@ -7,19 +7,32 @@
 
 namespace barchan {
 
+void FluidSolver::evaluate_face_forces(const FluidState& fluid, const FaceForces& out,
+                                       const CellRange& where) const {
+  const StressDivergence stress{grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity};
+  for_each_cell("fluid: face forces", where,
+                EvaluateFaceForces{stress, ConvectiveAcceleration{grid_, fluid.u}, fluid.du_dt,
+                                   fluid.p, config_.density, fluid.drive, out});
+  for (const FaceVector& f : {out.grad_p, out.div_tau, out.acceleration}) {
+    boundary_.fill(f.x, FieldKind::scalar);
+    boundary_.fill(f.y, FieldKind::velocity_y);
+    boundary_.fill(f.z, FieldKind::scalar);
+  }
+}
+
 Real FluidSolver::friction_velocity(const FluidState& fluid) const {
   const bool bottom = config_.bottom == WallFlow::no_slip, top = config_.top == WallFlow::no_slip;
   const int walls = (bottom ? 1 : 0) + (top ? 1 : 0);
   if (walls == 0) return 0;
-  const Real sum = sum_each_cell("fluid: wall shear", grid_,
-                                 WallShear{grid_, fluid.u.x, bottom, top});
+  const Real sum =
+      sum_each_cell("fluid: wall shear", grid_, WallShear{grid_, fluid.u.x, bottom, top});
   const Real mean = sum / (Real(walls) * grid_.nx * grid_.nz);
   return std::sqrt(config_.kinematic_viscosity * std::abs(mean));
 }
 
 Real FluidSolver::bulk_velocity(const FluidState& fluid) const {
-  const Real flow = sum_each_cell("fluid: flow rate", grid_,
-                                  FlowRate{grid_, fluid.u.x, fluid.alpha_f});
+  const Real flow =
+      sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
   return flow / sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
 }
 

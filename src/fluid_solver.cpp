@@ -31,7 +31,10 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
       u_star_(make_faces("fluid: u star", grid)),
-      source_("fluid: pressure source", grid) {
+      source_("fluid: pressure source", grid),
+      c_w_delta_("fluid: filter width", grid.ny) {
+  Kokkos::parallel_for("fluid: filter width", grid.ny,
+                       FilterWidth{grid, config_.wale_constant, c_w_delta_});
   if (config.grains) {
     flux_ = make_faces("fluid: alpha u", grid);
     mobility_ = make_faces("fluid: mobility", grid);
@@ -46,10 +49,10 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
     boundary_.fill(fluid.alpha_f, FieldKind::scalar);
     boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
   }
-  update_eddy_viscosity(fluid);          // nu_t
-  predict(fluid, exchange, dt);          // u*
-  choose_drive(fluid, exchange, dt);     // f that gives the wanted bulk velocity
-  project(fluid, exchange, dt);          // p, u, du/dt
+  update_eddy_viscosity(fluid);       // nu_t
+  predict(fluid, exchange, dt);       // u*
+  choose_drive(fluid, exchange, dt);  // f that gives the wanted bulk velocity
+  project(fluid, exchange, dt);       // p, u, du/dt
 
   fluid.has_history = true;
   fluid.dt_previous = dt;
@@ -68,7 +71,7 @@ void FluidSolver::fill_ghosts(const FluidState& fluid) const {
 void FluidSolver::update_eddy_viscosity(const FluidState& fluid) {
   if (config_.turbulence == Turbulence::none) return;
   for_each_cell("fluid: eddy viscosity", grid_,
-                UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, config_.wale_constant});
+                UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_});
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
@@ -94,8 +97,16 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
     run(Predict<true>{grid_, convection, stress, fluid.alpha_f_previous, fluid.alpha_f,
                       fluid.rate_previous, u_star_, *exchange, weight, per_density});
   } else {
-    run(Predict<false>{grid_, convection, stress, fluid.alpha_f, fluid.alpha_f,
-                       fluid.rate_previous, u_star_, {}, weight, per_density});
+    run(Predict<false>{grid_,
+                       convection,
+                       stress,
+                       fluid.alpha_f,
+                       fluid.alpha_f,
+                       fluid.rate_previous,
+                       u_star_,
+                       {},
+                       weight,
+                       per_density});
   }
 }
 
@@ -170,8 +181,9 @@ PressureSource<with_grains> FluidSolver::pressure_source(const FaceVector& u,
                                                          const FluidState& fluid, Real drive_dt,
                                                          Real dt) const {
   const FaceVector& c = with_grains ? mobility_ : u;
-  return {grid_,    u,  fluid.alpha_f, with_grains ? fluid.alpha_f_previous : fluid.alpha_f, c,
-          drive_dt, config_.density, dt, source_};
+  return {grid_,  u,        fluid.alpha_f,   with_grains ? fluid.alpha_f_previous : fluid.alpha_f,
+          c,      drive_dt, config_.density, dt,
+          source_};
 }
 
 template <bool with_grains>

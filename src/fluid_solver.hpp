@@ -3,21 +3,23 @@
 
 #include <memory>
 
+#include "kernels/face_forces.hpp"
 #include "kernels/pressure.hpp"
 #include "src/boundary.hpp"
 #include "src/fluid_state.hpp"
+#include "src/launch.hpp"
 #include "src/pressure_solver.hpp"
 
 namespace barchan {
 
 struct FluidStepReport {
-  int pressure_iterations = 0;    // of all corrections together
-  Real pressure_residual = 0;     // of the last, relative to its right-hand side
-  Real continuity_residual = 0;   // max |div(alpha u) + d(alpha)/dt| dt [-]
-  Real courant = 0;               // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
-  Real drive = 0;                 // body force per unit mass [m/s^2]
-  Real bulk_velocity = 0;         // sum(alpha u V) / sum(alpha V) after the predictor [m/s]
-  Real seconds_pressure = 0;      // wall time in the pressure equation
+  int pressure_iterations = 0;   // of all corrections together
+  Real pressure_residual = 0;    // of the last, relative to its right-hand side
+  Real continuity_residual = 0;  // max |div(alpha u) + d(alpha)/dt| dt [-]
+  Real courant = 0;              // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
+  Real drive = 0;                // body force per unit mass [m/s^2]
+  Real bulk_velocity = 0;        // sum(alpha u V) / sum(alpha V) after the predictor [m/s]
+  Real seconds_pressure = 0;     // wall time in the pressure equation
 };
 
 /// Solves, with alpha the fluid fraction and u the interstitial velocity,
@@ -37,6 +39,12 @@ class FluidSolver {
 
   /// Makes all ghosts valid, to be called after a state was set or read.
   void fill_ghosts(const FluidState& fluid) const;
+
+  /// Forces of the present state for grains in the cells of `where` (rows and planes of the owned
+  /// grid); ghosts next to them become valid, zero gradient at the walls. nu_t is that of the
+  /// last step.
+  void evaluate_face_forces(const FluidState& fluid, const FaceForces& out,
+                            const CellRange& where) const;
 
   /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
   Real friction_velocity(const FluidState& fluid) const;
@@ -71,6 +79,7 @@ class FluidSolver {
   PressureSolver pressure_;
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
+  Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
   Real flow_rate_ = 0;                   // sum of alpha u*_x dy over faces [m^2/s]
   Real drive_response_ = 0;              // the same of c_x dy: per unit of drive times dt
   Real fluid_height_ = 0;                // sum of alpha dy over x-faces [m]

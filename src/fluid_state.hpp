@@ -17,10 +17,11 @@ struct FluidState {
   FaceVector rate_previous;  // -div(alpha u u) + alpha div(tau)/rho at n-1 [m/s^2]
   FaceVector du_dt;          // change of u over the last step divided by it [m/s^2]
   Real drive = 0;            // driving body force per unit mass along x [m/s^2]
-  bool has_history = false;  // rate_previous and p_previous hold a step (Adams-Bashforth can use it)
-  Real dt_previous = 0;      // length of that step [s]
-  Real time = 0;             // since the start [s]
-  Real bulk_at_start = 0;    // bulk velocity a ramp of the drive starts from [m/s]
+  bool has_history =
+      false;               // rate_previous and p_previous hold a step (Adams-Bashforth can use it)
+  Real dt_previous = 0;    // length of that step [s]
+  Real time = 0;           // since the start [s]
+  Real bulk_at_start = 0;  // bulk velocity a ramp of the drive starts from [m/s]
 };
 
 /// Zero everywhere, alpha_f one.

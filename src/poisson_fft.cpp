@@ -17,7 +17,7 @@ Real eigenvalue(int m, int n, Real spacing) {
 struct SolveColumns {
   ColumnSolve columns;
   int n_modes;
-  KOKKOS_INLINE_FUNCTION void operator()(int kz) const { columns.solve(0, n_modes, kz); }
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int kz) const { columns.solve(0, n_modes, kz); }
 };
 
 }  // namespace

@@ -51,13 +51,12 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const 
   PressureReport report;
   while (rr > enough && report.iterations < config_.max_iterations) {
     precondition(c);
-    const Real rz =
-        sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
+    const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
     const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
     for_each_cell("pressure: direction", grid_, NextDirection{z_, direction_, b_factor});
     halo_.fill(direction_);
-    const Real curvature = sum_each_cell("pressure: operator", grid_,
-                                         ApplyOperator{grid_, c, direction_, image_});
+    const Real curvature =
+        sum_each_cell("pressure: operator", grid_, ApplyOperator{grid_, c, direction_, image_});
     const Real a = rz / curvature;
     rr = sum_each_cell("pressure: advance", grid_,
                        AdvanceIterate{grid_, direction_, image_, p, residual_, a});
