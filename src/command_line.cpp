@@ -1,8 +1,12 @@
 #include "src/command_line.hpp"
 
+#include <algorithm>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
+#include "src/config_section.hpp"
 
 namespace barchan {
 namespace {
@@ -41,9 +45,31 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
   return info;
 }
 
+CommandLine bad_usage(const std::string& complaint) {
+  CommandLine line;
+  line.exit_code = 2;
+  line.text = complaint;
+  return line;
+}
+
+/// Empty when the first word is a command or an option. CLI11 alone would say that a subcommand is
+/// missing, not that this one is unknown.
+std::string unknown_command(int argc, const char* const* argv) {
+  const std::vector<std::string> commands{"run", "check", "info"};
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
+  const std::string close = nearest(word, commands);
+  return fmt::format("unknown command \"{}\"{}; there are {}\n", word,
+                     close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+                     fmt::join(commands, ", "));
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+  const std::string complaint = unknown_command(argc, argv);
+  if (!complaint.empty()) return bad_usage(complaint);
   CommandLine line;
   CLI::App app{"Barchan: subaqueous dunes, every grain followed, the flow by large-eddy simulation",
                "barchan"};
@@ -56,10 +82,10 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
     std::ostringstream out, err;
-    CommandLine nothing;
-    nothing.exit_code = app.exit(stop, out, err) == 0 ? 0 : 2;
-    nothing.text = nothing.exit_code == 0 ? out.str() : err.str();
-    return nothing;
+    if (app.exit(stop, out, err) != 0) return bad_usage(err.str());
+    CommandLine shown;
+    shown.text = out.str();
+    return shown;
   }
   line.command = run->parsed() ? Command::run : check->parsed() ? Command::check : Command::info;
   return line;

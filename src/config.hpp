@@ -40,12 +40,12 @@ struct TimeConfig {
 
 /// [fluid]
 struct FluidConfig {
-  std::array<int, 3> cells{};               // nx, ny, nz, required
-  double first_cell_height = 0;             // [m]; 0: uniform in y
-  double density = 1000;                    // [kg/m^3]
-  double kinematic_viscosity = 1e-6;        // [m^2/s]
-  double mean_velocity = 0;                 // [m/s], held by a body force
-  std::optional<double> pressure_gradient;  // [Pa/m], instead of mean_velocity
+  std::array<int, 3> cells{};                    // nx, ny, nz, required
+  double first_cell_height = 0;                  // [m]; 0: uniform in y
+  double density = 1000;                         // [kg/m^3]
+  double kinematic_viscosity = 1e-6;             // [m^2/s]
+  double mean_velocity = 0;                      // [m/s], held by a body force
+  std::optional<double> pressure_gradient = {};  // [Pa/m], instead of mean_velocity
   double ramp_time = 0;  // [s] over which mean_velocity is brought up from its start
   Turbulence turbulence = Turbulence::wale;
   double wale_constant = 0.325;
@@ -97,7 +97,7 @@ struct GrainConfig {
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
   double skin = 2e-5;                          // [m], Verlet skin
-  std::optional<AmbientConfig> ambient;
+  std::optional<AmbientConfig> ambient = {};
 
   bool operator==(const GrainConfig&) const = default;
 };
@@ -134,7 +134,7 @@ struct PourConfig {
 struct InitialConfig {
   std::string fluid = "still";  // "still", "turbulent", a .h5 or a .toml (path resolved)
   std::string grains;           // a .csv, .h5 or .toml (path resolved); empty with `pour`
-  std::optional<PourConfig> pour;
+  std::optional<PourConfig> pour = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
 
   bool operator==(const InitialConfig&) const = default;

@@ -235,10 +235,12 @@ std::string to_text(const Derived& derived) {
   std::string text;
   if (derived.fluid) add_fluid(text, *derived.fluid);
   if (derived.grains) add_grains(text, *derived.grains);
-  line(text, "steps",
-       fmt::format("{}, each of {} grain step{} of {:.4g} s", derived.fluid_steps,
-                   derived.grain_substeps, derived.grain_substeps == 1 ? "" : "s",
-                   derived.grain_step));
+  std::string steps = fmt::format("{}", derived.fluid_steps);
+  if (derived.grains) {
+    steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,
+                         derived.grain_substeps == 1 ? "" : "s", derived.grain_step);
+  }
+  line(text, "steps", steps);
   line(text, "memory", fmt::format("about {:.0f} MB", std::max(1.0, derived.memory / 1e6)));
   line(text, "wall time", fmt::format("about {} (two CPU cores)", duration(derived.wall_time)));
   return text;

@@ -1,0 +1,43 @@
+// Short ways to ask what is wrong with a configuration.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "src/config_load.hpp"
+
+namespace barchan::test {
+
+/// A grains-only case in nine lines; `grains` follows as line 10 and on.
+inline std::string grain_case(const std::string& grains = "") {
+  return "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[initial]\n"
+         "grains = { pour = { centre = [0.05, 0.02], radius = 0.006 } }\n\n[grains]\n"
+         "sizes = [[0.2e-3, 100]]\n" +
+         grains;
+}
+
+/// A fluid-only case in six lines; `fluid` follows as line 7 and on.
+inline std::string fluid_case(const std::string& fluid = "") {
+  return "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[fluid]\n"
+         "cells = [62, 30, 25]\n" +
+         fluid;
+}
+
+/// The lines a case is refused with, or none when it loads.
+inline std::vector<std::string> problems(const std::string& text,
+                                         const std::vector<std::string>& overrides = {}) {
+  try {
+    load_config_text(text, "case.toml", overrides);
+  } catch (const ConfigError& error) {
+    return error.lines();
+  }
+  return {};
+}
+
+using Lines = std::vector<std::string>;
+
+/// What `problems` gives for a single one.
+inline Lines only(const std::string& line) { return {line, "1 problem; nothing was run."}; }
+
+}  // namespace barchan::test

@@ -1,0 +1,316 @@
+// Every way a configuration file can be wrong is said with its line, its key and what is allowed.
+#include "src/config_load.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/support/config_problems.hpp"
+
+namespace barchan {
+namespace {
+
+using test::fluid_case;
+using test::grain_case;
+using test::Lines;
+using test::only;
+using test::problems;
+
+TEST(ConfigLoad, ReadsWhatIsWrittenAndKeepsOtherDefaults) {
+  const Config c = load_config_text(
+      grain_case("restitution = 0.4\nrolling_model = \"cdt\"\ngravity = [1, -9, 0.5]\n"
+                 "frozen = false\n[case]\ntitle = \"A case\"\n[restart]\nkeep = 3\n"),
+      "case.toml");
+  EXPECT_EQ(c.title, "A case");
+  EXPECT_EQ(c.file, "case.toml");
+  EXPECT_FALSE(c.fluid.has_value());
+  ASSERT_TRUE(c.grains.has_value());
+  EXPECT_EQ(c.grains->material.restitution, 0.4);
+  EXPECT_EQ(c.grains->material.sliding_friction, Material{}.sliding_friction);
+  EXPECT_EQ(c.grains->rolling_model, RollingModel::cdt);
+  EXPECT_EQ(c.grains->gravity, (std::array<double, 3>{1, -9, 0.5}));
+  EXPECT_EQ(c.grains->sizes, (std::vector<SizeClass>{{0.2e-3, 100}}));
+  EXPECT_EQ(c.restart.keep, 3);
+  ASSERT_TRUE(c.initial.pour.has_value());
+  EXPECT_EQ(c.initial.pour->radius, 0.006);
+  EXPECT_EQ(c.initial.pour->seed, PourConfig{}.seed);
+}
+
+TEST(ConfigLoad, WallTakesTheGrainsMaterialUnlessItNamesItsOwn) {
+  const Config c =
+      load_config_text(grain_case("[grains.wall]\nyoungs_modulus = 1e9\n[grains.ambient]\n"),
+                       "case.toml", {"grains.sliding_friction=0.2"});
+  EXPECT_EQ(c.grains->wall.youngs_modulus, 1e9);
+  EXPECT_EQ(c.grains->wall.sliding_friction, 0.2);
+  EXPECT_EQ(c.grains->material.youngs_modulus, Material{}.youngs_modulus);
+  ASSERT_TRUE(c.grains->ambient.has_value());
+  EXPECT_EQ(*c.grains->ambient, AmbientConfig{});
+}
+
+TEST(ConfigLoad, TakesIntegersForNumbersButNotNumbersForIntegers) {
+  EXPECT_EQ(load_config_text(grain_case("density = 2650\n"), "case.toml").grains->density, 2650.0);
+  EXPECT_EQ(problems(grain_case("[restart]\nkeep = 2.0\n")),
+            only("case.toml:11: [restart] keep = 2.0: must be an integer"));
+}
+
+TEST(ConfigLoad, ForcesAreThoseNamed) {
+  const Config c =
+      load_config_text(fluid_case("[coupling]\nforces = [\"drag\", \"stress\"]\n"), "case.toml");
+  EXPECT_EQ(c.coupling.forces, (ForceSwitches{true, false, true, false, false}));
+  EXPECT_EQ(
+      problems(fluid_case("[coupling]\nforces = [\"drag\", \"strss\"]\n")),
+      only("case.toml:8: [coupling] forces = [\"drag\", \"strss\"]: must be an array; \"strss\" "
+           "must "
+           "be one of \"drag\", \"pressure_gradient\", \"stress\", \"added_mass\", \"buoyancy\" "
+           "(did you mean \"stress\"?)"));
+}
+
+TEST(ConfigLoad, UnknownKeyNamesTheNearest) {
+  EXPECT_EQ(
+      problems(grain_case("restitutoin = 0.5\n")),
+      only("case.toml:10: [grains] restitutoin: unknown key (did you mean \"restitution\"?)"));
+  EXPECT_EQ(problems(grain_case("zzzzzz = 0.5\n")),
+            only("case.toml:10: [grains] zzzzzz: unknown key"));
+  EXPECT_EQ(problems(grain_case("cells = [1, 1, 1]\n")),
+            only("case.toml:10: [grains] cells: unknown key (did you mean \"cells\" of [fluid]?)"));
+  EXPECT_EQ(problems("dt = 1\n" + grain_case()), only("case.toml:1: dt: unknown key"));
+}
+
+TEST(ConfigLoad, UnknownSectionNamesTheNearest) {
+  EXPECT_EQ(problems(grain_case("[outptu]\nkeep = 1\n")),
+            only("case.toml:10: [outptu]: unknown section (did you mean \"output\"?)"));
+  EXPECT_EQ(problems(grain_case("[grains.wal]\nrestitution = 0.1\n")),
+            only("case.toml:10: [grains] wal: unknown key (did you mean \"wall\"?)"));
+  EXPECT_EQ(problems("restart = 2\n" + grain_case()),
+            only("case.toml:1: restart = 2: must be a section, [restart]"));
+}
+
+TEST(ConfigLoad, WrongTypesAreNamed) {
+  EXPECT_EQ(problems(grain_case("density = \"heavy\"\n")),
+            only("case.toml:10: [grains] density = \"heavy\": must be a number"));
+  EXPECT_EQ(problems(grain_case("frozen = 1\n")),
+            only("case.toml:10: [grains] frozen = 1: must be true or false"));
+  EXPECT_EQ(problems(grain_case("gravity = [0, -9.81]\n")),
+            only("case.toml:10: [grains] gravity = [0, -9.81]: must be an array of 3 numbers"));
+  EXPECT_EQ(problems(fluid_case("top = 3\n")),
+            only("case.toml:7: [fluid] top = 3: must be one of \"no_slip\", \"free_slip\""));
+  EXPECT_EQ(problems(fluid_case("[case]\ntitle = 2001-02-03\n")),
+            only("case.toml:8: [case] title = 2001-02-03: must be a string"));
+  const std::string sizes = "must be an array of [diameter in m above 0, count above 0]; ";
+  EXPECT_EQ(problems(grain_case(), {"grains.sizes=[[2e-4, 10], [2e-4, 0]]"}),
+            only("--set grains.sizes: [grains] sizes = [[0.0002, 10], [0.0002, 0]]: " + sizes +
+                 "[0.0002, 0] is not"));
+}
+
+TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
+  EXPECT_EQ(problems(grain_case("poisson_ratio = 2.0\n")),
+            only("case.toml:10: [grains] poisson_ratio = 2.0: must be at least 0 and at most 0.5"));
+  EXPECT_EQ(problems(grain_case("restitution = 0\n")),
+            only("case.toml:10: [grains] restitution = 0: must be above 0 and at most 1"));
+  EXPECT_TRUE(problems(grain_case("restitution = 1\npoisson_ratio = 0\n")).empty());
+  EXPECT_EQ(
+      problems(fluid_case(), {"fluid.cells=[62, 0, 25]"}),
+      only(
+          "--set fluid.cells: [fluid] cells = [62, 0, 25]: must be at least 1 and at most 100000"));
+  EXPECT_EQ(
+      problems(fluid_case(), {"restart.keep=3000000000"}),
+      only("--set restart.keep: [restart] keep = 3000000000: must be an integer up to 2147483647"));
+}
+
+TEST(ConfigLoad, NotFiniteNumbersAreRefused) {
+  for (const char* number : {"nan", "inf", "-inf"}) {
+    EXPECT_EQ(problems(fluid_case(std::string("mean_velocity = ") + number + "\n")),
+              only(std::string("case.toml:7: [fluid] mean_velocity = ") + number +
+                   ": must be a finite number"));
+  }
+}
+
+TEST(ConfigLoad, BadChoiceListsTheAllowedOnes) {
+  EXPECT_EQ(problems(fluid_case("turbulence = \"wail\"\n")),
+            only("case.toml:7: [fluid] turbulence = \"wail\": must be one of \"none\", \"wale\" "
+                 "(did you mean \"wale\"?)"));
+}
+
+TEST(ConfigLoad, MissingRequiredKeysAndSections) {
+  EXPECT_EQ(problems("[time]\nfluid_step = 1e-4\n[domain]\n[fluid]\n"),
+            (Lines{"case.toml:1: [time] end: required key is missing",
+                   "case.toml:3: [domain] size: required key is missing",
+                   "case.toml:4: [fluid] cells: required key is missing",
+                   "3 problems; nothing was run."}));
+  EXPECT_EQ(
+      problems("[fluid]\ncells = [8, 8, 8]\n"),
+      (Lines{"case.toml: [time]: required section is missing",
+             "case.toml: [domain]: required section is missing", "2 problems; nothing was run."}));
+  EXPECT_EQ(
+      problems("[time]\nend = 1.0\n[domain]\nsize = [1, 1, 1]\n"),
+      only("case.toml: [fluid]: required, or [grains]: without both there is nothing to run"));
+}
+
+TEST(ConfigLoad, AllProblemsAtOnceInTheOrderOfLines) {
+  const std::string text = grain_case(
+      "poisson_ratio = 2.0\ndensity = true\n\n[solver]\npreconditioner = \"ft\"\nspeed = 9\n");
+  EXPECT_EQ(
+      problems(text, {"time.ende=3", "output.grain_forces=yes"}),
+      (Lines{
+          "case.toml:10: [grains] poisson_ratio = 2.0: must be at least 0 and at most 0.5",
+          "case.toml:11: [grains] density = true: must be a number",
+          "case.toml:14: [solver] preconditioner = \"ft\": must be one of \"fft\", \"local_fft\", "
+          "\"jacobi\", \"none\" (did you mean \"fft\"?)",
+          "case.toml:15: [solver] speed: unknown key (did you mean \"seed\" of [initial]?)",
+          "--set output.grain_forces: [output] grain_forces = \"yes\": must be true or false",
+          "--set time.ende: [time] ende: unknown key (did you mean \"end\"?)",
+          "6 problems; nothing was run."}));
+}
+
+TEST(ConfigLoad, ASyntaxErrorHasItsLine) {
+  const Lines lines = problems("[time]\nend = 1.0\nend = = 2\n");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].find("case.toml:3: not TOML: "), 0u) << lines[0];
+  EXPECT_EQ(lines[1], "1 problem; nothing was run.");
+  const Lines twice = problems(fluid_case("cells = [8, 8, 8]\n"));
+  ASSERT_EQ(twice.size(), 2u);
+  EXPECT_EQ(twice[0].find("case.toml:7: not TOML: "), 0u) << twice[0];
+}
+
+TEST(ConfigOverride, ReplacesAddsAndTakesBareWords) {
+  const Config c =
+      load_config_text(fluid_case("turbulence = \"wale\"\n"), "case.toml",
+                       {"time.end=2.5", "fluid.turbulence=none", "fluid.cells=[8,9,10]",
+                        "case.title=Run 7 # odd", "solver.correctors=3", "time.end=3"});
+  EXPECT_EQ(c.time.end, 3.0);  // the last one counts
+  EXPECT_EQ(c.fluid->turbulence, Turbulence::none);
+  EXPECT_EQ(c.fluid->cells, (std::array<int, 3>{8, 9, 10}));
+  EXPECT_EQ(c.title, "Run 7 # odd");
+  EXPECT_EQ(c.solver.correctors, 3);
+}
+
+TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
+  const Config c =
+      load_config_text(grain_case(), "case.toml",
+                       {"initial.grains.pour.radius=0.01", "grains.wall.restitution=0.9",
+                        "grains.ambient={density = 900}"});
+  EXPECT_EQ(c.initial.pour->radius, 0.01);
+  EXPECT_EQ(c.initial.pour->centre[0], 0.05);
+  EXPECT_EQ(c.grains->wall.restitution, 0.9);
+  EXPECT_EQ(c.grains->ambient->density, 900.0);
+}
+
+TEST(ConfigOverride, IsCheckedLikeTheFile) {
+  EXPECT_EQ(
+      problems(grain_case("sliding_friction = 0.3\n"), {"grains.sliding_friction=-1"}),
+      only("--set grains.sliding_friction: [grains] sliding_friction = -1: must be at least 0"));
+  EXPECT_EQ(problems(grain_case(), {"time.end=soon"}),
+            only("--set time.end: [time] end = \"soon\": must be a number"));
+  EXPECT_EQ(problems(grain_case(), {"time.end.x=1"}),
+            only("--set time.end.x: \"time.end\" is not a section"));
+  EXPECT_EQ(problems(grain_case(), {"time..end=1"}),
+            only("--set time..end: a part of the key is empty"));
+  EXPECT_EQ(problems(grain_case(), {"time.end"}),
+            only("--set time.end: must have the form key=value, as in time.end=2.5"));
+  EXPECT_EQ(problems(grain_case(), {"=1"}),
+            only("--set : must have the form key=value, as in time.end=2.5"));
+}
+
+/// Cases in a folder of their own, for what names other files.
+class ConfigStart : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("barchan_config_" + std::to_string(getpid()) +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_ / "inner");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  Lines load(const std::string& path, const std::vector<std::string>& overrides = {}) {
+    try {
+      load_config(path, overrides);
+    } catch (const ConfigError& error) {
+      return error.lines();
+    }
+    return {};
+  }
+  std::filesystem::path folder_;
+};
+
+const char* const moved = "[time]\nend = 1\n[domain]\nsize = [0.1, 0.025, 0.04]\n[grains]\n";
+
+TEST_F(ConfigStart, PathsAreRelativeToTheFileAndMustExist) {
+  write("heap.csv", "id,diameter,x,y,z\n");
+  const std::string path =
+      write("inner/case.toml", std::string(moved) + "[initial]\ngrains = \"../heap.csv\"\n");
+  EXPECT_EQ(load_config(path).initial.grains, (folder_ / "heap.csv").string());
+  EXPECT_EQ(load(path, {"initial.grains=../pile.csv"}),
+            only("--set initial.grains: [initial] grains = \"../pile.csv\": must be a file that "
+                 "exists; there "
+                 "is no " +
+                 (folder_ / "pile.csv").string()));
+  EXPECT_EQ(load(path, {"initial.grains=../heap.txt"}),
+            only("--set initial.grains: [initial] grains = \"../heap.txt\": must be a file ending "
+                 "in .csv, .h5, "
+                 ".toml, or { pour = {...} }"));
+  EXPECT_EQ(
+      load(path, {"initial.grains={}"}),
+      only("--set initial.grains: [initial] grains = {  }: must be a file or { pour = {...} }"));
+}
+
+TEST_F(ConfigStart, FluidStartIsAWordOrAFile) {
+  const std::string path =
+      write("case.toml", fluid_case("mean_velocity = 0.2\n[initial]\nfluid = \"turbulant\"\n"));
+  EXPECT_EQ(
+      load(path),
+      only(path + ":9: [initial] fluid = \"turbulant\": must be \"still\", \"turbulent\" or a "
+                  "file ending in .h5, .toml"));
+  EXPECT_EQ(load_config(path, {"initial.fluid=turbulent"}).initial.fluid, "turbulent");
+}
+
+TEST_F(ConfigStart, ACaseItStartsFromIsCheckedToo) {
+  const std::string heap = write("heap.toml", grain_case("restitution = 3\n"));
+  const std::string path =
+      write("case.toml", std::string(moved) + "density = 0\n[initial]\ngrains = \"heap.toml\"\n");
+  EXPECT_EQ(load(path),
+            (Lines{path + ":6: [grains] density = 0: must be above 0",
+                   heap + ":10: [grains] restitution = 3: must be above 0 and at most 1",
+                   "2 problems; nothing was run."}));
+}
+
+TEST_F(ConfigStart, SizesComeFromTheCaseItStartsFrom) {
+  write("heap.toml", grain_case());
+  const std::string path =
+      write("case.toml", std::string(moved) + "[initial]\ngrains = \"heap.toml\"\n");
+  const Config c = load_config(path);
+  EXPECT_TRUE(c.grains->sizes.empty());
+  EXPECT_EQ(known_sizes(c), (std::vector<SizeClass>{{0.2e-3, 100}}));
+  // and a grain step too long for those sizes is an error of this case
+  const Lines lines = load(path, {"time.grain_step=1e-4"});
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("Rayleigh"), std::string::npos) << lines[0];
+}
+
+TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {
+  const std::string one = write("one.toml", fluid_case("[initial]\nfluid = \"two.toml\"\n"));
+  const std::string two = write("two.toml", fluid_case("[initial]\nfluid = \"one.toml\"\n"));
+  EXPECT_EQ(load(one),
+            only(two + ":8: [initial] fluid = \"one.toml\": must not lead back to this case"));
+  write("two.toml", fluid_case("first_cell_height = 1e-4\n"));
+  EXPECT_EQ(load(one),
+            only(one + ":8: [initial] fluid = \"two.toml\": must have the same mesh; its cells are "
+                       "[62, 30, 25] from 0.0001 m"));
+  write("two.toml", grain_case());
+  EXPECT_EQ(load(one),
+            only(one + ":8: [initial] fluid = \"two.toml\": must be a case with [fluid]"));
+}
+
+TEST_F(ConfigStart, AFileThatIsNotThere) {
+  const std::string path = (folder_ / "none.toml").string();
+  EXPECT_EQ(load(path), only(path + ": no such file, or not one that can be read"));
+  EXPECT_EQ(load(folder_.string()).size(), 2u);
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,80 @@
+// The cases that ship: each loads, says what it is for, and survives being written out in full.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "src/check.hpp"
+#include "src/config_load.hpp"
+#include "src/config_resolved.hpp"
+#include "src/config_validate.hpp"
+
+namespace barchan {
+namespace {
+
+std::vector<std::filesystem::path> shipped() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(BARCHAN_SOURCE_DIR "/configs")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  return files;
+}
+
+TEST(ShippedConfigs, AreThere) {
+  EXPECT_GE(shipped().size(), 10u);
+  EXPECT_TRUE(std::filesystem::exists(BARCHAN_SOURCE_DIR "/configs/quickstart.toml"));
+}
+
+TEST(ShippedConfigs, LoadAndComeBack) {
+  for (const auto& file : shipped()) {
+    try {
+      const Config config = load_config(file);
+      EXPECT_EQ(load_config_text(to_toml(config), file), config) << file;
+      EXPECT_FALSE(config.title.empty()) << file;
+    } catch (const ConfigError& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
+TEST(ShippedConfigs, OnlyWarnOfThePapersGrainStep) {
+  for (const auto& file : shipped()) {
+    const Config config = load_config(file);
+    for (const std::string& warning : config_warnings(config, known_sizes(config))) {
+      const bool expected =
+          warning.find("Rayleigh") != warning.npos ||
+          (file.stem() != "channel-mesh-1" && warning.find("smallest cell") != warning.npos);
+      EXPECT_TRUE(expected) << file << ": " << warning;
+    }
+  }
+}
+
+TEST(ShippedConfigs, OpenWithAComment) {
+  for (const auto& file : shipped()) {
+    std::ifstream stream(file);
+    std::string line;
+    std::getline(stream, line);
+    EXPECT_EQ(line.rfind("# ", 0), 0u) << file << " opens with: " << line;
+  }
+}
+
+TEST(Check, PrintsTheCaseItsNumbersAndWarnings) {
+  CommandLine line;
+  line.command = Command::check;
+  line.file = BARCHAN_SOURCE_DIR "/configs/barchan-10k.toml";
+  line.overrides = {"time.end=2"};
+  std::ostringstream out;
+  EXPECT_EQ(run_check(line, out), 0);
+  const std::string text = out.str();
+  for (const char* part : {"end = 2.0\n", "skin = 2e-05", "Re = 2 delta U / nu     14000",
+                           "26.5 % (smallest)", "warning: [time] grain_step is 26.5 %"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  }
+  line.overrides = {"time.end=-2"};
+  EXPECT_THROW(run_check(line, out), ConfigError);
+}
+
+}  // namespace
+}  // namespace barchan
