@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/communicator.hpp"
+
 namespace barchan {
 
 namespace {
@@ -72,25 +74,50 @@ void FrameFile::drop_after(double t) {
   std::erase_if(frames_, late);
 }
 
-void FrameFile::append(double t, std::int64_t step, const Preamble& preamble,
-                       const Content& content) {
-  if (!made_) {
-    Hdf5File file(path_, Hdf5File::Mode::create, communicator_);
-    write_provenance(file, provenance_);
-    preamble(file);
-    file.close();
-    made_ = true;
-  }
+FrameInfo FrameFile::write_frame(Hdf5File& file, double t, std::int64_t step,
+                                 const Content& content) const {
   const std::string name = fmt::format("{}{:06}", prefix, next_);
-  Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
   file.begin_hidden_group(name);
   file.set_attribute(name, "time", t);
   file.set_attribute(name, "step", step);
   content(file, name);
   file.publish_group();
-  FrameInfo frame = read_frame(file, name);
+  return read_frame(file, name);
+}
+
+FrameInfo FrameFile::make_file(double t, std::int64_t step, const Preamble& preamble,
+                               const Content& content) const {
+  // The first link also makes the root's table, which is not safe against a kill as the later ones
+  // are: the file gets its name with its first frame.
+  const auto beside = std::filesystem::path(path_).concat(".tmp");
+  const bool root = rank_of(communicator_) == 0;
+  try {
+    Hdf5File file(beside, Hdf5File::Mode::create, communicator_);
+    write_provenance(file, provenance_);
+    preamble(file);
+    FrameInfo frame = write_frame(file, t, step, content);
+    file.close();
+    if (root) std::filesystem::rename(beside, path_);
+    if (rank_count(communicator_) > 1) MPI_Barrier(communicator_);
+    return frame;
+  } catch (...) {
+    std::error_code ignored;
+    if (root) std::filesystem::remove(beside, ignored);
+    throw;
+  }
+}
+
+FrameInfo FrameFile::extend_file(double t, std::int64_t step, const Content& content) const {
+  Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
+  FrameInfo frame = write_frame(file, t, step, content);
   file.close();
-  frames_.push_back(std::move(frame));
+  return frame;
+}
+
+void FrameFile::append(double t, std::int64_t step, const Preamble& preamble,
+                       const Content& content) {
+  frames_.push_back(made_ ? extend_file(t, step, content) : make_file(t, step, preamble, content));
+  made_ = true;
   ++next_;
 }
 

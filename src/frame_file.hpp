@@ -49,6 +49,10 @@ class FrameFile {
 
  private:
   void drop_after(double t);
+  FrameInfo make_file(double t, std::int64_t step, const Preamble& preamble,
+                      const Content& content) const;
+  FrameInfo extend_file(double t, std::int64_t step, const Content& content) const;
+  FrameInfo write_frame(Hdf5File& file, double t, std::int64_t step, const Content& content) const;
 
   std::filesystem::path path_;
   Provenance provenance_;

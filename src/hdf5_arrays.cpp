@@ -58,13 +58,14 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
   if (extents.empty() || !count_elements(extents, count) || count != values.size()) {
     fail(std::to_string(values.size()) + " values do not fill " + to_string(extents), name);
   }
+  if (const auto slash = name.rfind('/'); slash != std::string::npos) {
+    make_group(name.substr(0, slash));
+  }
   const auto [base, rest] = place_of(name);
   const Handle memory = dataspace(extents);
   const Handle file = dataspace(share.whole.empty() ? extents : share.whole);
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  check(H5Pset_create_intermediate_group(links.get(), 1), name);
   const Handle creation = array_creation_list();
-  const Handle array(check(H5Dcreate2(base, rest.c_str(), memory_type<T>(), file.get(), links.get(),
+  const Handle array(check(H5Dcreate2(base, rest.c_str(), memory_type<T>(), file.get(), H5P_DEFAULT,
                                       creation.get(), H5P_DEFAULT),
                            name),
                      H5Dclose);
@@ -84,6 +85,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
                  values.data()),
         name);
   set_attribute(name, "units", units);
+  check_writes();  // no need to go on with a full disk
 }
 
 ArrayInfo Hdf5File::info(const std::string& name) const {

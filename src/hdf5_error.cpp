@@ -25,9 +25,6 @@ std::string system_message(const std::string& text) {
 
 void start_library() {
   static const bool started = [] {
-    // Without the library's clean-up at exit: it would flush once more, and loudly, a file whose
-    // disk is full. Every file is closed by its owner.
-    H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     return true;

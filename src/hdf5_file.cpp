@@ -1,5 +1,6 @@
 #include "src/hdf5_file.hpp"
 
+#include <cstring>
 #include <utility>
 
 #include "src/communicator.hpp"
@@ -18,11 +19,26 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 constexpr unsigned root_links = 2048;
 constexpr std::size_t name_bytes = 16;
 
-Handle access_list(bool parallel, MPI_Comm communicator) {
+Handle access_list(bool parallel, MPI_Comm communicator, int* error) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (parallel) H5Pset_fapl_mpio(list.get(), communicator, MPI_INFO_NULL);
-  // A viewer that has the file open must not be able to stop a run.
-  H5Pset_file_locking(list.get(), false, true);
+  if (parallel) {
+    H5Pset_fapl_mpio(list.get(), communicator, MPI_INFO_NULL);
+  } else {
+    const hdf5::DriverInfo info{.error = error};
+    H5Pset_driver(list.get(), hdf5::file_driver(), &info);
+  }
+  H5Pset_fclose_degree(list.get(), H5F_CLOSE_STRONG);  // nothing outlives the Hdf5File
+  return list;
+}
+
+/// Groups below the root keep their links in their header: without this each would have a table of
+/// the root's size.
+Handle group_creation_list() {
+  constexpr unsigned compact_links = 64;
+  Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_creation_order(list.get(), H5P_CRT_ORDER_TRACKED);
+  H5Pset_link_phase_change(list.get(), compact_links, compact_links / 2);
+  H5Pset_obj_track_times(list.get(), false);
   return list;
 }
 
@@ -46,33 +62,39 @@ std::string to_string(const Extents& extents) {
 
 void Hdf5File::fail(const std::string& reason, const std::string& object) const {
   std::string text = mode_ == Mode::read ? "cannot read " : "cannot write ";
-  text += path_.string() + ": " + reason;
+  // Files on their way to a name are known to the user by that name.
+  const bool beside = path_.extension() == ".tmp";
+  text += (beside ? std::filesystem::path(path_).replace_extension() : path_).string();
+  text += ": " + reason;
   if (!object.empty()) text += " (" + object + ")";
   throw Hdf5Error(text);
 }
 
 template <class Code>
 Code Hdf5File::check(Code code, const std::string& object) const {
-  if (code < 0) fail(hdf5::last_reason(), object);
+  if (code < 0)
+    fail(*system_error_ != 0 ? std::strerror(*system_error_) : hdf5::last_reason(), object);
   return code;
 }
 template int Hdf5File::check(int, const std::string&) const;
 template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
-    : path_(path), mode_(mode) {
+    : path_(path), mode_(mode), system_error_(std::make_unique<int>(0)) {
   hdf5::start_library();
   parallel_ = rank_count(communicator) > 1;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("it is a folder", {});
-  const Handle access = access_list(parallel_, communicator);
+  const Handle access = access_list(parallel_, communicator, system_error_.get());
+  Id opened = -1;
   if (mode == Mode::create) {
     const Handle creation = creation_list();
-    file_ = check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
+    opened = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   } else {
     const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
-    file_ = check(H5Fopen(path.c_str(), flags, access.get()));
+    opened = H5Fopen(path.c_str(), flags, access.get());
   }
+  file_ = check(opened);
 }
 
 Hdf5File::~Hdf5File() {
@@ -80,14 +102,20 @@ Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
-void Hdf5File::close() {
-  if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
-  if (file_ < 0) return;
-  flush();  // where a full disk shows: a failed flush leaves the file to the destructor
-  check(H5Fclose(std::exchange(file_, -1)));
+void Hdf5File::check_writes() const {
+  if (*system_error_ != 0) fail(std::strerror(*system_error_), {});
 }
 
-void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL)); }
+void Hdf5File::close() {
+  if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
+  if (file_ >= 0) check(H5Fclose(std::exchange(file_, -1)));
+  check_writes();
+}
+
+void Hdf5File::flush() {
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+  check_writes();
+}
 
 Hdf5File::Place Hdf5File::place_of(const std::string& name) const {
   if (hidden_ >= 0 && name == hidden_name_) return {hidden_, "."};
@@ -131,16 +159,19 @@ void Hdf5File::remove(const std::string& name) {
 }
 
 void Hdf5File::make_group(const std::string& name) {
-  if (exists(name)) return;
+  if (name.empty() || exists(name)) return;
+  if (const auto slash = name.rfind('/'); slash != std::string::npos) {
+    make_group(name.substr(0, slash));
+  }
   const auto [base, rest] = place_of(name);
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  check(H5Pset_create_intermediate_group(links.get(), 1), name);
+  const Handle creation = group_creation_list();
   const Handle group(
-      check(H5Gcreate2(base, rest.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT), name), H5Gclose);
+      check(H5Gcreate2(base, rest.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name),
+      H5Gclose);
 }
 
 void Hdf5File::begin_hidden_group(const std::string& as) {
-  hidden_ = check(H5Gcreate_anon(file_, H5P_DEFAULT, H5P_DEFAULT), as);
+  hidden_ = check(H5Gcreate_anon(file_, group_creation_list().get(), H5P_DEFAULT), as);
   hidden_name_ = as;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -107,6 +108,8 @@ class Hdf5File {
   /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>
   Code check(Code code, const std::string& object = {}) const;
+  /// Throws if the serial driver noted a failed write.
+  void check_writes() const;
   void put_attribute(const std::string& object, const std::string& name, Id type,
                      const void* value);
   /// `kind`: the H5T_class_t the stored attribute must have.
@@ -116,6 +119,7 @@ class Hdf5File {
   std::filesystem::path path_;
   Mode mode_;
   bool parallel_ = false;
+  std::unique_ptr<int> system_error_;  // errno noted by the serial driver; 0: none
   Id file_ = -1;
   Id hidden_ = -1;
   std::string hidden_name_;

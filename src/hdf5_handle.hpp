@@ -31,6 +31,15 @@ class Handle {
 /// Starts the library once, without its printing of error stacks.
 void start_library();
 
+/// What the serial driver is told: where to note the errno of the first failed system call. It must
+/// outlive the file.
+struct DriverInfo {
+  int* error = nullptr;
+};
+
+/// The serial driver of hdf5_driver.cpp, for H5Pset_driver() with a DriverInfo.
+hid_t file_driver();
+
 /// The innermost message of the library's error stack in the user's words.
 /// Call it before any other HDF5 function: each clears the stack.
 std::string last_reason();

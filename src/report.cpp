@@ -55,7 +55,6 @@ std::string si_rate(double rate) {
 }
 
 constexpr auto live_interval = std::chrono::milliseconds(250);
-constexpr auto plain_interval = std::chrono::seconds(10);
 
 }  // namespace
 
@@ -124,8 +123,9 @@ std::string format_progress(const Progress& p, double eta_seconds) {
   return text;
 }
 
-ProgressLine::ProgressLine()
-    : start_(Clock::now()),
+ProgressLine::ProgressLine(std::chrono::milliseconds plain_interval)
+    : plain_interval_(plain_interval),
+      start_(Clock::now()),
       last_live_(start_),
       last_plain_(start_),
       terminal_(isatty(STDOUT_FILENO) != 0) {}
@@ -135,7 +135,7 @@ ProgressLine::~ProgressLine() { finish(); }
 bool ProgressLine::due() const {
   if (state().silent) return false;
   const auto now = Clock::now();
-  if (now - last_plain_ >= plain_interval) return true;
+  if (now - last_plain_ >= plain_interval_) return true;
   return terminal_ && !state().quiet && now - last_live_ >= live_interval;
 }
 
@@ -146,7 +146,7 @@ void ProgressLine::update(const Progress& progress) {
   const double done = progress.t - progress.t_start;
   const double eta = done > 0 ? wall * std::max(0.0, progress.t_end - progress.t) / done : -1.0;
   const std::string text = format_progress(progress, eta);
-  if (now - last_plain_ >= plain_interval) {
+  if (now - last_plain_ >= plain_interval_) {
     last_plain_ = now;
     if (!terminal_ && !state().quiet) print(stdout, text);
     if (state().log) state().log->info("{}", text);

@@ -63,7 +63,7 @@ std::string format_duration(double seconds);
 /// ten seconds of wall time. The time to go is estimated from the pace since construction.
 class ProgressLine {
  public:
-  ProgressLine();
+  explicit ProgressLine(std::chrono::milliseconds plain_interval = std::chrono::seconds(10));
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -77,6 +77,7 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
+  Clock::duration plain_interval_;
   Clock::time_point start_, last_live_, last_plain_;
   bool terminal_ = false;
 };

@@ -32,6 +32,9 @@ void remove_results(const std::filesystem::path& folder) {
                            "fields.xdmf", "grains.h5", "grains.xdmf", "log.txt"}) {
     std::filesystem::remove(folder / name);
   }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path());
+  }
   for (const auto& [step, file] : list_checkpoints(folder)) std::filesystem::remove(file);
 }
 
