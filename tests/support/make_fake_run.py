@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Writes a synthetic run folder: a heap that turns into a barchan, with the flow over it.
+
+    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut]
+
+The formats are those of a run; nothing is simulated. `--cut` leaves the folder as a killed run
+would: a CSV line without its end, a frame without its arrays, no run.json.
+"""
+
+import argparse
+import os
+from pathlib import Path
+
+import numpy as np
+
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+import h5py  # noqa: E402
+
+SIZE = (0.1, 0.025, 0.04)  # [m]
+D = 2e-4                   # mean diameter [m]
+END, FRAMES = 8.0, 17
+CONFIG = f"""[case]
+title = "synthetic barchan"
+[time]
+end = {END}
+[domain]
+size = [{SIZE[0]}, {SIZE[1]}, {SIZE[2]}]
+"""
+
+
+def shape(t):
+    """Centre and horn length at time t [m]."""
+    return 0.025 + 2.5e-3 * t, 4e-3 * (1 - np.exp(-t / 3))
+
+
+def surface(x, z, t):
+    """Height of the dune at time t [m]."""
+    centre, horn = shape(t)
+    radius = 6e-3 + 1.2e-3 * (1 - np.exp(-t))
+    x, z = x - centre, z - 0.5 * SIZE[2]
+    r = np.hypot(x, z)
+    lee = np.hypot(x - 2.2 * radius + 1.4 * horn, z) - 1.2 * radius
+    return np.clip(np.minimum(0.28 * (radius - r), 0.55 * np.maximum(lee, 0)), 0, None)
+
+
+def make_grains(t, random):
+    """Grains under the surface, and a few that have left the dune."""
+    side = np.arange(0, 0.03, 0.93 * D)
+    x, z = np.meshgrid(shape(t)[0] - 0.015 + side, 0.5 * SIZE[2] - 0.015 + side, indexing="ij")
+    x, z = x.ravel(), z.ravel()
+    layers = np.ceil(surface(x, z, t) / (0.85 * D)).astype(int)
+    x, z = np.repeat(x, layers), np.repeat(z, layers)
+    layer = np.arange(layers.sum()) - np.repeat(np.cumsum(layers) - layers, layers)
+    stray = int(30 * t)
+    x = np.append(x, shape(t)[0] + random.gamma(2.0, 8e-3, stray))
+    z = np.append(z, 0.5 * SIZE[2] + random.normal(0, 5e-3, stray))
+    layer = np.append(layer, np.zeros(stray, int))
+    position = np.stack([x, (layer * 0.85 + 0.5) * D, z], axis=1)
+    position += random.uniform(-0.15, 0.15, position.shape) * D
+    position = position[(position[:, 0] < SIZE[0]) & (abs(position[:, 2] / SIZE[2] - 0.5) < 0.5)]
+    position[:, 1] = np.maximum(position[:, 1], 0.5 * D)
+    return position, D * random.choice([0.75, 0.875, 1.0, 1.125, 1.25], len(position),
+                                       p=[0.02, 0.14, 0.68, 0.14, 0.02])
+
+
+def make_flow(t, x, y, z):
+    """A logarithmic profile lifted by the dune, with reversed flow behind the crest."""
+    u_star, centre = 0.0168, shape(t)[0]
+    z3, y3, x3 = np.meshgrid(z, y, x, indexing="ij")
+    h = surface(x3, z3, t)
+    above = np.maximum(y3 - h, 0)
+    u = u_star / 0.41 * np.log(1 + 9 * 0.41 * above * u_star / 1e-6)
+    wake = np.exp(-((x3 - centre - 9e-3) / 6e-3)**2 - ((z3 - 0.02) / 5e-3)**2 - (y3 / 1.6e-3)**2)
+    u = u * (1 + 0.3 * h / 2e-3 * np.exp(-above / 2e-3)) - 0.16 * wake * (1 - np.exp(-t))
+    slope = (surface(x3 + 5e-4, z3, t) - surface(x3 - 5e-4, z3, t)) / 1e-3
+    v = u * slope * np.exp(-above / 3e-3)
+    alpha_f = np.where(y3 < h, 0.4, 1.0)
+    return {"u": u * alpha_f, "v": v * alpha_f, "w": 0 * u, "p": 0 * u, "alpha_f": alpha_f,
+            "nu_t": 1e-7 + 0 * u}
+
+
+def open_file(path):
+    file = h5py.File(path, "w")
+    file.attrs.update(config=CONFIG, version="0.0", git_hash="none", backend="none",
+                      title="synthetic barchan")
+    return file
+
+
+def write_frame(file, index, t, arrays):
+    group = file.create_group(f"frame_{index:06d}")
+    group.attrs.update(time=t, step=int(t / 2.5e-4))
+    for name, values in arrays.items():
+        group.create_dataset(name, data=values).attrs["units"] = "SI"
+
+
+def write_grains(folder, cut):
+    random = np.random.default_rng(1)
+    with open_file(folder / "grains.h5") as file:
+        for index, t in enumerate(np.linspace(0, END, FRAMES)):
+            x, d = make_grains(t, random)
+            write_frame(file, index, t, {"id": random.permutation(len(d)), "x": x, "d": d,
+                                         "u": 0 * x, "omega": 0 * x})
+        if cut:
+            write_frame(file, FRAMES, END + 0.5, {"id": np.arange(3)})
+
+
+def write_fields(folder):
+    x_face, z_face = np.linspace(0, SIZE[0], 101), np.linspace(0, SIZE[2], 41)
+    y_face = SIZE[1] * np.expm1(2.5 * np.linspace(0, 1, 31)) / np.expm1(2.5)
+    with open_file(folder / "fields.h5") as file:
+        for name, face in (("x", x_face), ("y", y_face), ("z", z_face)):
+            file[f"grid/{name}_face"] = face
+            file[f"grid/{name}"] = 0.5 * (face[1:] + face[:-1])
+        centres = [file[f"grid/{name}"][:] for name in ("x", "y", "z")]
+        for index, t in enumerate((0.0, END)):
+            write_frame(file, index, t, make_flow(t, *centres))
+
+
+def write_tables(folder, cut):
+    random = np.random.default_rng(2)
+    t = np.linspace(0, END, 400)
+    noise = random.normal(size=(12, len(t)))
+    u_star = 0.0168 + 3e-4 * noise[0]
+    history = [t, t / 2.5e-4, u_star, 0.28 + 1e-5 * noise[1], -11 + 0.3 * noise[2],
+               4e-3 + 1e-5 * noise[3], 3e-9 * (1 + np.exp(-t) + 0.1 * noise[4]),
+               0.05 + 2e-3 * noise[5], 10 ** (-9 + 0.2 * noise[6]), 3 + (noise[7] > 0.5),
+               8000 - 20 * t, 15000 + 50 * noise[8], 4e-3 + 2e-4 * noise[9]]
+    header = ("t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,"
+              "grain_kinetic_energy,cfl,continuity_residual,pressure_iterations,n_grains,"
+              "n_contacts,max_overlap")
+    np.savetxt(folder / "history.csv", np.stack(history, axis=1), delimiter=",", fmt="%.9g",
+               header=header, comments="")
+    lines = ["t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost"]
+    for i, time in enumerate(np.linspace(0, END, 161)):
+        wiggle = 1e-4 * random.normal(size=7)
+        centre, horn = shape(time)
+        width = 12e-3 + 2.4e-3 * (1 - np.exp(-time))
+        row = [time, 0, 8000 - int(20 * time), width + wiggle[0], width - horn + wiggle[1],
+               2.0e-3 - 4e-4 * (1 - np.exp(-time)) + 0.2 * wiggle[2], centre + 0.2 * wiggle[3],
+               6e-4, 0.02 + 0.5 * wiggle[4], max(0, horn + wiggle[5]), max(0, horn + wiggle[6]),
+               centre + 1e-3, 3.4e-8, 2.5e-3 if i else np.nan, int(20 * time)]
+        lines.append(",".join(f"{value:.9g}" for value in row))
+    text = "\n".join(lines) + "\n"
+    (folder / "dune.csv").write_text(text[:-20] if cut else text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--without", action="append", default=[],
+                        choices=("grains", "fields", "tables"))
+    parser.add_argument("--cut", action="store_true", help="as a killed run leaves it")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    if "grains" not in options.without:
+        write_grains(options.out, options.cut)
+    if "fields" not in options.without:
+        write_fields(options.out)
+    if "tables" not in options.without:
+        write_tables(options.out, options.cut)
+    if not options.cut:
+        (options.out / "config.toml").write_text(CONFIG)
+        (options.out / "run.json").write_text('{"status": "done", "title": "synthetic barchan"}\n')
+
+
+if __name__ == "__main__":
+    main()
