@@ -1,0 +1,82 @@
+// Grid fields in tests: set and read them on the host, on any backend.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "src/boundary.hpp"
+#include "src/domain.hpp"
+#include "src/mesh.hpp"
+
+namespace barchan::test {
+
+/// A field's values on the host, with its ghosts.
+struct HostField {
+  Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace> values;
+  Real operator()(int i, int j, int k) const { return values(i + 1, j + 1, k + 1); }
+};
+
+inline HostField to_host(const Field& f) {
+  HostField host{decltype(HostField::values)("host", f.storage.extent(0), f.storage.extent(1),
+                                             f.storage.extent(2))};
+  Kokkos::deep_copy(host.values, f.storage);
+  return host;
+}
+
+/// Sets the owned cells to value(i, j, k); ghosts become zero.
+template <class Value>
+void set_field(const Field& f, const Grid& grid, Value value) {
+  decltype(HostField::values) host("host", f.storage.extent(0), f.storage.extent(1),
+                                   f.storage.extent(2));
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+  Kokkos::deep_copy(f.storage, host);
+}
+
+inline FaceVector make_faces(const Grid& grid) {
+  return {Field("x", grid), Field("y", grid), Field("z", grid)};
+}
+
+/// Independent numbers in [-1, 1] in the owned cells.
+inline void set_random(const Field& f, const Grid& grid, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  set_field(f, grid, [&](int, int, int) { return uniform(engine); });
+}
+
+/// Where cell centres and faces are, on the host.
+struct HostGrid {
+  explicit HostGrid(const Grid& g) : grid(g) {
+    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g.y_face_);
+    for (std::size_t n = 0; n < face.extent(0); ++n) faces.push_back(face(n));
+  }
+  double x_face(int i) const { return grid.x0 + i * grid.dx; }
+  double x(int i) const { return grid.x0 + (i + 0.5) * grid.dx; }
+  double z_face(int k) const { return grid.z0 + k * grid.dz; }
+  double z(int k) const { return grid.z0 + (k + 0.5) * grid.dz; }
+  double y_face(int j) const { return faces[static_cast<std::size_t>(j + 1)]; }
+  double y(int j) const { return 0.5 * (y_face(j) + y_face(j + 1)); }
+  double dy(int j) const { return y_face(j + 1) - y_face(j); }
+  double volume(int j) const { return grid.dx * dy(j) * grid.dz; }
+
+  Grid grid;
+  std::vector<double> faces;
+};
+
+/// Stretched unless `first` is zero.
+inline Grid stretched_grid(std::array<int, 3> n, std::array<double, 3> size, double first) {
+  return make_grid(n[0], n[2], size[0], size[2], stretched_faces(size[1], n[1], first));
+}
+
+inline Config flow_config(std::array<int, 3> n, std::array<double, 3> size, double first) {
+  Config config;
+  config.size = size;
+  config.fluid = FluidConfig{};
+  config.fluid->cells = n;
+  config.fluid->first_cell_height = first;
+  return config;
+}
+
+}  // namespace barchan::test

@@ -1,0 +1,196 @@
+// Stencils on fields whose derivatives are known, on a grid that tells the axes apart.
+#include <gtest/gtest.h>
+
+#include "kernels/face_forces.hpp"
+#include "kernels/flow_sums.hpp"
+#include "kernels/wale.hpp"
+#include "src/launch.hpp"
+#include "tests/support/flow_fields.hpp"
+
+namespace barchan {
+namespace {
+
+using test::HostGrid;
+
+Grid awkward_grid() { return test::stretched_grid({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02); }
+
+/// Sets a field everywhere, ghosts included, to a function of place.
+template <class Value>
+void set_everywhere(const Field& f, const Grid& grid, Value value) {
+  decltype(test::HostField::values) host("host", grid.nx + 2, grid.ny + 2, grid.nz + 2);
+  for (int k = -1; k <= grid.nz; ++k)
+    for (int j = -1; j <= grid.ny; ++j)
+      for (int i = -1; i <= grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+  Kokkos::deep_copy(f.storage, host);
+}
+
+/// u = a + g x + parabolas in y, sampled on the faces.
+FaceVector linear_velocity(const Grid& grid, const Mat3& g, double parabola) {
+  const HostGrid h(grid);
+  const FaceVector u = test::make_faces(grid);
+  set_everywhere(u.x, grid, [&](int i, int j, int k) {
+    return 1 + g.xx * h.x_face(i) + g.xy * h.y(j) + g.xz * h.z(k) + parabola * h.y(j) * h.y(j);
+  });
+  set_everywhere(u.y, grid, [&](int i, int j, int k) {
+    return 2 + g.yx * h.x(i) + g.yy * h.y_face(j) + g.yz * h.z(k);
+  });
+  set_everywhere(u.z, grid, [&](int i, int j, int k) {
+    return 3 + g.zx * h.x(i) + g.zy * h.y(j) + g.zz * h.z_face(k) + parabola * h.y(j) * h.y(j);
+  });
+  return u;
+}
+
+struct StoreGradient {
+  Grid grid;
+  FaceVector u;
+  Kokkos::View<Mat3****> out;
+  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
+    out(i, j, k, 0) = gradient_at_cell(grid, u, i, j, k);
+  }
+};
+
+TEST(FluidStencil, GradientIsExactForLinearFieldsAndParabolasInY) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  const Mat3 g{.xx = 1, .xy = -2, .xz = 3, .yx = 4, .yy = -5, .yz = 6, .zx = 7, .zy = 8, .zz = 9};
+  const Kokkos::View<Mat3****> out("gradient", grid.nx, grid.ny, grid.nz, 1);
+  for_each_cell("test", grid, StoreGradient{grid, linear_velocity(grid, g, 10), out});
+  const auto got = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const Mat3 a = got(i, j, k, 0);
+        // The ghost rows mirror the height of the first row, so parabolas hold there, too.
+        const double extra = 20 * h.y(j);
+        EXPECT_NEAR(a.xx, 1, 1e-11);
+        EXPECT_NEAR(a.xy, -2 + extra, 1e-11);
+        EXPECT_NEAR(a.xz, 3, 1e-11);
+        EXPECT_NEAR(a.yx, 4, 1e-11);
+        EXPECT_NEAR(a.yy, -5, 1e-11);
+        EXPECT_NEAR(a.yz, 6, 1e-11);
+        EXPECT_NEAR(a.zx, 7, 1e-11);
+        EXPECT_NEAR(a.zy, 8 + extra, 1e-11);
+        EXPECT_NEAR(a.zz, 9, 1e-11);
+      }
+}
+
+struct StoreFaces {
+  Grid grid;
+  StressDivergence stress;
+  ConvectiveAcceleration convective;
+  FaceVector tau, acceleration;
+  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
+    tau.x(i, j, k) = stress.x(i, j, k);
+    tau.y(i, j, k) = stress.y(i, j, k);
+    tau.z(i, j, k) = stress.z(i, j, k);
+    acceleration.x(i, j, k) = convective.x(i, j, k);
+    acceleration.y(i, j, k) = convective.y(i, j, k);
+    acceleration.z(i, j, k) = convective.z(i, j, k);
+  }
+};
+
+TEST(FluidStencil, StressOfAParabolaAndConvectionOfALinearFlow) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  const FaceVector tau = test::make_faces(grid), acceleration = test::make_faces(grid);
+  const Field nu_t("nu_t", grid);
+  Kokkos::deep_copy(nu_t.storage, Real(0.25));
+  const Mat3 g{.xx = 1, .xy = -2, .xz = 3, .yx = 4, .yy = -5, .yz = 6, .zx = 7, .zy = 8, .zz = 9};
+  const FaceVector u = linear_velocity(grid, g, 0);
+  const FaceVector parabola = linear_velocity(grid, Mat3{}, 10);
+  for_each_cell("test", grid,
+                StoreFaces{grid, {grid, parabola, nu_t, 0.5}, {grid, u}, tau, acceleration});
+  const auto tau_x = test::to_host(tau.x), tau_y = test::to_host(tau.y),
+             ax = test::to_host(acceleration.x), ay = test::to_host(acceleration.y),
+             az = test::to_host(acceleration.z);
+  const auto velocity = [&](double x, double y, double z) {
+    return Vec3{1 + g.xx * x + g.xy * y + g.xz * z, 2 + g.yx * x + g.yy * y + g.yz * z,
+                3 + g.zx * x + g.zy * y + g.zz * z};
+  };
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 1; j < grid.ny - 1; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        // Second difference of 10 y^2 between centres on a stretched row: 20 (h- + h+) / (2 dy).
+        const double height = 0.5 * (h.y(j + 1) - h.y(j - 1));
+        EXPECT_NEAR(tau_x(i, j, k), 0.75 * 20 * height / h.dy(j), 1e-9);
+        EXPECT_NEAR(tau_y(i, j, k), 0, 1e-9);
+        const Vec3 on_x = velocity(h.x_face(i), h.y(j), h.z(k));
+        EXPECT_NEAR(ax(i, j, k), g.xx * on_x.x + g.xy * on_x.y + g.xz * on_x.z, 1e-10);
+        const Vec3 on_y = velocity(h.x(i), h.y_face(j), h.z(k));
+        EXPECT_NEAR(ay(i, j, k), g.yx * on_y.x + g.yy * on_y.y + g.yz * on_y.z, 1e-10);
+        const Vec3 on_z = velocity(h.x(i), h.y(j), h.z_face(k));
+        EXPECT_NEAR(az(i, j, k), g.zx * on_z.x + g.zy * on_z.y + g.zz * on_z.z, 1e-10);
+      }
+}
+
+/// What the face of a direction ('x', 'y' or 'z') holds: mean times the face cell's height. The
+/// half cells at the walls belong to the lowest and highest face.
+struct FaceContent {
+  Grid grid;
+  Field alpha;
+  char axis;
+  KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
+    if (axis == 'x') return cell_to_xface(alpha, i, j, k) * grid.dy(j);
+    if (axis == 'z') return cell_to_zface(alpha, i, j, k) * grid.dy(j);
+    const int ny = grid.ny;
+    Real content = j > 0 ? cell_to_yface(grid, alpha, i, j, k) * grid.dy_centre(j)
+                         : alpha(i, 0, k) * grid.dy(0) / 2;
+    if (j == ny - 1) content += alpha(i, ny - 1, k) * grid.dy(ny - 1) / 2;
+    return content;
+  }
+};
+
+TEST(FluidStencil, FaceMeansKeepTheVolume) {
+  const Grid grid = awkward_grid();
+  const Field alpha("alpha", grid);
+  test::set_random(alpha, grid, 1);
+  Boundary(grid, WallFlow::no_slip, WallFlow::free_slip).fill(alpha, FieldKind::scalar);
+  const double cells = sum_each_cell("test", grid, HeightSum{grid, alpha});
+  for (const char axis : {'x', 'y', 'z'}) {
+    EXPECT_NEAR(sum_each_cell("test", grid, FaceContent{grid, alpha, axis}), cells, 1e-12) << axis;
+  }
+}
+
+TEST(FluidStencil, GhostsFollowTheTable) {
+  const Grid grid = awkward_grid();
+  const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
+  const Field f("f", grid);
+  const int ny = grid.ny, nx = grid.nx, nz = grid.nz;
+  const auto filled = [&](FieldKind kind) {
+    test::set_random(f, grid, 2);
+    boundary.fill(f, kind);
+    return test::to_host(f);
+  };
+  for (const FieldKind kind :
+       {FieldKind::velocity_x, FieldKind::velocity_z, FieldKind::eddy_viscosity}) {
+    const auto h = filled(kind);
+    EXPECT_EQ(h(3, -1, 4), -h(3, 0, 4));
+    EXPECT_EQ(h(3, ny, 4), h(3, ny - 1, 4));
+    EXPECT_EQ(h(-1, 2, 4), h(nx - 1, 2, 4));
+    EXPECT_EQ(h(nx, 2, 4), h(0, 2, 4));
+    EXPECT_EQ(h(3, 2, -1), h(3, 2, nz - 1));
+    EXPECT_EQ(h(-1, -1, nz), -h(nx - 1, 0, 0));
+  }
+  const auto v = filled(FieldKind::velocity_y);
+  EXPECT_EQ(v(3, 0, 4), 0);
+  EXPECT_EQ(v(3, ny, 4), 0);
+  EXPECT_EQ(v(3, -1, 4), -v(3, 1, 4));
+  const auto p = filled(FieldKind::scalar);
+  EXPECT_EQ(p(3, -1, 4), p(3, 0, 4));
+  EXPECT_EQ(p(3, ny, 4), p(3, ny - 1, 4));
+}
+
+TEST(FluidWale, KnownGradients) {
+  const double c = 0.325 * 2e-3, a = 7;
+  const auto scaled = [&](const Mat3& g) { return wale_viscosity(g, c) / (c * c * a); };
+  EXPECT_EQ(wale_viscosity(Mat3{}, c), 0);
+  EXPECT_EQ(scaled(Mat3{.xy = a}), 0);  // pure shear
+  const double strain = std::pow(2.0 / 3, 1.5) / (std::pow(2, 2.5) + std::pow(2.0 / 3, 1.25));
+  EXPECT_NEAR(scaled(Mat3{.xx = a, .yy = -a}), strain, 1e-14);
+  EXPECT_NEAR(strain, 0.0870, 5e-5);
+  EXPECT_NEAR(scaled(Mat3{.xy = -a, .yx = a}), std::pow(2.0 / 3, 0.25), 1e-14);  // rotation
+  EXPECT_NEAR(std::pow(2.0 / 3, 0.25), 0.9036, 5e-5);
+}
+
+}  // namespace
+}  // namespace barchan
