@@ -159,7 +159,7 @@ bool with_section(Reading& reading, Section& root, std::string_view name, Fill f
 
 void require_section(Reading& reading, bool present, const std::string& name) {
   if (!present && !reading.is_bad(name)) {
-    reading.complain(name, "required section is missing");
+    reading.complain_about_missing(name);
   }
 }
 
@@ -215,7 +215,7 @@ void report(const std::vector<Finding>& findings, Reading& reading) {
     const bool doubtful = std::any_of(finding.keys.begin(), finding.keys.end(),
                                       [&](const std::string& key) { return reading.is_bad(key); });
     if (finding.severity == Finding::Severity::error && !doubtful) {
-      reading.complain(finding.keys.front(), finding.message);
+      reading.contradict(finding.keys.front(), finding.message);
     }
   }
 }
@@ -228,7 +228,7 @@ std::optional<Loaded> load_start(const Config& config, const std::string& key, R
   if (start.extension() != ".toml" || reading.is_bad(key)) return {};
   chain.push_back(fs::weakly_canonical(config.file));
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(start)) != chain.end()) {
-    reading.complain(key, "must not lead back to this case");
+    reading.contradict(key, "must not lead back to this case");
     return {};
   }
   Loaded loaded;

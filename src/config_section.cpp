@@ -49,23 +49,32 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
   return best;
 }
 
-void Reading::complain(const Location& where, std::string_view section, std::string_view key,
-                       const Node* node, const std::string& message) {
+void Reading::add(const Location& where, std::string_view section, std::string_view key,
+                  const Node* node, const std::string& message) {
   std::string text = section.empty() ? std::string() : fmt::format("[{}] ", section);
   text += key;
   if (node != nullptr) text += " = " + toml_text(*node);
   problems_.push_back({where, fmt::format("{}: {}", text, message)});
+}
+
+void Reading::complain(const Location& where, std::string_view section, std::string_view key,
+                       const Node* node, const std::string& message) {
+  add(where, section, key, node, message);
   bad_.insert(dotted(section, key));
 }
 
-void Reading::complain(const std::string& dotted_key, const std::string& message) {
+void Reading::complain_about_missing(const std::string& section) {
+  problems_.push_back({{file_, 0}, fmt::format("[{}]: required section is missing", section)});
+  bad_.insert(section);
+}
+
+void Reading::contradict(const std::string& dotted_key, const std::string& message) {
   const auto at = written_.find(dotted_key);
   const Node* node = at == written_.end() ? nullptr : at->second;
   const std::size_t dot = dotted_key.rfind('.');
   if (dot == dotted_key.npos) {  // a section as a whole
     problems_.push_back({node != nullptr ? node->where : Location{file_, 0},
                          fmt::format("[{}]: {}", dotted_key, message)});
-    bad_.insert(dotted_key);
     return;
   }
   const std::string section = dotted_key.substr(0, dot);
@@ -76,7 +85,7 @@ void Reading::complain(const std::string& dotted_key, const std::string& message
   } else if (around != written_.end()) {
     where = around->second->where;
   }
-  complain(where, section, dotted_key.substr(dot + 1), node, message);
+  add(where, section, dotted_key.substr(dot + 1), node, message);
 }
 
 bool Reading::is_bad(const std::string& dotted_key) const {

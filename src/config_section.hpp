@@ -39,11 +39,14 @@ class Reading {
  public:
   explicit Reading(std::string file) : file_(std::move(file)) {}
 
-  /// "[section] key = value: message", or without the value when it was not written.
+  /// "[section] key = value: message", or without the value when it was not written. The key is
+  /// bad from then on: nothing is to be concluded from its value.
   void complain(const Location& where, std::string_view section, std::string_view key,
                 const Node* node, const std::string& message);
-  /// A complaint about a dotted key wherever it was written; the file as a whole if nowhere.
-  void complain(const std::string& dotted_key, const std::string& message);
+  void complain_about_missing(const std::string& section);
+  /// A complaint about a dotted key (or a section) that was read well but does not fit the others,
+  /// at the line where it was written, else that of its section, else the file as a whole.
+  void contradict(const std::string& dotted_key, const std::string& message);
   /// True if `dotted_key` or the section it is in could not be read as meant.
   bool is_bad(const std::string& dotted_key) const;
 
@@ -61,13 +64,15 @@ class Reading {
     const Node* node;
   };
   std::string suggestion(const Unknown& unknown) const;
+  void add(const Location& where, std::string_view section, std::string_view key, const Node* node,
+           const std::string& message);
 
   std::string file_;
   std::vector<Problem> problems_;
   std::vector<Unknown> unknown_;
   std::map<std::string, std::vector<std::string>> keys_;  // section -> its valid keys
   std::map<std::string, const Node*> written_;            // dotted key -> its value
-  std::set<std::string> bad_;                             // dotted keys with a complaint
+  std::set<std::string> bad_;                             // dotted keys that could not be read
 };
 
 namespace detail {

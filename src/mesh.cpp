@@ -42,9 +42,8 @@ double stretching_ratio(double ly, int ny, double first) {
 std::vector<double> stretched_faces(double ly, int ny, double first) {
   const double q = stretching_ratio(ly, ny, first);
   std::vector<double> faces(ny + 1);
-  const double whole = geometric_sum(q, ny);
+  const double whole = geometric_sum(q, ny);  // scaled by it the last face is ly to the bit
   for (int j = 0; j <= ny; ++j) faces[j] = ly * (geometric_sum(q, j) / whole);
-  faces[ny] = ly;
   return faces;
 }
 

@@ -301,6 +301,13 @@ TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {
   EXPECT_EQ(load(one),
             only(one + ":8: [initial] fluid = \"two.toml\": must have the same mesh; its cells are "
                        "[62, 30, 25] from 0.0001 m"));
+  write("two.toml",
+        "[time]\nend = 1\n[domain]\nsize = [0.1, 0.025, 0.05]\n[fluid]\ncells = [62, 30, 24]\n");
+  const Lines both = load(one);
+  ASSERT_EQ(both.size(), 3u);
+  EXPECT_NE(both[0].find("must have the same domain; its size is [0.1, 0.025, 0.05] m"),
+            std::string::npos);
+  EXPECT_NE(both[1].find("must have the same mesh; its cells are [62, 30, 24]"), std::string::npos);
   write("two.toml", grain_case());
   EXPECT_EQ(load(one),
             only(one + ":8: [initial] fluid = \"two.toml\": must be a case with [fluid]"));

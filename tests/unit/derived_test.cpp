@@ -47,6 +47,8 @@ TEST(Derived, FrictionVelocity) {
 
 TEST(Derived, StepsAreWholeAndForgiveRoundOff) {
   EXPECT_EQ(grain_substeps({.end = 1, .fluid_step = 2.5e-4, .grain_step = 2.5e-6}), 100);
+  // 2.5e-4 / 1e-6 is 250.00000000000003 in floating point.
+  EXPECT_EQ(grain_substeps({.end = 1, .fluid_step = 2.5e-4, .grain_step = 1e-6}), 250);
   EXPECT_EQ(grain_substeps({.end = 1, .fluid_step = 2.5e-4, .grain_step = 2.4e-6}), 105);
   EXPECT_EQ(grain_substeps({.end = 1, .fluid_step = 1e-6, .grain_step = 2.5e-6}), 1);
   EXPECT_EQ(grain_substeps({.end = 1, .fluid_step = 1, .grain_step = 1e-300}), 2000000000);

@@ -39,8 +39,8 @@ TEST(Mesh, UniformWhenTheFirstHeightIsNoneOrTheMean) {
 
 TEST(Mesh, KeepsItsDigitsCloseToUniform) {
   // For q = 1 + s, small s: first = (ly / n) (1 - (n - 1) s / 2).
-  const double s = 1e-6;
-  EXPECT_NEAR(stretching_ratio(1.0, 10, 0.1 * (1 - 4.5 * s)) - 1, s, 1e-10);
+  const double s = 1e-8;
+  EXPECT_NEAR(stretching_ratio(1.0, 10, 0.1 * (1 - 4.5 * s)) - 1, s, 1e-12);
 }
 
 TEST(Mesh, RefusesWhatCannotBe) {
