@@ -10,6 +10,10 @@ set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
 target_compile_options(barchan_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2
   -Wconversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # False alarms of g++ 12 inside the headers of fmt and the standard library at -O3.
+  target_compile_options(barchan_flags INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+endif()
 if(BARCHAN_NATIVE)
   target_compile_options(barchan_flags INTERFACE -march=native)
 endif()

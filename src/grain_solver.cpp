@@ -1,5 +1,6 @@
 #include "src/grain_solver.hpp"
 
+#include "kernels/contact_parts.hpp"
 #include "kernels/grain_motion.hpp"
 #include "kernels/pair_forces.hpp"
 
@@ -70,7 +71,6 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
   grains.wall_xi_t = WallHistory("wall xi_t", n, static_cast<std::size_t>(n_walls_));
   grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
-  list_.rebuild(grains, true);
 }
 
 template <class Stiffness, class Rolling>
@@ -131,6 +131,20 @@ void GrainSolver::remove_left(GrainState& grains) {
       KOKKOS_LAMBDA(int g, int& count) { count += kin(g).x.x >= 0 && kin(g).x.x <= lx ? 0 : 1; },
       n_outside);
   if (n_outside > 0) list_.rebuild(grains, true);
+}
+
+void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
+                                 const Kokkos::View<Vec3*>& tangential) const {
+  SplitContacts split{.box = list_.box(),
+                      .list = grains.list,
+                      .grains = grains.kin,
+                      .contact_force = grains.contact_force,
+                      .wall_touching = grains.wall_touching,
+                      .plane = {},
+                      .normal = normal,
+                      .tangential = tangential};
+  for (int w = 0; w < n_walls_; ++w) split.plane[w] = plane_[w];
+  Kokkos::parallel_for("output: split contacts", grains.n, split);
 }
 
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {

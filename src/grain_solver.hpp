@@ -25,8 +25,11 @@ struct ContactSummary {
 /// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet.
 class GrainSolver {
  public:
-  /// Sets up walls and history; builds the first list.
+  /// Sets up laws, walls and their history. Then call start() or, for rows read from a restart,
+  /// restore_list().
   GrainSolver(const Config& config, GrainState& grains);
+  /// Builds the first list.
+  void start(GrainState& grains) { list_.rebuild(grains, true); }
 
   /// n sub-steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
   /// sub-step, bit for bit.
@@ -35,7 +38,11 @@ class GrainSolver {
   void remove_left(GrainState& grains);
   /// Contacts and largest overlap from the last sub-step.
   ContactSummary contacts(const GrainState& grains) const;
-  /// The list as the last rebuild left it, after the rows of a restart were read.
+  /// Normal and tangential contact force of each grain in the last sub-step [N].
+  void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
+                      const Kokkos::View<Vec3*>& tangential) const;
+  /// The list as the last rebuild left it, from the x_reference of a restart; the history of its
+  /// slots is then to be read.
   void restore_list(GrainState& grains) { list_.restore(grains); }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
 

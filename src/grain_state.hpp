@@ -5,6 +5,7 @@
 
 #include "kernels/grain.hpp"
 #include "kernels/grain_motion.hpp"
+#include "kernels/interphase.hpp"
 #include "src/grain_files.hpp"
 
 namespace barchan {
@@ -17,8 +18,7 @@ struct GrainState {
   Kokkos::View<Vec3*> contact_force, contact_torque;   // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                     // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                 // constant over one fluid step
-  Kokkos::View<Vec3*> u_start;                         // velocity as the fluid step began [m/s]
-  Kokkos::View<Vec3*> carried_impulse;                 // owed by the fluid's implicit drag [N s]
+  ExchangeOnGrains exchange;                           // kept for the deposit
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;  // (n, wall) tangential displacement [m]
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // (n, wall) rolling torque [N m]
   Kokkos::View<std::uint8_t*> wall_touching;           // bit per wall

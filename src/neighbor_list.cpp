@@ -24,7 +24,7 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 template <class View>
 void reserve(View& view, const char* label, int n) {
   if (static_cast<int>(view.extent(0)) < n) {
-    view = View(Kokkos::view_alloc(label, Kokkos::WithoutInitializing),
+    view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
                 static_cast<std::size_t>(n + n / 4 + 64));
   }
 }

@@ -1,0 +1,280 @@
+// The two sides of the exchange: fluid to grain (gather) and grain to fluid (deposit, spread),
+// and the way back of what the implicit drag moved (return). Equations: docs/model.md.
+#pragma once
+
+#include "kernels/drag.hpp"
+#include "kernels/grain_motion.hpp"
+#include "kernels/interpolation.hpp"
+#include "kernels/momentum.hpp"
+#include "kernels/void_fraction.hpp"
+
+namespace barchan {
+
+inline constexpr Real kAddedMassCoefficient = 0.5;  // of a sphere
+
+/// Which forces of the fluid act, as numbers to multiply with.
+struct FluidForces {
+  Real drag = 1, pressure_gradient = 1, stress = 1, added_mass = 1, buoyancy = 1;
+};
+
+/// Fluid force per volume of grain on faces, -grad p + rho f e_x + rho div(2 (nu + nu_t) S) [N/m^3]
+/// (Lima et al. 2022, B9 and B10; Set II: the same stress as in the fluid equation), and the
+/// convective acceleration u . grad u [m/s^2] of the added mass.
+struct FluidForceDensity {
+  Grid grid;
+  FaceVector u;
+  Field p;
+  StressDivergence stress;
+  Real rho_f = 0, drive = 0;
+  FluidForces forces;
+  FaceVector force, convective;
+
+  /// Gradient of the velocity component q on its own faces, advected by (a, b, c).
+  KOKKOS_INLINE_FUNCTION Real advect(const Field& q, int i, int j, int k, const Vec3& by,
+                                     Real span_y) const {
+    return by.x * (q(i + 1, j, k) - q(i - 1, j, k)) / (2 * grid.dx) +
+           by.y * (q(i, j + 1, k) - q(i, j - 1, k)) / span_y +
+           by.z * (q(i, j, k + 1) - q(i, j, k - 1)) / (2 * grid.dz);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const Real span_c = grid.dy_centre(j) + grid.dy_centre(j + 1);
+    const Real span_f = grid.dy(j - 1) + grid.dy(j);
+    const Real a = -forces.pressure_gradient, b = rho_f * forces.stress;
+    force.x(i, j, k) = a * (ddx_at_xface(grid, p, i, j, k) - rho_f * drive) + b * stress.x(i, j, k);
+    force.y(i, j, k) = a * ddy_at_yface(grid, p, i, j, k) + b * stress.y(i, j, k);
+    force.z(i, j, k) = a * ddz_at_zface(grid, p, i, j, k) + b * stress.z(i, j, k);
+
+    const auto mean4 = [](Real p0, Real p1, Real p2, Real p3) { return (p0 + p1 + p2 + p3) / 4; };
+    const Vec3 at_x{u.x(i, j, k),
+                    mean4(u.y(i - 1, j, k), u.y(i, j, k), u.y(i - 1, j + 1, k), u.y(i, j + 1, k)),
+                    mean4(u.z(i - 1, j, k), u.z(i, j, k), u.z(i - 1, j, k + 1), u.z(i, j, k + 1))};
+    const Vec3 at_y{mean4(u.x(i, j - 1, k), u.x(i, j, k), u.x(i + 1, j - 1, k), u.x(i + 1, j, k)),
+                    u.y(i, j, k),
+                    mean4(u.z(i, j - 1, k), u.z(i, j, k), u.z(i, j - 1, k + 1), u.z(i, j, k + 1))};
+    const Vec3 at_z{mean4(u.x(i, j, k - 1), u.x(i, j, k), u.x(i + 1, j, k - 1), u.x(i + 1, j, k)),
+                    mean4(u.y(i, j, k - 1), u.y(i, j, k), u.y(i, j + 1, k - 1), u.y(i, j + 1, k)),
+                    u.z(i, j, k)};
+    convective.x(i, j, k) = advect(u.x, i, j, k, at_x, span_c);
+    convective.y(i, j, k) = j > 0 ? advect(u.y, i, j, k, at_y, span_f) : Real(0);
+    convective.z(i, j, k) = advect(u.z, i, j, k, at_z, span_c);
+  }
+};
+
+/// Per grain, what the gather keeps for the deposit.
+struct ExchangeOnGrains {
+  Kokkos::View<Vec3*> u_start;          // velocity as the fluid step began [m/s]
+  Kokkos::View<Vec3*> added_mass_force; // convective part, C_m rho V_p (u . grad u) [N]
+  Kokkos::View<Vec3*> carried_impulse;  // owed to the grain by the last implicit drag [N s]
+};
+
+/// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step.
+/// The drag coefficient is that of the slip at the start; the drag itself follows the grain.
+template <class DragLaw>
+struct GatherFluid {
+  DragLaw drag;
+  Grid grid;
+  FaceVector u, force, convective;
+  Field alpha_f;
+  Real rho_f = 0, mu_f = 0, dt = 0;
+  Vec3 gravity;
+  FluidForces forces;
+  bool wrap_x = false;
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  ExchangeOnGrains exchange;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const PointStencil at(grid, grain.x, wrap_x);
+    const Real alpha = interpolate_cell(alpha_f, at);
+    const Vec3 u_f = interpolate_faces(u, at);
+    const Real volume = sphere_volume(grain.r);
+    const Real added_mass = forces.added_mass * kAddedMassCoefficient * rho_f * volume;
+    const Vec3 added = added_mass * interpolate_faces(convective, at);
+
+    const LocalFlow flow{.alpha_f = alpha < Real(0.1) ? Real(0.1) : (alpha > 1 ? Real(1) : alpha),
+                         .rho_f = rho_f,
+                         .mu_f = mu_f,
+                         .slip = norm(u_f - grain.u),
+                         .d_p = 2 * grain.r};
+    on_grains.u_f(g) = u_f;
+    on_grains.beta(g) = forces.drag * drag(flow);
+    on_grains.added_mass(g) = added_mass;
+    on_grains.steady_force(g) = (grain.m - forces.buoyancy * rho_f * volume) * gravity +
+                                volume * interpolate_faces(force, at) + added +
+                                (1 / dt) * exchange.carried_impulse(g);
+    on_grains.drag_impulse(g) = Vec3{};
+    exchange.u_start(g) = grain.u;
+    exchange.added_mass_force(g) = added;
+  }
+};
+
+/// Still, unbounded fluid around grains without a flow solver: weight, buoyancy, Schiller-Naumann
+/// drag, added mass. rho_f = 0 leaves the weight alone.
+struct GatherStillFluid {
+  Real rho_f = 0, mu_f = 0;
+  Vec3 gravity;
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const Real volume = sphere_volume(grain.r);
+    const LocalFlow flow{
+        .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};
+    on_grains.u_f(g) = Vec3{};
+    on_grains.beta(g) = rho_f > 0 ? SchillerNaumann{}(flow) : Real(0);
+    on_grains.added_mass(g) = kAddedMassCoefficient * rho_f * volume;
+    on_grains.steady_force(g) = (grain.m - rho_f * volume) * gravity;
+    on_grains.drag_impulse(g) = Vec3{};
+  }
+};
+
+/// Grains held in place: the drag impulse of a whole fluid step.
+struct DragOnFrozenGrains {
+  Real dt = 0;
+  FluidOnGrains on_grains;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    on_grains.drag_impulse(g) = (dt * on_grains.beta(g)) * on_grains.u_f(g);
+  }
+};
+
+/// Sums on owned cells in fixed point.
+struct Deposits {
+  static constexpr int kQuantities = 5;  // volume, implicit coefficient, impulse x, y, z
+  Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
+  FixedPoint volume, implicit, impulse;
+};
+
+/// What one grain gives to the fluid in one fluid step.
+struct GrainExchange {
+  Real volume;    // [m^3]
+  Real implicit;  // dt beta + added mass [kg]
+  Vec3 impulse;   // drag and added mass on the grain during the sub-steps [N s]
+};
+
+struct ExchangeOfGrain {
+  Real dt = 0;
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  ExchangeOnGrains exchange;
+
+  KOKKOS_INLINE_FUNCTION GrainExchange operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const Real added_mass = on_grains.added_mass(g);
+    return {.volume = sphere_volume(grain.r),
+            .implicit = dt * on_grains.beta(g) + added_mass,
+            .impulse = on_grains.drag_impulse(g) + dt * exchange.added_mass_force(g) -
+                       added_mass * (grain.u - exchange.u_start(g))};
+  }
+};
+
+/// Deposits the volume and the exchange of each grain in the cells of its points.
+struct DepositGrain {
+  Locate locate;
+  ExchangeOfGrain of_grain;
+  Deposits deposits;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainCells cells = locate(of_grain.grains(g));
+    const GrainExchange e = of_grain(g);
+    for (int q = 0; q < cells.n; ++q) {
+      const Real w = cells.weight(q);
+      const auto add = [&](int quantity, const FixedPoint& point, Real value) {
+        Kokkos::atomic_add(&deposits.sum(cells.cell[q], quantity), point.encode(w * value));
+      };
+      add(0, deposits.volume, e.volume);
+      add(1, deposits.implicit, e.implicit);
+      add(2, deposits.impulse, e.impulse.x);
+      add(3, deposits.impulse, e.impulse.y);
+      add(4, deposits.impulse, e.impulse.z);
+    }
+  }
+};
+
+/// One quantity of the deposits as a density on cells: sum / cell volume.
+struct DecodeDeposit {
+  Grid grid;
+  Deposits deposits;
+  FixedPoint point;
+  int quantity = 0;
+  Field density;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const std::int64_t cell = i + std::int64_t{grid.nx} * (j + std::int64_t{grid.ny} * k);
+    density(i, j, k) = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
+  }
+};
+
+/// Shares of a cell's content that go to its lower and upper y-face; nothing goes to the walls.
+struct FaceShares {
+  Real lower, upper;
+};
+KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
+  if (ny == 1) return {0, 0};
+  if (j == 0) return {0, 1};
+  return j == ny - 1 ? FaceShares{1, 0} : FaceShares{Real(0.5), Real(0.5)};
+}
+
+/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
+struct SpreadToFaces {
+  Grid grid;
+  Field implicit, impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
+  ExchangeOnFaces exchange;
+
+  KOKKOS_INLINE_FUNCTION Real on_y_face(const Field& f, int i, int j, int k) const {
+    if (j == 0) return 0;
+    return (f(i, j - 1, k) * grid.dy(j - 1) * y_face_shares(j - 1, grid.ny).upper +
+            f(i, j, k) * grid.dy(j) * y_face_shares(j, grid.ny).lower) /
+           grid.dy_centre(j);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const FaceVector &a = exchange.impulse, &m = exchange.implicit;
+    // The fluid gets the opposite of what the grains got.
+    a.x(i, j, k) = -(impulse_x(i - 1, j, k) + impulse_x(i, j, k)) / 2;
+    a.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
+    a.z(i, j, k) = -(impulse_z(i, j, k - 1) + impulse_z(i, j, k)) / 2;
+    m.x(i, j, k) = (implicit(i - 1, j, k) + implicit(i, j, k)) / 2;
+    m.y(i, j, k) = on_y_face(implicit, i, j, k);
+    m.z(i, j, k) = (implicit(i, j, k - 1) + implicit(i, j, k)) / 2;
+  }
+};
+
+/// Change of the fluid velocity within the step on cells: the adjoint of SpreadToFaces.
+struct VelocityChangeOnCells {
+  Grid grid;
+  FaceVector du_dt;
+  Real dt = 0;
+  Field x, y, z;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const FaceShares share = y_face_shares(j, grid.ny);
+    x(i, j, k) = dt * (du_dt.x(i, j, k) + du_dt.x(i + 1, j, k)) / 2;
+    y(i, j, k) = dt * (share.lower * du_dt.y(i, j, k) + share.upper * du_dt.y(i, j + 1, k));
+    z(i, j, k) = dt * (du_dt.z(i, j, k) + du_dt.z(i, j, k + 1)) / 2;
+  }
+};
+
+/// What the implicit drag took from the fluid within the step beyond the sub-steps' impulse goes
+/// back to the grains, in the weights it was deposited with.
+struct CarryToGrain {
+  Locate locate;
+  ExchangeOfGrain of_grain;
+  Field x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
+  Kokkos::View<Vec3*> carried_impulse;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainCells cells = locate(of_grain.grains(g));
+    const Grid& grid = locate.grid;
+    Vec3 change;
+    for (int q = 0; q < cells.n; ++q) {
+      const int i = static_cast<int>(cells.cell[q] % grid.nx);
+      const int j = static_cast<int>(cells.cell[q] / grid.nx % grid.ny);
+      const int k = static_cast<int>(cells.cell[q] / grid.nx / grid.ny);
+      change += cells.weight(q) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
+    }
+    carried_impulse(g) = of_grain(g).implicit * change;
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,107 @@
+// Where a grain's volume lies on the grid: the divided void fraction, and deposits that add up to
+// the same bits in any order.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/grain.hpp"
+#include "kernels/grid.hpp"
+
+namespace barchan {
+
+/// 29 points of equal volume: the centre and two shells of 14 (6 on the axes, 8 at polar angles of
+/// 45 and 135 degrees), at the volume-weighted mean radii of the shells bounded by cbrt(1/29),
+/// cbrt(15/29) and 1 of the grain radius: r = (3/4)(b^4 - a^4)/(b^3 - a^3). The points of CFDEM's
+/// "divided" model (Lima et al. 2022, Sec. IV).
+inline constexpr int kDividedPoints = 29;
+inline constexpr Real kInnerShell = 0.6276;  // fractions of the radius
+inline constexpr Real kOuterShell = 0.9085;
+
+/// Offset of point p from the centre in units of the grain radius.
+KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
+  if (p == 0) return {};
+  const Real shell = p <= 14 ? kInnerShell : kOuterShell;
+  const int q = (p - 1) % 14;
+  if (q < 6) {
+    const Real side = q % 2 == 0 ? shell : -shell;
+    return {q / 2 == 0 ? side : 0, q / 2 == 1 ? side : 0, q / 2 == 2 ? side : 0};
+  }
+  const int corner = q - 6;  // polar angle from z: sin = cos = 1/sqrt 2; azimuth 45 + 90 n degrees
+  const Real root_half = Real(0.70710678118654752);
+  return {(corner & 1 ? -shell : shell) / 2, (corner & 2 ? -shell : shell) / 2,
+          (corner & 4 ? -shell : shell) * root_half};
+}
+
+/// Cells that share a grain, and how many of its points each holds.
+struct GrainCells {
+  int n = 0, n_points = 0;
+  std::int64_t cell[kDividedPoints];
+  int count[kDividedPoints];
+
+  KOKKOS_INLINE_FUNCTION void add(std::int64_t c) {
+    ++n_points;
+    for (int q = 0; q < n; ++q) {
+      if (cell[q] == c) {
+        ++count[q];
+        return;
+      }
+    }
+    cell[n] = c;
+    count[n++] = 1;
+  }
+  /// Share of the grain in its q-th cell; the shares add up to one.
+  KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
+};
+
+/// `cfdem`: a point outside gives its share to the grain's own cell, as CFDEM does.
+enum class PointSet { divided, centre, cfdem };
+
+/// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one beyond
+/// the outlet goes to the last cell, periodic directions wrap.
+struct Locate {
+  Grid grid;
+  PointSet points = PointSet::divided;
+  bool wrap_x = false;
+
+  /// Linear index of the owned cell (i + nx (j + ny k)) that holds a point.
+  KOKKOS_INLINE_FUNCTION std::int64_t cell_of(const Vec3& p) const {
+    int i = static_cast<int>(Kokkos::floor((p.x - grid.x0) / grid.dx));
+    int k = static_cast<int>(Kokkos::floor((p.z - grid.z0) / grid.dz));
+    if (wrap_x) i = ((i % grid.nx) + grid.nx) % grid.nx;
+    i = i < 0 ? 0 : (i >= grid.nx ? grid.nx - 1 : i);
+    k = ((k % grid.nz) + grid.nz) % grid.nz;
+    Real y = p.y < 0 ? -p.y : p.y;
+    y = y > grid.ly ? 2 * grid.ly - y : y;
+    return i + std::int64_t{grid.nx} * (grid.row_of(y) + std::int64_t{grid.ny} * k);
+  }
+  KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
+    GrainCells cells;
+    const int n = points == PointSet::centre ? 1 : kDividedPoints;
+    for (int p = 0; p < n; ++p) {
+      const Vec3 point = g.x + g.r * divided_point(p);
+      const bool outside = point.y < 0 || point.y > grid.ly;
+      cells.add(cell_of(outside && points == PointSet::cfdem ? g.x : point));
+    }
+    return cells;
+  }
+};
+
+/// Fixed-point numbers: integer sums do not depend on the order of threads or ranks.
+struct FixedPoint {
+  Real scale = 1;  // integers per unit, a power of two
+
+  KOKKOS_INLINE_FUNCTION std::int64_t encode(Real value) const {
+    return static_cast<std::int64_t>(Kokkos::round(value * scale));
+  }
+  KOKKOS_INLINE_FUNCTION Real decode(std::int64_t sum) const {
+    return static_cast<Real>(sum) / scale;
+  }
+};
+
+/// Finest scale with which sums up to `largest` stay inside 62 bits.
+inline FixedPoint fixed_point_for(Real largest) {
+  if (!(largest > 0)) return {};
+  return {Kokkos::pow(Real(2), Kokkos::floor(Kokkos::log2(Real(4.6e18) / largest)))};
+}
+
+}  // namespace barchan

@@ -1,0 +1,84 @@
+#include "src/coupled_step.hpp"
+
+#include "src/derived.hpp"
+
+namespace barchan {
+
+CoupledStep::CoupledStep(const Config& config, SystemState& state)
+    : dt_(config.time.fluid_step), n_substeps_(grain_substeps(config.time)) {
+  if (state.fluid) fluid_ = std::make_unique<FluidSolver>(config, state.fluid->grid);
+  if (!state.grains) return;
+  frozen_ = config.grains->frozen;
+  grains_ = std::make_unique<GrainSolver>(config, *state.grains);
+  const auto& g = config.grains->gravity;
+  still_.gravity = {g[0], g[1], g[2]};
+  if (state.fluid) {
+    coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
+  } else if (config.grains->ambient) {
+    still_.rho_f = config.grains->ambient->density;
+    still_.mu_f = still_.rho_f * config.grains->ambient->kinematic_viscosity;
+  }
+}
+
+void CoupledStep::start(SystemState& state) {
+  if (grains_) grains_->start(*state.grains);
+  if (coupling_) coupling_->start(*state.grains, *state.fluid);
+  if (fluid_) fluid_->fill_ghosts(*state.fluid);
+}
+
+void CoupledStep::advance(SystemState& state) {
+  if (coupling_) {
+    advance_coupled(*state.fluid, *state.grains);
+  } else if (fluid_) {
+    const PhaseTimer timer(phases_, "fluid");
+    fluid_report_ = fluid_->advance(*state.fluid, nullptr, dt_);
+  } else {
+    advance_grains(*state.grains);
+  }
+  phases_["fluid"] -= fluid_report_.seconds_pressure;
+  phases_["pressure"] += fluid_report_.seconds_pressure;
+}
+
+/// t -> t + dt: the grains move through the flow of time t, then the flow answers.
+void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
+  {
+    const PhaseTimer timer(phases_, "exchange");
+    coupling_->gather(fluid, grains, dt_);  // u_f, drag coefficient, steady forces at the grains
+  }
+  {
+    const PhaseTimer timer(phases_, "grains");
+    move_grains(grains);  // sub-steps; the drag follows the grain at fixed u_f
+  }
+  {
+    const PhaseTimer timer(phases_, "deposit");
+    coupling_->deposit(grains, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
+  }
+  {
+    const PhaseTimer timer(phases_, "fluid");
+    fluid_report_ = fluid_->advance(fluid, &coupling_->on_faces(), dt_);  // WALE, u*, p, u
+  }
+  const PhaseTimer timer(phases_, "exchange");
+  coupling_->carry(fluid, grains, dt_);  // what the implicit drag moved goes to the grains next
+  ledger_.close_step(coupling_->ledger(), grains);
+  grains_->remove_left(grains);
+}
+
+void CoupledStep::advance_grains(GrainState& grains) {
+  const PhaseTimer timer(phases_, "grains");
+  still_.grains = grains.kin;
+  still_.on_grains = grains.fluid;
+  Kokkos::parallel_for("grains: still fluid", grains.n, still_);
+  move_grains(grains);
+  grains_->remove_left(grains);
+}
+
+void CoupledStep::move_grains(GrainState& grains) {
+  if (frozen_) {
+    Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
+                         DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
+  } else {
+    grains_->advance(grains, n_substeps_, dt_ / n_substeps_);
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,277 @@
+#include "src/coupling.hpp"
+
+#include "src/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+DragModel make_drag(const Config& config, const GrainState& grains) {
+  switch (config.coupling.drag) {
+    case DragLaw::gidaspow: return Gidaspow{};
+    case DragLaw::di_felice: return DiFelice{};
+    case DragLaw::koch_hill: return KochHill{};
+    case DragLaw::syamlal_obrien: return SyamlalOBrien{};
+    case DragLaw::paper_repaired: return PaperRepaired{};
+    case DragLaw::none: return NoDrag{};
+    case DragLaw::beetstra: break;
+  }
+  Real d3 = 0, d2 = 0;
+  const auto kin = grains.kin;
+  Kokkos::parallel_reduce(
+      "coupling: Sauter mean diameter", grains.n,
+      KOKKOS_LAMBDA(int g, Real& cubes, Real& squares) {
+        const Real d = 2 * kin(g).r;
+        cubes += d * d * d;
+        squares += d * d;
+      },
+      d3, d2);
+  return Beetstra{.d_mean = d2 > 0 ? d3 / d2 : 1};
+}
+
+PointSet point_set(VoidFraction v) {
+  switch (v) {
+    case VoidFraction::centre: return PointSet::centre;
+    case VoidFraction::cfdem_faithful: return PointSet::cfdem;
+    case VoidFraction::divided: break;
+  }
+  return PointSet::divided;
+}
+
+FaceVector face_vector(const char* label, const Grid& grid) {
+  return {Field(label, grid), Field(label, grid), Field(label, grid)};
+}
+
+constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
+
+}  // namespace
+
+Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
+                   const Grid& grid)
+    : config_(config.coupling),
+      forces_{.drag = config.coupling.forces.drag ? 1.0 : 0.0,
+              .pressure_gradient = config.coupling.forces.pressure_gradient ? 1.0 : 0.0,
+              .stress = config.coupling.forces.stress ? 1.0 : 0.0,
+              .added_mass = config.coupling.forces.added_mass ? 1.0 : 0.0,
+              .buoyancy = config.coupling.forces.buoyancy ? 1.0 : 0.0},
+      drag_(make_drag(config, grains)),
+      grid_(grid),
+      boundary_(solver.boundary()),
+      smoother_(make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
+      smooths_(config.coupling.smoothing_length > 0),
+      locate_{.grid = grid,
+              .points = point_set(config.coupling.void_fraction),
+              .wrap_x = config.grains->boundary_x == GrainBoundaryX::periodic},
+      rho_f_(config.fluid->density),
+      nu_(config.fluid->kinematic_viscosity),
+      gravity_{config.grains->gravity[0], config.grains->gravity[1], config.grains->gravity[2]},
+      force_(face_vector("coupling: force density", grid)),
+      convective_(face_vector("coupling: convective acceleration", grid)),
+      on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
+  for (Field& f : cell_) f = Field("coupling: cell density", grid);
+  deposits_.sum = decltype(deposits_.sum)(
+      "deposits", static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
+                      static_cast<std::size_t>(grid.nz));
+}
+
+ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
+  return {.dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
+}
+
+void Coupling::force_density(const FluidState& fluid, const FluidForces& forces) {
+  for_each_cell("coupling: force density", grid_,
+                FluidForceDensity{.grid = grid_,
+                                  .u = fluid.u,
+                                  .p = fluid.p,
+                                  .stress = {grid_, fluid.u, fluid.nu_t, nu_},
+                                  .rho_f = rho_f_,
+                                  .drive = fluid.drive,
+                                  .forces = forces,
+                                  .force = force_,
+                                  .convective = convective_});
+  // Wall faces take the value of the first face inside; both sides of the walls are held constant.
+  const Grid grid = grid_;
+  const Field force_y = force_.y;
+  for_each_cell(
+      "coupling: force density at the walls", CellRange{0, grid.nx, 0, 1, 0, grid.nz},
+      KOKKOS_LAMBDA(int i, int, int k) { force_y(i, 0, k) = force_y(i, grid.ny > 1 ? 1 : 0, k); });
+  for (const FaceVector* f : {&force_, &convective_}) {
+    boundary_.fill(f->x, FieldKind::scalar);
+    boundary_.fill(f->y, FieldKind::scalar);
+    boundary_.fill(f->z, FieldKind::scalar);
+  }
+}
+
+void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
+  force_density(fluid, forces_);
+  std::visit(
+      [&](const auto& law) {
+        Kokkos::parallel_for("coupling: gather", grains.n,
+                             GatherFluid{.drag = law,
+                                         .grid = grid_,
+                                         .u = fluid.u,
+                                         .force = force_,
+                                         .convective = convective_,
+                                         .alpha_f = fluid.alpha_f,
+                                         .rho_f = rho_f_,
+                                         .mu_f = rho_f_ * nu_,
+                                         .dt = dt,
+                                         .gravity = gravity_,
+                                         .forces = forces_,
+                                         .wrap_x = locate_.wrap_x,
+                                         .grains = grains.kin,
+                                         .on_grains = grains.fluid,
+                                         .exchange = grains.exchange});
+      },
+      drag_);
+}
+
+void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
+                            const GrainState& grains, const Kokkos::View<Vec3*>& force) {
+  force_density(fluid, which);
+  const Grid grid = grid_;
+  const FaceVector density = force_;
+  const auto kin = grains.kin;
+  const bool wrap_x = locate_.wrap_x;
+  Kokkos::parallel_for(
+      "output: one fluid force", grains.n, KOKKOS_LAMBDA(int g) {
+        const PointStencil at(grid, kin(g).x, wrap_x);
+        force(g) = sphere_volume(kin(g).r) * interpolate_faces(density, at);
+      });
+}
+
+void Coupling::choose_scales(const GrainState& grains, Real dt) {
+  // Bounds of what one cell can receive: everything.
+  Real volume = 0, implicit = 0, impulse = 0;
+  const ExchangeOfGrain exchange = of_grain(grains, dt);
+  Vec3 given;
+  Kokkos::parallel_reduce(
+      "coupling: totals", grains.n,
+      KOKKOS_LAMBDA(int g, Real& v, Real& m, Real& size, Real& x, Real& y, Real& z) {
+        const GrainExchange e = exchange(g);
+        v += e.volume;
+        m += e.implicit;
+        size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
+        x += e.impulse.x;
+        y += e.impulse.y;
+        z += e.impulse.z;
+      },
+      volume, implicit, impulse, given.x, given.y, given.z);
+  deposits_.volume = fixed_point_for(volume);
+  deposits_.implicit = fixed_point_for(implicit);
+  deposits_.impulse = fixed_point_for(impulse);
+  ledger_ = ExchangeLedger{};
+  ledger_.grain_volume = volume;
+  ledger_.given_to_grains = given;
+}
+
+void Coupling::decode(int quantity, const FixedPoint& point, const Field& density) const {
+  for_each_cell("coupling: decode deposit", grid_,
+                DecodeDeposit{.grid = grid_,
+                              .deposits = deposits_,
+                              .point = point,
+                              .quantity = quantity,
+                              .density = density});
+}
+
+void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
+  choose_scales(grains, dt);
+  Kokkos::deep_copy(deposits_.sum, 0);
+  Kokkos::parallel_for(
+      "coupling: deposit", grains.n,
+      DepositGrain{.locate = locate_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
+
+  std::swap(fluid.alpha_f, fluid.alpha_f_previous);
+  const Field alpha = fluid.alpha_f;
+  decode(0, deposits_.volume, alpha);
+  if (config_.void_fraction == VoidFraction::cfdem_faithful) {
+    for_each_cell(
+        "coupling: drop volume above the limit", grid_, KOKKOS_LAMBDA(int i, int j, int k) {
+          alpha(i, j, k) = Kokkos::min(alpha(i, j, k), 1 - kCfdemFloor);
+        });
+  }
+  if (smooths_) smoother_.solve(alpha, alpha);
+  const Grid grid = grid_;
+  ledger_.deposited_volume =
+      sum_each_cell("coupling: solid fraction to fluid fraction", grid,
+                    KOKKOS_LAMBDA(int i, int j, int k) {
+                      const Real solid = alpha(i, j, k);
+                      alpha(i, j, k) = 1 - solid;
+                      return solid * grid.cell_volume(j);
+                    });
+  boundary_.fill(alpha, FieldKind::scalar);
+
+  for (int q = 0; q < 4; ++q) {
+    decode(q + 1, q == 0 ? deposits_.implicit : deposits_.impulse, cell_[q]);
+    if (smooths_) smoother_.solve(cell_[q], cell_[q]);
+    boundary_.fill(cell_[q], FieldKind::scalar);
+  }
+  for_each_cell("coupling: spread to faces", grid_,
+                SpreadToFaces{.grid = grid_,
+                              .implicit = cell_[0],
+                              .impulse_x = cell_[1],
+                              .impulse_y = cell_[2],
+                              .impulse_z = cell_[3],
+                              .exchange = on_faces_});
+}
+
+void Coupling::start(const GrainState& grains, FluidState& fluid) {
+  deposit(grains, fluid, 0);
+  Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
+}
+
+void Coupling::sum_faces(Real dt, const FluidState& fluid) {
+  const Grid grid = grid_;
+  const ExchangeOnFaces e = on_faces_;
+  const FaceVector rate = fluid.du_dt;
+  const auto sum = [&](const Field& impulse, const Field& implicit, const Field& du, bool y_faces,
+                       Real& taken, Real& implicit_taken) {
+    const auto volume = KOKKOS_LAMBDA(int j) {
+      return grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j));
+    };
+    taken = -sum_each_cell(
+        "ledger: taken from the fluid", grid,
+        KOKKOS_LAMBDA(int i, int j, int k) { return impulse(i, j, k) * volume(j); });
+    implicit_taken =
+        dt * sum_each_cell("ledger: implicit drag", grid, KOKKOS_LAMBDA(int i, int j, int k) {
+          return y_faces && j == 0 ? 0 : implicit(i, j, k) * du(i, j, k) * volume(j);
+        });
+  };
+  ExchangeLedger& l = ledger_;
+  sum(e.impulse.x, e.implicit.x, rate.x, false, l.taken_from_fluid.x, l.implicit_on_fluid.x);
+  sum(e.impulse.y, e.implicit.y, rate.y, true, l.taken_from_fluid.y, l.implicit_on_fluid.y);
+  sum(e.impulse.z, e.implicit.z, rate.z, false, l.taken_from_fluid.z, l.implicit_on_fluid.z);
+}
+
+void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
+  for_each_cell("coupling: velocity change", grid_,
+                VelocityChangeOnCells{.grid = grid_,
+                                      .du_dt = fluid.du_dt,
+                                      .dt = dt,
+                                      .x = cell_[1],
+                                      .y = cell_[2],
+                                      .z = cell_[3]});
+  if (smooths_) {
+    for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
+  }
+  Kokkos::parallel_for("coupling: carry to grains", grains.n,
+                       CarryToGrain{.locate = locate_,
+                                    .of_grain = of_grain(grains, dt),
+                                    .x = cell_[1],
+                                    .y = cell_[2],
+                                    .z = cell_[3],
+                                    .carried_impulse = grains.exchange.carried_impulse});
+  sum_faces(dt, fluid);
+  const auto carried = grains.exchange.carried_impulse;
+  Vec3& total = ledger_.carried_to_grains;
+  Kokkos::parallel_reduce(
+      "ledger: carried to grains", grains.n,
+      KOKKOS_LAMBDA(int g, Real& x, Real& y, Real& z) {
+        x += carried(g).x;
+        y += carried(g).y;
+        z += carried(g).z;
+      },
+      total.x, total.y, total.z);
+}
+
+}  // namespace barchan

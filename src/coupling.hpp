@@ -1,0 +1,75 @@
+// Fluid and grains exchange volume and momentum once per fluid step.
+#pragma once
+
+#include <variant>
+
+#include "kernels/drag.hpp"
+#include "kernels/interphase.hpp"
+#include "src/boundary.hpp"
+#include "src/config.hpp"
+#include "src/fluid_solver.hpp"
+#include "src/grain_state.hpp"
+#include "src/poisson_fft.hpp"
+
+namespace barchan {
+
+using DragModel = std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra,
+                               PaperRepaired, NoDrag>;
+
+/// Momentum and volume that changed sides in one fluid step, for the ledger.
+struct ExchangeLedger {
+  Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
+  Vec3 given_to_grains;    // drag and added mass over the sub-steps [N s]
+  Vec3 taken_from_fluid;   // its deposit on the faces [N s]
+  Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
+  Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
+};
+
+/// Unresolved coupling, model A: gather before the sub-steps, deposit after them, return after the
+/// fluid step.
+class Coupling {
+ public:
+  Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
+           const Grid& grid);
+
+  /// Velocity, drag coefficient and steady forces of the fluid at each grain.
+  void gather(const FluidState& fluid, GrainState& grains, Real dt);
+  /// alpha_f from the grains' volume, and their exchange on the faces; the old alpha_f is kept in
+  /// alpha_f_previous.
+  void deposit(const GrainState& grains, FluidState& fluid, Real dt);
+  /// alpha_f and alpha_f_previous of grains that have just been placed.
+  void start(const GrainState& grains, FluidState& fluid);
+  /// Owes the grains what the implicit drag took from the fluid within the step.
+  void carry(const FluidState& fluid, GrainState& grains, Real dt);
+  /// The pressure gradient and stress forces that `which` keeps, on each grain now [N]; for output.
+  void single_force(const FluidForces& which, const FluidState& fluid, const GrainState& grains,
+                    const Kokkos::View<Vec3*>& force);
+
+  const ExchangeOnFaces& on_faces() const { return on_faces_; }
+  const ExchangeLedger& ledger() const { return ledger_; }
+
+ private:
+  void force_density(const FluidState& fluid, const FluidForces& forces);
+  void choose_scales(const GrainState& grains, Real dt);
+  void decode(int quantity, const FixedPoint& point, const Field& density) const;
+  void sum_faces(Real dt, const FluidState& fluid);
+  ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
+
+  CouplingConfig config_;
+  FluidForces forces_;
+  DragModel drag_;
+  Grid grid_;
+  Boundary boundary_;
+  PoissonFft smoother_;
+  bool smooths_ = false;
+  Locate locate_;
+  Real rho_f_ = 0, nu_ = 0;
+  Vec3 gravity_;
+  FaceVector force_, convective_;
+  Field cell_[4];  // implicit coefficient and impulse densities, later velocity changes
+  Deposits deposits_;
+  ExchangeOnFaces on_faces_;
+  ExchangeLedger ledger_;
+};
+
+}  // namespace barchan

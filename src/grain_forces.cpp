@@ -1,0 +1,51 @@
+// Each force on every grain separately, for output.
+#include "src/coupled_step.hpp"
+
+namespace barchan {
+
+namespace {
+
+Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
+  return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
+}
+
+}  // namespace
+
+std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
+  const GrainState& grains = *state.grains;
+  const int n = grains.n;
+  std::vector<NamedForce> forces;
+  const Kokkos::View<Vec3*> drag = grain_vector("drag", n), added = grain_vector("added mass", n),
+                            total = grain_vector("total", n);
+  const FluidOnGrains on = grains.fluid;
+  const ExchangeOnGrains exchange = grains.exchange;
+  const auto kin = grains.kin;
+  const auto contact = grains.contact_force;
+  const Real dt = dt_;
+  Kokkos::parallel_for(
+      "output: forces on grains", n, KOKKOS_LAMBDA(int g) {
+        drag(g) = (1 / dt) * on.drag_impulse(g);
+        added(g) = exchange.added_mass_force(g) + (1 / dt) * exchange.carried_impulse(g) -
+                   (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));
+        total(g) = contact(g) + on.steady_force(g) + drag(g) -
+                   (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));
+      });
+  forces.push_back({"force_drag", drag});
+  if (coupling_) {
+    const FluidForces pressure{0, 1, 0, 0, 0}, stress{0, 0, 1, 0, 0};
+    const auto p = grain_vector("pressure gradient", n), s = grain_vector("stress", n);
+    coupling_->single_force(pressure, *state.fluid, grains, p);
+    coupling_->single_force(stress, *state.fluid, grains, s);
+    forces.push_back({"force_pressure_gradient", p});
+    forces.push_back({"force_stress", s});
+    forces.push_back({"force_added_mass", added});
+  }
+  const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
+  grains_->split_contacts(grains, normal, tangential);
+  forces.push_back({"force_contact_normal", normal});
+  forces.push_back({"force_contact_tangential", tangential});
+  forces.push_back({"force_total", total});
+  return forces;
+}
+
+}  // namespace barchan

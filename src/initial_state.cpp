@@ -1,0 +1,58 @@
+#include "src/initial_state.hpp"
+
+#include <stdexcept>
+
+#include "src/domain.hpp"
+#include "src/initial_flow.hpp"
+#include "src/pour.hpp"
+#include "src/state_file.hpp"
+
+namespace barchan {
+
+namespace {
+
+FluidState initial_fluid(const Config& config, const std::filesystem::path& file) {
+  FluidState fluid = make_fluid_state(make_grid(config));
+  if (!file.empty()) {
+    load_flow(CheckpointReader(file), fluid);
+    fluid.time = 0;
+    // The precursor's fluid step may be another one, and grains now push the water aside.
+    fluid.has_history = false;
+    return fluid;
+  }
+  if (config.initial.fluid == "turbulent") set_turbulent_flow(config, fluid);
+  return fluid;
+}
+
+/// Refuses grains that the domain does not hold.
+void check_inside(const InitialGrains& grains, const Config& config, const std::string& source) {
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vec3& x = grains.x[g];
+    const double r = grains.diameter[g] / 2;
+    const bool inside = x.x >= 0 && x.x <= config.size[0] && x.y >= -r && x.y <= config.size[1] &&
+                        x.z >= 0 && x.z <= config.size[2];
+    if (!inside) {
+      throw std::runtime_error(source + ": grain " + std::to_string(grains.id[g]) + " at (" +
+                               std::to_string(x.x) + ", " + std::to_string(x.y) + ", " +
+                               std::to_string(x.z) + ") m lies outside the domain");
+    }
+  }
+}
+
+}  // namespace
+
+SystemState make_initial_state(const Config& config, const InitialFiles& files) {
+  SystemState state;
+  if (config.fluid) state.fluid = initial_fluid(config, files.fluid);
+  if (config.grains) {
+    const bool poured = config.initial.pour.has_value();
+    const InitialGrains grains =
+        poured ? pour_grains(*config.initial.pour, config.grains->sizes, config.size)
+               : read_grains(files.grains);
+    check_inside(grains, config, poured ? "initial.grains.pour" : files.grains.string());
+    state.grains = make_grain_state(grains, config.grains->density);
+  }
+  return state;
+}
+
+}  // namespace barchan

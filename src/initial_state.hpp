@@ -1,0 +1,20 @@
+// What a run starts from.
+#pragma once
+
+#include <filesystem>
+
+#include "src/config.hpp"
+#include "src/coupled_step.hpp"
+
+namespace barchan {
+
+/// Files that the initial state comes from, once every .toml has become a restart file.
+struct InitialFiles {
+  std::filesystem::path fluid, grains;  // empty: not from a file
+};
+
+/// Flow at rest, turbulent or from a file; grains poured or from a file. The grains' list and the
+/// fluid fraction come with CoupledStep::start. Throws std::runtime_error if a file does not fit.
+SystemState make_initial_state(const Config& config, const InitialFiles& files);
+
+}  // namespace barchan

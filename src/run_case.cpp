@@ -1,0 +1,131 @@
+#include "src/run_case.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "barchan_version.hpp"
+#include "src/config_load.hpp"
+#include "src/config_resolved.hpp"
+#include "src/config_validate.hpp"
+#include "src/derived.hpp"
+#include "src/domain.hpp"
+#include "src/report.hpp"
+#include "src/simulation.hpp"
+
+namespace barchan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A start that was stopped on request stops the case that wanted it.
+struct StoppedInPrerequisite {};
+
+bool is_toml(const std::string& source) { return fs::path(source).extension() == ".toml"; }
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// True if `folder` holds the finished run of exactly this configuration.
+bool is_finished(const fs::path& folder, const Config& config) {
+  return text_of(folder / "config.toml") == to_toml(config) &&
+         text_of(folder / "run.json").find("\"status\": \"done\"") != std::string::npos;
+}
+
+/// Restart file of an unfinished run of the same configuration.
+std::optional<fs::path> unfinished(const fs::path& folder, const Config& config) {
+  if (text_of(folder / "config.toml") != to_toml(config)) return {};
+  return latest_checkpoint(folder);
+}
+
+Outcome run_one(const Config& config, const RunOptions& options);
+
+/// Last state of the case in `toml`, which is run, or run to its end, where that is missing.
+fs::path final_state(const std::string& toml, const fs::path& beside) {
+  const Config config = load_config(toml);
+  const fs::path folder = beside / fs::path(toml).stem();
+  if (!is_finished(folder, config)) {
+    report::info("first the case it starts from: {} -> {}", config.title, folder.string());
+    const auto restart = unfinished(folder, config);
+    if (run_one(config, {.folder = folder, .restart = restart}) == Outcome::stopped) {
+      throw StoppedInPrerequisite{};
+    }
+  }
+  const auto state = latest_checkpoint(folder);
+  if (!state) throw std::runtime_error(folder.string() + " holds no restart file to start from");
+  return *state;
+}
+
+fs::path start_file(const std::string& source, const fs::path& beside) {
+  if (is_toml(source)) return final_state(source, beside);
+  return fs::path(source).extension().empty() ? fs::path{} : fs::path(source);
+}
+
+Outcome run_one(const Config& config, const RunOptions& options) {
+  InitialFiles files;
+  if (!options.restart) {
+    const fs::path beside = fs::absolute(options.folder).parent_path();
+    if (config.fluid) files.fluid = start_file(config.initial.fluid, beside);
+    if (config.grains) files.grains = start_file(config.initial.grains, beside);
+  }
+  report::stop_log();
+  report::info("{}", config.title);
+  Simulation simulation(config, options, files);
+  const auto sizes = known_sizes(config);
+  report::info("{}", to_text(derive(config, sizes)));
+  for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+  try {
+    return simulation.run();
+  } catch (const std::exception& problem) {
+    const auto last = simulation.last_restart();
+    throw std::runtime_error(std::string(problem.what()) +
+                             (last ? "; the last good restart is " + last->string() : ""));
+  }
+}
+
+}  // namespace
+
+fs::path default_run_folder(const fs::path& config_file) {
+  return fs::path("runs") / config_file.stem();
+}
+
+std::string device_name() {
+  return std::string(Kokkos::DefaultExecutionSpace::name()) + ", " +
+         std::to_string(Kokkos::DefaultExecutionSpace().concurrency()) + " threads";
+}
+
+Provenance make_provenance(const Config& config) {
+  return {.title = config.title,
+          .config = to_toml(config),
+          .version = BARCHAN_VERSION,
+          .git_hash = BARCHAN_GIT_HASH,
+          .backend = device_name()};
+}
+
+FluidState empty_fluid(const Config& config) { return make_fluid_state(make_grid(config)); }
+
+int run_command(const CommandLine& line) {
+  const Config config = load_config(line.file, line.overrides);
+  if (line.dry_run) {
+    const auto sizes = known_sizes(config);
+    report::info("{}\n{}", config.title, to_text(derive(config, sizes)));
+    for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+    report::info("nothing was run (--dry-run)");
+    return 0;
+  }
+  const RunOptions options{.folder = line.out.value_or(default_run_folder(line.file)),
+                           .restart = line.restart};
+  try {
+    const Outcome outcome = run_one(config, options);
+    if (outcome == Outcome::done) report::info("results in {}", options.folder.string());
+    return outcome == Outcome::done ? 0 : 3;
+  } catch (const StoppedInPrerequisite&) {
+    return 3;
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,185 @@
+#include "src/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "src/config_resolved.hpp"
+#include "src/derived.hpp"
+#include "src/run_case.hpp"
+#include "src/state_file.hpp"
+#include "src/stop_request.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// The state a run starts from; a restart brings its own number of grains.
+SystemState first_state(const Config& config, const RunOptions& options,
+                        const InitialFiles& files) {
+  if (!options.restart) return make_initial_state(config, files);
+  const CheckpointReader file(*options.restart);
+  SystemState state;
+  if (config.fluid) state.fluid = empty_fluid(config);
+  if (config.grains) state.grains = grains_in_file(file, config.grains->density);
+  return state;
+}
+
+std::optional<double> time_of(const std::optional<std::filesystem::path>& restart) {
+  if (!restart) return {};
+  return CheckpointReader(*restart).real("t");
+}
+
+DuneDomain dune_domain(const Config& config) {
+  const bool grains = config.grains.has_value();
+  return {.length_x = config.size[0],
+          .length_z = config.size[2],
+          .periodic_x = grains && config.grains->boundary_x == GrainBoundaryX::periodic,
+          .periodic_z = grains && config.grains->boundary_z == GrainBoundaryZ::periodic};
+}
+
+}  // namespace
+
+Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
+    : config_(config),
+      provenance_(make_provenance(config)),
+      state_(first_state(config, options, files)),
+      coupled_step_(config, state_),
+      restart_time_(time_of(options.restart)),
+      folder_(options.folder, restart_time_),
+      output_(options.folder, provenance_, restart_time_),
+      tracker_(dune_domain(config)) {
+  report::log_to(folder_.file("log.txt"), restart_time_.has_value());
+  folder_.write_config(provenance_.config);
+  end_step_ = fluid_steps(config.time);
+  if (options.restart) {
+    const CheckpointReader file(*options.restart);
+    load_state(file, state_, coupled_step_);
+    step_ = file.integer("step");
+    tracker_.set_state(file.array<double>("dunes"));
+    report::info("going on from {} at t = {:.4f} s", options.restart->string(), time());
+  } else {
+    coupled_step_.start(state_);
+  }
+  start_step_ = step_;
+  start_time_ = time();
+}
+
+void Simulation::begin() {
+  catch_stop_signals();
+  wall_start_ = last_restart_at_ = WallClock::now();
+  write_summary("running", "");
+  if (!restart_time_) write_due(true);
+}
+
+Outcome Simulation::run() {
+  begin();
+  try {
+    while (step_ < end_step_) {
+      one_step();
+      write_due(false);
+      show_progress();
+      const double limit = config_.time.wall_clock_limit;
+      const bool out_of_time = limit > 0 && seconds_since(wall_start_) > limit;
+      if (stop_signal() == 0 && !out_of_time) continue;
+      progress_.finish();
+      write_restart();
+      const std::string why = out_of_time ? "the wall-clock limit was reached" : "stopped on request";
+      write_summary("stopped", why);
+      report::info("{}; go on with --restart {}", why, last_restart()->string());
+      return Outcome::stopped;
+    }
+    progress_.finish();
+    write_restart();
+    write_summary("done", "");
+    return Outcome::done;
+  } catch (const std::exception& problem) {
+    progress_.finish();
+    write_summary("failed", problem.what());
+    throw;
+  }
+}
+
+void Simulation::one_step() {
+  const std::int64_t n_grains = state_.grains ? state_.grains->n : 0;
+  coupled_step_.advance(state_);
+  ++step_;
+  grain_steps_ += n_grains * coupled_step_.substeps();
+  watch();
+}
+
+/// Keeps the extremes and stops a run that has gone wrong.
+void Simulation::watch() {
+  if (!state_.fluid) return;
+  const FluidStepReport& r = coupled_step_.fluid_report();
+  if (!std::isfinite(r.courant) || !std::isfinite(r.continuity_residual)) {
+    throw std::runtime_error(fmt::format(
+        "the flow is no longer finite at t = {:.5f} s (step {}): try a shorter time.fluid_step",
+        time(), step_));
+  }
+  if (r.courant > 1) {
+    throw std::runtime_error(fmt::format(
+        "CFL = {:.2f} at t = {:.5f} s is beyond stability: take a time.fluid_step below {:.2e} s",
+        r.courant, time(), config_.time.fluid_step * 0.5 / r.courant));
+  }
+  const double residual = r.continuity_residual / config_.time.fluid_step;
+  ++interval_.steps;
+  interval_.iterations += r.pressure_iterations;
+  interval_.courant = std::max(interval_.courant, r.courant);
+  interval_.continuity_residual = std::max(interval_.continuity_residual, residual);
+  iterations_sum_ += r.pressure_iterations;
+  iterations_max_ = std::max<std::int64_t>(iterations_max_, r.pressure_iterations);
+  max_courant_ = std::max(max_courant_, r.courant);
+  max_residual_ = std::max(max_residual_, residual);
+}
+
+bool Simulation::due(double interval) const {
+  if (!(interval > 0)) return false;
+  const auto every = std::max<std::int64_t>(1, std::llround(interval / config_.time.fluid_step));
+  return step_ % every == 0;
+}
+
+bool Simulation::restart_due() const {
+  if (due(config_.restart.interval)) return true;
+  return config_.restart.wall_interval > 0 &&
+         seconds_since(last_restart_at_) > config_.restart.wall_interval;
+}
+
+void Simulation::write_due(bool first) {
+  const OutputConfig& o = config_.output;
+  if (state_.grains && o.dune_interval > 0 && (first || due(o.dune_interval))) {
+    const PhaseTimer timer(phases_, "analytics");
+    write_dunes();
+  }
+  const PhaseTimer timer(phases_, "output");
+  if (o.history_interval > 0 && (first || due(o.history_interval))) write_history();
+  if (state_.grains && o.grains_interval > 0 && (first || due(o.grains_interval))) write_grains();
+  if (state_.fluid && o.fields_interval > 0 && (first || due(o.fields_interval))) {
+    output_.write_fields(*state_.fluid, time(), step_);
+  }
+  if (first) return;
+  if (restart_due() && step_ < end_step_) write_restart();
+  if (due(o.history_interval)) write_summary("running", "");
+}
+
+void Simulation::show_progress() {
+  if (!progress_.due()) return;
+  const double seconds = std::max(seconds_since(wall_start_), 1e-9);
+  const auto steps = static_cast<double>(step_ - start_step_);
+  Progress p;
+  p.t = time();
+  p.t_start = start_time_;
+  p.t_end = config_.time.end;
+  p.grain_steps_per_second = static_cast<double>(grain_steps_) / seconds;
+  if (state_.fluid) {
+    const Grid& g = state_.fluid->grid;
+    p.cell_steps_per_second = steps * g.nx * g.ny * g.nz / seconds;
+    p.cfl = coupled_step_.fluid_report().courant;
+    p.pressure_iterations = coupled_step_.fluid_report().pressure_iterations;
+  }
+  if (state_.grains) p.n_grains = state_.grains->n;
+  if (largest_dune_) p.dune_width = largest_dune_->w, p.dune_length = largest_dune_->l;
+  progress_.update(p);
+}
+
+}  // namespace barchan

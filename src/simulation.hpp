@@ -1,0 +1,78 @@
+// One run: the time loop, and what is written when.
+#pragma once
+
+#include <optional>
+
+#include "src/config.hpp"
+#include "src/coupled_step.hpp"
+#include "src/dune_analytics.hpp"
+#include "src/initial_state.hpp"
+#include "src/output.hpp"
+#include "src/report.hpp"
+#include "src/run_folder.hpp"
+
+namespace barchan {
+
+struct RunOptions {
+  std::filesystem::path folder;                  // of the run
+  std::optional<std::filesystem::path> restart;  // restart file to go on from
+};
+
+/// How a run ended.
+enum class Outcome { done, stopped };
+
+/// Owns the state and the run folder. Members throw std::runtime_error with a sentence for the user;
+/// the summary then says "failed" and names the last good restart.
+class Simulation {
+ public:
+  Simulation(const Config& config, const RunOptions& options, const InitialFiles& files);
+
+  /// To the end of the configured time, or until a signal or the wall-clock limit.
+  Outcome run();
+  /// The last restart file written, if any.
+  std::optional<std::filesystem::path> last_restart() const;
+  const SystemState& state() const { return state_; }
+
+ private:
+  void begin();
+  void one_step();
+  void write_due(bool first);
+  void write_history();
+  void write_dunes();
+  void write_grains();
+  void write_restart();
+  void write_summary(const std::string& status, const std::string& message);
+  void watch();
+  void show_progress();
+  double time() const { return static_cast<double>(step_) * config_.time.fluid_step; }
+  bool due(double interval) const;
+  bool restart_due() const;
+  RunSummary summary(const std::string& status, const std::string& message) const;
+
+  /// Sums and extremes since the last line of history.csv.
+  struct Interval {
+    std::int64_t steps = 0, iterations = 0;
+    double continuity_residual = 0, courant = 0;
+  };
+
+  Config config_;
+  Provenance provenance_;
+  SystemState state_;
+  CoupledStep coupled_step_;
+  std::optional<double> restart_time_;
+  RunFolder folder_;
+  OutputFiles output_;
+  DuneTracker tracker_;
+  ProgressLine progress_;
+  std::optional<DuneRow> largest_dune_;
+  Interval interval_;
+  Phases phases_;
+  WallClock::time_point wall_start_ = WallClock::now(), last_restart_at_ = wall_start_;
+  double start_time_ = 0;
+  std::int64_t step_ = 0, start_step_ = 0, end_step_ = 0;
+  std::int64_t grain_steps_ = 0;
+  std::int64_t iterations_sum_ = 0, iterations_max_ = 0;
+  double max_courant_ = 0, max_overlap_ = 0, max_residual_ = 0;
+};
+
+}  // namespace barchan

@@ -1,0 +1,135 @@
+// What a run writes: tables, frames, restarts, summary.
+#include <algorithm>
+
+#include "src/run_case.hpp"
+#include "src/simulation.hpp"
+#include "src/state_file.hpp"
+
+namespace barchan {
+
+namespace {
+
+double kinetic_energy(const GrainState& grains) {
+  const auto kin = grains.kin;
+  double energy = 0;
+  Kokkos::parallel_reduce(
+      "history: kinetic energy of the grains", grains.n,
+      KOKKOS_LAMBDA(int g, Real& sum) {
+        const GrainKinematics& k = kin(g);
+        sum += (k.m * dot(k.u, k.u) + sphere_inertia(k.m, k.r) * dot(k.omega, k.omega)) / 2;
+      },
+      energy);
+  return energy;
+}
+
+}  // namespace
+
+void Simulation::write_history() {
+  HistoryRow row;
+  row.t = time();
+  row.step = step_;
+  if (state_.fluid) {
+    const FluidSolver& solver = *coupled_step_.fluid_solver();
+    row.u_star = solver.friction_velocity(*state_.fluid);
+    row.bulk_velocity = solver.bulk_velocity(*state_.fluid);
+    row.pressure_gradient = state_.fluid->drive * config_.fluid->density;
+    row.fluid_kinetic_energy = solver.kinetic_energy(*state_.fluid);
+    row.cfl = interval_.courant;
+    row.continuity_residual = interval_.continuity_residual;
+    row.pressure_iterations =
+        interval_.steps > 0 ? static_cast<double>(interval_.iterations) /
+                                  static_cast<double>(interval_.steps)
+                            : 0;
+  }
+  if (state_.grains) {
+    const ContactSummary contacts = coupled_step_.grain_solver()->contacts(*state_.grains);
+    row.grain_kinetic_energy = kinetic_energy(*state_.grains);
+    row.n_grains = state_.grains->n;
+    row.n_contacts = contacts.n_contacts;
+    row.max_overlap = contacts.max_overlap;
+    max_overlap_ = std::max(max_overlap_, contacts.max_overlap);
+  }
+  folder_.append(row);
+  interval_ = Interval{};
+}
+
+void Simulation::write_dunes() {
+  const GrainState& grains = *state_.grains;
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  std::vector<double> centres, diameters;
+  for (int g = 0; g < grains.n; ++g) {
+    const Vec3& x = kin(g).x;
+    centres.insert(centres.end(), {x.x, x.y, x.z});
+    diameters.push_back(2 * kin(g).r);
+  }
+  largest_dune_.reset();
+  for (const DuneRow& dune : tracker_.update(time(), {centres, diameters})) {
+    folder_.append(dune);
+    if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
+  }
+}
+
+void Simulation::write_grains() {
+  std::vector<NamedForce> forces;
+  if (config_.output.grain_forces) forces = coupled_step_.grain_forces(state_);
+  output_.write_grains(*state_.grains, time(), step_, forces);
+}
+
+void Simulation::write_restart() {
+  CheckpointWriter file(folder_.path(), step_, provenance_);
+  save_state(file, state_);
+  file.scalar("t", time());
+  file.scalar("step", step_);
+  const std::vector<double> dunes = tracker_.state();
+  file.array("dunes", std::span<const double>(dunes));
+  file.commit(config_.restart.keep);
+  last_restart_at_ = WallClock::now();
+}
+
+std::optional<std::filesystem::path> Simulation::last_restart() const {
+  return latest_checkpoint(folder_.path());
+}
+
+RunSummary Simulation::summary(const std::string& status, const std::string& message) const {
+  RunSummary s;
+  s.status = status;
+  s.message = message;
+  s.title = provenance_.title;
+  s.version = provenance_.version;
+  s.git_hash = provenance_.git_hash;
+  s.backend = Kokkos::DefaultExecutionSpace::name();
+  s.device = device_name();
+  s.threads = Kokkos::DefaultExecutionSpace().concurrency();
+  s.steps = step_;
+  s.simulated_seconds = time();
+  s.wall_seconds = seconds_since(wall_start_);
+  const double steps = std::max<double>(1, static_cast<double>(step_ - start_step_));
+  for (const Phases* phases : {&coupled_step_.phases(), &phases_}) {
+    for (const auto& [name, seconds] : *phases) s.phases[name] = seconds / steps;
+  }
+  const double wall = std::max(s.wall_seconds, 1e-9);
+  s.grain_steps_per_second = static_cast<double>(grain_steps_) / wall;
+  if (state_.fluid) {
+    const Grid& g = state_.fluid->grid;
+    s.cell_steps_per_second =
+        static_cast<double>(step_ - start_step_) * g.nx * g.ny * g.nz / wall;
+  }
+  s.pressure_iterations_mean = static_cast<double>(iterations_sum_) / steps;
+  s.pressure_iterations_max = iterations_max_;
+  s.max_cfl = max_courant_;
+  s.max_overlap = max_overlap_;
+  s.max_continuity_residual = max_residual_;
+  s.ledger = coupled_step_.ledger().entries();
+  if (state_.grains) {
+    s.grains_initial = state_.grains->n_initial;
+    s.grains_inside = state_.grains->n;
+    s.grains_left = state_.grains->n_left;
+  }
+  return s;
+}
+
+void Simulation::write_summary(const std::string& status, const std::string& message) {
+  folder_.write_summary(summary(status, message));
+}
+
+}  // namespace barchan

@@ -1,0 +1,24 @@
+// The state of a run in restart files, bit for bit.
+#pragma once
+
+#include <filesystem>
+
+#include "src/checkpoint.hpp"
+#include "src/coupled_step.hpp"
+
+namespace barchan {
+
+/// Writes all of `state` that the next step depends on.
+void save_state(CheckpointWriter& file, const SystemState& state);
+
+/// Fills `state`, which has the grid and the grains' number of the file (grains_in_file), and
+/// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.
+void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step);
+
+/// Grain rows of a restart file without contacts: enough to size the state.
+GrainState grains_in_file(const CheckpointReader& file, Real density);
+
+/// Only the flow, as the start of another run on the same mesh.
+void load_flow(const CheckpointReader& file, FluidState& fluid);
+
+}  // namespace barchan
