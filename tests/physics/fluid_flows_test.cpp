@@ -5,6 +5,7 @@
 
 #include "kernels/flow_sums.hpp"
 #include "src/fluid_solver.hpp"
+#include "src/initial_flow.hpp"
 #include "src/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
@@ -204,6 +205,30 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
     EXPECT_LT(report.continuity_residual, 1e-6);
     EXPECT_NEAR(report.bulk_velocity, 0.28, 1e-14);
   }
+}
+
+TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
+  Config config = test::flow_config({24, 12, 18}, {0.1, 0.025, 0.05}, 5e-4);
+  config.fluid->mean_velocity = 0.28;
+  config.time.fluid_step = 1e-3;
+  const Grid grid = make_grid(config);
+  FluidState fluid = make_fluid_state(grid), again = make_fluid_state(grid);
+  FluidSolver solver(config, grid);
+  set_turbulent_flow(config, fluid);
+  solver.fill_ghosts(fluid);
+  EXPECT_NEAR(solver.bulk_velocity(fluid), 0.28, 1e-14);
+  const Field rest("rest", grid);
+  const double divergence =
+      max_each_cell("test", grid,
+                    ContinuityResidual<false>{
+                        {grid, fluid.u, fluid.alpha_f, fluid.alpha_f, fluid.u, 0, 1, 1e-3, rest}});
+  EXPECT_LT(divergence, 1e-14);
+  const auto u = test::to_host(fluid.u.x);
+  set_turbulent_flow(config, again);
+  EXPECT_EQ(test::to_host(again.u.x)(5, 3, 7), u(5, 3, 7));
+  config.initial.seed = 2;
+  set_turbulent_flow(config, again);
+  EXPECT_NE(test::to_host(again.u.x)(5, 3, 7), u(5, 3, 7));
 }
 
 }  // namespace
