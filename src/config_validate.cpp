@@ -172,15 +172,17 @@ void check_pour(const Config& c, Findings& found) {
                               axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent));
     }
   }
-  double volume = 0;
+  // The cone is cut from a close-packed lattice one per cent wider than the largest grain.
+  double count = 0, spacing = 0;
   for (const SizeClass& size : c.grains->sizes) {
-    volume += static_cast<double>(size.count) * std::numbers::pi / 6 * std::pow(size.diameter, 3);
+    count += static_cast<double>(size.count);
+    spacing = std::max(spacing, 1.01 * size.diameter);
   }
-  // Even packed at random as densely as spheres go (0.64) the cone would stand this high.
-  const double height = 3 * volume / 0.64 / (std::numbers::pi * pour.radius * pour.radius);
+  const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
+  const double height = 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
   if (height + pour.drop_height > c.size[1]) {
     found.error({"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
-                fmt::format("must be larger: the cone would reach {:.3g} m, above the domain",
+                fmt::format("must be larger: the cone would reach about {:.3g} m, above the domain",
                             height + pour.drop_height));
   }
 }

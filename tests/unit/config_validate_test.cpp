@@ -155,6 +155,13 @@ TEST(ConfigValidate, PouredConeHasGrainsAndFitsTheDomain) {
       says(problems(grain_case(), {"initial.grains.pour.radius=0.0199"}), "inside the domain"));
   EXPECT_TRUE(
       says(problems(grain_case(), {"initial.grains.pour.drop_height=0.026"}), "above the domain"));
+  // 10,000 of 0.25 mm on a lattice of 0.2525 mm: 1.14e-7 m^3, a cone on 2 mm that is 27 mm high.
+  const auto on = [](const char* radius) {
+    return problems(grain_case(), {"grains.sizes=[[0.25e-3, 10000]]",
+                                   std::string("initial.grains.pour.radius=") + radius});
+  };
+  EXPECT_TRUE(says(on("2.0e-3"), "the cone would reach about 0.0272 m, above the domain"));
+  EXPECT_TRUE(on("2.1e-3").empty());
 }
 
 TEST(ConfigValidate, StepsFitEachOther) {
