@@ -14,6 +14,7 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       halo_(halo),
       config_(config),
       poisson_(grid, std::move(fft), 0, 1),
+      local_(grid, halo),
       z_("pressure: z", grid),
       direction_("pressure: direction", grid),
       image_("pressure: image", grid) {}
@@ -26,8 +27,10 @@ void PressureSolver::remove_mean(const Field& f) {
 
 void PressureSolver::precondition(const FaceVector& c) {
   switch (config_.preconditioner) {
-    case Preconditioner::fft:
     case Preconditioner::local_fft:
+      local_.apply(poisson_, residual_, z_);
+      break;
+    case Preconditioner::fft:
       poisson_.solve(residual_, z_);
       break;
     case Preconditioner::jacobi:
@@ -43,6 +46,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const 
                                      Real tolerance) {
   remove_mean(b);
   residual_ = b;
+  if (config_.preconditioner == Preconditioner::local_fft) local_.update(c);
   const Real bb = sum_each_cell("pressure: norm of b", grid_, InnerProduct{grid_, b, b});
   halo_.fill(p);
   Real rr = sum_each_cell("pressure: residual", grid_, InitialResidual{grid_, c, p, residual_});

@@ -5,6 +5,7 @@
 
 #include "src/config.hpp"
 #include "src/halo.hpp"
+#include "src/local_correction.hpp"
 #include "src/poisson_fft.hpp"
 
 namespace barchan {
@@ -36,6 +37,7 @@ class PressureSolver {
   Halo halo_;
   SolverConfig config_;
   PoissonFft poisson_;
+  LocalCorrection local_;
   Field residual_, z_, direction_, image_;  // r, M^-1 r, d, A d
 };
 

@@ -1,0 +1,148 @@
+// Relaxation of the pressure equation in the columns that hold grains.
+#pragma once
+
+#include "kernels/pressure.hpp"
+
+namespace barchan {
+
+/// Rows [0, height) of each column (i, k) take part in the relaxation; 0: none do.
+using ColumnHeights = Kokkos::View<int**, Kokkos::LayoutLeft>;
+
+/// Height of a column up to its highest cell with a face where c is below `threshold`.
+struct FindColumns {
+  FaceVector c;  // with periodic ghosts
+  int ny;
+  Real threshold;
+  ColumnHeights height;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool is_hindered(int i, int j, int k) const {
+    const Real x = Kokkos::min(c.x(i, j, k), c.x(i + 1, j, k));
+    const Real z = Kokkos::min(c.z(i, j, k), c.z(i, j, k + 1));
+    // On walls c is zero for another reason.
+    const Real below = j > 0 ? c.y(i, j, k) : Real(1);
+    const Real above = j < ny - 1 ? c.y(i, j + 1, k) : Real(1);
+    return Kokkos::min(Kokkos::min(x, z), Kokkos::min(below, above)) < threshold;
+  }
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    int j = ny;
+    while (j > 0 && !is_hindered(i, j - 1, k)) --j;
+    height(i, k) = j;
+  }
+};
+
+/// One more layer all around: a column reaches one row above itself and its neighbours.
+struct WidenColumns {
+  int nx, ny, nz;
+  ColumnHeights before, after;
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    const int left = before(i > 0 ? i - 1 : nx - 1, k), right = before(i < nx - 1 ? i + 1 : 0, k);
+    const int back = before(i, k > 0 ? k - 1 : nz - 1), front = before(i, k < nz - 1 ? k + 1 : 0);
+    const int around = Kokkos::max(Kokkos::max(left, right), Kokkos::max(back, front));
+    const int highest = Kokkos::max(around, before(i, k) + (before(i, k) > 0 ? 1 : 0));
+    after(i, k) = Kokkos::min(highest, ny);
+  }
+};
+
+/// The tridiagonal equations of a column, height-weighted so that they are symmetric:
+///   D_j z_j - E_j z_{j-1} - E_{j+1} z_{j+1} = dy_j (r_j + what the neighbours' z add).
+struct ColumnEquations {
+  Grid grid;
+  FaceVector c;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {  // E_j [1/m]
+    return c.y(i, j, k) / grid.dy_centre(j);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int i, int j, int k) const {  // D_j [1/m]
+    return grid.dy(j) * pressure_diagonal(grid, c, i, j, k);
+  }
+};
+
+/// 1/(D_j - E_j^2 pivot_{j-1}) of every row of a column.
+struct FactoriseColumn {
+  ColumnEquations equations;
+  ColumnHeights height;
+  Field pivot;
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    Real before = 0;
+    for (int j = 0; j < height(i, k); ++j) {
+      const Real e = equations.coupling(i, j, k);
+      before = 1 / (equations.diagonal(i, j, k) - e * e * before);
+      pivot(i, j, k) = before;
+    }
+  }
+};
+
+/// Solves the columns of one colour for z with all other columns, and the cells above, as they are:
+/// a block Gauss-Seidel step. Neighbouring columns never share a colour, not even across an odd
+/// periodic seam, so the result does not depend on the order within a colour.
+struct RelaxColumns {
+  ColumnEquations equations;
+  ColumnHeights height;
+  Field pivot, r, z;
+  int colour;
+
+  KOKKOS_FORCEINLINE_FUNCTION static int part(int index, int n) {
+    return index == n - 1 && n % 2 == 1 ? 2 : index % 2;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static int colours(const Grid& grid) {
+    return grid.nx % 2 == 0 && grid.nz % 2 == 0 ? 2 : 3;
+  }
+
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    const Grid& grid = equations.grid;
+    const int rows = height(i, k);
+    if (rows == 0) return;
+    if ((part(i, grid.nx) + part(k, grid.nz)) % colours(grid) != colour) return;
+    const FaceVector& c = equations.c;
+    const int left = i > 0 ? i - 1 : grid.nx - 1, right = i < grid.nx - 1 ? i + 1 : 0;
+    const int back = k > 0 ? k - 1 : grid.nz - 1, front = k < grid.nz - 1 ? k + 1 : 0;
+    const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
+    Real below = 0;  // pivot * eliminated right-hand side of the row below
+    for (int j = 0; j < rows; ++j) {
+      const Real x = c.x(i, j, k) * z(left, j, k) + c.x(i + 1, j, k) * z(right, j, k);
+      const Real across = c.z(i, j, k) * z(i, j, back) + c.z(i, j, k + 1) * z(i, j, front);
+      Real g = grid.dy(j) * (r(i, j, k) + x * per_dx2 + across * per_dz2);
+      if (j == rows - 1 && rows < grid.ny) g += equations.coupling(i, rows, k) * z(i, rows, k);
+      below = pivot(i, j, k) * (g + equations.coupling(i, j, k) * below);
+      z(i, j, k) = below;
+    }
+    for (int j = rows - 2; j >= 0; --j) {
+      z(i, j, k) += pivot(i, j, k) * equations.coupling(i, j + 1, k) * z(i, j + 1, k);
+    }
+  }
+};
+
+struct ClearColumns {
+  ColumnHeights height;
+  Field z;
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    for (int j = 0; j < height(i, k); ++j) z(i, j, k) = 0;
+  }
+};
+
+/// Before the global solve: r becomes r - A z in the columns and around them; the old r is kept.
+struct SubtractLocal {
+  Grid grid;
+  FaceVector c;
+  ColumnHeights height;  // with one layer more than z has
+  Field z, r, kept;
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    for (int j = 0; j < height(i, k); ++j) {
+      kept(i, j, k) = r(i, j, k);
+      r(i, j, k) -= pressure_operator(grid, c, z, i, j, k);
+    }
+  }
+};
+/// After it: r as before, and the local z added to the global one.
+struct AddLocal {
+  ColumnHeights height;  // the same
+  Field local, kept, r, z;
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    for (int j = 0; j < height(i, k); ++j) {
+      r(i, j, k) = kept(i, j, k);
+      z(i, j, k) += local(i, j, k);
+    }
+  }
+};
+
+}  // namespace barchan
