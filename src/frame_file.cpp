@@ -65,13 +65,37 @@ void FrameFile::drop_after(double t) {
   const auto late = [last = t + 1e-9 * std::max(1.0, std::abs(t))](const FrameInfo& frame) {
     return frame.t > last;
   };
-  if (std::none_of(frames_.begin(), frames_.end(), late)) return;
-  Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
-  for (const auto& frame : frames_) {
-    if (late(frame)) file.remove(frame.name);
+  if (std::erase_if(frames_, late) == 0) return;
+  made_ = !frames_.empty();
+  if (!made_) {  // the next frame begins a new file
+    if (rank_of(communicator_) == 0) std::filesystem::remove(path_);
+    return;
   }
-  file.close();
-  std::erase_if(frames_, late);
+  // Links are not removed in place: a kill meanwhile could cost the frames that stay.
+  replace_file([&](Hdf5File& file) {
+    const Hdf5File old(path_, Hdf5File::Mode::read, communicator_);
+    write_provenance(file, provenance_);
+    for (const auto& name : old.children()) {
+      if (frame_number(name) < 0) file.copy_from(old, name);
+    }
+    for (const auto& frame : frames_) file.copy_from(old, frame.name);
+  });
+}
+
+void FrameFile::replace_file(const Preamble& fill) const {
+  const auto beside = std::filesystem::path(path_).concat(".tmp");
+  const bool root = rank_of(communicator_) == 0;
+  try {
+    Hdf5File file(beside, Hdf5File::Mode::create, communicator_);
+    fill(file);
+    file.close();
+    if (root) std::filesystem::rename(beside, path_);
+    if (rank_count(communicator_) > 1) MPI_Barrier(communicator_);
+  } catch (...) {
+    std::error_code ignored;
+    if (root) std::filesystem::remove(beside, ignored);
+    throw;
+  }
 }
 
 FrameInfo FrameFile::write_frame(Hdf5File& file, double t, std::int64_t step,
@@ -85,39 +109,24 @@ FrameInfo FrameFile::write_frame(Hdf5File& file, double t, std::int64_t step,
   return read_frame(file, name);
 }
 
-FrameInfo FrameFile::make_file(double t, std::int64_t step, const Preamble& preamble,
-                               const Content& content) const {
-  // The first link also makes the root's table, which is not safe against a kill as the later ones
-  // are: the file gets its name with its first frame.
-  const auto beside = std::filesystem::path(path_).concat(".tmp");
-  const bool root = rank_of(communicator_) == 0;
-  try {
-    Hdf5File file(beside, Hdf5File::Mode::create, communicator_);
-    write_provenance(file, provenance_);
-    preamble(file);
-    FrameInfo frame = write_frame(file, t, step, content);
-    file.close();
-    if (root) std::filesystem::rename(beside, path_);
-    if (rank_count(communicator_) > 1) MPI_Barrier(communicator_);
-    return frame;
-  } catch (...) {
-    std::error_code ignored;
-    if (root) std::filesystem::remove(beside, ignored);
-    throw;
-  }
-}
-
-FrameInfo FrameFile::extend_file(double t, std::int64_t step, const Content& content) const {
-  Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
-  FrameInfo frame = write_frame(file, t, step, content);
-  file.close();
-  return frame;
-}
-
 void FrameFile::append(double t, std::int64_t step, const Preamble& preamble,
                        const Content& content) {
-  frames_.push_back(made_ ? extend_file(t, step, content) : make_file(t, step, preamble, content));
+  FrameInfo frame;
+  if (made_) {
+    Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
+    frame = write_frame(file, t, step, content);
+    file.close();
+  } else {
+    // The first link also makes the root's table, which is not safe against a kill as the later
+    // ones are: the file gets its name with its first frame.
+    replace_file([&](Hdf5File& file) {
+      write_provenance(file, provenance_);
+      preamble(file);
+      frame = write_frame(file, t, step, content);
+    });
+  }
   made_ = true;
+  frames_.push_back(std::move(frame));
   ++next_;
 }
 

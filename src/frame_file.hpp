@@ -49,9 +49,8 @@ class FrameFile {
 
  private:
   void drop_after(double t);
-  FrameInfo make_file(double t, std::int64_t step, const Preamble& preamble,
-                      const Content& content) const;
-  FrameInfo extend_file(double t, std::int64_t step, const Content& content) const;
+  /// Makes a new file beside and gives it the name when it is complete.
+  void replace_file(const Preamble& fill) const;
   FrameInfo write_frame(Hdf5File& file, double t, std::int64_t step, const Content& content) const;
 
   std::filesystem::path path_;

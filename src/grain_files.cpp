@@ -39,7 +39,10 @@ std::string_view take(std::string_view& rest, char separator) {
 
 class CsvReader {
  public:
-  CsvReader(std::string_view text, std::string_view file_name) : rest_(text), name_(file_name) {}
+  CsvReader(std::string_view text, std::string_view file_name) : rest_(text), name_(file_name) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  }
 
   InitialGrains read() {
     if (!next_line()) fail("it is empty");
@@ -78,8 +81,6 @@ class CsvReader {
   }
 
   void read_header() {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (line_.starts_with(byte_order_mark)) line_.remove_prefix(byte_order_mark.size());
     std::string_view rest = line_;
     while (!rest.empty()) {
       const auto title = trimmed(take(rest, ','));

@@ -153,9 +153,9 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
   return names;
 }
 
-void Hdf5File::remove(const std::string& name) {
-  const auto [base, rest] = place_of(name);
-  check(H5Ldelete(base, rest.c_str(), H5P_DEFAULT), name);
+void Hdf5File::copy_from(const Hdf5File& source, const std::string& name) {
+  check(H5Ocopy(source.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+  check_writes();
 }
 
 void Hdf5File::make_group(const std::string& name) {

@@ -59,7 +59,8 @@ class Hdf5File {
   bool is_group(const std::string& name) const;
   /// Names directly below a group, in alphabetical order.
   std::vector<std::string> children(const std::string& group = "/") const;
-  void remove(const std::string& name);
+  /// Copies a group or an array, with all below it, under the same name.
+  void copy_from(const Hdf5File& source, const std::string& name);
   /// Makes a group and those on the way, where missing.
   void make_group(const std::string& name);
 

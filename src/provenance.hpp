@@ -8,11 +8,11 @@
 namespace barchan {
 
 struct Provenance {
-  std::string title;    // of the case
-  std::string config;   // resolved TOML text
-  std::string version;  // of Barchan
-  std::string git_hash;
-  std::string backend;  // Kokkos backend and device
+  std::string title{};    // of the case
+  std::string config{};   // resolved TOML text
+  std::string version{};  // of Barchan
+  std::string git_hash{};
+  std::string backend{};  // Kokkos backend and device
 };
 
 /// As attributes of the file's root. Throws Hdf5Error.

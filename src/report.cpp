@@ -110,10 +110,10 @@ std::string format_progress(const Progress& p, double eta_seconds) {
   std::string text = fmt::format("t {:.4g} s  {:.1f} %", p.t, percent);
   if (eta_seconds >= 0) text += "  left " + format_duration(eta_seconds);
   if (p.grain_steps_per_second > 0) {
-    text += fmt::format("  {}grain-steps/s", si_rate(p.grain_steps_per_second));
+    text += fmt::format("  {} grain-steps/s", si_rate(p.grain_steps_per_second));
   }
   if (p.cell_steps_per_second > 0) {
-    text += fmt::format("  {}cell-steps/s  CFL {:.3f}  p-it {:.1f}",
+    text += fmt::format("  {} cell-steps/s  CFL {:.3f}  p-it {:.1f}",
                         si_rate(p.cell_steps_per_second), p.cfl, p.pressure_iterations);
   }
   if (p.n_grains > 0) text += fmt::format("  grains {}", p.n_grains);

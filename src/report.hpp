@@ -51,7 +51,7 @@ struct Progress {
   double cfl = 0;
   double pressure_iterations = 0;  // mean over the last interval
   std::int64_t n_grains = 0;
-  std::optional<double> dune_width, dune_length;  // [m]
+  std::optional<double> dune_width{}, dune_length{};  // [m]
 };
 
 /// One line of progress. eta_seconds < 0: not known yet.

@@ -1,0 +1,157 @@
+#include "src/grain_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "src/checkpoint.hpp"
+#include "src/grain_state.hpp"
+#include "src/output.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+InitialGrains parse(const std::string& text) { return parse_grains_csv(text, "heap.csv"); }
+std::string problem(const std::string& text) {
+  return message_of([&text] { parse(text); });
+}
+
+TEST(GrainFiles, ReadsASettledHeap) {
+  const auto grains = parse(
+      "id,diameter,x,y,z\n"
+      "1,0.0002,0.04005775535,9.995644763e-05,0.04999777035\n"
+      "2,0.0002,0.04026187579,9.996611585e-05,0.04997720662\n"
+      "3,0.00025,0.04006288333,9.990457026e-05,0.050201205\n");
+  ASSERT_EQ(grains.size(), 3u);
+  EXPECT_EQ(grains.id, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(grains.diameter[2], 0.00025);
+  EXPECT_EQ(grains.x[1].x, 0.04026187579);
+  EXPECT_EQ(grains.x[1].y, 9.996611585e-05);
+  EXPECT_EQ(grains.x[1].z, 0.04997720662);
+  EXPECT_EQ(grains.u[1].x, 0.0);
+  EXPECT_EQ(grains.omega.size(), 3u);
+}
+
+TEST(GrainFiles, ColumnsInAnyOrderWithVelocityAndSpin) {
+  const auto grains = parse(
+      "\xEF\xBB\xBF# from elsewhere\r\n"
+      "wz, z,y ,x,diameter,id,vx,vy,vz,wx,wy\r\n"
+      "\r\n"
+      "9,3,2,+1,0.5,-4,0.1,0.2,0.3,7,8\r\n"
+      "# between\r\n"
+      "9,3,2,1,0.5,5,0.1,0.2,0.3,7,8");
+  ASSERT_EQ(grains.size(), 2u);
+  EXPECT_EQ(grains.id[0], -4);
+  EXPECT_EQ(grains.x[0].x, 1.0);
+  EXPECT_EQ(grains.x[0].y, 2.0);
+  EXPECT_EQ(grains.x[0].z, 3.0);
+  EXPECT_EQ(grains.u[0].z, 0.3);
+  EXPECT_EQ(grains.omega[0].x, 7.0);
+  EXPECT_EQ(grains.omega[0].z, 9.0);
+}
+
+TEST(GrainFiles, ProblemsNameFileAndLine) {
+  const std::string head = "id,diameter,x,y,z\n";
+  EXPECT_EQ(problem("id,diameter,x,z\n1,1,1,1\n"),
+            "heap.csv:1: column \"y\" is missing; needed are id,diameter,x,y,z");
+  EXPECT_EQ(problem("id,diameter,x,y,z,radius\n"),
+            "heap.csv:1: unknown column \"radius\"; columns are id,diameter,x,y,z and optionally "
+            "vx,vy,vz,wx,wy,wz");
+  EXPECT_EQ(problem("id,diameter,x,y,z,x\n"), "heap.csv:1: column \"x\" appears twice");
+  EXPECT_EQ(problem(head + "1,1,0,0,0\n2,1,0,zero,0\n"),
+            "heap.csv:3: y = \"zero\": must be a number");
+  EXPECT_EQ(problem(head + "1,1,0,0,\n"), "heap.csv:2: z = \"\": must be a number");
+  EXPECT_EQ(problem(head + "1,1,0,0,1e999\n"), "heap.csv:2: z = \"1e999\": must be a number");
+  EXPECT_EQ(problem(head + "1,1,0,0,0x10\n"), "heap.csv:2: z = \"0x10\": must be a number");
+  EXPECT_EQ(problem(head + "1,1,nan,0,0\n"), "heap.csv:2: x = nan: must be finite");
+  EXPECT_EQ(problem(head + "1,1,0,-inf,0\n"), "heap.csv:2: y = -inf: must be finite");
+  EXPECT_EQ(problem(head + "1.5,1,0,0,0\n"), "heap.csv:2: id = \"1.5\": must be a whole number");
+  EXPECT_EQ(problem(head + "1,0,0,0,0\n"), "heap.csv:2: diameter = 0: must be above 0");
+  EXPECT_EQ(problem(head + "1,-2e-4,0,0,0\n"), "heap.csv:2: diameter = -0.0002: must be above 0");
+  EXPECT_EQ(problem(head + "1,1,0,0\n"), "heap.csv:2: 4 values, but the header has 5 columns");
+  EXPECT_EQ(problem(head + "1,1,0,0,0,0\n"), "heap.csv:2: 6 values, but the header has 5 columns");
+  EXPECT_EQ(problem(head + "1,1,0,0,0\n\n# c\n2,1,0,0,0\n1,1,1,1,1\n"),
+            "heap.csv:6: id 1 was used before, in line 2");
+  EXPECT_EQ(problem(""), "heap.csv:0: it is empty");
+  EXPECT_EQ(problem(head), "heap.csv:1: it has a header but no grains");
+}
+
+TEST(GrainFiles, FilesByTheirEnding) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a.csv") << "id,diameter,x,y,z\n1,2,3,4,5\n";
+  EXPECT_EQ(read_grains(folder / "a.csv").size(), 1u);
+  EXPECT_EQ(message_of([&] { read_grains(folder / "no.csv"); }),
+            "cannot read " + (folder / "no.csv").string() + ": No such file or directory");
+  EXPECT_NE(message_of([&] { read_grains(folder / "a.txt"); }).find("must end with .csv or .h5"),
+            std::string::npos);
+}
+
+TEST(GrainFiles, AHundredThousandRowsAreQuick) {
+  std::string text = "id,diameter,x,y,z\n";
+  for (int p = 0; p < 100000; ++p) {
+    text += std::to_string(p) + ",0.0002,0.0399146060" + std::to_string(p) +
+            ",9.990869211e-05,0.04990389532\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto grains = parse(text);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(grains.size(), 100000u);
+#ifdef NDEBUG
+  EXPECT_LT(seconds.count(), 0.3);  // about 0.03 s; unoptimised and checked builds are slower
+#endif
+}
+
+GrainState two_grains() {
+  GrainState state;
+  state.n = 2;
+  state.kin = Kokkos::View<GrainKinematics*>("kin", 3);  // one row more than grains
+  state.id = Kokkos::View<std::int64_t*>("id", 3);
+  const auto kin = Kokkos::create_mirror_view(state.kin);
+  const auto id = Kokkos::create_mirror_view(state.id);
+  for (int p = 0; p < 3; ++p) {
+    kin(p) = GrainKinematics{};
+    kin(p).x = {0.1 + p, 0.2, 0.3};
+    kin(p).r = 1e-4;
+    kin(p).u = {1.0, 2.0, 3.0 + p};
+    kin(p).omega = {4.0, 5.0, 6.0};
+    id(p) = 70 - p;
+  }
+  Kokkos::deep_copy(state.kin, kin);
+  Kokkos::deep_copy(state.id, id);
+  return state;
+}
+
+void expect_two_grains(const InitialGrains& grains) {
+  ASSERT_EQ(grains.size(), 2u);
+  EXPECT_EQ(grains.id, (std::vector<std::int64_t>{70, 69}));
+  EXPECT_EQ(grains.diameter[1], 2e-4);
+  EXPECT_EQ(grains.x[1].x, 1.1);
+  EXPECT_EQ(grains.u[1].z, 4.0);
+  EXPECT_EQ(grains.omega[0].y, 5.0);
+}
+
+TEST(GrainFiles, TheLastFrameOfAResult) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  GrainState state = two_grains();
+  state.n = 1;
+  output.write_grains(state, 0.0, 0);
+  state.n = 2;
+  output.write_grains(state, 0.1, 10);
+  expect_two_grains(read_grains(folder / "grains.h5"));
+}
+
+TEST(GrainFiles, ARestartFile) {
+  const TemporaryFolder folder;
+  const GrainState state = two_grains();
+  CheckpointWriter writer(folder.path(), 5, {});
+  const auto rows = std::make_pair(0, state.n);
+  writer.array("grains/id", Kokkos::subview(state.id, rows));
+  writer.array("grains/kin", Kokkos::subview(state.kin, rows));
+  expect_two_grains(read_grains(writer.commit(1)));
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,98 @@
+#include "src/info.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "src/checkpoint.hpp"
+#include "src/frame_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+const Provenance origin{.title = "Ten thousand grains",
+                        .config = "[case]\n",
+                        .version = "0.1.0",
+                        .git_hash = "abc1234",
+                        .backend = "OpenMP"};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+int quiet_info(const std::filesystem::path& path, std::string* said = nullptr) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = run_info(path);
+  const std::string out = testing::internal::GetCapturedStdout();
+  const std::string err = testing::internal::GetCapturedStderr();
+  if (said != nullptr) *said = code == 0 ? out : err;
+  return code;
+}
+
+TEST(Info, DescribesResults) {
+  const TemporaryFolder folder;
+  FrameFile file(folder / "grains.h5", origin, {}, MPI_COMM_SELF);
+  const std::vector<double> x(30);
+  for (int k = 0; k < 3; ++k) {
+    file.append(
+        0.1 * k, 400 * k, [](Hdf5File&) {},
+        [&x](Hdf5File& h, const std::string& group) {
+          h.write(group + "/x", std::span<const double>(x), {10, 3}, "m");
+        });
+  }
+  std::string text;
+  EXPECT_EQ(quiet_info(folder / "grains.h5", &text), 0);
+  EXPECT_TRUE(contains(text, "Ten thousand grains")) << text;
+  EXPECT_TRUE(contains(text, "barchan 0.1.0 (abc1234), OpenMP")) << text;
+  EXPECT_TRUE(contains(text, "3: frame_000000 ... frame_000002")) << text;
+  EXPECT_TRUE(contains(text, "0.2 s (step 800)")) << text;
+  EXPECT_TRUE(contains(text, "10 x 3") && contains(text, "[m]")) << text;
+}
+
+TEST(Info, DescribesRestarts) {
+  const TemporaryFolder folder;
+  CheckpointWriter writer(folder.path(), 1200, origin);
+  writer.scalar("t", 0.3);
+  const std::vector<double> p(24);
+  writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
+  std::string text;
+  EXPECT_EQ(quiet_info(writer.commit(1), &text), 0);
+  EXPECT_TRUE(contains(text, "restart file of step 1200")) << text;
+  EXPECT_TRUE(contains(text, "0.3 s")) << text;
+  EXPECT_TRUE(contains(text, "fluid/p")) << text;
+  EXPECT_TRUE(contains(text, "2 x 3 x 4")) << text;
+}
+
+TEST(Info, OtherFilesAreBadInput) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "text.h5") << "text\n";
+  { Hdf5File(folder / "foreign.h5", Hdf5File::Mode::create).close(); }
+  std::string text;
+  EXPECT_EQ(quiet_info(folder / "no.h5", &text), 2);
+  EXPECT_EQ(text, "cannot read " + (folder / "no.h5").string() + ": No such file or directory\n");
+  EXPECT_EQ(quiet_info(folder / "text.h5", &text), 2);
+  EXPECT_TRUE(contains(text, "not an HDF5 file")) << text;
+  EXPECT_EQ(quiet_info(folder / "foreign.h5", &text), 2);
+  EXPECT_TRUE(contains(text, "not one that barchan wrote")) << text;
+  EXPECT_EQ(quiet_info(folder.path(), &text), 2);
+}
+
+TEST(Info, NoCutIsTakenForAWholeFile) {
+  const TemporaryFolder folder;
+  CheckpointWriter writer(folder.path(), 1200, origin);
+  const std::vector<double> p(24);
+  writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
+  const auto path = writer.commit(1);
+  const auto size = std::filesystem::file_size(path);
+  for (std::uintmax_t cut = 0; cut < size; cut += size / 13) {
+    std::filesystem::copy_file(path, folder / "cut.h5",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(folder / "cut.h5", cut);
+    EXPECT_EQ(quiet_info(folder / "cut.h5"), 2) << cut << " of " << size;
+  }
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,209 @@
+#include "src/output.hpp"
+
+#include <gtest/gtest.h>
+
+#include "src/atomic_file.hpp"
+#include "src/fluid_state.hpp"
+#include "src/grain_state.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+constexpr int nx = 5, ny = 4, nz = 3;
+const std::vector<double> y_faces{0.0, 0.1, 0.3, 0.7, 1.5};
+
+Grid awkward_grid() {
+  Grid grid;
+  grid.nx = nx;
+  grid.ny = ny;
+  grid.nz = nz;
+  grid.dx = 0.5;
+  grid.dz = 0.25;
+  grid.x0 = 10;
+  grid.z0 = 20;
+  grid.y_face_ = Kokkos::View<Real*>("y faces", ny + 3);
+  const auto host = Kokkos::create_mirror_view(grid.y_face_);
+  for (int j = 0; j <= ny; ++j) host(j + 1) = y_faces[static_cast<std::size_t>(j)];
+  host(0) = host(ny + 2) = -99;  // ghosts must not be written
+  Kokkos::deep_copy(grid.y_face_, host);
+  return grid;
+}
+
+/// f(i, j, k) in the owned cells and the ghosts.
+template <class F>
+Field make_field(const Grid& grid, const F& f) {
+  const Field field("field", grid);
+  const auto host = Kokkos::create_mirror_view(field.storage);
+  for (int k = -1; k <= nz; ++k) {
+    for (int j = -1; j <= ny; ++j) {
+      for (int i = -1; i <= nx; ++i) host(i + 1, j + 1, k + 1) = f(i, j, k);
+    }
+  }
+  Kokkos::deep_copy(field.storage, host);
+  return field;
+}
+
+FluidState make_flow() {
+  FluidState flow;
+  flow.grid = awkward_grid();
+  flow.u.x = make_field(flow.grid, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
+  flow.u.y = make_field(flow.grid, [](int i, int j, int k) { return 100 * i + j * j + k; });
+  flow.u.z = make_field(flow.grid, [](int i, int j, int k) { return i + j + 8 * k; });
+  flow.p = make_field(flow.grid, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
+  flow.alpha_f = make_field(flow.grid, [](int, int, int) { return 0.5; });
+  flow.nu_t = make_field(flow.grid, [](int, int j, int) { return 1e-6 * j; });
+  return flow;
+}
+
+std::size_t cell(int i, int j, int k) { return static_cast<std::size_t>(i + nx * (j + ny * k)); }
+
+int count(const std::string& text, const std::string& part) {
+  int n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Output, FieldsAreCentredWithoutGhosts) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {.title = "flow", .config = "[case]\n"});
+  const FluidState flow = make_flow();
+  output.write_fields(flow, 0.5, 2000);
+
+  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  const Extents cells{nz, ny, nx};
+  const auto u = file.read<double>("frame_000000/u", cells);
+  const auto v = file.read<double>("frame_000000/v", cells);
+  const auto w = file.read<double>("frame_000000/w", cells);
+  const auto p = file.read<double>("frame_000000/p", cells);
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        EXPECT_EQ(u[cell(i, j, k)], i + 0.5 + 10 * j + 100 * k);
+        EXPECT_EQ(v[cell(i, j, k)], 100 * i + 0.5 * (j * j + (j + 1) * (j + 1)) + k);
+        EXPECT_EQ(w[cell(i, j, k)], i + j + 8 * (k + 0.5));
+        EXPECT_EQ(p[cell(i, j, k)], i + 10 * j + 100 * k);
+      }
+    }
+  }
+  EXPECT_EQ(file.real_attribute("frame_000000", "time"), 0.5);
+  EXPECT_EQ(file.integer_attribute("frame_000000", "step"), 2000);
+  EXPECT_EQ(file.text_attribute("frame_000000/p", "units"), "Pa");
+  EXPECT_EQ(file.text_attribute("/", "title"), "flow");
+  EXPECT_EQ(file.text_attribute("/", "config"), "[case]\n");
+
+  EXPECT_EQ(file.read<double>("grid/y_face", {ny + 1}), y_faces);
+  EXPECT_EQ(file.read<double>("grid/x_face", {nx + 1}).back(), 12.5);
+  EXPECT_EQ(file.read<double>("grid/z_face", {nz + 1}).front(), 20.0);
+  EXPECT_EQ(file.read<double>("grid/x", {nx}).front(), 10.25);
+  EXPECT_DOUBLE_EQ(file.read<double>("grid/y", {ny}).back(), 1.1);
+}
+
+TEST(Output, FurtherFieldsAreWrittenToo) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  const FluidState flow = make_flow();
+  const std::vector<NamedField> more{{"u_mean", "m/s", &flow.p}};
+  output.write_fields(flow, 0, 0, more);
+  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(file.read<double>("frame_000000/u_mean")[cell(1, 2, 0)], 21.0);
+}
+
+TEST(Output, FieldsXdmfPointsAtTheArrays) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  const FluidState flow = make_flow();
+  output.write_fields(flow, 0, 0);
+  output.write_fields(flow, 0.25, 1000);
+  const std::string text = read_text(folder / "fields.xdmf");
+  EXPECT_EQ(count(text, "<Grid Name=\"frame_"), 2);
+  EXPECT_EQ(count(text, "CollectionType=\"Temporal\""), 1);
+  EXPECT_EQ(count(text, "TopologyType=\"3DRectMesh\" Dimensions=\"4 5 6\""), 2);
+  EXPECT_EQ(count(text, "Center=\"Cell\""), 12);
+  EXPECT_EQ(count(text, "Precision=\"4\" Dimensions=\"3 4 5\">fields.h5:/frame_000001/p<"), 1);
+  EXPECT_EQ(count(text, "Precision=\"8\" Dimensions=\"6\">fields.h5:/grid/x_face<"), 2);
+  EXPECT_EQ(count(text, "<Time Value=\"0.25\"/>"), 1);
+  // In this order: x, y, z.
+  EXPECT_LT(text.find("x_face"), text.find("y_face"));
+  EXPECT_LT(text.find("y_face"), text.find("z_face"));
+}
+
+GrainState make_grains(int n) {
+  GrainState grains;
+  grains.n = n;
+  const auto capacity = static_cast<std::size_t>(n + 2);
+  grains.kin = Kokkos::View<GrainKinematics*>("kin", capacity);
+  grains.id = Kokkos::View<std::int64_t*>("id", capacity);
+  const auto kin = Kokkos::create_mirror_view(grains.kin);
+  const auto id = Kokkos::create_mirror_view(grains.id);
+  for (int q = 0; q < n; ++q) {
+    kin(q) = GrainKinematics{};
+    kin(q).x = {q + 0.1, q + 0.2, q + 0.3};
+    kin(q).r = 1e-4 * (q + 1);
+    kin(q).u = {1.0 + q, 2.0, 3.0};
+    kin(q).omega = {4.0, 5.0, 6.0 + q};
+    id(q) = 1000 - q;
+  }
+  Kokkos::deep_copy(grains.kin, kin);
+  Kokkos::deep_copy(grains.id, id);
+  return grains;
+}
+
+TEST(Output, GrainsAreTheOnesInside) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  const Kokkos::View<Vec3*> drag("drag", 5);
+  Kokkos::deep_copy(drag, Vec3{1e-9, 2e-9, 3e-9});
+  const std::vector<NamedForce> forces{{"force_drag", drag}};
+  output.write_grains(make_grains(3), 0.1, 400, forces);
+
+  const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(file.read<std::int64_t>("frame_000000/id", {3}),
+            (std::vector<std::int64_t>{1000, 999, 998}));
+  const auto x = file.read<double>("frame_000000/x", {3, 3});
+  EXPECT_EQ(x[5], 1.3);  // double precision: exact
+  EXPECT_EQ(file.read<double>("frame_000000/d", {3})[2], 2 * (1e-4 * 3));
+  EXPECT_EQ(file.read<double>("frame_000000/u", {3, 3})[6], 3.0);
+  EXPECT_EQ(file.read<double>("frame_000000/omega", {3, 3})[8], 8.0);
+  EXPECT_FLOAT_EQ(file.read<float>("frame_000000/force_drag", {3, 3})[4], 2e-9f);
+  EXPECT_EQ(file.text_attribute("frame_000000/force_drag", "units"), "N");
+  EXPECT_EQ(file.info("frame_000000/x").type, ElementType::float64);
+}
+
+TEST(Output, GrainsXdmfPointsAtTheArraysAndSkipsEmptyFrames) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  output.write_grains(make_grains(3), 0.0, 0);
+  output.write_grains(make_grains(1), 0.1, 1);
+  output.write_grains(make_grains(0), 0.2, 2);
+  EXPECT_EQ(output.grain_frames().size(), 3u);
+  const std::string text = read_text(folder / "grains.xdmf");
+  EXPECT_EQ(count(text, "<Grid Name=\"frame_"), 2);
+  EXPECT_EQ(count(text, "TopologyType=\"Polyvertex\" NumberOfElements=\"3\""), 1);
+  EXPECT_EQ(count(text, "NumberOfElements=\"1\""), 1);
+  EXPECT_EQ(count(text, "Precision=\"8\" Dimensions=\"3 3\">grains.h5:/frame_000000/x<"), 1);
+  EXPECT_EQ(count(text, "<Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">"), 2);
+  EXPECT_EQ(count(text, "<Attribute Name=\"d\" AttributeType=\"Scalar\" Center=\"Node\">"), 2);
+  EXPECT_EQ(count(text, "NumberType=\"Int\" Precision=\"8\" Dimensions=\"3\""), 1);
+}
+
+TEST(Output, ARestartGoesOnWithFilesAndDescriptions) {
+  const TemporaryFolder folder;
+  {
+    OutputFiles output(folder.path(), {});
+    for (int k = 0; k < 4; ++k) output.write_grains(make_grains(2), 0.1 * k, k);
+    for (int k = 0; k < 3; ++k) output.write_fields(make_flow(), 0.2 * k, 2 * k);
+  }
+  OutputFiles output(folder.path(), {}, 0.2);
+  EXPECT_EQ(count(read_text(folder / "grains.xdmf"), "<Time"), 3);
+  EXPECT_EQ(count(read_text(folder / "fields.xdmf"), "<Time"), 2);
+  output.write_grains(make_grains(2), 0.3, 3);
+  EXPECT_EQ(output.grain_frames().size(), 4u);
+  EXPECT_EQ(output.grain_frames().back().name, "frame_000003");
+  EXPECT_EQ(count(read_text(folder / "grains.xdmf"), "<Time"), 4);
+  const Hdf5File fields(folder / "fields.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(fields.children(), (std::vector<std::string>{"frame_000000", "frame_000001", "grid"}));
+}
+
+}  // namespace
+}  // namespace barchan

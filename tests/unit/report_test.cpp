@@ -1,0 +1,146 @@
+#include "src/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "src/atomic_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+struct Said {
+  std::string out, err;
+};
+
+template <class Talk>
+Said heard(const Talk& talk) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  talk();
+  report::stop_log();
+  report::start(false);
+  Said said;
+  said.out = testing::internal::GetCapturedStdout();
+  said.err = testing::internal::GetCapturedStderr();
+  return said;
+}
+
+void say_all() {
+  report::info("grains {}", 3000);
+  report::warn("step is {:.1f} % of the limit", 25.0);
+  report::error("disk full");
+}
+
+TEST(Report, LinesGoToTheTerminalAndTheLog) {
+  const TemporaryFolder folder;
+  const Said said = heard([&] {
+    report::log_to(folder / "log.txt", false);
+    say_all();
+  });
+  EXPECT_EQ(said.out, "grains 3000\n");
+  EXPECT_EQ(said.err, "warning: step is 25.0 % of the limit\nerror: disk full\n");
+  EXPECT_EQ(read_text(folder / "log.txt"),
+            "grains 3000\nwarning: step is 25.0 % of the limit\nerror: disk full\n");
+}
+
+TEST(Report, QuietHidesInformationButLogsIt) {
+  const TemporaryFolder folder;
+  const Said said = heard([&] {
+    report::start(true);
+    report::log_to(folder / "log.txt", false);
+    say_all();
+  });
+  EXPECT_EQ(said.out, "");
+  EXPECT_EQ(said.err, "warning: step is 25.0 % of the limit\nerror: disk full\n");
+  EXPECT_TRUE(read_text(folder / "log.txt").starts_with("grains 3000\n"));
+}
+
+TEST(Report, OtherRanksAreSilent) {
+  const TemporaryFolder folder;
+  const Said said = heard([&] {
+    report::start(false, 1);
+    report::log_to(folder / "log.txt", false);
+    say_all();
+  });
+  EXPECT_EQ(said.out + said.err, "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "log.txt"));
+}
+
+TEST(Report, TheLogIsContinuedOrReplaced) {
+  const TemporaryFolder folder;
+  const auto log_line = [&](bool append) {
+    heard([&] {
+      report::log_to(folder / "log.txt", append);
+      report::info("line");
+    });
+  };
+  log_line(false);
+  log_line(true);
+  EXPECT_EQ(read_text(folder / "log.txt"), "line\nline\n");
+  log_line(false);
+  EXPECT_EQ(read_text(folder / "log.txt"), "line\n");
+}
+
+TEST(Report, BracesInTextsAreText) {
+  const Said said = heard([] { report::line(report::Level::info, "x = {}"); });
+  EXPECT_EQ(said.out, "x = {}\n");
+}
+
+TEST(Progress, ShowsWhatARunHas) {
+  Progress p{.t = 2.5, .t_start = 0, .t_end = 10};
+  EXPECT_EQ(format_progress(p, -1), "t 2.5 s  25.0 %");
+  p.grain_steps_per_second = 17.3e6;
+  p.n_grains = 98765;
+  EXPECT_EQ(format_progress(p, 185),
+            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  grains 98765");
+  p.cell_steps_per_second = 9.1e6;
+  p.cfl = 0.051;
+  p.pressure_iterations = 4.96;
+  p.dune_width = 0.0451;
+  p.dune_length = 0.06;
+  EXPECT_EQ(format_progress(p, 185),
+            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  9.10 M cell-steps/s  "
+            "CFL 0.051  p-it 5.0  grains 98765  W 45.1 mm  L 60.0 mm");
+}
+
+TEST(Progress, DurationsRead) {
+  EXPECT_EQ(format_duration(0.2), "0 s");
+  EXPECT_EQ(format_duration(59.4), "59 s");
+  EXPECT_EQ(format_duration(59.6), "1 min 00 s");
+  EXPECT_EQ(format_duration(2 * 3600 + 7 * 60), "2 h 07 min");
+  EXPECT_EQ(format_duration(4 * 86400 + 3 * 3600), "4 d 03 h");
+  EXPECT_EQ(format_duration(1e300), "?");
+  EXPECT_EQ(format_duration(-1), "?");
+}
+
+TEST(ProgressLine, PrintsPlainLinesNowAndThenWhereThereIsNoTerminal) {
+  const TemporaryFolder folder;
+  const Progress p{.t = 1, .t_start = 0, .t_end = 2};
+  const Said said = heard([&] {
+    report::log_to(folder / "log.txt", false);
+    ProgressLine line(std::chrono::milliseconds(20));
+    line.update(p);  // too early
+    EXPECT_FALSE(line.due());
+    std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    EXPECT_TRUE(line.due());
+    line.update(p);
+    line.update(p);
+    line.finish();
+  });
+  EXPECT_EQ(said.out, "t 1 s  50.0 %  left 0 s\n");
+  EXPECT_EQ(read_text(folder / "log.txt"), said.out);
+}
+
+TEST(ProgressLine, QuietShowsNone) {
+  const Said said = heard([] {
+    report::start(true);
+    ProgressLine line(std::chrono::milliseconds(0));
+    line.update({.t = 1, .t_start = 0, .t_end = 2});
+  });
+  EXPECT_EQ(said.out, "");
+}
+
+}  // namespace
+}  // namespace barchan
