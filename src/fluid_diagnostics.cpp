@@ -1,4 +1,4 @@
-// What reports and grains ask of the flow.
+// Numbers of the flow that reports ask for.
 #include <cmath>
 
 #include "kernels/flow_sums.hpp"
@@ -6,19 +6,6 @@
 #include "src/launch.hpp"
 
 namespace barchan {
-
-void FluidSolver::evaluate_face_forces(const FluidState& fluid, const FaceForces& out,
-                                       const CellRange& where) const {
-  const StressDivergence stress{grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity};
-  for_each_cell("fluid: face forces", where,
-                EvaluateFaceForces{stress, ConvectiveAcceleration{grid_, fluid.u}, fluid.du_dt,
-                                   fluid.p, config_.density, fluid.drive, out});
-  for (const FaceVector& f : {out.grad_p, out.div_tau, out.acceleration}) {
-    boundary_.fill(f.x, FieldKind::scalar);
-    boundary_.fill(f.y, FieldKind::velocity_y);
-    boundary_.fill(f.z, FieldKind::scalar);
-  }
-}
 
 Real FluidSolver::friction_velocity(const FluidState& fluid) const {
   const bool bottom = config_.bottom == WallFlow::no_slip, top = config_.top == WallFlow::no_slip;

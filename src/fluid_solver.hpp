@@ -3,11 +3,9 @@
 
 #include <memory>
 
-#include "kernels/face_forces.hpp"
 #include "kernels/pressure.hpp"
 #include "src/boundary.hpp"
 #include "src/fluid_state.hpp"
-#include "src/launch.hpp"
 #include "src/pressure_solver.hpp"
 
 namespace barchan {
@@ -39,12 +37,6 @@ class FluidSolver {
 
   /// Makes all ghosts valid, to be called after a state was set or read.
   void fill_ghosts(const FluidState& fluid) const;
-
-  /// Forces of the present state for grains in the cells of `where` (rows and planes of the owned
-  /// grid); ghosts next to them become valid, zero gradient at the walls. nu_t is that of the
-  /// last step.
-  void evaluate_face_forces(const FluidState& fluid, const FaceForces& out,
-                            const CellRange& where) const;
 
   /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
   Real friction_velocity(const FluidState& fluid) const;

@@ -1,8 +1,9 @@
 // Stencils on fields whose derivatives are known, on a grid that tells the axes apart.
 #include <gtest/gtest.h>
 
-#include "kernels/face_forces.hpp"
+#include "kernels/convective_acceleration.hpp"
 #include "kernels/flow_sums.hpp"
+#include "kernels/momentum.hpp"
 #include "kernels/wale.hpp"
 #include "src/launch.hpp"
 #include "tests/support/flow_fields.hpp"

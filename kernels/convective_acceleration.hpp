@@ -1,7 +1,7 @@
-// What the flow does to an immersed grain, on the faces, to be interpolated to it.
+// Convective acceleration of the flow, as grains feel it.
 #pragma once
 
-#include "kernels/momentum.hpp"
+#include "kernels/stencil.hpp"
 
 namespace barchan {
 
@@ -54,37 +54,6 @@ struct ConvectiveAcceleration {
         Real(0.25) * (v(i, j, k - 1) + v(i, j, k) + v(i, j + 1, k - 1) + v(i, j + 1, k));
     return u_here * ddx(u.z, i, j, k) + v_here * ddy_in_row(u.z, i, j, k) +
            u.z(i, j, k) * ddz(u.z, i, j, k);
-  }
-};
-
-/// Face fields that the forces on grains are made of.
-struct FaceForces {
-  FaceVector grad_p;        // of the total pressure: grad p - rho f e_x [Pa/m]
-  FaceVector div_tau;       // rho div(2 (nu + nu_t) S) [N/m^3]
-  FaceVector acceleration;  // Du/Dt = du/dt + (u . grad) u of the fluid [m/s^2]
-};
-
-/// Fills FaceForces. Components normal to a wall vanish on it.
-struct EvaluateFaceForces {
-  StressDivergence stress;
-  ConvectiveAcceleration convective;
-  FaceVector du_dt;
-  Field p;
-  Real density, drive;  // [kg/m^3], [m/s^2]
-  FaceForces out;
-
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Grid& grid = stress.grid;
-    const Real inside = j > 0 ? Real(1) : Real(0);
-    out.grad_p.x(i, j, k) = ddx_at_xface(grid, p, i, j, k) - density * drive;
-    out.grad_p.y(i, j, k) = inside * ddy_at_yface(grid, p, i, j, k);
-    out.grad_p.z(i, j, k) = ddz_at_zface(grid, p, i, j, k);
-    out.div_tau.x(i, j, k) = density * stress.x(i, j, k);
-    out.div_tau.y(i, j, k) = inside * density * stress.y(i, j, k);
-    out.div_tau.z(i, j, k) = density * stress.z(i, j, k);
-    out.acceleration.x(i, j, k) = du_dt.x(i, j, k) + convective.x(i, j, k);
-    out.acceleration.y(i, j, k) = inside * (du_dt.y(i, j, k) + convective.y(i, j, k));
-    out.acceleration.z(i, j, k) = du_dt.z(i, j, k) + convective.z(i, j, k);
   }
 };
 
