@@ -3,6 +3,7 @@
 
 #include "kernels/flow_sums.hpp"
 #include "kernels/momentum.hpp"
+#include "kernels/time_step_limits.hpp"
 
 namespace barchan {
 
@@ -198,8 +199,7 @@ struct CorrectVelocity {
     u.x(i, j, k) = ux;
     u.y(i, j, k) = uy;
     u.z(i, j, k) = uz;
-    return dt * (Kokkos::abs(ux) * (1 / grid.dx) + Kokkos::abs(uy) * (1 / grid.dy_centre(j)) +
-                 Kokkos::abs(uz) * (1 / grid.dz));
+    return courant_number({ux, uy, uz}, {grid.dx, grid.dy_centre(j), grid.dz}, dt);
   }
 };
 

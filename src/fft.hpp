@@ -1,6 +1,7 @@
 // Real Fourier transforms over x and z of every row of a grid field.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "kernels/grid.hpp"
@@ -26,8 +27,15 @@ class PlaneFft {
 
  private:
   struct Plans;
+  void forward_on_host(const Real* in, Kokkos::complex<Real>* out) const;
+  void backward_on_host(Kokkos::complex<Real>* in, Real* out) const;
+
   std::unique_ptr<Plans> plans_;
   int nx_, ny_, nz_;
+  std::ptrdiff_t row_, plane_;  // strides of a field's y and z
+  // Where fields live on a device: host copies that the transforms work on.
+  Field::Storage::host_mirror_type real_;
+  Spectrum::host_mirror_type spectrum_;
 };
 
 }  // namespace barchan

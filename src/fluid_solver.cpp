@@ -43,12 +43,11 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
-  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
-
   if (exchange != nullptr) {
     boundary_.fill(fluid.alpha_f, FieldKind::scalar);
     boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
   }
+  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
   update_eddy_viscosity(fluid);       // nu_t
   predict(fluid, exchange, dt);       // u*
   choose_drive(fluid, exchange, dt);  // f that gives the wanted bulk velocity

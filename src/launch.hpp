@@ -89,17 +89,19 @@ struct MaxLoop {
       const Functor body = functor;
       const Place at = Place::of_row(range, index);
       const int end = range.i1;
-      Real row_max = largest;
-#pragma omp simd reduction(max : row_max)
+      Real row_max = largest, row_sum = 0;
+#pragma omp simd reduction(max : row_max) reduction(+ : row_sum)
       for (int i = at.i; i < end; ++i) {
         const Real value = body(i, at.j, at.k);
         row_max = value > row_max ? value : row_max;
+        row_sum += value;  // a maximum forgets what is not a number, a sum does not
       }
-      largest = row_max;
+      largest = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
     } else {
       const Place at = Place::of_cell(range, index);
       const Real value = functor(at.i, at.j, at.k);
-      largest = value > largest ? value : largest;
+      const Real known = value == value ? value : Kokkos::Experimental::infinity_v<Real>;
+      largest = known > largest ? known : largest;
     }
   }
 };
@@ -128,7 +130,7 @@ Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   return sum;
 }
 
-/// Largest functor(i, j, k), for values that are not negative.
+/// Largest functor(i, j, k), for values that are not negative; infinity if one is not a number.
 template <class Functor>
 Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
   Real largest = 0;

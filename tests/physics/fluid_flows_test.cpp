@@ -207,6 +207,49 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
   }
 }
 
+/// A new solver that goes on from a state must not notice: nothing may hide outside FluidState.
+TEST(FluidFlow, ANewSolverContinuesBitForBit) {
+  Config config = test::flow_config({16, 8, 11}, {0.04, 0.025, 0.03}, 1e-3);
+  config.fluid->mean_velocity = 0.28;
+  config.time.fluid_step = 5e-4;
+  const Grid grid = make_grid(config);
+  const ExchangeOnFaces exchange = no_exchange(grid);
+  for (const Field& m : {exchange.implicit.x, exchange.implicit.y, exchange.implicit.z}) {
+    test::set_field(m, grid,
+                    [](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? 900. : 0.; });
+  }
+  const auto run = [&](bool change_solver) {
+    FluidState fluid = make_fluid_state(grid);
+    set_turbulent_flow(config, fluid);
+    for (const Field& alpha : {fluid.alpha_f, fluid.alpha_f_previous}) {
+      test::set_field(alpha, grid,
+                      [](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? 0.5 : 1; });
+    }
+    auto solver = std::make_unique<FluidSolver>(config, grid);
+    solver->fill_ghosts(fluid);
+    for (int s = 0; s < 6; ++s) {
+      if (s == 3 && change_solver) solver = std::make_unique<FluidSolver>(config, grid);
+      solver->advance(fluid, &exchange, config.time.fluid_step);
+    }
+    return test::to_host(fluid.u.x);
+  };
+  const auto straight = run(false), changed = run(true);
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) ASSERT_EQ(straight(i, j, k), changed(i, j, k));
+}
+
+TEST(FluidFlow, ANumberThatIsNoneShowsInTheReport) {
+  const Config config = test::flow_config({16, 4, 3}, {0.04, 0.025, 0.03}, 0);
+  const Grid grid = make_grid(config);
+  FluidState fluid = make_fluid_state(grid);
+  test::set_field(fluid.u.z, grid,
+                  [](int i, int j, int k) { return i == 9 && j == 2 && k == 1 ? NAN : 0.; });
+  FluidSolver solver(config, grid);
+  solver.fill_ghosts(fluid);
+  EXPECT_FALSE(std::isfinite(solver.advance(fluid, nullptr, 1e-3).courant));
+}
+
 TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   Config config = test::flow_config({24, 12, 18}, {0.1, 0.025, 0.05}, 5e-4);
   config.fluid->mean_velocity = 0.28;
