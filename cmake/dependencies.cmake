@@ -40,10 +40,15 @@ find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+# toml++ is headers, and where it is packaged so also a library that spares compiling the parser.
 find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
-
-add_library(barchan_headers INTERFACE)
-target_include_directories(barchan_headers SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
+find_library(TOMLPLUSPLUS_LIBRARY tomlplusplus)
+add_library(barchan_toml INTERFACE)
+target_include_directories(barchan_toml SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
+if(TOMLPLUSPLUS_LIBRARY)
+  target_compile_definitions(barchan_toml INTERFACE TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
+  target_link_libraries(barchan_toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
+endif()
 
 set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fftw Eigen3::Eigen CLI11::CLI11
-    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_headers)
+    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_toml)
