@@ -29,6 +29,12 @@ struct Grid {
   KOKKOS_INLINE_FUNCTION Real dy_centre(int j) const { return y_centre_(j + 1) - y_centre_(j); }
   KOKKOS_INLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
 
+  /// The same as row_of(y), found from a row nearby.
+  KOKKOS_INLINE_FUNCTION int row_near(Real y, int row) const {
+    while (row > 0 && y < y_face(row)) --row;
+    while (row < ny - 1 && y >= y_face(row + 1)) ++row;
+    return row;
+  }
   /// Row whose interval [y_face(j), y_face(j+1)) holds y; clamped to 0..ny-1.
   KOKKOS_INLINE_FUNCTION int row_of(Real y) const {
     int low = 0, high = ny;

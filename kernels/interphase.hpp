@@ -32,9 +32,9 @@ struct FluidForceDensity {
   /// Gradient of the velocity component q on its own faces, advected by (a, b, c).
   KOKKOS_INLINE_FUNCTION Real advect(const Field& q, int i, int j, int k, const Vec3& by,
                                      Real span_y) const {
-    return by.x * (q(i + 1, j, k) - q(i - 1, j, k)) / (2 * grid.dx) +
-           by.y * (q(i, j + 1, k) - q(i, j - 1, k)) / span_y +
-           by.z * (q(i, j, k + 1) - q(i, j, k - 1)) / (2 * grid.dz);
+    return by.x * (q(i + 1, j, k) - q(i - 1, j, k)) * (Real(0.5) / grid.dx) +
+           by.y * (q(i, j + 1, k) - q(i, j - 1, k)) * (1 / span_y) +
+           by.z * (q(i, j, k + 1) - q(i, j, k - 1)) * (Real(0.5) / grid.dz);
   }
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     const Real span_c = grid.dy_centre(j) + grid.dy_centre(j + 1);

@@ -63,24 +63,25 @@ struct Locate {
   PointSet points = PointSet::divided;
   bool wrap_x = false;
 
-  /// Linear index of the owned cell (i + nx (j + ny k)) that holds a point.
-  KOKKOS_INLINE_FUNCTION std::int64_t cell_of(const Vec3& p) const {
-    int i = static_cast<int>(Kokkos::floor((p.x - grid.x0) / grid.dx));
-    int k = static_cast<int>(Kokkos::floor((p.z - grid.z0) / grid.dz));
+  /// Linear index of the owned cell (i + nx (j + ny k)) that holds a point not far from a row.
+  KOKKOS_INLINE_FUNCTION std::int64_t cell_of(const Vec3& p, int row_nearby) const {
+    int i = static_cast<int>(Kokkos::floor((p.x - grid.x0) * (1 / grid.dx)));
+    int k = static_cast<int>(Kokkos::floor((p.z - grid.z0) * (1 / grid.dz)));
     if (wrap_x) i = ((i % grid.nx) + grid.nx) % grid.nx;
     i = i < 0 ? 0 : (i >= grid.nx ? grid.nx - 1 : i);
     k = ((k % grid.nz) + grid.nz) % grid.nz;
     Real y = p.y < 0 ? -p.y : p.y;
     y = y > grid.ly ? 2 * grid.ly - y : y;
-    return i + std::int64_t{grid.nx} * (grid.row_of(y) + std::int64_t{grid.ny} * k);
+    return i + std::int64_t{grid.nx} * (grid.row_near(y, row_nearby) + std::int64_t{grid.ny} * k);
   }
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
     GrainCells cells;
     const int n = points == PointSet::centre ? 1 : kDividedPoints;
+    const int row = grid.row_of(g.x.y);
     for (int p = 0; p < n; ++p) {
       const Vec3 point = g.x + g.r * divided_point(p);
       const bool outside = point.y < 0 || point.y > grid.ly;
-      cells.add(cell_of(outside && points == PointSet::cfdem ? g.x : point));
+      cells.add(cell_of(outside && points == PointSet::cfdem ? g.x : point, row));
     }
     return cells;
   }

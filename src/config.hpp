@@ -96,7 +96,7 @@ struct GrainConfig {
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
-  double skin = 2e-5;                          // [m], Verlet skin
+  double skin = 4e-5;                          // [m], Verlet skin
   std::optional<AmbientConfig> ambient = {};
 
   bool operator==(const GrainConfig&) const = default;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "barchan_version.hpp"
+#include "src/checkpoint.hpp"
 #include "src/config_load.hpp"
 #include "src/config_resolved.hpp"
 #include "src/config_validate.hpp"
