@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Succeeds when the Kokkos that CMake finds builds and runs a small parallel program.
+# Succeeds when the Kokkos that CMake finds builds and runs a small parallel program (CUDA: builds).
 # The rule for where to look is the project's own (cmake/kokkos.cmake). Prints "Kokkos VERSION (BACKEND)".
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -26,9 +26,19 @@ int main(int argc, char** argv) {
   return sum == 499500 ? 0 : 1;
 }
 CPP
-if ! { cmake -S "$scratch" -B "$scratch/build" -G Ninja -DBARCHAN_ROOT="$root" &&
+options=(-G Ninja "-DBARCHAN_ROOT=$root")
+cuda=no
+if [ -n "${Kokkos_ROOT:-}" ] && grep -qsE 'set\(Kokkos_DEVICES .*CUDA' "$Kokkos_ROOT"/lib*/cmake/Kokkos/KokkosConfigCommon.cmake; then
+  cuda=yes
+  options+=("-DCMAKE_CXX_COMPILER=$Kokkos_ROOT/bin/nvcc_wrapper")
+fi
+if ! { cmake -S "$scratch" -B "$scratch/build" "${options[@]}" &&
   cmake --build "$scratch/build"; } > "$scratch/log" 2>&1; then
   cat "$scratch/log" >&2
   exit 1
+fi
+if [ "$cuda" = yes ]; then  # where a program is built there need not be a GPU
+  echo "Kokkos with CUDA in $Kokkos_ROOT"
+  exit 0
 fi
 OMP_PROC_BIND=false "$scratch/build/probe"
