@@ -99,12 +99,12 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   if (rank > 0) check(H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr), name);
 
   ArrayInfo result{element_type(type.get()), Extents(dims.begin(), dims.end())};
+  if (mode_ != Mode::read) return result;  // our own words, perhaps not on the disk yet
   // A damaged file must not make us ask for absurd amounts of memory. Compression (files that
   // others made) gets a factor of 1000.
   const Handle creation(check(H5Dget_create_plist(array.get()), name), H5Pclose);
   const std::uint64_t packed = H5Pget_layout(creation.get()) == H5D_CONTIGUOUS ? 1 : 1000;
-  hsize_t file_size = 0;
-  check(H5Fget_filesize(file_, &file_size), name);
+  const auto file_size = std::filesystem::file_size(path_);
   std::uint64_t count = 0;
   if (!count_elements(result.extents, count) ||
       count / packed > file_size / H5Tget_size(type.get())) {

@@ -1,0 +1,115 @@
+// Result and restart files written by all ranks together; tests/scripts/parallel_files.sh runs
+// these on several ranks, the unit tests on one.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "src/checkpoint.hpp"
+#include "src/communicator.hpp"
+#include "src/fluid_state.hpp"
+#include "src/grain_state.hpp"
+#include "src/output.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+const MPI_Comm world = MPI_COMM_WORLD;
+
+/// A folder that rank 0 makes and all ranks know.
+class SharedFolder {
+ public:
+  SharedFolder() {
+    std::array<char, 512> name{};
+    if (rank_of(world) == 0) {
+      own_.emplace();
+      own_->path().string().copy(name.data(), name.size() - 1);
+    }
+    MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, world);
+    path_ = name.data();
+  }
+  ~SharedFolder() { MPI_Barrier(world); }
+  SharedFolder(const SharedFolder&) = delete;
+  SharedFolder& operator=(const SharedFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::optional<TemporaryFolder> own_;
+  std::filesystem::path path_;
+};
+
+constexpr int nx = 3, ny = 2, nz = 2;  // of each rank; the ranks follow each other along x
+
+FluidState flow_of(int rank) {
+  FluidState flow;
+  Grid& grid = flow.grid;
+  grid.nx = nx;
+  grid.ny = ny;
+  grid.nz = nz;
+  grid.dx = grid.dz = 1;
+  grid.x0 = nx * rank;
+  grid.y_face_ = Kokkos::View<Real*>("y faces", ny + 3);
+  flow.u = {.x = Field("u", grid), .y = Field("v", grid), .z = Field("w", grid)};
+  flow.p = Field("p", grid);
+  flow.alpha_f = Field("alpha_f", grid);
+  flow.nu_t = Field("nu_t", grid);
+  Kokkos::deep_copy(flow.p.storage, 10.0 + rank);
+  return flow;
+}
+
+/// Rank r has r grains: none on the first.
+GrainState grains_of(int rank) {
+  GrainState grains;
+  grains.n = rank;
+  grains.kin = Kokkos::View<GrainKinematics*>("kin", static_cast<std::size_t>(rank));
+  grains.id = Kokkos::View<std::int64_t*>("id", static_cast<std::size_t>(rank));
+  Kokkos::deep_copy(grains.id, rank);
+  return grains;
+}
+
+TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
+  const int ranks = rank_count(world), rank = rank_of(world);
+  const SharedFolder folder;
+  const GridPlace place{.nx = nx * ranks, .nz = nz, .first_i = nx * rank};
+  {
+    OutputFiles output(folder.path(), {.title = "parallel"}, {}, world);
+    for (int k = 0; k < 3; ++k) {
+      output.write_fields(flow_of(rank), k, k, {}, place);
+      output.write_grains(grains_of(rank), k, k);
+    }
+  }
+  OutputFiles output(folder.path(), {.title = "parallel"}, 1.0, world);
+  EXPECT_EQ(output.field_frames().size(), 2u);
+  output.write_fields(flow_of(rank), 2, 2, {}, place);
+
+  const Hdf5File fields(folder.path() / "fields.h5", Hdf5File::Mode::read, world);
+  const auto wide = static_cast<std::uint64_t>(nx * ranks);
+  const auto p = fields.read<double>("frame_000002/p", {nz, ny, wide});
+  for (std::size_t c = 0; c < p.size(); ++c) {
+    EXPECT_EQ(p[c], 10.0 + static_cast<double>(c % wide / nx));
+  }
+  EXPECT_EQ(fields.read<double>("grid/x_face", {wide + 1}).back(), static_cast<double>(wide));
+  const Hdf5File grains(folder.path() / "grains.h5", Hdf5File::Mode::read, world);
+  std::vector<std::int64_t> ids;
+  for (int r = 0; r < ranks; ++r) ids.insert(ids.end(), static_cast<std::size_t>(r), r);
+  EXPECT_EQ(grains.read<std::int64_t>("frame_000001/id"), ids);
+  EXPECT_EQ(grains.info("frame_000001/x").extents, (Extents{ids.size(), 3}));
+}
+
+TEST(ParallelFiles, ARestartFileHoldsTheSharesOfAllRanks) {
+  const auto ranks = static_cast<std::uint64_t>(rank_count(world));
+  const auto rank = static_cast<std::uint64_t>(rank_of(world));
+  const SharedFolder folder;
+  const std::vector<double> mine(2, static_cast<double>(rank));
+  CheckpointWriter writer(folder.path(), 5, {}, world);
+  writer.scalar("t", 0.25);
+  writer.array("a", std::span<const double>(mine), {2},
+               {.whole = {2 * ranks}, .first = {2 * rank}});
+  const CheckpointReader reader(writer.commit(1), world);
+  EXPECT_EQ(reader.real("t"), 0.25);
+  const auto all = reader.array<double>("a", {2 * ranks});
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], static_cast<double>(i / 2));
+}
+
+}  // namespace
+}  // namespace barchan
