@@ -14,7 +14,7 @@ enum class GhostRule {
 
 /// Fills the ghosts behind both walls of columns (i, k).
 struct FillWallGhosts {
-  Field f;
+  FieldRef f;
   int ny;
   GhostRule bottom, top;
 

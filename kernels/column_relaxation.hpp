@@ -10,7 +10,7 @@ using ColumnHeights = Kokkos::View<int**, Kokkos::LayoutLeft>;
 
 /// Height of a column up to its highest cell with a face where c is below `threshold`.
 struct FindColumns {
-  FaceVector c;  // with periodic ghosts
+  FaceRef c;  // with periodic ghosts
   int ny;
   Real threshold;
   ColumnHeights height;
@@ -46,8 +46,8 @@ struct WidenColumns {
 /// The tridiagonal equations of a column, height-weighted so that they are symmetric:
 ///   D_j z_j - E_j z_{j-1} - E_{j+1} z_{j+1} = dy_j (r_j + what the neighbours' z add).
 struct ColumnEquations {
-  Grid grid;
-  FaceVector c;
+  GridRef grid;
+  FaceRef c;
 
   KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {  // E_j [1/m]
     return c.y(i, j, k) / grid.dy_centre(j);
@@ -61,7 +61,7 @@ struct ColumnEquations {
 struct FactoriseColumn {
   ColumnEquations equations;
   ColumnHeights height;
-  Field pivot;
+  FieldRef pivot;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     Real before = 0;
     for (int j = 0; j < height(i, k); ++j) {
@@ -78,22 +78,22 @@ struct FactoriseColumn {
 struct RelaxColumns {
   ColumnEquations equations;
   ColumnHeights height;
-  Field pivot, r, z;
+  FieldRef pivot, r, z;
   int colour;
 
   KOKKOS_FORCEINLINE_FUNCTION static int part(int index, int n) {
     return index == n - 1 && n % 2 == 1 ? 2 : index % 2;
   }
-  KOKKOS_FORCEINLINE_FUNCTION static int colours(const Grid& grid) {
+  KOKKOS_FORCEINLINE_FUNCTION static int colours(const GridRef& grid) {
     return grid.nx % 2 == 0 && grid.nz % 2 == 0 ? 2 : 3;
   }
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
-    const Grid& grid = equations.grid;
+    const GridRef& grid = equations.grid;
     const int rows = height(i, k);
     if (rows == 0) return;
     if ((part(i, grid.nx) + part(k, grid.nz)) % colours(grid) != colour) return;
-    const FaceVector& c = equations.c;
+    const FaceRef& c = equations.c;
     const int left = i > 0 ? i - 1 : grid.nx - 1, right = i < grid.nx - 1 ? i + 1 : 0;
     const int back = k > 0 ? k - 1 : grid.nz - 1, front = k < grid.nz - 1 ? k + 1 : 0;
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
@@ -114,7 +114,7 @@ struct RelaxColumns {
 
 struct ClearColumns {
   ColumnHeights height;
-  Field z;
+  FieldRef z;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) z(i, j, k) = 0;
   }
@@ -122,10 +122,10 @@ struct ClearColumns {
 
 /// Before the global solve: r becomes r - A z in the columns and around them; the old r is kept.
 struct SubtractLocal {
-  Grid grid;
-  FaceVector c;
+  GridRef grid;
+  FaceRef c;
   ColumnHeights height;  // with one layer more than z has
-  Field z, r, kept;
+  FieldRef z, r, kept;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
       kept(i, j, k) = r(i, j, k);
@@ -136,7 +136,7 @@ struct SubtractLocal {
 /// After it: r as before, and the local z added to the global one.
 struct AddLocal {
   ColumnHeights height;  // the same
-  Field local, kept, r, z;
+  FieldRef local, kept, r, z;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
       r(i, j, k) = kept(i, j, k);

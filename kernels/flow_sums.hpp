@@ -7,8 +7,8 @@ namespace barchan {
 
 /// A cell field weighted with the height of its row.
 struct HeightSum {
-  Grid grid;
-  Field a;
+  GridRef grid;
+  FieldRef a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * grid.dy(j);
   }
@@ -16,8 +16,8 @@ struct HeightSum {
 
 /// alpha u_x dy on x-faces [m^2/s].
 struct FlowRate {
-  Grid grid;
-  Field u, alpha;
+  GridRef grid;
+  FieldRef u, alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return cell_to_xface(alpha, i, j, k) * u(i, j, k) * grid.dy(j);
   }
@@ -26,9 +26,9 @@ struct FlowRate {
 /// alpha |u|^2 dy / 2 with the face values' own volumes [m^3/s^2]: the energy that the convection
 /// conserves. Ghosts of alpha must be valid.
 struct KineticEnergy {
-  Grid grid;
-  FaceVector u;
-  Field alpha;
+  GridRef grid;
+  FaceRef u;
+  FieldRef alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real x = u.x(i, j, k), y = u.y(i, j, k), z = u.z(i, j, k);
     const Real horizontal =
@@ -40,8 +40,8 @@ struct KineticEnergy {
 
 /// Slope dU/dy at the walls from the first row [1/s], with the sign it has at the floor.
 struct WallShear {
-  Grid grid;
-  Field u;
+  GridRef grid;
+  FieldRef u;
   bool bottom, top;  // which walls count
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     Real slope = 0;

@@ -58,9 +58,9 @@ struct KickAndDrift {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void kick_and_drift(int g, GrainKinematics& grain,
-                                                  const GrainForces& f, Vec3& impulse,
-                                                  Real& largest) const {
-    impulse += half_kick(dt / 2, f, grain.u, grain.omega);
+                                                  const HalfKick& kick, const GrainForces& f,
+                                                  Vec3& impulse, Real& largest) const {
+    impulse += kick(f, grain.u, grain.omega);
     grain.x += dt * grain.u;
     const Vec3 moved = grain.x - x_reference(g);
     const Real distance2 = dot(moved, moved);
@@ -72,7 +72,8 @@ struct KickAndDrift {
   KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
     GrainKinematics grain = grains(g);
     Vec3 impulse = fluid.drag_impulse(g);
-    kick_and_drift(g, grain, forces(g, grain), impulse, largest);
+    const GrainForces f = forces(g, grain);
+    kick_and_drift(g, grain, HalfKick(dt / 2, f), f, impulse, largest);
     fluid.drag_impulse(g) = impulse;
     grains(g) = grain;
   }
@@ -95,8 +96,9 @@ struct SumKickDrift {
     motion.contact_force(g) = sum.force;
     motion.contact_torque(g) = sum.torque;
     const GrainForces f = motion.forces(g, grain);
-    Vec3 impulse = motion.fluid.drag_impulse(g) + half_kick(motion.dt / 2, f, grain.u, grain.omega);
-    if (!last) motion.kick_and_drift(g, grain, f, impulse, largest);
+    const HalfKick kick(motion.dt / 2, f);
+    Vec3 impulse = motion.fluid.drag_impulse(g) + kick(f, grain.u, grain.omega);
+    if (!last) motion.kick_and_drift(g, grain, kick, f, impulse, largest);
     motion.fluid.drag_impulse(g) = impulse;
     motion.grains(g) = grain;
   }

@@ -1,6 +1,8 @@
 // The structured staggered (MAC) grid and the fields on it.
 #pragma once
 
+#include <cstddef>
+
 #include "kernels/vec3.hpp"
 
 namespace barchan {
@@ -9,25 +11,29 @@ namespace barchan {
 /// Cell (i,j,k) has its x-face (i,j,k) at x = x0 + i dx, its y-face at y_face(j), its z-face at
 /// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
 /// stretched in y. The geometry of ghost rows mirrors the first row inside.
-struct Grid {
+/// `Rows` holds the heights: a Kokkos view (Grid) or a bare pointer (GridRef).
+template <class Rows>
+struct BasicGrid {
   int nx = 0, ny = 0, nz = 0;
-  Real dx = 0, dz = 0;             // spacing [m]
-  Real x0 = 0, z0 = 0;             // corner of the owned part [m]
-  Real lx = 0, ly = 0, lz = 0;     // extent of the owned part [m]
-  Kokkos::View<Real*> y_face_;     // [ny + 3], faces -1 .. ny + 1
-  Kokkos::View<Real*> y_centre_;   // [ny + 2], cells -1 .. ny
+  Real dx = 0, dz = 0;          // spacing [m]
+  Real x0 = 0, z0 = 0;          // corner of the owned part [m]
+  Real lx = 0, ly = 0, lz = 0;  // extent of the owned part [m]
+  Rows y_face_{};               // [ny + 3], faces -1 .. ny + 1
+  Rows y_centre_{};             // [ny + 2], cells -1 .. ny
 
-  KOKKOS_INLINE_FUNCTION Real y_face(int j) const { return y_face_(j + 1); }
-  KOKKOS_INLINE_FUNCTION Real y_centre(int j) const { return y_centre_(j + 1); }
-  KOKKOS_INLINE_FUNCTION Real x_face(int i) const { return x0 + i * dx; }
-  KOKKOS_INLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
-  KOKKOS_INLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
-  KOKKOS_INLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real y_face(int j) const { return y_face_[j + 1]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real y_centre(int j) const { return y_centre_[j + 1]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_face(int i) const { return x0 + i * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
   /// Height of row j [m].
-  KOKKOS_INLINE_FUNCTION Real dy(int j) const { return y_face_(j + 2) - y_face_(j + 1); }
+  KOKKOS_FORCEINLINE_FUNCTION Real dy(int j) const { return y_face_[j + 2] - y_face_[j + 1]; }
   /// Distance between the centres on either side of y-face j [m].
-  KOKKOS_INLINE_FUNCTION Real dy_centre(int j) const { return y_centre_(j + 1) - y_centre_(j); }
-  KOKKOS_INLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real dy_centre(int j) const {
+    return y_centre_[j + 1] - y_centre_[j];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
 
   /// The same as row_of(y), found from a row nearby.
   KOKKOS_INLINE_FUNCTION int row_near(Real y, int row) const {
@@ -35,6 +41,7 @@ struct Grid {
     while (row < ny - 1 && y >= y_face(row + 1)) ++row;
     return row;
   }
+
   /// Row whose interval [y_face(j), y_face(j+1)) holds y; clamped to 0..ny-1.
   KOKKOS_INLINE_FUNCTION int row_of(Real y) const {
     int low = 0, high = ny;
@@ -47,6 +54,28 @@ struct Grid {
       }
     }
     return low;
+  }
+};
+
+/// The grid as kernels see it: trivially copyable, valid while its Grid lives.
+using GridRef = BasicGrid<const Real*>;
+
+/// The grid with its memory.
+struct Grid : BasicGrid<Kokkos::View<Real*>> {
+  KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
+    return {nx, ny, nz, dx, dz, x0, z0, lx, ly, lz, y_face_.data(), y_centre_.data()};
+  }
+};
+
+/// A field as kernels see it: trivially copyable, so that a compiler can keep it in registers.
+struct FieldRef {
+  Real* origin = nullptr;
+  int stride_y = 0, stride_z = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
+    // The row first: its address does not depend on i, and compilers then see plain strides.
+    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
 };
 
@@ -65,14 +94,23 @@ struct Field {
         stride_z((grid.nx + 2) * (grid.ny + 2)) {
     origin = storage.data() + 1 + stride_y + stride_z;
   }
-  KOKKOS_INLINE_FUNCTION Real& operator()(int i, int j, int k) const {
-    return origin[i + stride_y * j + stride_z * k];
+  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
+    // The row first: its address does not depend on i, and compilers then see plain strides.
+    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
+  KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() const { return {origin, stride_y, stride_z}; }
+};
+
+/// A vector on the faces as kernels see it.
+struct FaceRef {
+  FieldRef x, y, z;
 };
 
 /// A vector on the faces: x component on x-faces, y on y-faces, z on z-faces.
 struct FaceVector {
   Field x, y, z;
+  KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() const { return {x, y, z}; }
 };
 
 }  // namespace barchan

@@ -10,11 +10,11 @@ namespace barchan {
 /// c = alpha^2 / (alpha + m) on faces, m = implicit / rho: how easily pressure moves the mixture's
 /// fluid. One without grains. Zero on the wall below; the wall above is never written.
 struct UpdateMobility {
-  Grid grid;
-  Field alpha;
-  FaceVector implicit;  // [kg/m^3]
-  Real per_density;     // 1 / rho
-  FaceVector c;
+  GridRef grid;
+  FieldRef alpha;
+  FaceRef implicit;  // [kg/m^3]
+  Real per_density;  // 1 / rho
+  FaceRef c;
 
   KOKKOS_FORCEINLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
 
@@ -33,8 +33,8 @@ struct UpdateMobility {
 };
 
 /// -div(c grad p) in a cell; c vanishes on walls, so ghosts of p behind them do not matter.
-KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const Grid& grid, const FaceVector& c,
-                                                   const Field& p, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const FaceRef& c,
+                                                   const FieldRef& p, int i, int j, int k) {
   const Real centre = p(i, j, k);
   const Real x =
       c.x(i, j, k) * (centre - p(i - 1, j, k)) + c.x(i + 1, j, k) * (centre - p(i + 1, j, k));
@@ -46,7 +46,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const Grid& grid, const FaceV
 }
 
 /// Diagonal of the operator above [1/m^2].
-KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const Grid& grid, const FaceVector& c, int i,
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const FaceRef& c, int i,
                                                    int j, int k) {
   return (c.x(i, j, k) + c.x(i + 1, j, k)) * (1 / (grid.dx * grid.dx)) +
          (c.y(i, j, k) / grid.dy_centre(j) + c.y(i, j + 1, k) / grid.dy_centre(j + 1)) *
@@ -59,9 +59,9 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const Grid& grid, const FaceV
 
 /// r = b - A p, in the place of b.
 struct InitialResidual {
-  Grid grid;
-  FaceVector c;
-  Field p, r;
+  GridRef grid;
+  FaceRef c;
+  FieldRef p, r;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = r(i, j, k) - pressure_operator(grid, c, p, i, j, k);
     r(i, j, k) = value;
@@ -70,9 +70,9 @@ struct InitialResidual {
 };
 /// q = A d; adds up <d, q>.
 struct ApplyOperator {
-  Grid grid;
-  FaceVector c;
-  Field d, q;
+  GridRef grid;
+  FaceRef c;
+  FieldRef d, q;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = pressure_operator(grid, c, d, i, j, k);
     q(i, j, k) = value;
@@ -81,8 +81,8 @@ struct ApplyOperator {
 };
 /// p += a d, r -= a q; adds up <r, r>.
 struct AdvanceIterate {
-  Grid grid;
-  Field d, q, p, r;
+  GridRef grid;
+  FieldRef d, q, p, r;
   Real a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     p(i, j, k) += a * d(i, j, k);
@@ -93,7 +93,7 @@ struct AdvanceIterate {
 };
 /// d = z + b d.
 struct NextDirection {
-  Field z, d;
+  FieldRef z, d;
   Real b;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     d(i, j, k) = z(i, j, k) + b * d(i, j, k);
@@ -101,29 +101,29 @@ struct NextDirection {
 };
 /// Adds up <a, b>.
 struct InnerProduct {
-  Grid grid;
-  Field a, b;
+  GridRef grid;
+  FieldRef a, b;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * b(i, j, k) * grid.dy(j);
   }
 };
 struct Subtract {
-  Field a;
+  FieldRef a;
   Real constant;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
 };
 /// A first guess: the line through the last two pressures, in the place of the older one.
 struct ExtrapolatePressure {
-  Field last, before;
+  FieldRef last, before;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     before(i, j, k) = 2 * last(i, j, k) - before(i, j, k);
   }
 };
 /// z = r / diagonal.
 struct ScaleByDiagonal {
-  Grid grid;
-  FaceVector c;
-  Field r, z;
+  GridRef grid;
+  FaceRef c;
+  FieldRef r, z;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     z(i, j, k) = r(i, j, k) / pressure_diagonal(grid, c, i, j, k);
   }
@@ -134,13 +134,13 @@ struct ScaleByDiagonal {
 /// Without grains alpha is one and c is not looked at.
 template <bool with_grains>
 struct PressureSource {
-  Grid grid;
-  FaceVector u;
-  Field alpha, alpha_before;
-  FaceVector c;
+  GridRef grid;
+  FaceRef u;
+  FieldRef alpha, alpha_before;
+  FaceRef c;
   Real drive_dt;  // f dt [m/s]
   Real density, dt;
-  Field b;
+  FieldRef b;
 
   KOKKOS_FORCEINLINE_FUNCTION Real continuity(int i, int j, int k) const {
     if constexpr (!with_grains) return div_at_cell(grid, u, i, j, k);
@@ -170,16 +170,16 @@ struct ContinuityResidual {
 /// grains). Keeps the old velocity's change as du_dt. Walls stay at rest.
 template <bool with_grains>
 struct CorrectVelocity {
-  Grid grid;
-  FaceVector u_star;
-  Field p;  // with ghosts
-  Field alpha;
-  FaceVector implicit;
+  GridRef grid;
+  FaceRef u_star;
+  FieldRef p;  // with ghosts
+  FieldRef alpha;
+  FaceRef implicit;
   Real per_density;
   Real drive_dt, dt;
-  FaceVector u, du_dt;
+  FaceRef u, du_dt;
 
-  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const Field& m, int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const FieldRef& m, int i, int j, int k) const {
     if constexpr (!with_grains) return 1;
     return a / (a + per_density * m(i, j, k));
   }

@@ -15,16 +15,25 @@ struct GrainForces {
   Real inertia_moment = 0;  // [kg m^2]
 };
 
-/// Half kick over h [s], drag at the new velocity (unconditionally stable):
-///   (M + h beta) u' = M u + h (F + beta u_f).
-/// Returns the drag impulse on the grain, h beta (u_f - u') [N s].
-/// Limits: beta = 0 is the plain kick; u = u_f, F = 0 stays so.
-KOKKOS_FORCEINLINE_FUNCTION Vec3 half_kick(Real h, const GrainForces& f, Vec3& u, Vec3& omega) {
-  const Real h_beta = h * f.beta;
-  const Vec3 gain = h * f.force + h_beta * (f.u_f - u);
-  u += (1 / (f.inertia_mass + h_beta)) * gain;
-  omega += (h / f.inertia_moment) * f.torque;
-  return h_beta * (f.u_f - u);
-}
+/// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the next.
+struct HalfKick {
+  Real h, h_beta, per_mass, per_moment;
+
+  KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const GrainForces& f)
+      : h(half_step),
+        h_beta(half_step * f.beta),
+        per_mass(1 / (f.inertia_mass + half_step * f.beta)),
+        per_moment(half_step / f.inertia_moment) {}
+
+  /// Drag at the new velocity (unconditionally stable):
+  ///   (M + h beta) u' = M u + h (F + beta u_f).
+  /// Returns the drag impulse on the grain, h beta (u_f - u') [N s].
+  /// Limits: beta = 0 is the plain kick; u = u_f, F = 0 stays so.
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const GrainForces& f, Vec3& u, Vec3& omega) const {
+    u += per_mass * (h * f.force + h_beta * (f.u_f - u));
+    omega += per_moment * f.torque;
+    return h_beta * (f.u_f - u);
+  }
+};
 
 }  // namespace barchan

@@ -27,7 +27,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real wale_viscosity(const Mat3& grad_u, Real c_w_del
 
 /// C_w Delta [m] of row j, Delta the cube root of a cell's volume.
 struct FilterWidth {
-  Grid grid;
+  GridRef grid;
   Real c_w;
   Kokkos::View<Real*> c_w_delta;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int j) const {
@@ -37,13 +37,13 @@ struct FilterWidth {
 
 /// nu_t of the cells.
 struct UpdateEddyViscosity {
-  Grid grid;
-  FaceVector u;  // with ghosts
-  Field nu_t;
-  Kokkos::View<const Real*> c_w_delta;  // C_w times the filter width of row j [m]
+  GridRef grid;
+  FaceRef u;  // with ghosts
+  FieldRef nu_t;
+  const Real* c_w_delta;  // by row: C_w times the filter width [m]
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    nu_t(i, j, k) = wale_viscosity(gradient_at_cell(grid, u, i, j, k), c_w_delta(j));
+    nu_t(i, j, k) = wale_viscosity(gradient_at_cell(grid, u, i, j, k), c_w_delta[j]);
   }
 };
 

@@ -26,7 +26,7 @@ CLI::App* add_run(CLI::App& app, CommandLine& line) {
   run->add_option("--threads", line.threads, "threads per rank (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  run->add_flag("--dry-run", line.dry_run, "set everything up, then stop before the first step");
+  run->add_flag("--dry-run", line.dry_run, "check the case and show its numbers; nothing is run or written");
   run->add_flag("--quiet", line.quiet, "no live line on the terminal");
   return run;
 }

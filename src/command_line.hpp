@@ -21,7 +21,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> out;      // --out, the run folder
   std::optional<std::filesystem::path> restart;  // --restart, a restart file to go on from
   int threads = 0;                               // --threads, 0: all that are there
-  bool dry_run = false;                          // --dry-run: set everything up, then stop
+  bool dry_run = false;                          // --dry-run: check and show, write nothing
   bool quiet = false;                            // --quiet: no live line
 };
 

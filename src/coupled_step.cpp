@@ -21,6 +21,14 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
 }
 
 void CoupledStep::start(SystemState& state) {
+  if (frozen_) {  // what does not move has no velocity, whatever its file says
+    const auto kin = state.grains->kin;
+    Kokkos::parallel_for(
+        "grains: freeze", state.grains->n, KOKKOS_LAMBDA(int g) {
+          kin(g).u = Vec3{};
+          kin(g).omega = Vec3{};
+        });
+  }
   if (grains_) grains_->start(*state.grains);
   if (coupling_) coupling_->start(*state.grains, *state.fluid);
   if (fluid_) fluid_->fill_ghosts(*state.fluid);

@@ -16,17 +16,7 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
     case DragLaw::none: return NoDrag{};
     case DragLaw::beetstra: break;
   }
-  Real d3 = 0, d2 = 0;
-  const auto kin = grains.kin;
-  Kokkos::parallel_reduce(
-      "coupling: Sauter mean diameter", grains.n,
-      KOKKOS_LAMBDA(int g, Real& cubes, Real& squares) {
-        const Real d = 2 * kin(g).r;
-        cubes += d * d * d;
-        squares += d * d;
-      },
-      d3, d2);
-  return Beetstra{.d_mean = d2 > 0 ? d3 / d2 : 1};
+  return Beetstra{.d_mean = grains.sauter_diameter};
 }
 
 PointSet point_set(VoidFraction v) {
@@ -200,6 +190,9 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
                       return solid * grid.cell_volume(j);
                     });
   boundary_.fill(alpha, FieldKind::scalar);
+  if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
+    Kokkos::deep_copy(fluid.alpha_f_previous.storage, alpha.storage);
+  }
 
   for (int q = 0; q < 4; ++q) {
     decode(q + 1, q == 0 ? deposits_.implicit : deposits_.impulse, cell_[q]);

@@ -70,7 +70,7 @@ void FluidSolver::fill_ghosts(const FluidState& fluid) const {
 void FluidSolver::update_eddy_viscosity(const FluidState& fluid) {
   if (config_.turbulence == Turbulence::none) return;
   for_each_cell("fluid: eddy viscosity", grid_,
-                UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_});
+                UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_.data()});
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
@@ -90,7 +90,7 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
   const AdamsBashforth weight = weights(fluid, dt);
   const Real per_density = 1 / config_.density;
   const auto run = [&](auto functor) {
-    flow_rate_ = sum_each_cell("fluid: predict", grid_, functor);
+    flow_rate_ = sum_each_cell_by_component("fluid: predict", grid_, functor);
   };
   if (coupled) {
     run(Predict<true>{grid_, convection, stress, fluid.alpha_f_previous, fluid.alpha_f,

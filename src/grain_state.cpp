@@ -70,6 +70,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
   const auto kin = Kokkos::create_mirror_view(s.kin);
   const auto id = Kokkos::create_mirror_view(s.id);
   s.r_min = n > 0 ? initial.diameter[0] / 2 : 0;
+  Real d3 = 0, d2 = 0;
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
@@ -81,7 +82,10 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
     id(g) = initial.id[q];
     s.r_max = std::max(s.r_max, r);
     s.r_min = std::min(s.r_min, r);
+    d2 += 4 * r * r;
+    d3 += 8 * r * r * r;
   }
+  s.sauter_diameter = n > 0 ? d3 / d2 : 1;
   Kokkos::deep_copy(s.kin, kin);
   Kokkos::deep_copy(s.id, id);
   return s;

@@ -24,6 +24,7 @@ struct GrainState {
   Kokkos::View<std::uint8_t*> wall_touching;           // bit per wall
   PairList list;                                       // neighbours and their contact history
   Real r_max = 0, r_min = 0;                           // [m], of the initial grains
+  Real sauter_diameter = 0;                            // sum d^3 / sum d^2 of the same [m]
   std::int64_t n_initial = 0, n_left = 0;              // grains at t = 0; left through the outlet
 };
 

@@ -7,7 +7,7 @@ namespace barchan {
 namespace {
 
 struct WrapX {
-  Field f;
+  FieldRef f;
   int n;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int j, int, int k) const {
     f(-1, j, k) = f(n - 1, j, k);
@@ -16,7 +16,7 @@ struct WrapX {
 };
 
 struct WrapZ {
-  Field f;
+  FieldRef f;
   int n;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int) const {
     f(i, j, -1) = f(i, j, n - 1);

@@ -47,6 +47,14 @@ int main(int argc, char** argv) {
   try {
     const auto line = barchan::parse_command_line(
         argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
+    int ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (ranks > 1) {
+      if (rank == 0) std::cerr << "this version runs on one rank; start it without mpirun, or with --ranks 1\n";
+      return 2;
+    }
     barchan::report::start(line.quiet);
     return execute(line);
   } catch (const barchan::ConfigError& problem) {

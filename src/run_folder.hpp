@@ -22,7 +22,7 @@ struct HistoryRow {
   double continuity_residual = 0;  // largest of the interval [1/s]
   double pressure_iterations = 0;  // mean of the interval
   std::int64_t n_grains = 0, n_contacts = 0;
-  double max_overlap = 0;  // over the radius
+  double max_overlap = 0;  // over the mean diameter of the pair
 };
 
 /// One line of dune.csv.
@@ -52,7 +52,7 @@ struct RunSummary {
   double pressure_iterations_mean = 0;
   std::int64_t pressure_iterations_max = 0;
   double max_cfl = 0;
-  double max_overlap = 0;                // over the radius
+  double max_overlap = 0;                // over the mean diameter of the pair
   double max_continuity_residual = 0;    // [1/s]
   std::map<std::string, double> ledger;  // mass [kg] and momentum [N s] terms by name
   std::int64_t grains_initial = 0, grains_inside = 0, grains_left = 0;

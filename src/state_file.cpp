@@ -77,6 +77,7 @@ void save_state(CheckpointWriter& file, const SystemState& state) {
     for_each_pair_array(s.list, write);
     file.scalar("grains/r_max", s.r_max);
     file.scalar("grains/r_min", s.r_min);
+    file.scalar("grains/sauter_diameter", s.sauter_diameter);
     file.scalar("grains/n_initial", s.n_initial);
     file.scalar("grains/n_left", s.n_left);
   }
@@ -97,6 +98,7 @@ GrainState grains_in_file(const CheckpointReader& file, Real density) {
   GrainState s = make_grain_state(rows, density);
   s.r_max = file.real("grains/r_max");
   s.r_min = file.real("grains/r_min");
+  s.sauter_diameter = file.real("grains/sauter_diameter");
   s.n_initial = file.integer("grains/n_initial");
   s.n_left = file.integer("grains/n_left");
   return s;

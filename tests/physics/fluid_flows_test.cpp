@@ -127,8 +127,8 @@ struct EnergyOfConvection {
   Convection convection;
   bool size;  // sum of magnitudes instead
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
-    const Grid& grid = convection.grid;
-    const FaceVector& u = convection.u;
+    const GridRef& grid = convection.grid;
+    const FaceRef& u = convection.u;
     const Real x = u.x(i, j, k) * convection.x(i, j, k) * grid.dy(j);
     const Real y = j > 0 ? u.y(i, j, k) * convection.y(i, j, k) * grid.dy_centre(j) : 0;
     const Real z = u.z(i, j, k) * convection.z(i, j, k) * grid.dy(j);

@@ -1,0 +1,69 @@
+// Small grain configurations that tests share.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "src/grain_solver.hpp"
+
+namespace barchan::testing {
+
+/// A dry case without gravity in a 10 x 10 x 10 mm box; change what the test needs.
+inline Config grain_config() {
+  Config c;
+  c.title = "test";
+  c.size = {0.01, 0.01, 0.01};
+  c.grains.emplace();
+  c.grains->gravity = {0, 0, 0};
+  c.time.fluid_step = 2.5e-4;
+  c.time.grain_step = 2.5e-6;
+  return c;
+}
+
+/// Adds one grain; ids count from 1.
+inline void add_grain(InitialGrains& grains, Real diameter, const Vec3& x, const Vec3& u = {},
+                      const Vec3& omega = {}) {
+  grains.id.push_back(static_cast<std::int64_t>(grains.id.size()) + 1);
+  grains.diameter.push_back(diameter);
+  grains.x.push_back(x);
+  grains.u.push_back(u);
+  grains.omega.push_back(omega);
+}
+
+/// n grains of Table II's range anywhere in the box, overlaps allowed.
+inline InitialGrains random_grains(int n, const std::array<double, 3>& size, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  InitialGrains grains;
+  for (int g = 0; g < n; ++g) {
+    const Real d = 1.5e-4 + 1e-4 * uniform();
+    const Vec3 x{size[0] * uniform(), size[1] * uniform(), size[2] * uniform()};
+    add_grain(grains, d, x, {uniform() - 0.5, uniform() - 0.5, uniform() - 0.5},
+              {100 * uniform(), 0, 0});
+  }
+  return grains;
+}
+
+/// Rows of the state by id.
+struct GrainRow {
+  Vec3 x, u, omega;
+};
+inline std::vector<GrainRow> rows_by_id(const GrainState& s) {
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.kin);
+  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  std::vector<GrainRow> rows(static_cast<std::size_t>(s.n_initial) + 1);
+  for (int g = 0; g < s.n; ++g) {
+    rows[static_cast<std::size_t>(id(g))] = {kin(g).x, kin(g).u, kin(g).omega};
+  }
+  return rows;
+}
+
+/// A constant force on every grain, g m, without fluid [m/s^2].
+inline void set_weight(const GrainState& s, const Vec3& g) {
+  const auto force = s.fluid.steady_force;
+  const auto kin = s.kin;
+  Kokkos::parallel_for(
+      "test: weight", s.n, KOKKOS_LAMBDA(int p) { force(p) = kin(p).m * g; });
+}
+
+}  // namespace barchan::testing

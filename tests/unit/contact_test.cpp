@@ -1,0 +1,186 @@
+// Contact laws against closed forms and integrated references.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "kernels/contact_force.hpp"
+#include "kernels/sphere.hpp"
+
+namespace barchan {
+namespace {
+
+constexpr Elastic kGrain{.youngs_modulus = 5e6, .poisson_ratio = 0.45};
+constexpr Real kRadius = 1e-4, kDensity = 2500;
+
+HertzMindlin law(Real restitution) {
+  return {.e_eff = effective_youngs_modulus(kGrain, kGrain),
+          .g_eff = effective_shear_modulus(kGrain, kGrain),
+          .damping = restitution < 1 ? damping_ratio(restitution) : 0};
+}
+
+/// A head-on impact of a grain with reduced mass m_eff at speed v [m/s].
+struct Impact {
+  Real restitution = 0, max_overlap = 0, max_force = 0, duration = 0;
+};
+
+Impact head_on(const HertzMindlin& hertz, Real v, Real dt) {
+  const Real m_eff = sphere_volume(kRadius) * kDensity / 2, r_eff = kRadius / 2;
+  Impact impact;
+  Real delta = 0, approach = v;
+  ContactResult history;
+  // Symplectic Euler is enough at the fine steps used here.
+  while (true) {
+    ContactPair pair{.normal = {1, 0, 0},
+                     .delta_n = std::max(delta, 1e-300),
+                     .slip = {-approach, 0, 0},
+                     .spin_difference = {},
+                     .r_eff = r_eff,
+                     .m_eff = m_eff};
+    history = contact_force(hertz, NoRolling{}, Friction{}, pair, history, dt);
+    const Real force = history.force.x;
+    approach -= dt * force / m_eff;
+    delta += dt * approach;
+    impact.duration += dt;
+    impact.max_overlap = std::max(impact.max_overlap, delta);
+    impact.max_force = std::max(impact.max_force, force);
+    if (delta <= 0) break;
+  }
+  impact.restitution = -approach / v;
+  return impact;
+}
+
+TEST(ContactLaw, EffectiveModuliOfEqualMaterials) {
+  EXPECT_NEAR(effective_youngs_modulus(kGrain, kGrain), 5e6 / (2 * (1 - 0.45 * 0.45)), 1e-3);
+  EXPECT_NEAR(effective_shear_modulus(kGrain, kGrain), 5e6 / (4 * 1.55 * 1.45), 1e-3);
+  const Elastic rigid{.youngs_modulus = 1e30, .poisson_ratio = 0.2};
+  EXPECT_NEAR(effective_youngs_modulus(kGrain, rigid), 5e6 / (1 - 0.45 * 0.45), 1e-3);
+}
+
+TEST(ContactLaw, ElasticImpactFollowsHertz) {
+  // delta_max = (15 m v^2 / (16 E sqrt R))^(2/5), t_c = 2.94327 delta_max / v (Johnson 1985).
+  const Real v = 0.05, m = sphere_volume(kRadius) * kDensity / 2, r = kRadius / 2;
+  const Real e = law(1).e_eff;
+  const Real expected = std::pow(15 * m * v * v / (16 * e * std::sqrt(r)), 0.4);
+  const Impact impact = head_on(law(1), v, 1e-9);
+  EXPECT_NEAR(impact.max_overlap / expected, 1, 1e-3);
+  EXPECT_NEAR(impact.duration / (2.94327 * expected / v), 1, 1e-3);
+  EXPECT_NEAR(impact.max_force / (4.0 / 3 * e * std::sqrt(r) * std::pow(expected, 1.5)), 1, 1e-3);
+  EXPECT_NEAR(impact.restitution, 1, 1e-3);
+}
+
+TEST(ContactLaw, DampingDeliversTheRestitution) {
+  for (const Real e : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    EXPECT_NEAR(head_on(law(e), 0.05, 2e-9).restitution, e, 1e-3) << "input " << e;
+    EXPECT_NEAR(head_on(law(e), 0.2, 2e-9).restitution, e, 1e-3) << "at another speed, input " << e;
+  }
+}
+
+ContactPair sliding_pair(Real slip) {
+  return {.normal = {0, 1, 0},
+          .delta_n = 1e-6,
+          .slip = {slip, 0, 0},
+          .spin_difference = {},
+          .r_eff = kRadius / 2,
+          .m_eff = 1e-8};
+}
+
+TEST(ContactForce, SlidesAtTheCoulombLimitAndSticksAgain) {
+  const Friction friction{.sliding = 0.6, .rolling = 0};
+  const ContactPair slides = sliding_pair(1);
+  ContactResult c;
+  for (int n = 0; n < 200; ++n) c = contact_force(law(1), NoRolling{}, friction, slides, c, 1e-7);
+  EXPECT_NEAR(-c.force.x, 0.6 * c.force.y, 1e-12 * c.force.y);
+  EXPECT_NEAR(norm(c.xi_t), 0.6 * c.force.y / law(1)(kRadius / 2, 1e-8, 1e-6).k_t, 1e-15);
+  // Back by half the stored displacement: the spring pulls with half the limit.
+  const ContactPair back = sliding_pair(-norm(c.xi_t) / 2 / 1e-7);
+  c = contact_force(law(1), NoRolling{}, friction, back, c, 1e-7);
+  EXPECT_NEAR(-c.force.x, 0.3 * c.force.y, 1e-9 * c.force.y);
+}
+
+TEST(ContactForce, NeverLeavesTheCoulombConeWhenElastic) {
+  const Friction friction{.sliding = 0.4, .rolling = 0};
+  ContactResult c;
+  for (int n = 0; n < 1000; ++n) {
+    ContactPair pair = sliding_pair(std::sin(0.1 * n));
+    pair.slip.z = std::cos(0.037 * n);
+    pair.delta_n = 1e-6 * (1.2 + std::sin(0.01 * n));
+    c = contact_force(law(1), NoRolling{}, friction, pair, c, 1e-7);
+    const Vec3 tangential = c.force - c.force.y * Vec3{0, 1, 0};
+    EXPECT_LE(norm(tangential), 0.4 * c.force.y * (1 + 1e-12));
+    EXPECT_NEAR(dot(c.xi_t, pair.normal), 0, 1e-20);
+    EXPECT_NEAR(norm(c.twist), norm(tangential), 1e-12 * c.force.y);
+  }
+}
+
+TEST(ContactForce, OppositeRolesGiveOppositeForces) {
+  const Friction friction{.sliding = 0.6, .rolling = 0};
+  const Vec3 normal = (1 / std::sqrt(14.0)) * Vec3{1, 2, 3};
+  const ContactPair a{.normal = normal,
+                      .delta_n = 1e-6,
+                      .slip = {0.1, -0.2, 0.05},
+                      .spin_difference = {1, 2, 3},
+                      .r_eff = 5e-5,
+                      .m_eff = 1e-8};
+  ContactPair b = a;
+  b.normal = -a.normal, b.slip = -a.slip, b.spin_difference = -a.spin_difference;
+  const ContactResult ra = contact_force(law(0.5), Epsd2{}, friction, a, {}, 1e-7);
+  const ContactResult rb = contact_force(law(0.5), Epsd2{}, friction, b, {}, 1e-7);
+  EXPECT_NEAR(norm(ra.force + rb.force), 0, 1e-12 * norm(ra.force));
+  EXPECT_NEAR(norm(ra.twist - rb.twist), 0, 1e-12 * norm(ra.twist));
+}
+
+/// Rolls a contact about z by `angle` in n steps; returns the torque.
+template <class Law>
+Real rolled(const Law& rolling, Real mu_r, Real angle, int n) {
+  const Real dt = 1e-6;
+  ContactResult c;
+  for (int s = 0; s < n; ++s) {
+    ContactPair pair = sliding_pair(0);
+    pair.spin_difference = {0, 100, angle / n / dt};  // the part along the normal is torsion
+    c = contact_force(law(1), rolling, Friction{.sliding = 0.6, .rolling = mu_r}, pair, c, dt);
+    EXPECT_EQ(c.rolling.y, 0);
+  }
+  return c.rolling.z;
+}
+
+TEST(Rolling, Epsd2IsASpringUpToItsLimit) {
+  const Real r = kRadius / 2;
+  const ContactStiffness k = law(1)(r, 1e-8, 1e-6);
+  const Real limit = 0.1 * r * k.k_n * 1e-6, k_r = k.k_t * r * r;
+  EXPECT_NEAR(rolled(Epsd2{}, 0.1, 0.5 * limit / k_r, 10), -0.5 * limit, 1e-9 * limit);
+  EXPECT_NEAR(rolled(Epsd2{}, 0.1, 5 * limit / k_r, 10), -limit, 1e-9 * limit);
+}
+
+TEST(Rolling, ThetaMReachesItsLimitAtThetaM) {
+  const Real r = kRadius / 2;
+  const Real limit = 0.2 * r * law(1)(r, 1e-8, 1e-6).k_n * 1e-6;
+  const ThetaM model{.theta_m = 0.05};
+  EXPECT_NEAR(rolled(model, 0.2, 0.025, 20), -0.5 * limit, 1e-9 * limit);
+  EXPECT_NEAR(rolled(model, 0.2, 0.05, 20), -limit, 1e-9 * limit);
+  EXPECT_NEAR(rolled(model, 0.2, 0.2, 20), -limit, 1e-9 * limit);
+}
+
+TEST(Rolling, ConstantTorqueOpposesAndAllVanishWithoutFriction) {
+  const Real r = kRadius / 2;
+  const Real limit = 0.2 * r * law(1)(r, 1e-8, 1e-6).k_n * 1e-6;
+  EXPECT_NEAR(rolled(ConstantTorque{}, 0.2, 1e-4, 1), -limit, 1e-9 * limit);
+  EXPECT_EQ(rolled(ConstantTorque{}, 0.2, 0, 1), 0);
+  EXPECT_EQ(rolled(Epsd2{}, 0, 0.1, 5), 0);
+  EXPECT_EQ(rolled(ThetaM{}, 0, 0.1, 5), 0);
+}
+
+TEST(LinearSpring, DeliversTheRestitution) {
+  const LinearSpring spring{.k_n = 100, .damping = damping_ratio(0.5)};
+  const Real m = 1e-8, dt = 1e-10;
+  Real x = 0, v = 0.1;
+  do {
+    const ContactStiffness k = spring(0, m, x);
+    v -= dt / m * (k.k_n * x + k.gamma_n * v);
+    x += dt * v;
+  } while (x > 0);
+  EXPECT_NEAR(-v / 0.1, 0.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace barchan

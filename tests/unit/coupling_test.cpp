@@ -1,0 +1,144 @@
+// Exchange between fluid and grains: nothing is lost on the way, in either direction.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/coupled_step.hpp"
+#include "src/initial_state.hpp"
+#include "src/launch.hpp"
+#include "tests/support/coupled_case.hpp"
+
+namespace barchan {
+namespace {
+
+using testing::coupled_config;
+
+struct Coupled {
+  Config config;
+  SystemState state;
+  CoupledStep step;
+
+  explicit Coupled(const Config& c)
+      : config(c), state(make_initial_state(c, {})), step(c, state) {
+    step.start(state);
+  }
+  void advance(int n) {
+    for (int s = 0; s < n; ++s) step.advance(state);
+  }
+};
+
+TEST(Coupling, LedgerClosesToRoundOff) {
+  Coupled c(coupled_config());
+  c.advance(30);
+  const Ledger& ledger = c.step.ledger();
+  EXPECT_LT(ledger.volume_mismatch(), 1e-12);
+  EXPECT_LT(ledger.exchange_mismatch(), 1e-10);
+  EXPECT_LT(ledger.carried_mismatch(), 1e-10);
+  const auto entries = ledger.entries();
+  EXPECT_GT(entries.at("impulse_given_to_grains_x"), 0) << "the flow pushes the grains along";
+  EXPECT_NE(entries.at("impulse_implicit_on_fluid_x"), 0);
+}
+
+TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
+  for (const VoidFraction v : {VoidFraction::divided, VoidFraction::centre}) {
+    for (const DragLaw law : {DragLaw::di_felice, DragLaw::koch_hill, DragLaw::syamlal_obrien,
+                              DragLaw::beetstra, DragLaw::paper_repaired}) {
+      Config config = coupled_config();
+      config.coupling.void_fraction = v;
+      config.coupling.drag = law;
+      Coupled c(config);
+      c.advance(3);
+      EXPECT_LT(c.step.ledger().exchange_mismatch(), 1e-10);
+      EXPECT_LT(c.step.ledger().volume_mismatch(), 1e-12);
+    }
+  }
+}
+
+TEST(Coupling, FluidFractionIsThatOfTheGrainsAndBounded) {
+  Coupled c(coupled_config());
+  const Grid grid = c.state.fluid->grid;
+  const Field alpha = c.state.fluid->alpha_f;
+  const Real solid = sum_each_cell(
+      "test: solid", grid,
+      KOKKOS_LAMBDA(int i, int j, int k) { return (1 - alpha(i, j, k)) * grid.cell_volume(j); });
+  const Real expected =
+      20 * sphere_volume(7.5e-5) + 160 * sphere_volume(1e-4) + 20 * sphere_volume(1.25e-4);
+  EXPECT_NEAR(solid / expected, 1, 1e-12);
+  const Real densest = max_each_cell(
+      "test: densest", grid, KOKKOS_LAMBDA(int i, int j, int k) { return 1 - alpha(i, j, k); });
+  EXPECT_GT(densest, 0.05);
+  EXPECT_LT(densest, 0.75);
+}
+
+TEST(Coupling, PressureConvergesAndContinuityHolds) {
+  Config config = coupled_config();
+  config.solver.pressure_tolerance = 1e-6;
+  Coupled c(config);
+  for (int s = 0; s < 20; ++s) {
+    c.advance(1);
+    EXPECT_LE(c.step.fluid_report().pressure_iterations, 20);
+    EXPECT_LE(c.step.fluid_report().pressure_residual, 1e-6);
+    EXPECT_LT(c.step.fluid_report().continuity_residual, 1e-4);
+  }
+}
+
+TEST(Coupling, BulkVelocityIsHeld) {
+  Coupled c(coupled_config());
+  c.advance(40);
+  EXPECT_NEAR(c.step.fluid_solver()->bulk_velocity(*c.state.fluid), 0.2, 2e-4);
+}
+
+/// One heavy grain falls in still water: buoyancy, drag and added mass alone decide.
+TEST(Coupling, ALoneGrainSettlesAtItsTerminalVelocity) {
+  Config config = coupled_config();
+  config.initial.fluid = "still";
+  config.fluid->mean_velocity = 0;
+  config.fluid->turbulence = Turbulence::none;
+  config.fluid->top = WallFlow::no_slip;
+  config.grains->sizes = {{2e-4, 1}};
+  config.initial.pour->drop_height = 0.0045;
+  // The grain's own wake slows the water it is compared with; spread its momentum widely.
+  config.coupling.smoothing_length = 2e-3;
+  Coupled c(config);
+  c.advance(200);  // 50 ms, seven response times
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.grains->kin);
+  EXPECT_NEAR(kin(0).u.y / -0.02291683, 1, 0.05);
+  EXPECT_NEAR(kin(0).u.x, 0, 1e-5);
+}
+
+TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
+  Config config = coupled_config();
+  config.grains->frozen = true;
+  Coupled c(config);
+  const auto before = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.grains->kin);
+  c.advance(10);
+  const auto after = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.grains->kin);
+  for (int g = 0; g < c.state.grains->n; ++g) EXPECT_EQ(norm(after(g).x - before(g).x), 0);
+  EXPECT_GT(c.step.ledger().entries().at("impulse_taken_from_fluid_x"), 0);
+  EXPECT_LT(c.step.ledger().exchange_mismatch(), 1e-10);
+}
+
+TEST(Coupling, ForcesOnGrainsAddUpToTheirAcceleration) {
+  Coupled c(coupled_config());
+  c.advance(5);
+  const auto before = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.grains->kin);
+  const auto forces = c.step.grain_forces(c.state);
+  ASSERT_EQ(forces.size(), 7u);
+  Vec3 normal, tangential, contact;
+  const auto host = [](const auto& view) {
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+  };
+  const auto all = host(c.state.grains->contact_force);
+  for (const NamedForce& f : forces) {
+    const auto values = host(f.values);
+    for (int g = 0; g < c.state.grains->n; ++g) {
+      if (f.name == "force_contact_normal") normal += values(g);
+      if (f.name == "force_contact_tangential") tangential += values(g);
+    }
+  }
+  for (int g = 0; g < c.state.grains->n; ++g) contact += all(g);
+  EXPECT_NEAR(norm(normal + tangential - contact), 0, 1e-9 * norm(contact));
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,179 @@
+// Motion of grains against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernels/interphase.hpp"
+#include "tests/support/grain_cases.hpp"
+
+namespace barchan {
+namespace {
+
+using testing::add_grain;
+using testing::grain_config;
+using testing::rows_by_id;
+using testing::set_weight;
+
+struct Case {
+  Config config;
+  GrainState state;
+  GrainSolver solver;
+
+  Case(const Config& c, const InitialGrains& grains)
+      : config(c), state(make_grain_state(grains, c.grains->density)), solver(c, state) {
+    solver.start(state);
+  }
+};
+
+TEST(GrainSolver, FreeFallIsExact) {
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.009, 0.005}, {0.02, 0, -0.01});
+  Case c(grain_config(), g);
+  set_weight(c.state, {0, -9.81, 0});
+  c.solver.advance(c.state, 1000, 1e-5);
+  const auto row = rows_by_id(c.state)[1];
+  // The force of the first half kick was still zero: u and x lag by half a step of g.
+  EXPECT_NEAR(row.u.y, -9.81 * 0.01, 1e-9);
+  EXPECT_NEAR(row.x.y, 0.009 - 0.5 * 9.81 * 1e-4, 1e-9);
+  EXPECT_NEAR(row.x.x, 0.0052, 1e-15);
+  EXPECT_NEAR(row.x.z, 0.0049, 1e-15);
+}
+
+TEST(GrainSolver, CollisionConservesMomentumAndDeliversRestitution) {
+  for (const Real e : {0.1, 0.9}) {
+    Config config = grain_config();
+    config.grains->material.restitution = e;
+    InitialGrains g;
+    add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.05, 0, 0});
+    add_grain(g, 2.5e-4, {0.005 + 2.26e-4, 0.005, 0.005}, {-0.05, 0, 0});
+    Case c(config, g);
+    c.solver.advance(c.state, 4000, 5e-8);
+    const auto rows = rows_by_id(c.state);
+    EXPECT_NEAR((rows[2].u.x - rows[1].u.x) / 0.1, e, 1e-3);
+    const Real m1 = 1, m2 = std::pow(1.25, 3);
+    EXPECT_NEAR(m1 * rows[1].u.x + m2 * rows[2].u.x, (m1 - m2) * 0.05, 1e-13);
+  }
+}
+
+TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.05, 0.03, 0.01}, {50, -20, 10});
+  add_grain(g, 2e-4, {0.0052005, 0.00501, 0.00499}, {-0.05, 0, 0}, {0, 30, -70});
+  Case c(grain_config(), g);
+  const Real m = sphere_volume(1e-4) * 2500, inertia = sphere_inertia(m, 1e-4);
+  const auto angular = [&] {
+    Vec3 sum;
+    const auto rows = rows_by_id(c.state);
+    for (int p : {1, 2}) {
+      sum += m * cross(rows[p].x - Vec3{0.005, 0.005, 0.005}, rows[p].u) + inertia * rows[p].omega;
+    }
+    return sum;
+  };
+  const Vec3 before = angular();
+  c.solver.advance(c.state, 2000, 5e-8);
+  const Real scale = m * 1e-4 * 0.05;
+  EXPECT_LT(norm(angular() - before), 2e-6 * scale);
+  EXPECT_GT(norm(rows_by_id(c.state)[1].omega - Vec3{50, -20, 10}), 1) << "they did collide";
+}
+
+TEST(GrainSolver, SlidingGrainEndsRollingAtFiveSevenths) {
+  Config config = grain_config();
+  config.grains->material.sliding_friction = 0.3;
+  config.grains->wall = config.grains->material;
+  InitialGrains g;
+  // Resting at the overlap that carries the weight: (3 m g / (4 E sqrt R))^(2/3).
+  const Real m = sphere_volume(1e-4) * 2500;
+  const Elastic glass{.youngs_modulus = 5e6, .poisson_ratio = 0.45};
+  const Real rest = std::pow(
+      0.75 * m * 9.81 / (effective_youngs_modulus(glass, glass) * std::sqrt(1e-4)), 2.0 / 3);
+  add_grain(g, 2e-4, {0.002, 1e-4 - rest, 0.005}, {0.01, 0, 0});
+  Case c(config, g);
+  set_weight(c.state, {0, -9.81, 0});
+  c.solver.advance(c.state, 8000, 2.5e-6);  // sliding ends after 2 u / (7 mu g) = 1 ms
+  const auto row = rows_by_id(c.state)[1];
+  EXPECT_NEAR(row.u.x, 0.01 * 5 / 7, 2e-5);
+  EXPECT_NEAR(row.omega.z, -row.u.x / 1e-4, 0.01 * 5 / 7 / 1e-4 * 0.01);
+}
+
+TEST(GrainSolver, DragRelaxesToTheFluid) {
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.002, 0.005, 0.005});
+  Case c(grain_config(), g);
+  const Real m = sphere_volume(1e-4) * 2500, beta = m / 5e-3, added = 0.2 * m;
+  Kokkos::deep_copy(c.state.fluid.beta, beta);
+  Kokkos::deep_copy(c.state.fluid.added_mass, added);
+  const auto u_f = c.state.fluid.u_f;
+  Kokkos::parallel_for(
+      "test: flow", 1, KOKKOS_LAMBDA(int p) { u_f(p) = Vec3{0.1, 0, 0.02}; });
+  c.solver.advance(c.state, 2000, 2.5e-6);
+  const Real expected = 0.1 * (1 - std::exp(-5e-3 / (1.2 * 5e-3)));
+  EXPECT_NEAR(rows_by_id(c.state)[1].u.x, expected, 1e-3 * expected);
+  // The impulse of the drag is what moved grain and added mass.
+  const auto impulse =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.fluid.drag_impulse);
+  EXPECT_NEAR(impulse(0).x / (1.2 * m * rows_by_id(c.state)[1].u.x), 1, 1e-12);
+}
+
+TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
+  Config config = grain_config();
+  config.size = {0.003, 0.003, 0.003};
+  config.grains->material.rolling_friction = 0.1;
+  config.grains->wall = config.grains->material;
+  InitialGrains g;
+  std::mt19937_64 generator(2);
+  for (int n = 0; n < 200; ++n) {
+    const auto u = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53 - 0.5; };
+    add_grain(g, 2e-4, {2.1e-4 * (n % 6 + 1), 2.1e-4 * (n / 36 + 1), 2.1e-4 * (n / 6 % 6 + 1)},
+              {0.4 * u(), 0.4 * u(), 0.4 * u()});
+  }
+  Case together(config, g), apart(config, g);
+  for (Case* c : {&together, &apart}) set_weight(c->state, {0, -9.81, 0});
+  together.solver.advance(together.state, 300, 2.5e-6);
+  for (int n = 0; n < 300; ++n) apart.solver.advance(apart.state, 1, 2.5e-6);
+  EXPECT_GT(together.solver.rebuilds(), 3);
+  const auto a = rows_by_id(together.state), b = rows_by_id(apart.state);
+  for (std::size_t n = 1; n < a.size(); ++n) {
+    EXPECT_EQ(norm(a[n].x - b[n].x), 0);
+    EXPECT_EQ(norm(a[n].omega - b[n].omega), 0);
+  }
+}
+
+TEST(GrainSolver, RollingHistorySurvivesAPeriodicCrossing) {
+  // A pair that rolls across z = 0 behaves as the same pair in the middle.
+  for (const bool crossing : {false, true}) {
+    Config config = grain_config();
+    config.grains->material.rolling_friction = 0.2;
+    InitialGrains g;
+    const Real z = crossing ? 0.00001 : 0.005;
+    add_grain(g, 2e-4, {0.005, 0.005, z}, {0, 0, -0.05}, {3, 400, 0});
+    add_grain(g, 2e-4, {0.0051999, 0.005, z}, {0, 0, -0.05}, {0, -300, 100});
+    Case c(config, g);
+    c.solver.advance(c.state, 400, 1e-6);
+    static Vec3 reference;
+    const auto row = rows_by_id(c.state)[1];
+    if (!crossing) reference = row.omega;
+    EXPECT_LT(norm(row.omega - reference), 1e-6 * norm(reference));
+  }
+}
+
+TEST(StillFluid, TerminalVelocityOfSchillerNaumann) {
+  // Table of derived numbers, d = 0.2 mm in water: 0.02291683 m/s.
+  Config config = grain_config();
+  config.size = {0.01, 0.1, 0.01};
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.09, 0.005});
+  Case c(config, g);
+  for (int n = 0; n < 400; ++n) {
+    Kokkos::parallel_for("test: still fluid", 1,
+                         GatherStillFluid{.rho_f = 1000,
+                                          .mu_f = 1e-3,
+                                          .gravity = {0, -9.81, 0},
+                                          .grains = c.state.kin,
+                                          .on_grains = c.state.fluid});
+    c.solver.advance(c.state, 10, 2.5e-5);
+  }
+  EXPECT_NEAR(rows_by_id(c.state)[1].u.y, -0.02291683, 0.001 * 0.0229);
+}
+
+}  // namespace
+}  // namespace barchan

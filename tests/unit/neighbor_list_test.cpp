@@ -1,0 +1,178 @@
+// The Verlet list against a search over all pairs.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/support/grain_cases.hpp"
+
+namespace barchan {
+namespace {
+
+using testing::grain_config;
+using testing::random_grains;
+using PairSet = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+/// Pairs (by id) of the list; fails on a pair listed twice.
+PairSet listed_pairs(const GrainState& s) {
+  const auto i = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.i);
+  const auto j = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.j);
+  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  PairSet pairs;
+  for (int p = 0; p < s.list.n_pairs; ++p) {
+    EXPECT_TRUE(pairs.insert(std::minmax(id(i(p)), id(j(p)))).second) << "listed twice";
+  }
+  return pairs;
+}
+
+/// All pairs closer than r_i + r_j + reach, by comparing each with each.
+PairSet all_pairs(const GrainState& s, Real reach, Real lx, Real lz) {
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.kin);
+  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  PairSet pairs;
+  for (int a = 0; a < s.n; ++a) {
+    for (int b = a + 1; b < s.n; ++b) {
+      Vec3 d = kin(a).x - kin(b).x;
+      if (lx > 0) d.x -= lx * std::round(d.x / lx);
+      if (lz > 0) d.z -= lz * std::round(d.z / lz);
+      if (norm(d) < kin(a).r + kin(b).r + reach) pairs.insert(std::minmax(id(a), id(b)));
+    }
+  }
+  return pairs;
+}
+
+void drift(const GrainState& s, Real distance) {
+  const auto kin = s.kin;
+  Kokkos::parallel_for(
+      "test: drift", s.n, KOKKOS_LAMBDA(int g) {
+        kin(g).x += (distance / norm(kin(g).u)) * kin(g).u;
+      });
+}
+
+struct Shape {
+  GrainBoundaryX x;
+  GrainBoundaryZ z;
+  std::array<double, 3> size;
+};
+
+class NeighborListShapes : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(NeighborListShapes, NoPairIsMissedAndNoneIsListedTwice) {
+  const Shape shape = GetParam();
+  Config c = grain_config();
+  c.size = shape.size;
+  c.grains->boundary_x = shape.x;
+  c.grains->boundary_z = shape.z;
+  const Real lx = shape.x == GrainBoundaryX::periodic ? c.size[0] : 0;
+  const Real lz = shape.z == GrainBoundaryZ::periodic ? c.size[2] : 0;
+  GrainState s = make_grain_state(random_grains(1200, c.size, 7), 2500);
+  NeighborList list(c, s.r_max);
+  for (int round = 0; round < 3; ++round) {
+    list.rebuild(s, false);
+    EXPECT_EQ(listed_pairs(s), all_pairs(s, c.grains->skin, lx, lz)) << "round " << round;
+    drift(s, 0.499 * c.grains->skin);
+    const PairSet listed = listed_pairs(s);
+    for (const auto& pair : all_pairs(s, 0, lx, lz)) EXPECT_TRUE(listed.count(pair));
+    drift(s, 3e-4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Boundaries, NeighborListShapes,
+    ::testing::Values(Shape{GrainBoundaryX::exit, GrainBoundaryZ::periodic, {0.01, 0.004, 0.003}},
+                      Shape{GrainBoundaryX::periodic, GrainBoundaryZ::periodic, {0.0009, 0.03, 0.004}},
+                      Shape{GrainBoundaryX::wall, GrainBoundaryZ::wall, {0.0003, 0.02, 0.01}}));
+
+TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
+  Config c = grain_config();
+  c.size = {0.003, 0.003, 0.003};
+  GrainState s = make_grain_state(random_grains(500, c.size, 3), 2500);
+  NeighborList list(c, s.r_max);
+  list.with_rolling = true;
+  list.rebuild(s, false);
+  // Mark each pair with its ids, seen from the grain of lower id.
+  const auto mark = [&s](bool write) {
+    const PairList l = s.list;
+    const auto id = s.id;
+    int wrong = 0;
+    Kokkos::parallel_reduce(
+        "test: marks", l.n_pairs,
+        KOKKOS_LAMBDA(int p, int& errors) {
+          const auto a = static_cast<Real>(id(l.i(p))), b = static_cast<Real>(id(l.j(p)));
+          const Real sign = a < b ? 1 : -1;
+          const Vec3 expected = sign * Vec3{Kokkos::min(a, b), Kokkos::max(a, b), 1};
+          if (write) {
+            l.xi_t(p) = expected;
+            l.rolling(p) = Real(2) * expected;
+            l.line(p).force = Real(3) * expected;
+            l.touching(p) = 1;
+          } else if (l.touching(p)) {
+            errors += norm(l.xi_t(p) - expected) > 0 ||
+                      norm(l.rolling(p) - Real(2) * expected) > 0 ||
+                      norm(l.line(p).force - Real(3) * expected) > 0;
+          }
+        },
+        wrong);
+    return wrong;
+  };
+  mark(true);
+  const PairSet before = listed_pairs(s);
+  drift(s, 1e-4);  // order and some pairs change
+  list.rebuild(s, false);
+  EXPECT_EQ(mark(false), 0);
+  // Every pair that stayed is still marked.
+  const auto touching = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.touching);
+  int kept = 0, marked = 0;
+  for (const auto& pair : listed_pairs(s)) kept += before.count(pair) > 0;
+  for (int p = 0; p < s.list.n_pairs; ++p) marked += touching(p);
+  EXPECT_GT(kept, 100);
+  EXPECT_EQ(marked, kept);
+}
+
+TEST(NeighborList, DropsAndCountsWhatLeft) {
+  const Config c = grain_config();
+  GrainState s = make_grain_state(random_grains(300, c.size, 11), 2500);
+  NeighborList list(c, s.r_max);
+  list.rebuild(s, true);
+  const auto kin = s.kin;
+  const auto id = s.id;
+  Kokkos::parallel_for(
+      "test: push out", s.n, KOKKOS_LAMBDA(int g) {
+        if (id(g) % 10 == 0) kin(g).x.x = 0.0101;
+      });
+  list.rebuild(s, false);
+  EXPECT_EQ(s.n, 300) << "only a rebuild that may drop does";
+  list.rebuild(s, true);
+  EXPECT_EQ(s.n, 270);
+  EXPECT_EQ(s.n_left, 30);
+  const auto left = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  for (int g = 0; g < s.n; ++g) EXPECT_NE(left(g) % 10, 0);
+}
+
+TEST(NeighborList, NamesTheGrainWhosePositionIsNotFinite) {
+  const Config c = grain_config();
+  GrainState s = make_grain_state(random_grains(20, c.size, 5), 2500);
+  NeighborList list(c, s.r_max);
+  list.rebuild(s, true);
+  const auto kin = s.kin;
+  const auto id = s.id;
+  Kokkos::parallel_for(
+      "test: spoil", s.n, KOKKOS_LAMBDA(int g) {
+        if (id(g) == 13) kin(g).x.y = NAN;
+      });
+  try {
+    list.rebuild(s, false);
+    FAIL();
+  } catch (const std::runtime_error& problem) {
+    EXPECT_NE(std::string(problem.what()).find("grain 13"), std::string::npos) << problem.what();
+  }
+}
+
+TEST(NeighborList, RefusesAPeriodicDomainNarrowerThanThreeRanges) {
+  Config c = grain_config();
+  c.size[2] = 7e-4;
+  EXPECT_THROW(NeighborList(c, 1.25e-4), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace barchan

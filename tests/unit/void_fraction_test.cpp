@@ -1,0 +1,123 @@
+// The 29 points, fixed-point sums, interpolation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernels/interpolation.hpp"
+#include "kernels/void_fraction.hpp"
+#include "src/domain.hpp"
+#include "src/launch.hpp"
+#include "src/mesh.hpp"
+
+namespace barchan {
+namespace {
+
+Grid awkward_grid() {
+  return make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4));
+}
+
+TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
+  const auto mean_radius = [](Real a, Real b) {
+    return 0.75 * (std::pow(b, 4) - std::pow(a, 4)) / (std::pow(b, 3) - std::pow(a, 3));
+  };
+  const Real inner = std::cbrt(1.0 / 29), middle = std::cbrt(15.0 / 29);
+  EXPECT_NEAR(kInnerShell, mean_radius(inner, middle), 1e-4);
+  EXPECT_NEAR(kOuterShell, mean_radius(middle, 1), 1e-4);
+  Vec3 sum;
+  int on_inner = 0, on_outer = 0;
+  for (int p = 0; p < kDividedPoints; ++p) {
+    const Vec3 x = divided_point(p);
+    sum += x;
+    on_inner += std::abs(norm(x) - kInnerShell) < 1e-12;
+    on_outer += std::abs(norm(x) - kOuterShell) < 1e-12;
+    for (int q = 0; q < p; ++q) EXPECT_GT(norm(x - divided_point(q)), 0.1) << p << " " << q;
+  }
+  EXPECT_NEAR(norm(sum), 0, 1e-14);
+  EXPECT_EQ(on_inner, 14);
+  EXPECT_EQ(on_outer, 14);
+}
+
+TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
+  const Grid grid = awkward_grid();
+  const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
+  std::mt19937_64 generator(4);
+  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  for (int n = 0; n < 300; ++n) {
+    // Also grains that stick out of the floor, the lid, the outlet and the sides.
+    const GrainKinematics g{.x = {0.0112 * uniform(), 0.004 * uniform(), 0.008 * uniform()},
+                            .r = 1.25e-4,
+                            .u = {},
+                            .m = 1,
+                            .omega = {}};
+    const GrainCells cells = locate(g);
+    EXPECT_EQ(cells.n_points, 29);
+    Real total = 0;
+    for (int q = 0; q < cells.n; ++q) {
+      total += cells.weight(q);
+      const int j = static_cast<int>(cells.cell[q] / grid.nx % grid.ny);
+      EXPECT_LE(grid.y_face(j), g.x.y + g.r);
+      EXPECT_GE(grid.y_face(j + 1), g.x.y - g.r);
+    }
+    EXPECT_NEAR(total, 1, 1e-14);
+  }
+}
+
+TEST(Locate, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
+  const Grid grid = awkward_grid();
+  const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
+  EXPECT_EQ(locate.cell_of({0.001, -1e-5, 0.001}, 0), locate.cell_of({0.001, 1e-5, 0.001}, 0));
+  EXPECT_EQ(locate.cell_of({0.001, 1e-5, -1e-5}, 0), locate.cell_of({0.001, 1e-5, 0.00799}, 0));
+  EXPECT_EQ(locate.cell_of({0.01125, 1e-5, 0.001}, 0), locate.cell_of({0.0111, 1e-5, 0.001}, 0));
+  const Locate periodic{.grid = grid, .points = PointSet::divided, .wrap_x = true};
+  EXPECT_EQ(periodic.cell_of({0.01125, 1e-5, 0.001}, 0), periodic.cell_of({1e-5, 1e-5, 0.001}, 0));
+}
+
+TEST(FixedPoint, SumsDoNotDependOnTheOrder) {
+  const FixedPoint fixed = fixed_point_for(1000);
+  std::vector<Real> values;
+  std::mt19937_64 generator(1);
+  for (int n = 0; n < 1000; ++n) values.push_back(std::sin(n) * std::exp(-0.01 * n));
+  const auto sum = [&] {
+    std::int64_t total = 0;
+    for (const Real v : values) total += fixed.encode(v);
+    return total;
+  };
+  const std::int64_t forward = sum();
+  std::shuffle(values.begin(), values.end(), generator);
+  EXPECT_EQ(sum(), forward);
+  Real plain = 0;
+  for (const Real v : values) plain += v;
+  EXPECT_NEAR(fixed.decode(forward), plain, 1e-12);
+  EXPECT_LT(fixed.encode(1000), std::int64_t{1} << 62);
+  EXPECT_GT(fixed.encode(1000), std::int64_t{1} << 60);
+}
+
+TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
+  const Grid grid = awkward_grid();
+  const FaceVector f{Field("x", grid), Field("y", grid), Field("z", grid)};
+  const auto value = KOKKOS_LAMBDA(Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
+  for_each_cell(
+      "test: linear field", CellRange{-1, grid.nx + 1, -1, grid.ny + 1, -1, grid.nz + 1},
+      KOKKOS_LAMBDA(int i, int j, int k) {
+        f.x(i, j, k) = value(grid.x_face(i), grid.y_centre(j), grid.z_centre(k));
+        f.y(i, j, k) = value(grid.x_centre(i), grid.y_face(j), grid.z_centre(k));
+        f.z(i, j, k) = value(grid.x_centre(i), grid.y_centre(j), grid.z_face(k));
+      });
+  for (const Vec3& p : {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075},
+                        Vec3{0.00555, 0.0021, 0.0002}, Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
+    const Vec3 v = interpolate_faces(f, PointStencil(grid, p, false));
+    const Real expected = value(p.x, p.y, p.z);
+    EXPECT_NEAR(v.x, expected, 1e-12) << p.x << " " << p.y << " " << p.z;
+    EXPECT_NEAR(v.y, expected, 1e-12);
+    EXPECT_NEAR(v.z, expected, 1e-12);
+  }
+  // Ghosts that mirror the velocity make it vanish on the wall.
+  for_each_cell(
+      "test: no slip", CellRange{-1, grid.nx + 1, -1, 0, -1, grid.nz + 1},
+      KOKKOS_LAMBDA(int i, int, int k) { f.x(i, -1, k) = -f.x(i, 0, k); });
+  EXPECT_NEAR(interpolate_faces(f, PointStencil(grid, {0.003, 0, 0.002}, false)).x, 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace barchan
