@@ -90,7 +90,7 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
   const AdamsBashforth weight = weights(fluid, dt);
   const Real per_density = 1 / config_.density;
   const auto run = [&](auto functor) {
-    flow_rate_ = sum_each_cell_by_component("fluid: predict", grid_, functor);
+    flow_rate_ = sum_each_cell("fluid: predict", grid_, functor);
   };
   if (coupled) {
     run(Predict<true>{grid_, convection, stress, fluid.alpha_f_previous, fluid.alpha_f,

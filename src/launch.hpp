@@ -80,30 +80,6 @@ struct SumLoop {
   }
 };
 
-/// A functor that comes as part<0..n-1>, run one after the other over each row.
-template <class Functor, int... parts>
-struct PartsLoop {
-  Functor functor;
-  CellRange range;
-  template <int part>
-  static Real row(const Functor functor_in, const Place at, int end) {
-    const Functor body = functor_in;
-    Real sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (int i = at.i; i < end; ++i) sum += body.template part<part>(i, at.j, at.k);
-    return sum;
-  }
-  KOKKOS_FUNCTION void operator()(int index, Real& sum) const {
-    if constexpr (runs_on_host) {
-      const Place at = Place::of_row(range, index);
-      sum += (row<parts>(functor, at, range.i1) + ...);
-    } else {
-      const Place at = Place::of_cell(range, index);
-      sum += (functor.template part<parts>(at.i, at.j, at.k) + ...);
-    }
-  }
-};
-
 template <class Functor>
 struct MaxLoop {
   Functor functor;
@@ -151,16 +127,6 @@ Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   const CellRange range = owned_cells(grid);
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
                           launch_detail::SumLoop<Functor>{functor, range}, sum);
-  return sum;
-}
-
-/// Sum of functor.part<0>(i, j, k) to part<2>, the parts one after the other over each row.
-template <class Functor>
-Real sum_each_cell_by_component(const char* label, const Grid& grid, const Functor& functor) {
-  Real sum = 0;
-  const CellRange range = owned_cells(grid);
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::PartsLoop<Functor, 0, 1, 2>{functor, range}, sum);
   return sum;
 }
 
