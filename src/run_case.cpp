@@ -43,6 +43,12 @@ std::optional<fs::path> unfinished(const fs::path& folder, const Config& config)
   return latest_checkpoint(folder);
 }
 
+void show_warnings(const Config& config, const std::vector<SizeClass>& sizes) {
+  for (const Finding& f : validate(config, sizes)) {
+    if (f.severity == Finding::Severity::warning) report::warn("{}: {}", f.keys.front(), f.message);
+  }
+}
+
 Outcome run_one(const Config& config, const RunOptions& options);
 
 /// Last state of the case in `toml`, which is run, or run to its end, where that is missing.
@@ -78,7 +84,7 @@ Outcome run_one(const Config& config, const RunOptions& options) {
   Simulation simulation(config, options, files);
   const auto sizes = known_sizes(config);
   report::info("{}", to_text(derive(config, sizes)));
-  for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+  show_warnings(config, sizes);
   try {
     return simulation.run();
   } catch (const std::exception& problem) {
@@ -114,7 +120,7 @@ int run_command(const CommandLine& line) {
   if (line.dry_run) {
     const auto sizes = known_sizes(config);
     report::info("{}\n{}", config.title, to_text(derive(config, sizes)));
-    for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+    show_warnings(config, sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

@@ -87,7 +87,7 @@ TEST(Simulation, GrainsThatLeaveAreCounted) {
   Config config = coupled_config();
   config.fluid->mean_velocity = 0.5;
   config.initial.pour->centre = {0.0101, 0.003};
-  config.time.end = 400 * config.time.fluid_step;
+  config.time.end = 80 * config.time.fluid_step;
   const CheckpointReader end(run(config, scratch / "run"));
   const auto inside = static_cast<std::int64_t>(end.array<std::int64_t>("grains/id").size());
   EXPECT_EQ(inside + end.integer("grains/n_left"), 200);
