@@ -285,7 +285,8 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
     found.warning({"grains.skin", "grains.sizes"},
                   "is above the smallest diameter: needlessly long neighbour lists");
   }
-  const double reach = 2 * (n.d_max + c.grains->skin);
+  // The neighbour search looks at the columns on either side, which must be three different ones.
+  const double reach = 3 * (n.d_max + c.grains->skin);
   if ((c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
       (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach)) {
     found.error({"domain.size", "grains.sizes", "grains.skin"},

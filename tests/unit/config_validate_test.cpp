@@ -193,8 +193,8 @@ TEST(ConfigValidate, UnwiseMeshesAreWarnedOf) {
 }
 
 TEST(ConfigValidate, PeriodicDomainHoldsAGrainAndItsImage) {
-  EXPECT_TRUE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 4.3e-4]"}), "its own image"));
-  EXPECT_FALSE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 4.5e-4]"}), "its own image"));
+  EXPECT_TRUE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 7.1e-4]"}), "its own image"));
+  EXPECT_FALSE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 7.3e-4]"}), "its own image"));
 }
 
 TEST(ConfigValidate, NothingIsConcludedFromAValueThatIsWrong) {
