@@ -15,18 +15,20 @@ struct FindColumns {
   Real threshold;
   ColumnHeights height;
 
-  KOKKOS_FORCEINLINE_FUNCTION bool is_hindered(int i, int j, int k) const {
+  /// Smallest c on the faces around a cell's sides.
+  KOKKOS_FORCEINLINE_FUNCTION Real sides(int i, int j, int k) const {
     const Real x = Kokkos::min(c.x(i, j, k), c.x(i + 1, j, k));
-    const Real z = Kokkos::min(c.z(i, j, k), c.z(i, j, k + 1));
-    // On walls c is zero for another reason.
-    const Real below = j > 0 ? c.y(i, j, k) : Real(1);
-    const Real above = j < ny - 1 ? c.y(i, j + 1, k) : Real(1);
-    return Kokkos::min(Kokkos::min(x, z), Kokkos::min(below, above)) < threshold;
+    return Kokkos::min(x, Kokkos::min(c.z(i, j, k), c.z(i, j, k + 1)));
   }
-  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
-    int j = ny;
-    while (j > 0 && !is_hindered(i, j - 1, k)) --j;
-    height(i, k) = j;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
+    // On the wall c is zero for another reason; a face between two rows counts for the upper one.
+    // No early way out and no integers, so that columns are looked at side by side.
+    Real top = sides(i, 0, k) < threshold ? Real(1) : Real(0);
+    for (int j = 1; j < ny; ++j) {
+      const Real least = Kokkos::min(c.y(i, j, k), sides(i, j, k));
+      top = least < threshold ? Real(j + 1) : top;
+    }
+    height(i, k) = static_cast<int>(top);
   }
 };
 

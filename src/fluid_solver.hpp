@@ -11,13 +11,15 @@
 namespace barchan {
 
 struct FluidStepReport {
-  int pressure_iterations = 0;   // of all corrections together
-  Real pressure_residual = 0;    // of the last, relative to its right-hand side
-  Real continuity_residual = 0;  // max |div(alpha u) + d(alpha)/dt| dt [-]
-  Real courant = 0;              // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
-  Real drive = 0;                // body force per unit mass [m/s^2]
-  Real bulk_velocity = 0;        // sum(alpha u V) / sum(alpha V) after the predictor [m/s]
-  Real seconds_pressure = 0;     // wall time in the pressure equation
+  int pressure_iterations = 0;  // of all corrections together
+  Real pressure_residual = 0;   // of the last, relative to its right-hand side
+  // max |div(alpha u) + d(alpha)/dt| dt [-]; at least the share of the domain's volume that grains
+  // gave back by leaving: a periodic box of incompressible fluid has nowhere to take it from.
+  Real continuity_residual = 0;
+  Real courant = 0;           // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
+  Real drive = 0;             // body force per unit mass [m/s^2]
+  Real bulk_velocity = 0;     // sum(alpha u V) / sum(alpha V) after the predictor [m/s]
+  Real seconds_pressure = 0;  // wall time in the pressure equation
 };
 
 /// Solves, with alpha the fluid fraction and u the interstitial velocity,

@@ -160,6 +160,7 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
         overlap = relative > overlap ? relative : overlap;
       },
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
+  if (summary.n_contacts == 0) summary.max_overlap = 0;  // the maximum over nothing is minus infinity
   return summary;
 }
 

@@ -31,6 +31,8 @@ TEST(GrainSolver, FreeFallIsExact) {
   Case c(grain_config(), g);
   set_weight(c.state, {0, -9.81, 0});
   c.solver.advance(c.state, 1000, 1e-5);
+  EXPECT_EQ(c.solver.contacts(c.state).n_contacts, 0);
+  EXPECT_EQ(c.solver.contacts(c.state).max_overlap, 0);
   const auto row = rows_by_id(c.state)[1];
   // The force of the first half kick was still zero: u and x lag by half a step of g.
   EXPECT_NEAR(row.u.y, -9.81 * 0.01, 1e-9);
