@@ -22,13 +22,12 @@ struct FindColumns {
   }
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
     // On the wall c is zero for another reason; a face between two rows counts for the upper one.
-    // No early way out and no integers, so that columns are looked at side by side.
-    Real top = sides(i, 0, k) < threshold ? Real(1) : Real(0);
+    int top = sides(i, 0, k) < threshold ? 1 : 0;
     for (int j = 1; j < ny; ++j) {
       const Real least = Kokkos::min(c.y(i, j, k), sides(i, j, k));
-      top = least < threshold ? Real(j + 1) : top;
+      top = least < threshold ? j + 1 : top;
     }
-    height(i, k) = static_cast<int>(top);
+    height(i, k) = top;
   }
 };
 

@@ -1,25 +1,12 @@
 // Initial grains from a CSV table, a result file or a restart file.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
-#include "kernels/vec3.hpp"
+#include "src/initial_grains.hpp"
 
 namespace barchan {
-
-/// Grains in the order of the file; all vectors have the same length.
-struct InitialGrains {
-  std::vector<std::int64_t> id;
-  std::vector<double> diameter;  // [m]
-  std::vector<Vec3> x;           // centre [m]
-  std::vector<Vec3> u;           // velocity [m/s]
-  std::vector<Vec3> omega;       // spin [rad/s]
-
-  std::size_t size() const { return id.size(); }
-};
 
 /// By the ending: .csv, or .h5, which is a grains.h5 (its last frame) or a restart file (arrays
 /// grains/id and grains/kin). Throws std::runtime_error with a sentence for the user.

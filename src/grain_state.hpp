@@ -6,7 +6,7 @@
 #include "kernels/grain.hpp"
 #include "kernels/grain_motion.hpp"
 #include "kernels/interphase.hpp"
-#include "src/grain_files.hpp"
+#include "src/initial_grains.hpp"
 
 namespace barchan {
 

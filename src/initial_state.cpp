@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "src/domain.hpp"
+#include "src/grain_files.hpp"
 #include "src/initial_flow.hpp"
 #include "src/pour.hpp"
 #include "src/state_file.hpp"

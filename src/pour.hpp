@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/config.hpp"
-#include "src/grain_files.hpp"
+#include "src/initial_grains.hpp"
 
 namespace barchan {
 

@@ -3,13 +3,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "barchan_version.hpp"
 #include "src/checkpoint.hpp"
 #include "src/config_load.hpp"
 #include "src/config_resolved.hpp"
 #include "src/config_validate.hpp"
 #include "src/derived.hpp"
-#include "src/domain.hpp"
 #include "src/report.hpp"
 #include "src/simulation.hpp"
 
@@ -99,21 +97,6 @@ Outcome run_one(const Config& config, const RunOptions& options) {
 fs::path default_run_folder(const fs::path& config_file) {
   return fs::path("runs") / config_file.stem();
 }
-
-std::string device_name() {
-  return std::string(Kokkos::DefaultExecutionSpace::name()) + ", " +
-         std::to_string(Kokkos::DefaultExecutionSpace().concurrency()) + " threads";
-}
-
-Provenance make_provenance(const Config& config) {
-  return {.title = config.title,
-          .config = to_toml(config),
-          .version = BARCHAN_VERSION,
-          .git_hash = BARCHAN_GIT_HASH,
-          .backend = device_name()};
-}
-
-FluidState empty_fluid(const Config& config) { return make_fluid_state(make_grid(config)); }
 
 int run_command(const CommandLine& line) {
   const Config config = load_config(line.file, line.overrides);

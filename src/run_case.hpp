@@ -2,13 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "src/command_line.hpp"
-#include "src/config.hpp"
-#include "src/fluid_state.hpp"
-#include "src/provenance.hpp"
 
 namespace barchan {
 
@@ -18,11 +13,5 @@ int run_command(const CommandLine& line);
 
 /// Folder of a case's results: runs/<name of the config file>.
 std::filesystem::path default_run_folder(const std::filesystem::path& config_file);
-
-Provenance make_provenance(const Config& config);
-/// Backend and what it runs on, in words.
-std::string device_name();
-/// A flow at rest on the grid of the case.
-FluidState empty_fluid(const Config& config);
 
 }  // namespace barchan

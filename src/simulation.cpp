@@ -6,7 +6,8 @@
 
 #include "src/config_resolved.hpp"
 #include "src/derived.hpp"
-#include "src/run_case.hpp"
+#include "src/domain.hpp"
+#include "src/run_identity.hpp"
 #include "src/state_file.hpp"
 #include "src/stop_request.hpp"
 
@@ -20,7 +21,7 @@ SystemState first_state(const Config& config, const RunOptions& options,
   if (!options.restart) return make_initial_state(config, files);
   const CheckpointReader file(*options.restart);
   SystemState state;
-  if (config.fluid) state.fluid = empty_fluid(config);
+  if (config.fluid) state.fluid = make_fluid_state(make_grid(config));
   if (config.grains) state.grains = grains_in_file(file, config.grains->density);
   return state;
 }

@@ -1,7 +1,7 @@
 // What a run writes: tables, frames, restarts, summary.
 #include <algorithm>
 
-#include "src/run_case.hpp"
+#include "src/run_identity.hpp"
 #include "src/simulation.hpp"
 #include "src/state_file.hpp"
 
