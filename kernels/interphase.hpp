@@ -2,6 +2,7 @@
 // and the way back of what the implicit drag moved (return). Equations: docs/model.md.
 #pragma once
 
+#include "kernels/convective_acceleration.hpp"
 #include "kernels/drag.hpp"
 #include "kernels/grain_motion.hpp"
 #include "kernels/interpolation.hpp"
@@ -29,34 +30,16 @@ struct FluidForceDensity {
   FluidForces forces;
   FaceVector force, convective;
 
-  /// Gradient of the velocity component q on its own faces, advected by (a, b, c).
-  KOKKOS_INLINE_FUNCTION Real advect(const Field& q, int i, int j, int k, const Vec3& by,
-                                     Real span_y) const {
-    return by.x * (q(i + 1, j, k) - q(i - 1, j, k)) * (Real(0.5) / grid.dx) +
-           by.y * (q(i, j + 1, k) - q(i, j - 1, k)) * (1 / span_y) +
-           by.z * (q(i, j, k + 1) - q(i, j, k - 1)) * (Real(0.5) / grid.dz);
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real span_c = grid.dy_centre(j) + grid.dy_centre(j + 1);
-    const Real span_f = grid.dy(j - 1) + grid.dy(j);
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     const Real a = -forces.pressure_gradient, b = rho_f * forces.stress;
     force.x(i, j, k) = a * (ddx_at_xface(grid, p, i, j, k) - rho_f * drive) + b * stress.x(i, j, k);
     force.y(i, j, k) = a * ddy_at_yface(grid, p, i, j, k) + b * stress.y(i, j, k);
     force.z(i, j, k) = a * ddz_at_zface(grid, p, i, j, k) + b * stress.z(i, j, k);
 
-    const auto mean4 = [](Real p0, Real p1, Real p2, Real p3) { return (p0 + p1 + p2 + p3) / 4; };
-    const Vec3 at_x{u.x(i, j, k),
-                    mean4(u.y(i - 1, j, k), u.y(i, j, k), u.y(i - 1, j + 1, k), u.y(i, j + 1, k)),
-                    mean4(u.z(i - 1, j, k), u.z(i, j, k), u.z(i - 1, j, k + 1), u.z(i, j, k + 1))};
-    const Vec3 at_y{mean4(u.x(i, j - 1, k), u.x(i, j, k), u.x(i + 1, j - 1, k), u.x(i + 1, j, k)),
-                    u.y(i, j, k),
-                    mean4(u.z(i, j - 1, k), u.z(i, j, k), u.z(i, j - 1, k + 1), u.z(i, j, k + 1))};
-    const Vec3 at_z{mean4(u.x(i, j, k - 1), u.x(i, j, k), u.x(i + 1, j, k - 1), u.x(i + 1, j, k)),
-                    mean4(u.y(i, j, k - 1), u.y(i, j, k), u.y(i, j + 1, k - 1), u.y(i, j + 1, k)),
-                    u.z(i, j, k)};
-    convective.x(i, j, k) = advect(u.x, i, j, k, at_x, span_c);
-    convective.y(i, j, k) = j > 0 ? advect(u.y, i, j, k, at_y, span_f) : Real(0);
-    convective.z(i, j, k) = advect(u.z, i, j, k, at_z, span_c);
+    const ConvectiveAcceleration acceleration{grid, u};
+    convective.x(i, j, k) = acceleration.x(i, j, k);
+    convective.y(i, j, k) = j > 0 ? acceleration.y(i, j, k) : Real(0);
+    convective.z(i, j, k) = acceleration.z(i, j, k);
   }
 };
 
