@@ -17,7 +17,7 @@ PANELS = (
     ("continuity residual (1/s)", "log", {"continuity_residual": None}),
     ("pressure iterations", "count", {"pressure_iterations": None}),
     ("number", "linear", {"n_grains": "grains", "n_contacts": "contacts"}),
-    ("largest overlap (% of radius)", "linear", {"max_overlap": None}),
+    ("largest overlap (% of diameter)", "linear", {"max_overlap": None}),
 )
 FACTORS = {"u_star": 1e3, "max_overlap": 100.0}
 
