@@ -19,6 +19,7 @@ FIGURES = {
     "height_map": ("height_map", "surface height at the start and at the end, centreline profile"),
     "morphology": ("morphology", "width, length, height, centroid, horns against time"),
     "midplane": ("midplane", "flow and grains in the vertical plane through the dune"),
+    "profiles": ("profiles", "turbulence statistics over the height, beside channel DNS"),
     "history": ("history", "flow rate, shear, time step and solver against time"),
 }
 

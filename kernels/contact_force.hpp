@@ -19,10 +19,10 @@ struct ContactPair {
 
 /// What a contact does to grain i; j gets -force, the same arm torque and -rolling torque.
 struct ContactResult {
-  Vec3 force;   // normal + tangential, on i [N]
-  Vec3 twist;   // n x F_t [N]; torque on either grain = -(lever arm) twist
-  Vec3 xi_t;    // tangential displacement after the step [m]
-  Vec3 rolling; // rolling torque on i [N m]
+  Vec3 force;    // normal + tangential, on i [N]
+  Vec3 twist;    // n x F_t [N]; torque on either grain = -(lever arm) twist
+  Vec3 xi_t;     // tangential displacement after the step [m]
+  Vec3 rolling;  // rolling torque on i [N m]
 };
 
 /// Friction coefficients of a pair of materials.
@@ -32,8 +32,8 @@ struct Friction {
 };
 
 /// Slip velocity at the contact point: lever arms r - delta_n / 2 on both sides [m/s].
-KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference, const Vec3& arm_spin_sum,
-                                         const Vec3& normal) {
+KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
+                                              const Vec3& arm_spin_sum, const Vec3& normal) {
   return velocity_difference - cross(arm_spin_sum, normal);
 }
 
@@ -41,14 +41,16 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference, c
 /// evaluate them (docs/model.md):
 ///   F_n = k_n delta_n - gamma_n v_n                     (attractive tail kept)
 ///   xi_t <- tangent-plane part of (xi_t + v_t dt)
-///   |k_t xi_t| <= mu |F_n|:  F_t = -k_t xi_t - gamma_t v_t
-///   else                     F_t = -mu |F_n| xi_t/|xi_t|, xi_t shortened to the limit (re-sticks)
+///   |k_t xi_t| <= mu |F_n|:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu |F_n| where it is
+///   longer else                     F_t = -mu |F_n| xi_t/|xi_t|, xi_t shortened to the limit
+///   (re-sticks)
 /// `history` is the result of the previous sub-step (zero at first touch); dt [s].
 template <class Stiffness, class Rolling>
-KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law, const Rolling& rolling,
-                                                   const Friction& friction,
-                                                   const ContactPair& pair,
-                                                   const ContactResult& history, Real dt) {
+KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law,
+                                                        const Rolling& rolling,
+                                                        const Friction& friction,
+                                                        const ContactPair& pair,
+                                                        const ContactResult& history, Real dt) {
   const ContactStiffness k = law(pair.r_eff, pair.m_eff, pair.delta_n);
   const Real v_n = dot(pair.slip, pair.normal);
   const Vec3 v_t = pair.slip - v_n * pair.normal;
@@ -60,7 +62,9 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law, co
   const Real limit = friction.sliding * Kokkos::abs(f_n);
   const bool slides = spring > limit;
   xi = (slides ? limit / spring : Real(1)) * xi;
-  const Vec3 f_t = (-k.k_t) * xi - (slides ? Real(0) : k.gamma_t) * v_t;
+  const Vec3 trial = (-k.k_t) * xi - (slides ? Real(0) : k.gamma_t) * v_t;
+  const Real size = norm(trial);
+  const Vec3 f_t = (size > limit ? limit / size : Real(1)) * trial;
 
   ContactResult result;
   result.force = f_n * pair.normal + f_t;

@@ -45,10 +45,24 @@ struct FluidForceDensity {
 
 /// Per grain, what the gather keeps for the deposit.
 struct ExchangeOnGrains {
-  Kokkos::View<Vec3*> u_start;          // velocity as the fluid step began [m/s]
-  Kokkos::View<Vec3*> added_mass_force; // convective part, C_m rho V_p (u . grad u) [N]
-  Kokkos::View<Vec3*> carried_impulse;  // owed to the grain by the last implicit drag [N s]
+  Kokkos::View<Vec3*> u_start;           // velocity as the fluid step began [m/s]
+  Kokkos::View<Vec3*> added_mass_force;  // convective part, C_m rho V_p (u . grad u) [N]
+  Kokkos::View<Vec3*> fluid_force;      // of pressure gradient and stress, as the grain sees it [N]
+  Kokkos::View<Vec3*> carried_impulse;  // still owed to the grain by the implicit drag [N s]
+  Kokkos::View<Vec3*> paid_impulse;     // of it, given in this fluid step [N s]
 };
+
+/// Share by which a grain's view of the flow follows the flow in one fluid step. The exchange lags
+/// one step, and in a dense bed the pore water resists squeezing with beta/alpha^2 and the inertia
+/// of the water that has to leave, r (1 + C_m r) of the grain's own volume of it, r = (1 -
+/// alpha)/alpha. Where that exceeds the grain's inertia, following at once overshoots more each
+/// time (docs/numerics.md, "Dense beds"). About 1 in dilute flow; the delay vanishes with the step.
+KOKKOS_INLINE_FUNCTION Real exchange_relaxation(Real inertia, Real displaced_mass, Real beta,
+                                                Real alpha_f, Real dt) {
+  const Real r = (1 - alpha_f) / alpha_f;
+  const Real squeezed = displaced_mass * r * (1 + kAddedMassCoefficient * r);
+  return inertia / (inertia + squeezed + beta * dt / (alpha_f * alpha_f));
+}
 
 /// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step.
 /// The drag coefficient is that of the slip at the start; the drag itself follows the grain.
@@ -62,6 +76,7 @@ struct GatherFluid {
   Vec3 gravity;
   FluidForces forces;
   bool wrap_x = false;
+  bool at_once = false;  // no relaxation: the first step, grains that do not move
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
@@ -69,23 +84,33 @@ struct GatherFluid {
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
     const PointStencil at(grid, grain.x, wrap_x);
-    const Real alpha = interpolate_cell(alpha_f, at);
+    const Real found = interpolate_cell(alpha_f, at);
     const Vec3 u_f = interpolate_faces(u, at);
     const Real volume = sphere_volume(grain.r);
     const Real added_mass = forces.added_mass * kAddedMassCoefficient * rho_f * volume;
     const Vec3 added = added_mass * interpolate_faces(convective, at);
 
-    const LocalFlow flow{.alpha_f = alpha < Real(0.1) ? Real(0.1) : (alpha > 1 ? Real(1) : alpha),
+    const Real alpha = found < Real(0.1) ? Real(0.1) : (found > 1 ? Real(1) : found);
+    const LocalFlow flow{.alpha_f = alpha,
                          .rho_f = rho_f,
                          .mu_f = mu_f,
                          .slip = norm(u_f - grain.u),
                          .d_p = 2 * grain.r};
-    on_grains.u_f(g) = u_f;
-    on_grains.beta(g) = forces.drag * drag(flow);
+    const Real beta = forces.drag * drag(flow);
+    const Real share =
+        at_once ? Real(1)
+                : exchange_relaxation(grain.m + added_mass, rho_f * volume, beta, alpha, dt);
+    on_grains.u_f(g) += share * (u_f - on_grains.u_f(g));
+    exchange.fluid_force(g) +=
+        share * (volume * interpolate_faces(force, at) - exchange.fluid_force(g));
+    exchange.paid_impulse(g) = share * exchange.carried_impulse(g);
+    exchange.carried_impulse(g) = exchange.carried_impulse(g) - exchange.paid_impulse(g);
+
+    on_grains.beta(g) = beta;
     on_grains.added_mass(g) = added_mass;
     on_grains.steady_force(g) = (grain.m - forces.buoyancy * rho_f * volume) * gravity +
-                                volume * interpolate_faces(force, at) + added +
-                                (1 / dt) * exchange.carried_impulse(g);
+                                exchange.fluid_force(g) + added +
+                                (1 / dt) * exchange.paid_impulse(g);
     on_grains.drag_impulse(g) = Vec3{};
     exchange.u_start(g) = grain.u;
     exchange.added_mass_force(g) = added;
@@ -239,14 +264,14 @@ struct VelocityChangeOnCells {
 };
 
 /// What the implicit drag took from the fluid within the step beyond the sub-steps' impulse goes
-/// back to the grains, in the weights it was deposited with.
+/// back to the grains, in the weights it was deposited with. Returns the sum over the grains.
 struct CarryToGrain {
   Locate locate;
   ExchangeOfGrain of_grain;
   Field x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
   Kokkos::View<Vec3*> carried_impulse;
 
-  KOKKOS_FUNCTION void operator()(int g) const {
+  KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {
     const GrainCells cells = locate(of_grain.grains(g));
     const Grid& grid = locate.grid;
     Vec3 change;
@@ -256,7 +281,11 @@ struct CarryToGrain {
       const int k = static_cast<int>(cells.cell[q] / grid.nx / grid.ny);
       change += cells.weight(q) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
     }
-    carried_impulse(g) = of_grain(g).implicit * change;
+    const Vec3 carried = of_grain(g).implicit * change;
+    carried_impulse(g) += carried;
+    sum_x += carried.x;
+    sum_y += carried.y;
+    sum_z += carried.z;
   }
 };
 

@@ -115,6 +115,7 @@ struct CouplingConfig {
   VoidFraction void_fraction = VoidFraction::divided;
   double smoothing_length = 6e-4;  // [m], 3 d in the paper; 0: off
   bool alpha_time_derivative = true;
+  bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison
   ForceSwitches forces;
 
   bool operator==(const CouplingConfig&) const = default;
@@ -160,6 +161,14 @@ struct RestartConfig {
   bool operator==(const RestartConfig&) const = default;
 };
 
+/// [statistics]: turbulence statistics over planes and time; off without the section.
+struct StatisticsConfig {
+  double start = 0;        // [s], required
+  double interval = 0.01;  // between samples [s]
+
+  bool operator==(const StatisticsConfig&) const = default;
+};
+
 /// [solver]
 struct SolverConfig {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
@@ -182,6 +191,7 @@ struct Config {
   OutputConfig output;
   RestartConfig restart;
   SolverConfig solver;
+  std::optional<StatisticsConfig> statistics = {};
 
   bool operator==(const Config&) const = default;
 };

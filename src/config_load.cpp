@@ -71,6 +71,7 @@ void read(Section& s, CouplingConfig& c) {
   s.optional("void_fraction", c.void_fraction);
   s.optional("smoothing_length", c.smoothing_length, {at_least(0)});
   s.optional("alpha_time_derivative", c.alpha_time_derivative);
+  s.optional("relaxation", c.relaxation);
   s.optional("forces", c.forces);
 }
 
@@ -142,6 +143,11 @@ void read(Section& s, RestartConfig& c) {
   s.optional("keep", c.keep, {at_least(1), at_most(1000)});
 }
 
+void read(Section& s, StatisticsConfig& c) {
+  s.require("start", c.start, {at_least(0)});
+  s.optional("interval", c.interval, {above(0)});
+}
+
 void read(Section& s, SolverConfig& c) {
   s.optional("pressure_tolerance", c.pressure_tolerance, {above(0), below(1)});
   s.optional("max_iterations", c.max_iterations, {at_least(1)});
@@ -185,6 +191,10 @@ Config read_tree(Reading& reading, const Node& tree, const fs::path& file) {
                  [&](Section& s) { read(s, c.initial, reading, file.parent_path()); });
     with_section(reading, root, "output", [&](Section& s) { read(s, c.output); });
     with_section(reading, root, "restart", [&](Section& s) { read(s, c.restart); });
+    StatisticsConfig statistics;
+    if (with_section(reading, root, "statistics", [&](Section& s) { read(s, statistics); })) {
+      c.statistics = statistics;
+    }
     with_section(reading, root, "solver", [&](Section& s) { read(s, c.solver); });
   }
   reading.complain_about_unknown();

@@ -125,6 +125,7 @@ void write(Writer& w, const CouplingConfig& c) {
   w.key("void_fraction", c.void_fraction);
   w.key("smoothing_length", c.smoothing_length);
   w.key("alpha_time_derivative", c.alpha_time_derivative);
+  w.key("relaxation", c.relaxation);
   w.key("forces", c.forces);
 }
 
@@ -157,6 +158,12 @@ void write(Writer& w, const RestartConfig& c) {
   w.key("keep", c.keep);
 }
 
+void write(Writer& w, const StatisticsConfig& c) {
+  w.section("statistics");
+  w.key("start", c.start);
+  w.key("interval", c.interval);
+}
+
 void write(Writer& w, const SolverConfig& c) {
   w.section("solver");
   w.key("pressure_tolerance", c.pressure_tolerance);
@@ -181,6 +188,7 @@ std::string to_toml(const Config& config) {
   write(w, config.initial);
   write(w, config.output);
   write(w, config.restart);
+  if (config.statistics) write(w, *config.statistics);
   write(w, config.solver);
   return text;
 }

@@ -214,6 +214,16 @@ void check_output(const Config& c, Findings& found) {
   check("output.fields_interval", c.output.fields_interval);
 }
 
+void check_statistics(const Config& c, Findings& found) {
+  if (!c.statistics) return;
+  if (!c.fluid)
+    found.error({"statistics.start", "fluid"}, "must be absent without a [fluid] section");
+  if (c.statistics->start >= c.time.end) {
+    found.error({"statistics.start", "time.end"},
+                fmt::format("must be before the end, {:.6g} s", c.time.end));
+  }
+}
+
 void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, Findings& found) {
   const double smallest = std::min({flow.dx, flow.dy_first, flow.dz});
   const double length = c.coupling.smoothing_length;
@@ -319,6 +329,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   }
   check_initial(c, found);
   check_output(c, found);
+  check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);
   found.all.insert(found.all.end(), of_sizes.begin(), of_sizes.end());
   return found.all;

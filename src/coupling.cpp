@@ -8,22 +8,32 @@ namespace {
 
 DragModel make_drag(const Config& config, const GrainState& grains) {
   switch (config.coupling.drag) {
-    case DragLaw::gidaspow: return Gidaspow{};
-    case DragLaw::di_felice: return DiFelice{};
-    case DragLaw::koch_hill: return KochHill{};
-    case DragLaw::syamlal_obrien: return SyamlalOBrien{};
-    case DragLaw::paper_repaired: return PaperRepaired{};
-    case DragLaw::none: return NoDrag{};
-    case DragLaw::beetstra: break;
+    case DragLaw::gidaspow:
+      return Gidaspow{};
+    case DragLaw::di_felice:
+      return DiFelice{};
+    case DragLaw::koch_hill:
+      return KochHill{};
+    case DragLaw::syamlal_obrien:
+      return SyamlalOBrien{};
+    case DragLaw::paper_repaired:
+      return PaperRepaired{};
+    case DragLaw::none:
+      return NoDrag{};
+    case DragLaw::beetstra:
+      break;
   }
   return Beetstra{.d_mean = grains.sauter_diameter};
 }
 
 PointSet point_set(VoidFraction v) {
   switch (v) {
-    case VoidFraction::centre: return PointSet::centre;
-    case VoidFraction::cfdem_faithful: return PointSet::cfdem;
-    case VoidFraction::divided: break;
+    case VoidFraction::centre:
+      return PointSet::centre;
+    case VoidFraction::cfdem_faithful:
+      return PointSet::cfdem;
+    case VoidFraction::divided:
+      break;
   }
   return PointSet::divided;
 }
@@ -47,8 +57,11 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       drag_(make_drag(config, grains)),
       grid_(grid),
       boundary_(solver.boundary()),
-      smoother_(make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
+      smoother_(
+          make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
       smooths_(config.coupling.smoothing_length > 0),
+      follows_at_once_(config.grains->frozen || !config.coupling.relaxation),
+      at_once_(follows_at_once_),
       locate_{.grid = grid,
               .points = point_set(config.coupling.void_fraction),
               .wrap_x = config.grains->boundary_x == GrainBoundaryX::periodic},
@@ -59,9 +72,9 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       convective_(face_vector("coupling: convective acceleration", grid)),
       on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
   for (Field& f : cell_) f = Field("coupling: cell density", grid);
-  deposits_.sum = decltype(deposits_.sum)(
-      "deposits", static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
-                      static_cast<std::size_t>(grid.nz));
+  deposits_.sum = decltype(deposits_.sum)("deposits", static_cast<std::size_t>(grid.nx) *
+                                                          static_cast<std::size_t>(grid.ny) *
+                                                          static_cast<std::size_t>(grid.nz));
 }
 
 ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
@@ -109,6 +122,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .gravity = gravity_,
                                          .forces = forces_,
                                          .wrap_x = locate_.wrap_x,
+                                         .at_once = at_once_,
                                          .grains = grains.kin,
                                          .on_grains = grains.fluid,
                                          .exchange = grains.exchange});
@@ -182,13 +196,12 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   }
   if (smooths_) smoother_.solve(alpha, alpha);
   const Grid grid = grid_;
-  ledger_.deposited_volume =
-      sum_each_cell("coupling: solid fraction to fluid fraction", grid,
-                    KOKKOS_LAMBDA(int i, int j, int k) {
-                      const Real solid = alpha(i, j, k);
-                      alpha(i, j, k) = 1 - solid;
-                      return solid * grid.cell_volume(j);
-                    });
+  ledger_.deposited_volume = sum_each_cell(
+      "coupling: solid fraction to fluid fraction", grid, KOKKOS_LAMBDA(int i, int j, int k) {
+        const Real solid = alpha(i, j, k);
+        alpha(i, j, k) = 1 - solid;
+        return solid * grid.cell_volume(j);
+      });
   boundary_.fill(alpha, FieldKind::scalar);
   if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
     Kokkos::deep_copy(fluid.alpha_f_previous.storage, alpha.storage);
@@ -211,6 +224,7 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
 void Coupling::start(const GrainState& grains, FluidState& fluid) {
   deposit(grains, fluid, 0);
   Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
+  at_once_ = true;
 }
 
 void Coupling::sum_faces(Real dt, const FluidState& fluid) {
@@ -226,9 +240,10 @@ void Coupling::sum_faces(Real dt, const FluidState& fluid) {
         "ledger: taken from the fluid", grid,
         KOKKOS_LAMBDA(int i, int j, int k) { return impulse(i, j, k) * volume(j); });
     implicit_taken =
-        dt * sum_each_cell("ledger: implicit drag", grid, KOKKOS_LAMBDA(int i, int j, int k) {
-          return y_faces && j == 0 ? 0 : implicit(i, j, k) * du(i, j, k) * volume(j);
-        });
+        dt * sum_each_cell(
+                 "ledger: implicit drag", grid, KOKKOS_LAMBDA(int i, int j, int k) {
+                   return y_faces && j == 0 ? 0 : implicit(i, j, k) * du(i, j, k) * volume(j);
+                 });
   };
   ExchangeLedger& l = ledger_;
   sum(e.impulse.x, e.implicit.x, rate.x, false, l.taken_from_fluid.x, l.implicit_on_fluid.x);
@@ -247,24 +262,17 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
   if (smooths_) {
     for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
   }
-  Kokkos::parallel_for("coupling: carry to grains", grains.n,
-                       CarryToGrain{.locate = locate_,
-                                    .of_grain = of_grain(grains, dt),
-                                    .x = cell_[1],
-                                    .y = cell_[2],
-                                    .z = cell_[3],
-                                    .carried_impulse = grains.exchange.carried_impulse});
-  sum_faces(dt, fluid);
-  const auto carried = grains.exchange.carried_impulse;
   Vec3& total = ledger_.carried_to_grains;
-  Kokkos::parallel_reduce(
-      "ledger: carried to grains", grains.n,
-      KOKKOS_LAMBDA(int g, Real& x, Real& y, Real& z) {
-        x += carried(g).x;
-        y += carried(g).y;
-        z += carried(g).z;
-      },
-      total.x, total.y, total.z);
+  Kokkos::parallel_reduce("coupling: carry to grains", grains.n,
+                          CarryToGrain{.locate = locate_,
+                                       .of_grain = of_grain(grains, dt),
+                                       .x = cell_[1],
+                                       .y = cell_[2],
+                                       .z = cell_[3],
+                                       .carried_impulse = grains.exchange.carried_impulse},
+                          total.x, total.y, total.z);
+  sum_faces(dt, fluid);
+  at_once_ = follows_at_once_;
 }
 
 }  // namespace barchan

@@ -13,14 +13,14 @@
 
 namespace barchan {
 
-using DragModel = std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra,
-                               PaperRepaired, NoDrag>;
+using DragModel =
+    std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired, NoDrag>;
 
 /// Momentum and volume that changed sides in one fluid step, for the ledger.
 struct ExchangeLedger {
   Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
-  Vec3 given_to_grains;    // drag and added mass over the sub-steps [N s]
-  Vec3 taken_from_fluid;   // its deposit on the faces [N s]
+  Vec3 given_to_grains;                         // drag and added mass over the sub-steps [N s]
+  Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
   Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
   Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
 };
@@ -62,6 +62,8 @@ class Coupling {
   Boundary boundary_;
   PoissonFft smoother_;
   bool smooths_ = false;
+  bool follows_at_once_ = false;  // grains take the flow as it is, unrelaxed
+  bool at_once_ = false;          // the same for this step: the first has nothing to start from
   Locate locate_;
   Real rho_f_ = 0, nu_ = 0;
   Vec3 gravity_;

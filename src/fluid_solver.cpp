@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernels/flow_sums.hpp"
 #include "kernels/wale.hpp"
 #include "src/launch.hpp"
 
@@ -129,13 +130,16 @@ void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchang
   if (config_.pressure_gradient) {
     fluid.drive = *config_.pressure_gradient / config_.density;
   } else if (config_.mean_velocity != 0) {
-    const Real wanted = target_bulk_velocity(fluid) * fluid_height_;
+    // A bed takes part of what the drive gives, as the pressure drop over it does; about what it
+    // took last.
+    const Real wanted = target_bulk_velocity(fluid) * fluid_height_ + fluid.flow_missed;
     fluid.drive = (wanted - flow_rate_) / (drive_response_ * dt);
   } else {
     fluid.drive = 0;
   }
   report_.drive = fluid.drive;
-  report_.bulk_velocity = (flow_rate_ + fluid.drive * dt * drive_response_) / fluid_height_;
+  flow_rate_ += fluid.drive * dt * drive_response_;
+  report_.bulk_velocity = flow_rate_ / fluid_height_;
 }
 
 void FluidSolver::project(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
@@ -168,6 +172,10 @@ void FluidSolver::project(FluidState& fluid, const ExchangeOnFaces* exchange, Re
   }
   report_.seconds_pressure = timer.seconds();
   correct<true>(fluid, exchange, dt, drive_dt);
+  const Real flow =
+      sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
+  fluid.flow_missed = flow_rate_ - flow;
+  report_.bulk_velocity = flow / fluid_height_;
 }
 
 void FluidSolver::add_to_report(const PressureReport& solved) {

@@ -18,7 +18,7 @@ struct FluidStepReport {
   Real continuity_residual = 0;
   Real courant = 0;           // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
   Real drive = 0;             // body force per unit mass [m/s^2]
-  Real bulk_velocity = 0;     // sum(alpha u V) / sum(alpha V) after the predictor [m/s]
+  Real bulk_velocity = 0;     // sum(alpha u V) / sum(alpha V) after the step [m/s]
   Real seconds_pressure = 0;  // wall time in the pressure equation
 };
 
@@ -74,7 +74,7 @@ class FluidSolver {
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  Real flow_rate_ = 0;                   // sum of alpha u*_x dy over faces [m^2/s]
+  Real flow_rate_ = 0;                   // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
   Real drive_response_ = 0;              // the same of c_x dy: per unit of drive times dt
   Real fluid_height_ = 0;                // sum of alpha dy over x-faces [m]
   FluidStepReport report_;

@@ -22,6 +22,8 @@ struct FluidState {
   Real dt_previous = 0;    // length of that step [s]
   Real time = 0;           // since the start [s]
   Real bulk_at_start = 0;  // bulk velocity a ramp of the drive starts from [m/s]
+  Real flow_missed =
+      0;  // flow rate that the last projection took from what the drive aimed at [m^2/s]
 };
 
 /// Zero everywhere, alpha_f one.

@@ -25,7 +25,7 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   Kokkos::parallel_for(
       "output: forces on grains", n, KOKKOS_LAMBDA(int g) {
         drag(g) = (1 / dt) * on.drag_impulse(g);
-        added(g) = exchange.added_mass_force(g) + (1 / dt) * exchange.carried_impulse(g) -
+        added(g) = exchange.added_mass_force(g) + (1 / dt) * exchange.paid_impulse(g) -
                    (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));
         total(g) = contact(g) + on.steady_force(g) + drag(g) -
                    (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));

@@ -59,8 +59,8 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
   s.id = rows<decltype(s.id)>("grain id", n);
   for (Kokkos::View<Vec3*>* array :
        {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.u_f, &s.fluid.steady_force,
-        &s.fluid.drag_impulse, &s.exchange.u_start,
-        &s.exchange.added_mass_force, &s.exchange.carried_impulse}) {
+        &s.fluid.drag_impulse, &s.exchange.u_start, &s.exchange.added_mass_force,
+        &s.exchange.fluid_force, &s.exchange.carried_impulse, &s.exchange.paid_impulse}) {
     *array = rows<Kokkos::View<Vec3*>>("grain vector", n);
   }
   s.fluid.beta = rows<Kokkos::View<Real*>>("drag coefficient", n);
@@ -96,8 +96,8 @@ void permute(GrainState& s, const Kokkos::View<int*>& row, int n) {
   take_rows(s.id, row, n);
   for (Kokkos::View<Vec3*>* array :
        {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.u_f, &s.fluid.steady_force,
-        &s.fluid.drag_impulse, &s.exchange.u_start,
-        &s.exchange.added_mass_force, &s.exchange.carried_impulse}) {
+        &s.fluid.drag_impulse, &s.exchange.u_start, &s.exchange.added_mass_force,
+        &s.exchange.fluid_force, &s.exchange.carried_impulse, &s.exchange.paid_impulse}) {
     take_rows(*array, row, n);
   }
   take_rows(s.fluid.beta, row, n);

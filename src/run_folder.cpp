@@ -28,8 +28,9 @@ const std::string dune_header =
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
-  for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
-                           "fields.xdmf", "grains.h5", "grains.xdmf", "log.txt"}) {
+  for (const char* name :
+       {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5", "fields.xdmf",
+        "grains.h5", "grains.xdmf", "statistics.csv", "log.txt"}) {
     std::filesystem::remove(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -53,11 +53,13 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
   report::log_to(folder_.file("log.txt"), restart_time_.has_value());
   folder_.write_config(provenance_.config);
   end_step_ = fluid_steps(config.time);
+  if (config.statistics) statistics_.emplace(*config.fluid, state_.fluid->grid);
   if (options.restart) {
     const CheckpointReader file(*options.restart);
     load_state(file, state_, coupled_step_);
     step_ = file.integer("step");
     tracker_.set_state(file.array<double>("dunes"));
+    if (statistics_) statistics_->load(file);
     report::info("going on from {} at t = {:.4f} s", options.restart->string(), time());
   } else {
     coupled_step_.start(state_);
@@ -85,7 +87,8 @@ Outcome Simulation::run() {
       if (stop_signal() == 0 && !out_of_time) continue;
       progress_.finish();
       write_restart();
-      const std::string why = out_of_time ? "the wall-clock limit was reached" : "stopped on request";
+      const std::string why =
+          out_of_time ? "the wall-clock limit was reached" : "stopped on request";
       write_summary("stopped", why);
       report::info("{}; go on with --restart {}", why, last_restart()->string());
       return Outcome::stopped;
@@ -152,6 +155,7 @@ void Simulation::write_due(bool first) {
     const PhaseTimer timer(phases_, "analytics");
     write_dunes();
   }
+  sample_flow();
   const PhaseTimer timer(phases_, "output");
   if (o.history_interval > 0 && (first || due(o.history_interval))) write_history();
   if (state_.grains && o.grains_interval > 0 && (first || due(o.grains_interval))) write_grains();
@@ -161,6 +165,13 @@ void Simulation::write_due(bool first) {
   if (first) return;
   if (restart_due() && step_ < end_step_) write_restart();
   if (due(o.history_interval)) write_summary("running", "");
+}
+
+/// From statistics.start on; the table on the disk follows the restart files and the end.
+void Simulation::sample_flow() {
+  if (!statistics_ || time() < config_.statistics->start) return;
+  const PhaseTimer timer(phases_, "analytics");
+  if (due(config_.statistics->interval)) statistics_->sample(*state_.fluid);
 }
 
 void Simulation::show_progress() {

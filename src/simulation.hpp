@@ -6,6 +6,7 @@
 #include "src/config.hpp"
 #include "src/coupled_step.hpp"
 #include "src/dune_analytics.hpp"
+#include "src/flow_statistics.hpp"
 #include "src/initial_state.hpp"
 #include "src/output.hpp"
 #include "src/report.hpp"
@@ -41,6 +42,7 @@ class Simulation {
   void write_dunes();
   void write_grains();
   void write_restart();
+  void sample_flow();
   void write_summary(const std::string& status, const std::string& message);
   void watch();
   void show_progress();
@@ -63,6 +65,7 @@ class Simulation {
   RunFolder folder_;
   OutputFiles output_;
   DuneTracker tracker_;
+  std::optional<FlowStatistics> statistics_;
   ProgressLine progress_;
   std::optional<DuneRow> largest_dune_;
   Interval interval_;

@@ -36,10 +36,9 @@ void Simulation::write_history() {
     row.fluid_kinetic_energy = solver.kinetic_energy(*state_.fluid);
     row.cfl = interval_.courant;
     row.continuity_residual = interval_.continuity_residual;
-    row.pressure_iterations =
-        interval_.steps > 0 ? static_cast<double>(interval_.iterations) /
-                                  static_cast<double>(interval_.steps)
-                            : 0;
+    row.pressure_iterations = interval_.steps > 0 ? static_cast<double>(interval_.iterations) /
+                                                        static_cast<double>(interval_.steps)
+                                                  : 0;
   }
   if (state_.grains) {
     const ContactSummary contacts = coupled_step_.grain_solver()->contacts(*state_.grains);
@@ -82,6 +81,10 @@ void Simulation::write_restart() {
   file.scalar("step", step_);
   const std::vector<double> dunes = tracker_.state();
   file.array("dunes", std::span<const double>(dunes));
+  if (statistics_) {
+    statistics_->save(file);
+    statistics_->write(folder_.file("statistics.csv"));
+  }
   file.commit(config_.restart.keep);
   last_restart_at_ = WallClock::now();
 }
@@ -111,8 +114,7 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
   s.grain_steps_per_second = static_cast<double>(grain_steps_) / wall;
   if (state_.fluid) {
     const Grid& g = state_.fluid->grid;
-    s.cell_steps_per_second =
-        static_cast<double>(step_ - start_step_) * g.nx * g.ny * g.nz / wall;
+    s.cell_steps_per_second = static_cast<double>(step_ - start_step_) * g.nx * g.ny * g.nz / wall;
   }
   s.pressure_iterations_mean = static_cast<double>(iterations_sum_) / steps;
   s.pressure_iterations_max = iterations_max_;

@@ -42,6 +42,8 @@ void for_each_grain_array(const GrainState& s, const F& f) {
   f("grains/contact_force", first_rows(s.contact_force, n));
   f("grains/contact_torque", first_rows(s.contact_torque, n));
   f("grains/x_reference", first_rows(s.x_reference, n));
+  f("grains/u_f", first_rows(s.fluid.u_f, n));
+  f("grains/fluid_force", first_rows(s.exchange.fluid_force, n));
   f("grains/carried_impulse", first_rows(s.exchange.carried_impulse, n));
   f("grains/wall_xi_t", first_rows(s.wall_xi_t, n));
   f("grains/wall_torque", first_rows(s.wall_torque, n));
@@ -70,6 +72,7 @@ void save_state(CheckpointWriter& file, const SystemState& state) {
     file.scalar("fluid/dt_previous", s.dt_previous);
     file.scalar("fluid/time", s.time);
     file.scalar("fluid/bulk_at_start", s.bulk_at_start);
+    file.scalar("fluid/flow_missed", s.flow_missed);
   }
   if (state.grains) {
     const GrainState& s = *state.grains;
@@ -112,6 +115,7 @@ void load_flow(const CheckpointReader& file, FluidState& fluid) {
   fluid.dt_previous = file.real("fluid/dt_previous");
   fluid.time = file.real("fluid/time");
   fluid.bulk_at_start = file.real("fluid/bulk_at_start");
+  fluid.flow_missed = file.real("fluid/flow_missed");
 }
 
 void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step) {

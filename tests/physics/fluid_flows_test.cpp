@@ -203,7 +203,8 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
     set_alpha(fluid.alpha_f, s * dt);
     const FluidStepReport report = solver.advance(fluid, &exchange, dt);
     EXPECT_LT(report.continuity_residual, 1e-6);
-    EXPECT_NEAR(report.bulk_velocity, 0.28, 1e-14);
+    // The drive learns in two steps what the projection takes of it.
+    EXPECT_NEAR(report.bulk_velocity / 0.28, 1, s <= 2 ? 0.005 : 1e-4) << s;
   }
 }
 

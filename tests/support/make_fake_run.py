@@ -144,6 +144,24 @@ def write_tables(folder, cut):
     (folder / "dune.csv").write_text(text[:-20] if cut else text)
 
 
+def write_statistics(folder):
+    """A channel at Re_tau = 400: log law over a viscous sublayer, stresses of the right shape."""
+    u_star, height, nu = 0.016, SIZE[1], 1e-6
+    y = height * np.expm1(2.5 * (np.arange(30) + 0.5) / 30) / np.expm1(2.5)
+    y_plus = y * u_star / nu
+    u_plus = np.minimum(y_plus, np.log(y_plus) / 0.41 + 5.2)
+    wall = 1 - np.exp(-y_plus / 10)
+    total = u_star**2 * (1 - y / height)
+    uu, vv, ww = 8 * total * wall * np.exp(-y_plus / 400), total * wall**2, 1.7 * total * wall
+    uv = -total * wall**2
+    columns = [y, y_plus, u_plus * u_star, u_plus, uu, vv, ww, uv, (uu + vv + ww) / 2,
+               0.9 * (total + uv), 0.1 * (total + uv), total, 0 * y, nu * wall, 480 + 0 * y]
+    header = ("y,y_plus,U,U_plus,uu,vv,ww,uv,k,viscous_stress,subgrid_stress,total_stress,p,nu_t,"
+              "n_samples")
+    np.savetxt(folder / "statistics.csv", np.stack(columns, axis=1), delimiter=",", fmt="%.9g",
+               header=header, comments="")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
@@ -158,6 +176,7 @@ def main():
         write_fields(options.out)
     if "tables" not in options.without:
         write_tables(options.out, options.cut)
+        write_statistics(options.out)
     if not options.cut:
         (options.out / "config.toml").write_text(CONFIG)
         (options.out / "run.json").write_text('{"status": "done", "title": "synthetic barchan"}\n')

@@ -51,13 +51,18 @@ Config unusual() {
   g.gravity = {0.1, -9.7, 0.2};
   g.skin = 1e-5;
   c.grains = g;
-  c.coupling = {
-      DragLaw::koch_hill, VoidFraction::centre, 1e-3, false, {true, false, true, false, true}};
+  c.coupling = {DragLaw::koch_hill,
+                VoidFraction::centre,
+                1e-3,
+                false,
+                false,
+                {true, false, true, false, true}};
   c.initial.fluid = "turbulent";
   c.initial.seed = 9;
   c.initial.pour = PourConfig{{0.04, 0.3}, 0.02, 0.001, 77};
   c.output = {0.1, 0.2, 0.3, 0.4, true};
   c.restart = {0.5, 60, 4};
+  c.statistics = {0.15, 0.02};
   c.solver = {1e-8, 50, 2, Preconditioner::jacobi};
   return c;
 }
@@ -73,6 +78,7 @@ TEST(ConfigResolved, EveryMemberComesBack) {
   EXPECT_EQ(back.coupling, c.coupling);
   EXPECT_EQ(back.initial, c.initial);
   EXPECT_EQ(back.output, c.output);
+  EXPECT_EQ(back.statistics, c.statistics);
   EXPECT_EQ(back.restart, c.restart);
   EXPECT_EQ(back.solver, c.solver);
   EXPECT_EQ(back, c) << to_toml(c);

@@ -68,7 +68,7 @@ TEST(Check, PrintsTheCaseItsNumbersAndWarnings) {
   std::ostringstream out;
   EXPECT_EQ(run_check(line, out), 0);
   const std::string text = out.str();
-  for (const char* part : {"end = 2.0\n", "skin = 4e-05", "Re = 2 delta U / nu     10000",
+  for (const char* part : {"end = 2.0\n", "skin = 4e-05", "Re = 2 delta U / nu     12000",
                            "26.5 % (smallest)", "warning: [time] grain_step is 26.5 %"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }

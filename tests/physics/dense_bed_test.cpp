@@ -1,0 +1,133 @@
+// The exchange between a dense bed and its pore water is stable: what rests, rests.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstdio>
+
+#include "src/initial_state.hpp"
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/packing.hpp"
+
+namespace barchan {
+namespace {
+
+/// Largest growth per fluid step of small disturbances of grains and pore water, per unit volume:
+/// one grain step as long as the fluid step, no contacts, drag of Ergun's viscous term. Squeezed
+/// (`tied`), water leaves where grains go, alpha u + (1 - alpha) w = 0, which the pressure
+/// enforces; otherwise both slip freely. `smoothing` is what the smoothing leaves of the
+/// disturbance.
+double growth(double alpha, double dt, double smoothing, bool tied, bool relaxed) {
+  const double rho_f = 1000, rho_p = 2500, mu_f = 1e-3, d = 2e-4, c = 1 - alpha;
+  const double drag = 150 * c * c * mu_f / (alpha * d * d) * dt;  // impulse per slip
+  const double added = kAddedMassCoefficient * c * rho_f, inertia = c * rho_p + added;
+  const double share = relaxed ? exchange_relaxation(inertia, c * rho_f, drag / dt, alpha, dt) : 1;
+  Eigen::Matrix<double, 5, 5> step;
+  for (int column = 0; column < 5; ++column) {
+    Eigen::Matrix<double, 5, 1> s = Eigen::Matrix<double, 5, 1>::Unit(column);
+    // grains w, water u; what the grains see: pressure impulse, water velocity; impulse owed
+    double &w = s(0), &u = s(1), &pressure = s(2), &seen = s(3), &owed = s(4);
+    const double paid = share * owed, forcing = pressure + paid;
+    const double equilibrium = seen + forcing / drag;
+    const double w_new = equilibrium + (w - equilibrium) * std::exp(-drag / inertia);
+    const double impulse = inertia * (w_new - w) - forcing - added * (w_new - w);
+    const double implicit = drag + added;
+    double u_new = -(c / alpha) * smoothing * w_new, push = 0;
+    if (!tied) u_new = u - smoothing * impulse / (alpha * rho_f + implicit);
+    if (tied) {
+      push = (c / alpha) * (smoothing * impulse + (alpha * rho_f + implicit) * (u_new - u));
+    }
+    owed += smoothing * implicit * (u_new - u) - paid;
+    pressure += share * (push - pressure);
+    seen += share * (u_new - seen);
+    u = u_new;
+    w = w_new;
+    step.col(column) = s;
+  }
+  double largest = 0;
+  for (const std::complex<double>& value : step.eigenvalues()) {
+    if (!tied && std::abs(value - 1.0) < 1e-9) continue;  // the momentum of both together
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+TEST(DenseBed, SmallDisturbancesDieOutAtEveryFractionAndStep) {
+  double worst = 0;
+  for (const double alpha : {0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+    for (const double dt : {1e-5, 1e-4, 2.5e-4, 5e-4, 1e-3}) {
+      for (const double smoothing : {1.0, 0.5, 0.2}) {
+        for (const bool tied : {true, false}) {
+          const double g = growth(alpha, dt, smoothing, tied, true);
+          EXPECT_LT(g, 1) << alpha << " " << dt << " " << smoothing << " " << tied;
+          worst = std::max(worst, g);
+        }
+      }
+    }
+  }
+  std::printf("[ measured ] growth per step, relaxed: at most %.4f\n", worst);
+  // Without it squeezing grows in the bed: 3.2-fold per step of the paper at alpha = 0.4.
+  EXPECT_GT(growth(0.4, 2.5e-4, 1, true, false), 3);
+}
+
+/// 2,000 grains, 1.4 mm deep, in a periodic box: settled without a flow solver, then coupled.
+struct Bed {
+  static constexpr std::array<double, 3> size{0.0032, 0.006, 0.0032};
+
+  static Config config() {
+    Config c = test::water_box({4, 23, 4}, size);
+    c.fluid->bottom = WallFlow::no_slip;
+    c.coupling.smoothing_length = 2e-4;
+    Material& m = c.grains->material;
+    m.youngs_modulus = 3.125e5;
+    m.rolling_friction = 0.1;
+    c.grains->wall = m;
+    c.grains->gravity = {0, -9.81, 0};
+    c.time.fluid_step = 5e-4;
+    c.time.grain_step = 1e-5;
+    return c;
+  }
+
+  static InitialGrains settled() {
+    Config c = config();
+    c.fluid.reset();
+    c.grains->ambient.emplace();
+    test::CoupledRun pour(c, testing::lattice_packing(2000, size, 0.01));
+    pour.advance(300);
+    InitialGrains grains;
+    const auto kin = testing::host_copy(pour.state.grains->kin);
+    for (int g = 0; g < pour.state.grains->n; ++g) {
+      testing::add_grain(grains, 2 * kin(g).r, kin(g).x);
+    }
+    return grains;
+  }
+};
+
+/// Median speed of the grains [m/s]: a few that have no contact and drop do not count.
+double median_speed(const test::CoupledRun& run) {
+  std::vector<double> speed;
+  const std::vector<testing::GrainRow> rows = run.rows();
+  for (std::size_t id = 1; id < rows.size(); ++id) speed.push_back(norm(rows[id].u));
+  std::nth_element(speed.begin(), speed.begin() + 1000, speed.end());
+  return speed[1000];
+}
+
+/// The same after 0.02 s of pore water that answers.
+double coupled_speed(const InitialGrains& grains, bool relaxation) {
+  Config c = Bed::config();
+  c.coupling.relaxation = relaxation;
+  test::CoupledRun bed(c, grains);
+  bed.advance(40);
+  return median_speed(bed);
+}
+
+TEST(DenseBed, ABedAtRestInStillWaterStaysAtRest) {
+  const InitialGrains grains = Bed::settled();
+  const double speed = coupled_speed(grains, true), unrelaxed = coupled_speed(grains, false);
+  std::printf("[ measured ] median speed: %.3g m/s, without relaxation %.3g\n", speed, unrelaxed);
+  EXPECT_LT(speed, 2e-4);  // a hundredth of the fall velocity; the points of the grains cross cells
+  EXPECT_GT(unrelaxed, 2e-3);
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,83 @@
+// Grains placed one by one in a box of water, coupled or with the water held still.
+#pragma once
+
+#include <array>
+
+#include "src/coupled_step.hpp"
+#include "src/domain.hpp"
+#include "tests/support/flow_fields.hpp"
+#include "tests/support/grain_cases.hpp"
+
+namespace barchan::test {
+
+/// Laminar water in a box with free-slip walls, periodic in x and z, for grains as well; no gravity
+/// and no smoothing. Grain material soft enough for long steps; contacts are not the subject.
+inline Config water_box(std::array<int, 3> cells, std::array<double, 3> size) {
+  Config c = flow_config(cells, size, 0);
+  c.title = "water box";
+  c.fluid->turbulence = Turbulence::none;
+  c.fluid->bottom = c.fluid->top = WallFlow::free_slip;
+  c.coupling.smoothing_length = 0;
+  c.grains.emplace();
+  c.grains->gravity = {0, 0, 0};
+  c.grains->material.youngs_modulus = c.grains->wall.youngs_modulus = 5e4;
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  c.time.fluid_step = 2.5e-4;
+  c.time.grain_step = 2.5e-5;
+  return c;
+}
+
+/// The same box without a flow solver: grains in still, unbounded water.
+inline Config still_water(std::array<double, 3> size) {
+  Config c = water_box({1, 1, 1}, size);
+  c.fluid.reset();
+  c.grains->ambient.emplace();
+  return c;
+}
+
+/// A run that is stepped by hand.
+struct CoupledRun {
+  Config config;
+  SystemState state;
+  CoupledStep step;
+
+  CoupledRun(const Config& c, const InitialGrains& grains)
+      : config(c), state(make_state(c, grains)), step(config, state) {
+    step.start(state);
+  }
+  void advance(int n = 1) {
+    for (int s = 0; s < n; ++s) step.advance(state);
+  }
+  std::vector<testing::GrainRow> rows() const { return testing::rows_by_id(*state.grains); }
+  Vec3 velocity_of(int id) const { return rows()[static_cast<std::size_t>(id)].u; }
+
+ private:
+  static SystemState make_state(const Config& c, const InitialGrains& grains) {
+    SystemState s;
+    if (c.fluid) s.fluid = make_fluid_state(make_grid(c));
+    s.grains = make_grain_state(grains, c.grains->density);
+    return s;
+  }
+};
+
+/// A named force on the grain in row 0 of the last step [N].
+inline Vec3 force_on_first(CoupledRun& run, const std::string& name) {
+  for (const NamedForce& f : run.step.grain_forces(run.state)) {
+    if (f.name == name) {
+      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, f.values)(0);
+    }
+  }
+  return {NAN, NAN, NAN};
+}
+
+/// Mean of a cell field over cells i0 <= i < i1, all rows, all k.
+inline double mean_of_columns(const Field& field, const Grid& grid, int i0, int i1) {
+  const HostField f = to_host(field);
+  double sum = 0;
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = i0; i < i1; ++i) sum += f(i, j, k);
+  return sum / ((i1 - i0) * grid.ny * grid.nz);
+}
+
+}  // namespace barchan::test
