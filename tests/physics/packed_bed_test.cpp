@@ -1,0 +1,151 @@
+// Flow through a bed of grains: pressure drop, and when it carries the bed.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/support/lattice.hpp"
+#include "tests/support/reference_table.hpp"
+
+namespace barchan {
+namespace {
+
+using test::CoupledRun;
+
+constexpr double kDiameter = 2e-4;
+
+struct Bed {
+  double alpha, superficial;  // [-], [m/s]
+  double smoothing = 0;       // [m]
+};
+
+/// Frozen grains over x-cells 6 to 22 of 28, two lattice spacings per cell, the flow along x.
+struct FrozenBed {
+  static constexpr int kCells = 28, kFirst = 6, kLast = 22;
+  double spacing;
+  CoupledRun run;
+
+  explicit FrozenBed(const Bed& bed)
+      : spacing(test::cubic_spacing(1 - bed.alpha, kDiameter)), run(config(bed), grains()) {}
+
+  Config config(const Bed& bed) const {
+    const double a = spacing, share = double(kLast - kFirst) / kCells;
+    Config c = test::water_box({kCells, 2, 2}, {2 * kCells * a, 4 * a, 4 * a});
+    c.grains->frozen = true;
+    c.grains->skin = 1e-6;
+    c.coupling.smoothing_length = bed.smoothing;
+    c.fluid->mean_velocity = bed.superficial / (1 - (1 - bed.alpha) * share);
+    return c;
+  }
+  InitialGrains grains() const {
+    return test::cubic_lattice({2 * (kLast - kFirst), 4, 4}, spacing, kDiameter,
+                               {2 * kFirst * spacing, 0, 0});
+  }
+  /// Slope of the whole pressure between the centres of two columns of cells [Pa/m].
+  double gradient(int i0, int i1) const {
+    const FluidState& f = *run.state.fluid;
+    const auto p = [&](int i) { return test::mean_of_columns(f.p, f.grid, i, i + 1); };
+    return 1000 * f.drive - (p(i1) - p(i0)) / ((i1 - i0) * f.grid.dx);
+  }
+};
+
+/// Compared at the flux that has come about: the drive holds the bulk velocity only before the
+/// pressure correction, which in a bed that blocks the whole channel takes a part of it away again.
+void check_ergun(const Bed& bed) {
+  FrozenBed frozen(bed);
+  frozen.run.advance(60);
+  const FluidState& f = *frozen.run.state.fluid;
+  const auto flux = [&](int i) {  // alpha u on the x-face between two cells
+    return test::mean_of_columns(f.u.x, f.grid, i, i + 1) *
+           test::mean_of_columns(f.alpha_f, f.grid, i - 1, i + 1);
+  };
+  const double alpha = test::mean_of_columns(f.alpha_f, f.grid, 13, 15), superficial = flux(14);
+  EXPECT_NEAR(flux(1) / superficial, 1, 1e-5) << "continuity";
+  EXPECT_NEAR(alpha, bed.alpha, 1e-3);
+  const double measured = frozen.gradient(12, 15);
+  const double ergun = test::ergun_gradient(bed.alpha, superficial, kDiameter);
+  std::printf(
+      "[ measured ] Ergun, alpha %.2f, U %.4g m/s, L %g mm: %.6g Pa/m (reference %.6g, off "
+      "%.3f %%, tolerance 3 %%); U off its target %.2f %%\n",
+      bed.alpha, superficial, 1e3 * bed.smoothing, measured, ergun, 100 * (measured / ergun - 1),
+      100 * (superficial / bed.superficial - 1));
+  EXPECT_NEAR(measured / ergun, 1, 0.03);
+}
+
+TEST(PackedBed, PressureDropIsErguns) {
+  for (const double alpha : {0.4, 0.5, 0.7}) {
+    for (const double superficial : {2e-4, 0.02, 0.1}) check_ergun({alpha, superficial});
+  }
+}
+
+TEST(PackedBed, PressureDropIsErgunsWithSmoothing) { check_ergun({0.4, 0.01, 4e-4}); }
+
+/// What the flow lifts a grain in the middle of the bed with, over its submerged weight.
+struct Lift {
+  double superficial, share;
+};
+Lift lift_in_bed(const Bed& bed) {
+  FrozenBed frozen(bed);
+  frozen.run.advance(60);
+  const FluidState& f = *frozen.run.state.fluid;
+  const auto rows =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, frozen.run.state.grains->kin);
+  double force = 0, weight = 0;
+  for (const NamedForce& part : frozen.run.step.grain_forces(frozen.run.state)) {
+    if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
+    const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, part.values);
+    for (std::size_t g = 0; g < rows.extent(0); ++g) {
+      if (std::abs(rows(g).x.x / f.grid.dx - 14) < 2) force += values(g).x;
+    }
+  }
+  for (std::size_t g = 0; g < rows.extent(0); ++g) {
+    weight += std::abs(rows(g).x.x / f.grid.dx - 14) < 2;
+  }
+  weight *= 1500 * 9.81 * test::volume_of(kDiameter);
+  const double superficial = test::mean_of_columns(f.u.x, f.grid, 0, 1);
+  return {superficial, force / weight};
+}
+
+/// Drag and pressure gradient together reach the submerged weight at Ergun's velocity of minimum
+/// fluidisation, voidage 0.4: 4.178809e-4 m/s in the table for Table II's mean grain.
+TEST(PackedBed, LiftReachesTheWeightAtErgunsOnset) {
+  const Lift below = lift_in_bed({0.4, 3e-4}), above = lift_in_bed({0.4, 6e-4});
+  ASSERT_LT(below.share, 1);
+  ASSERT_GT(above.share, 1);
+  const double onset = below.superficial + (1 - below.share) / (above.share - below.share) *
+                                               (above.superficial - below.superficial);
+  double reference = 0;
+  for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
+    if (test::number(row, "d") == kDiameter) reference = test::number(row, "umf_ergun");
+  }
+  std::printf(
+      "[ measured ] onset of fluidisation: %.6g m/s (reference %.6g, off %.2f %%, tolerance "
+      "5 %%)\n",
+      onset, reference, 100 * (onset / reference - 1));
+  EXPECT_NEAR(onset / reference, 1, 0.05);
+}
+
+/// A bed that floats without touching anything: once the drive carries it, it is its submerged
+/// weight. The flow is held at Ergun's onset; the lattice fills the box and may move as it likes.
+TEST(PackedBed, FloatingBedTakesItsSubmergedWeight) {
+  const double alpha = 0.5, a = test::cubic_spacing(1 - alpha, kDiameter);
+  Config c = test::water_box({4, 2, 2}, {8 * a, 4 * a, 4 * a});
+  c.grains->gravity = {-9.81, 0, 0};
+  c.grains->skin = 2e-5;
+  c.fluid->mean_velocity = 1e-3;
+  CoupledRun run(c, test::cubic_lattice({8, 4, 4}, a, kDiameter));
+  run.advance(400);
+  double drop = 0;
+  for (int n = 0; n < 40; ++n) {
+    run.advance();
+    drop += 1000 * run.state.fluid->drive / 40;
+  }
+  const double weight = (1 - alpha) * 1500 * 9.81;
+  std::printf(
+      "[ measured ] drop of a floating bed: %.6g Pa/m (submerged weight %.6g, off %.3f %%, "
+      "tolerance 1 %%)\n",
+      drop, weight, 100 * (drop / weight - 1));
+  EXPECT_NEAR(drop / weight, 1, 0.01);
+}
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,149 @@
+// One grain settles: terminal velocity and transient, in still water and two-way coupled.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/drag_reference.hpp"
+#include "tests/support/reference_table.hpp"
+
+namespace barchan {
+namespace {
+
+using test::CoupledRun;
+using test::SettlingSphere;
+using test::Water;
+
+struct Sphere {
+  double d, rho_p = 2500;
+  Water water = {};
+};
+
+struct Outcome {
+  double terminal = 0;         // at the end [m/s]
+  double transient_error = 0;  // largest |v - v_exact| / v_exact at the end of any step
+};
+
+/// Releases a sphere at rest and follows it over `times` response times; gravity along -y.
+Outcome settle(Config config, const Sphere& s, double times) {
+  config.grains->gravity = {0, -9.81, 0};
+  config.grains->density = s.rho_p;
+  InitialGrains grain;
+  // Off the symmetry planes of the cells, so that interpolation takes part.
+  testing::add_grain(grain, s.d,
+                     {0.413 * config.size[0], 0.937 * config.size[1], 0.571 * config.size[2]});
+  CoupledRun run(config, grain);
+  SettlingSphere exact(s.d, s.rho_p, s.water);
+  Outcome out;
+  const int steps = static_cast<int>(times * exact.response_time() / config.time.fluid_step);
+  for (int n = 1; n <= steps; ++n) {
+    run.advance();
+    exact.advance(config.time.fluid_step);
+    out.terminal = -run.velocity_of(1).y;
+    out.transient_error =
+        std::max(out.transient_error, std::abs(out.terminal / exact.velocity() - 1));
+  }
+  return out;
+}
+
+void set_steps(Config& config, double step) {
+  config.time.fluid_step = step;
+  config.time.grain_step = step / 10;
+}
+
+Config in_still_fluid(const Sphere& s, double step) {
+  const SettlingSphere sphere(s.d, s.rho_p, s.water);
+  const double fall = 12 * sphere.response_time() * sphere.stokes_velocity();
+  Config config = test::still_water({50 * s.d, 2 * fall + 40 * s.d, 50 * s.d});
+  config.grains->ambient->density = s.water.rho;
+  config.grains->ambient->kinematic_viscosity = s.water.mu / s.water.rho;
+  config.grains->skin = 0.2 * s.d;
+  set_steps(config, step);
+  return config;
+}
+
+/// Cubic cells of edge `cell`, 8 of them in each direction.
+Config in_flowing_water(const Sphere& s, double cell, double step) {
+  const double edge = 8 * cell;
+  Config config = test::water_box({8, 8, 8}, {edge, edge, edge});
+  config.fluid->density = s.water.rho;
+  config.fluid->kinematic_viscosity = s.water.mu / s.water.rho;
+  config.grains->skin = 0.2 * s.d;
+  set_steps(config, step);
+  return config;
+}
+
+void check(const char* what, const Outcome& got, double reference) {
+  std::printf(
+      "[ measured ] %s: terminal %.7g m/s (reference %.7g, off %.3f %%, tolerance 0.5 %%), "
+      "transient off %.3f %% (tolerance 1 %%)\n",
+      what, got.terminal, reference, 100 * (got.terminal / reference - 1),
+      100 * got.transient_error);
+  EXPECT_NEAR(got.terminal / reference, 1, 0.005) << what;
+  EXPECT_LT(got.transient_error, 0.01) << what;
+}
+
+TEST(Settling, TableTwoGrainsInStillWater) {
+  for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
+    const Sphere grain{.d = test::number(row, "d")};
+    const Outcome got = settle(in_still_fluid(grain, 2.5e-5), grain, 10);
+    check(("still water, d = " + row.at("d")).c_str(), got, test::number(row, "v_SN"));
+  }
+}
+
+/// Cells 40 diameters wide: what the grain stirs up is then small against its own velocity.
+TEST(Settling, TableTwoGrainsCoupled) {
+  for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
+    const Sphere grain{.d = test::number(row, "d")};
+    const Outcome got = settle(in_flowing_water(grain, 40 * grain.d, 1e-4), grain, 10);
+    check(("coupled, d = " + row.at("d")).c_str(), got, test::number(row, "v_SN"));
+  }
+}
+
+TEST(Settling, TenCatesSphereInStillFluid) {
+  for (const auto& row : test::reference_table("settling_ten_cate2002.csv")) {
+    const Sphere sphere{0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}};
+    const double tau = SettlingSphere(sphere.d, sphere.rho_p, sphere.water).response_time();
+    const Outcome got = settle(in_still_fluid(sphere, tau / 400), sphere, 10);
+    check(("ten Cate still " + row.at("case")).c_str(), got, test::number(row, "u_SN"));
+  }
+}
+
+TEST(Settling, TenCatesSphereCoupled) {
+  for (const auto& row : test::reference_table("settling_ten_cate2002.csv")) {
+    const Sphere sphere{0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}};
+    const double tau = SettlingSphere(sphere.d, sphere.rho_p, sphere.water).response_time();
+    const Outcome got = settle(in_flowing_water(sphere, 40 * sphere.d, tau / 100), sphere, 8);
+    check(("ten Cate coupled " + row.at("case")).c_str(), got, test::number(row, "u_SN"));
+  }
+}
+
+/// A point force in smaller cells drags its water along and falls faster; the excess must vanish as
+/// the cells grow. In Stokes flow it would be d/(3 h) or so; the grain of Table II leaves its wake.
+TEST(Settling, SelfInducedFlowVanishesWithCellSize) {
+  const Sphere grain{.d = 2e-4};
+  const double alone = SettlingSphere(grain.d, grain.rho_p, {}).terminal_velocity();
+  double last = 1;
+  for (const double cells : {5., 10., 20., 40.}) {
+    const Outcome got = settle(in_flowing_water(grain, cells * grain.d, 1e-4), grain, 10);
+    const double excess = got.terminal / alone - 1;
+    std::printf("[ measured ] excess fall velocity, cell = %g d: %.3f %%, transient off %.3f %%\n",
+                cells, 100 * excess, 100 * got.transient_error);
+    EXPECT_LT(std::abs(excess), 0.5 * last);
+    last = std::abs(excess);
+  }
+  EXPECT_LT(last, 0.005);
+}
+
+/// The step of the shipped cases, 1/27 of the response time: drag coefficient and u_f lag by up to
+/// a step.
+TEST(Settling, TransientWithTheStepsOfTheShippedCases) {
+  const Sphere grain{.d = 2e-4};
+  Config config = in_flowing_water(grain, 40 * grain.d, 2.5e-4);
+  config.time.grain_step = 2.5e-6;
+  const Outcome got = settle(config, grain, 10);
+  check("coupled, step 2.5e-4 s", got, SettlingSphere(2e-4, 2500, {}).terminal_velocity());
+}
+
+}  // namespace
+}  // namespace barchan

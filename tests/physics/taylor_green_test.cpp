@@ -1,0 +1,98 @@
+// The two-dimensional Taylor-Green vortex, at rest and carried along: errors of u and p.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numbers>
+
+#include "src/fluid_solver.hpp"
+#include "tests/support/flow_errors.hpp"
+
+namespace barchan {
+namespace {
+
+using std::numbers::pi;
+using test::FlowErrors;
+
+/// u_a = U_a + sin(a - U_a t) cos(b - U_b t) D, u_b = U_b - cos(a - U_a t) sin(b - U_b t) D,
+/// p = rho/4 (cos 2(a - U_a t) + cos 2(b - U_b t)) D^2, D = exp(-2 nu t): exact in a plane a-b.
+struct Vortex {
+  std::size_t a = 0, b = 1;
+  double mean_a = 0, mean_b = 0;  // [m/s]
+  double nu = 0.05, rho = 1000;
+
+  struct At {
+    const Vortex& vortex;
+    double t;
+    double u(std::size_t axis, double x, double y, double z) const {
+      const auto [s, q] = place(x, y, z);
+      const double decay = std::exp(-2 * vortex.nu * t);
+      if (axis == vortex.a) return vortex.mean_a + std::sin(s) * std::cos(q) * decay;
+      if (axis == vortex.b) return vortex.mean_b - std::cos(s) * std::sin(q) * decay;
+      return 0;
+    }
+    double p(double x, double y, double z) const {
+      const auto [s, q] = place(x, y, z);
+      return 0.25 * vortex.rho * (std::cos(2 * s) + std::cos(2 * q)) * std::exp(-4 * vortex.nu * t);
+    }
+    std::array<double, 2> place(double x, double y, double z) const {
+      const std::array<double, 3> at{x, y, z};
+      return {at[vortex.a] - vortex.mean_a * t, at[vortex.b] - vortex.mean_b * t};
+    }
+  };
+  At at(double t) const { return {*this, t}; }
+};
+
+/// `cells` per 2 pi along a and a half more along b; free-slip walls in y are planes of symmetry.
+/// Rows in y are stretched when the vortex lies in them.
+FlowErrors vortex_errors(const Vortex& vortex, int cells) {
+  std::array<int, 3> n{3, 3, 3};
+  n[vortex.a] = cells;
+  n[vortex.b] = 3 * cells / 2;
+  const bool in_y = vortex.a == 1 || vortex.b == 1;
+  if (in_y) n[1] /= 2;
+  Config config =
+      test::flow_config(n, {2 * pi, pi, 2 * pi}, in_y ? test::first_row(pi, n[1], 2) : 0);
+  config.fluid->kinematic_viscosity = vortex.nu;
+  config.fluid->density = vortex.rho;
+  config.fluid->turbulence = Turbulence::none;
+  config.fluid->bottom = config.fluid->top = WallFlow::free_slip;
+  const Grid grid = make_grid(config);
+  FluidState fluid = make_fluid_state(grid);
+  test::set_velocity(fluid, vortex.at(0));
+  FluidSolver solver(config, grid);
+  solver.fill_ghosts(fluid);
+  const double end = 0.8;
+  const int steps = 4 * cells;
+  for (int s = 0; s < steps; ++s) solver.advance(fluid, nullptr, end / steps);
+  // The pressure of a step is that of its middle, to second order.
+  return test::flow_errors(fluid, vortex.at(end), vortex.at(end - 0.5 * end / steps));
+}
+
+void expect_second_order(const Vortex& vortex, const char* what) {
+  const FlowErrors coarse = vortex_errors(vortex, 32), fine = vortex_errors(vortex, 64);
+  const double u = std::log2(coarse.u / fine.u), p = std::log2(coarse.p / fine.p);
+  const double u_max = std::log2(coarse.u_max / fine.u_max),
+               p_max = std::log2(coarse.p_max / fine.p_max);
+  std::printf(
+      "[ measured ] order, Taylor-Green vortex %s in axes %zu %zu: u %.3f, p %.3f, in the maximum "
+      "u "
+      "%.3f, p %.3f (reference 2, tolerance 0.15); L2 of u %.2e m/s, of p %.2e rho U^2\n",
+      what, vortex.a, vortex.b, u, p, u_max, p_max, fine.u, fine.p / vortex.rho);
+  for (const double order : {u, p, u_max, p_max}) EXPECT_NEAR(order, 2, 0.15) << what;
+  EXPECT_LT(fine.u, 5e-3);
+  EXPECT_LT(fine.p, 5e-3 * vortex.rho);
+}
+
+TEST(FluidVortex, DecayIsSecondOrderInVelocityAndPressureInEveryPlane) {
+  expect_second_order({.a = 0, .b = 1}, "at rest");
+  expect_second_order({.a = 1, .b = 2}, "at rest");
+  expect_second_order({.a = 2, .b = 0}, "at rest");
+}
+
+TEST(FluidVortex, ConvectionIsSecondOrderInThePeriodicPlane) {
+  expect_second_order({.a = 0, .b = 2, .mean_a = 1, .mean_b = 0.6}, "carried along");
+  expect_second_order({.a = 2, .b = 0, .mean_a = -0.8, .mean_b = 1.2}, "carried along");
+}
+
+}  // namespace
+}  // namespace barchan

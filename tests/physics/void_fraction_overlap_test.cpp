@@ -1,0 +1,189 @@
+// The 29 points against the exact overlap of sphere and cell, and the smoothing kernel.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <map>
+
+#include "src/mesh.hpp"
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/drag_reference.hpp"
+#include "tests/support/sphere_box.hpp"
+
+namespace barchan {
+namespace {
+
+using Index = std::array<int, 3>;
+using Shares = std::map<Index, double>;  // by cell, of the grain's volume
+
+constexpr int kCells = 6;  // cubic cells of edge one in each direction
+
+struct Cells {
+  Grid grid = make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0));
+  Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = true};
+
+  /// Shares by the code.
+  Shares deposited(const Vec3& x, double r) const {
+    const GrainCells cells = locate({.x = x, .r = r, .u = {}, .m = 1, .omega = {}});
+    Shares s;
+    for (int q = 0; q < cells.n; ++q) {
+      const int c = static_cast<int>(cells.cell[q]);
+      s[{c % kCells, c / kCells % kCells, c / kCells / kCells}] += cells.weight(q);
+    }
+    return s;
+  }
+};
+
+/// Where the domain puts the volume of a cell outside of it: images along x and z, the mirror in y.
+Index fold(const Index& c) {
+  const auto wrap = [](int i) { return (i % kCells + kCells) % kCells; };
+  const int j = c[1] < 0 ? -1 - c[1] : c[1] >= kCells ? 2 * kCells - 1 - c[1] : c[1];
+  return {wrap(c[0]), j, wrap(c[2])};
+}
+
+Shares exact(const Vec3& x, double r) {
+  Shares s;
+  const auto first = [&](double at) { return static_cast<int>(std::floor(at - r)); };
+  const auto last = [&](double at) { return static_cast<int>(std::floor(at + r)); };
+  for (int i = first(x.x); i <= last(x.x); ++i)
+    for (int j = first(x.y); j <= last(x.y); ++j)
+      for (int k = first(x.z); k <= last(x.z); ++k) {
+        const test::Box box{{double(i), double(j), double(k)}, {i + 1., j + 1., k + 1.}};
+        s[fold({i, j, k})] +=
+            test::sphere_box_overlap({x.x, x.y, x.z}, r, box) / test::volume_of(2 * r);
+      }
+  return s;
+}
+
+/// Share of the grain that lies in wrong cells.
+double misplaced(const Shares& a, const Shares& b) {
+  double sum = 0;
+  for (const auto& [cell, share] : a) sum += std::abs(share - (b.count(cell) ? b.at(cell) : 0)) / 2;
+  for (const auto& [cell, share] : b) sum += a.count(cell) ? 0 : share / 2;
+  return sum;
+}
+
+std::vector<Vec3> random_places(int n, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vec3> places;
+  for (int q = 0; q < n; ++q) places.push_back({uniform(engine), uniform(engine), uniform(engine)});
+  return places;
+}
+
+/// Against whole sphere, octant, box and cap; the quadrature's own error is far below the 29
+/// points'.
+TEST(VoidFractionOverlap, TheExactOverlapIsExact) {
+  constexpr double kQuadrature = 2e-6;
+  const double r = 0.7, half = test::volume_of(2 * r) / 2;
+  EXPECT_NEAR(test::sphere_box_overlap({0, 0, 0}, r, {{-1, -1, -1}, {1, 1, 1}}), 2 * half,
+              kQuadrature);
+  EXPECT_NEAR(test::sphere_box_overlap({0, 0, 0}, r, {{0, 0, 0}, {1, 1, 1}}), half / 4,
+              kQuadrature);
+  EXPECT_NEAR(test::sphere_box_overlap({0, 0, 0}, r, {{-0.2, -0.1, -0.3}, {0.2, 0.1, 0.3}}),
+              0.4 * 0.2 * 0.6, kQuadrature);
+  const double h = r - 0.3;  // height of a cap
+  EXPECT_NEAR(test::sphere_box_overlap({0, 0, 0}, r, {{0.3, -1, -1}, {1, 1, 1}}),
+              std::numbers::pi * h * h * (3 * r - h) / 3, kQuadrature);
+  for (const Vec3& x : random_places(50, 1)) {
+    double sum = 0;
+    for (const auto& [cell, share] : exact(3 * x, r)) sum += share;
+    EXPECT_NEAR(sum, 1, 1e-6);
+  }
+}
+
+/// Only grains that a cell face cuts can be wrong, a share of d/h per direction: the error falls as
+/// d/h.
+TEST(VoidFractionOverlap, ErrorFallsAsDiameterOverCellSize) {
+  const Cells cells;
+  const auto places = random_places(2000, 2);
+  double last = 0;
+  for (const double ratio : {1.5, 3., 6., 12.}) {  // h/d
+    double mean = 0, worst = 0;
+    for (const Vec3& p : places) {
+      const Vec3 x = Vec3{2, 2, 2} + p;
+      const double wrong = misplaced(cells.deposited(x, 0.5 / ratio), exact(x, 0.5 / ratio));
+      mean += wrong / static_cast<double>(places.size());
+      worst = std::max(worst, wrong);
+    }
+    std::printf("[ measured ] share of a grain in wrong cells, h/d = %g: mean %.4f, worst %.3f\n",
+                ratio, mean, worst);
+    if (last > 0) {
+      EXPECT_NEAR(std::log2(last / mean), 1, 0.25) << ratio;
+    }
+    last = mean;
+  }
+}
+
+/// A grain near a border is as well placed as one at the same distance from faces inside.
+TEST(VoidFractionOverlap, BordersAndCornersChangeNothing) {
+  const Cells cells;
+  const double r = 0.5 / 1.5;
+  double inside = 0, periodic = 0, wall = 0, corner = 0;
+  for (const Vec3& p : random_places(500, 3)) {
+    const Vec3 offset = 0.9 * r * (2 * p - Vec3{1, 1, 1});
+    const Vec3 node = Vec3{3, 3, 3} + offset;
+    const auto shares = cells.deposited(node, r);
+    inside += misplaced(shares, exact(node, r));
+
+    // Across the periodic faces and edges: the same shares, moved.
+    const Vec3 seam = Vec3{0, 3, 6} + offset;
+    Shares moved;
+    for (const auto& [c, share] : shares) moved[fold({c[0] - 3, c[1], c[2] + 3})] += share;
+    EXPECT_LT(misplaced(cells.deposited(seam, r), moved), 1e-12);
+    periodic += misplaced(cells.deposited(seam, r), exact(seam, r));
+
+    // At floor and lid: the shares behind the wall, mirrored.
+    for (const int side : {0, kCells}) {
+      const Vec3 at_wall = Vec3{3, double(side), 3} + offset;
+      Shares mirrored;
+      for (const auto& [c, share] : shares) mirrored[fold({c[0], c[1] + side - 3, c[2]})] += share;
+      EXPECT_LT(misplaced(cells.deposited(at_wall, r), mirrored), 1e-12);
+      wall += misplaced(cells.deposited(at_wall, r), exact(at_wall, r)) / 2;
+    }
+    const Vec3 at_corner = Vec3{0, 0, 0} + offset;
+    corner += misplaced(cells.deposited(at_corner, r), exact(at_corner, r));
+  }
+  std::printf(
+      "[ measured ] misplaced share around a node, h/d = 1.5: inside %.4f, periodic %.4f, wall "
+      "%.4f, corner %.4f\n",
+      inside / 500, periodic / 500, wall / 500, corner / 500);
+  EXPECT_NEAR(periodic / inside, 1, 1e-6);
+  EXPECT_LT(wall, inside) << "two cells in one: what is misplaced between them does not count";
+  EXPECT_LT(corner, inside);
+}
+
+/// q - L^2 lap(q) = point: the integral stays, the second moment is 2 L^2 in each direction.
+TEST(SmoothingKernel, IntegralAndVariance) {
+  const double h = 2e-4, length = 6e-4, d = 2e-4;
+  const int n = 60;  // 20 L: what the kernel has beyond that is e^-10
+  Config config = test::water_box({n, n, n}, {n * h, n * h, n * h});
+  config.coupling.smoothing_length = length;
+  config.coupling.void_fraction = VoidFraction::centre;
+  config.grains->frozen = true;
+  InitialGrains grain;
+  const double at = (n / 2 + 0.5) * h;
+  testing::add_grain(grain, d, {at, at, at});
+  const test::CoupledRun run(config, grain);
+  const auto alpha = test::to_host(run.state.fluid->alpha_f);
+  double sum = 0;
+  Vec3 second;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const double solid = (1 - alpha(i, j, k)) * h * h * h;
+        const auto square = [&](int q) { return std::pow((q + 0.5) * h - at, 2); };
+        sum += solid;
+        second += solid * Vec3{square(i), square(j), square(k)};
+      }
+  const double expected = 2 * length * length;
+  std::printf(
+      "[ measured ] smoothing: integral off %.2e (tolerance 1e-12); variance / 2 L^2 = %.5f, "
+      "%.5f, %.5f (tolerance 2 %%)\n",
+      sum / test::volume_of(d) - 1, second.x / sum / expected, second.y / sum / expected,
+      second.z / sum / expected);
+  EXPECT_NEAR(sum / test::volume_of(d), 1, 1e-12);
+  for (const double v : {second.x, second.y, second.z}) EXPECT_NEAR(v / sum / expected, 1, 0.02);
+}
+
+}  // namespace
+}  // namespace barchan

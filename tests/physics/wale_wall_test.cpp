@@ -1,0 +1,105 @@
+// WALE on the grid: its values in known flows and how it dies at a wall.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numbers>
+
+#include "kernels/wale.hpp"
+#include "src/launch.hpp"
+#include "tests/support/flow_fields.hpp"
+
+namespace barchan {
+namespace {
+
+using std::numbers::pi;
+using test::HostGrid;
+
+/// nu_t / (C_w Delta)^2 of row j [1/s] for velocities given at any place, ghosts included.
+template <class Velocity>
+test::HostField wale_rate(const Grid& grid, const Velocity& velocity) {
+  const HostGrid h(grid);
+  const FaceVector u = test::make_faces(grid);
+  const auto fill = [&](const Field& f, auto value) {
+    decltype(test::HostField::values) host("host", grid.nx + 2, grid.ny + 2, grid.nz + 2);
+    for (int k = -1; k <= grid.nz; ++k)
+      for (int j = -1; j <= grid.ny; ++j)
+        for (int i = -1; i <= grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+    Kokkos::deep_copy(f.storage, host);
+  };
+  fill(u.x, [&](int i, int j, int k) { return velocity(h.x_face(i), h.y(j), h.z(k)).x; });
+  fill(u.y, [&](int i, int j, int k) { return velocity(h.x(i), h.y_face(j), h.z(k)).y; });
+  fill(u.z, [&](int i, int j, int k) { return velocity(h.x(i), h.y(j), h.z_face(k)).z; });
+  const Kokkos::View<Real*> one("one", grid.ny);
+  Kokkos::deep_copy(one, Real(1));
+  const Field rate("rate", grid);
+  for_each_cell("test", grid, UpdateEddyViscosity{grid, u, rate, one.data()});
+  return test::to_host(rate);
+}
+
+/// Closed forms of the model (Nicoud & Ducros 1999) in units of a: pure shear 0, plane strain
+/// (2/3)^1.5 / (2^2.5 + (2/3)^1.25) a, solid rotation (2/3)^0.25 a.
+TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
+  const Grid grid = test::stretched_grid({6, 7, 5}, {0.4, 0.3, 0.9}, 0.02);
+  const double a = 7;
+  const double strain = std::pow(2.0 / 3, 1.5) / (std::pow(2, 2.5) + std::pow(2.0 / 3, 1.25));
+  const double rotation = std::pow(2.0 / 3, 0.25);
+  double worst = 0;
+  const auto check = [&](const auto& velocity, double expected) {
+    const auto rate = wale_rate(grid, velocity);
+    for (int k = 0; k < grid.nz; ++k)
+      for (int j = 0; j < grid.ny; ++j)
+        for (int i = 0; i < grid.nx; ++i)
+          worst = std::max(worst, std::abs(rate(i, j, k) / a - expected));
+  };
+  check([=](double, double y, double) { return Vec3{a * y, 0, 0}; }, 0);
+  check([=](double, double y, double) { return Vec3{0, 0, a * y}; }, 0);
+  check([=](double x, double y, double) { return Vec3{a * x, -a * y, 0}; }, strain);
+  check([=](double, double y, double z) { return Vec3{0, a * y, -a * z}; }, strain);
+  check([=](double x, double y, double) { return Vec3{-a * y, a * x, 0}; }, rotation);
+  check([=](double x, double, double z) { return Vec3{a * z, 0, -a * x}; }, rotation);
+  std::printf(
+      "[ measured ] WALE in shear, strain, rotation: largest error %.1e (reference 0, %.4f, "
+      "%.4f, tolerance 1e-6)\n",
+      worst, strain, rotation);
+  EXPECT_LT(worst, 1e-6);
+  EXPECT_NEAR(strain, 0.0870, 5e-5);
+  EXPECT_NEAR(rotation, 0.9036, 5e-5);
+}
+
+/// The first terms of a turbulent flow in the distance from a wall, in wall units: u = y f(x, z),
+/// w = y g(x, z), v = -y^2 (df/dx + dg/dz) / 2, streaks of 100 by 400. Ten rows within y+ = 5.
+TEST(WaleOnGrid, EddyViscosityGrowsWithTheCubeOfTheWallDistance) {
+  const double lx = 400, lz = 100;
+  const Grid grid = test::stretched_grid({24, 20, 24}, {lx, 10, lz}, 0);
+  const HostGrid h(grid);
+  const double kx = 2 * pi / lx, kz = 2 * pi / lz;
+  const auto velocity = [&](double x, double y, double z) {
+    const double f = 1 + 0.3 * std::sin(kx * x) * std::cos(kz * z);
+    const double g = 0.2 * std::cos(kx * x + 1) * std::sin(kz * z);
+    const double df_dx = 0.3 * kx * std::cos(kx * x) * std::cos(kz * z);
+    const double dg_dz = 0.2 * kz * std::cos(kx * x + 1) * std::cos(kz * z);
+    return Vec3{y * f, -0.5 * y * std::abs(y) * (df_dx + dg_dz), y * g};  // odd, as the ghosts are
+  };
+  const auto rate = wale_rate(grid, velocity);
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (int j = 0; h.y(j) < 5; ++j) {
+    double mean = 0;
+    for (int k = 0; k < grid.nz; ++k)
+      for (int i = 0; i < grid.nx; ++i) mean += rate(i, j, k);
+    const double x = std::log(h.y(j)), y = std::log(mean);
+    n += 1;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  std::printf(
+      "[ measured ] slope of log nu_t against log y over %g rows of y+ < 5: %.3f (reference "
+      "3, tolerance 0.15)\n",
+      n, slope);
+  EXPECT_NEAR(slope, 3, 0.15);
+}
+
+}  // namespace
+}  // namespace barchan
