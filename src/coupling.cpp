@@ -128,6 +128,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .exchange = grains.exchange});
       },
       drag_);
+  at_once_ = follows_at_once_;
 }
 
 void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
@@ -272,7 +273,6 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                        .carried_impulse = grains.exchange.carried_impulse},
                           total.x, total.y, total.z);
   sum_faces(dt, fluid);
-  at_once_ = follows_at_once_;
 }
 
 }  // namespace barchan

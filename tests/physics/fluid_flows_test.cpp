@@ -122,38 +122,6 @@ TEST(FluidFlow, RampBringsTheBulkVelocityUp) {
   EXPECT_NEAR(solver.bulk_velocity(fluid), 0.2, 1e-13);
 }
 
-/// Rate of change of kinetic energy by convection, sum(u . N V), and its size by parts.
-struct EnergyOfConvection {
-  Convection convection;
-  bool size;  // sum of magnitudes instead
-  KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
-    const GridRef& grid = convection.grid;
-    const FaceRef& u = convection.u;
-    const Real x = u.x(i, j, k) * convection.x(i, j, k) * grid.dy(j);
-    const Real y = j > 0 ? u.y(i, j, k) * convection.y(i, j, k) * grid.dy_centre(j) : 0;
-    const Real z = u.z(i, j, k) * convection.z(i, j, k) * grid.dy(j);
-    return size ? Kokkos::abs(x) + Kokkos::abs(y) + Kokkos::abs(z) : x + y + z;
-  }
-};
-
-TEST(FluidFlow, ConvectionConservesKineticEnergy) {
-  Config config = test::flow_config({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02);
-  config.fluid->kinematic_viscosity = 1e-9;
-  const Grid grid = make_grid(config);
-  FluidState fluid = make_fluid_state(grid);
-  test::set_random(fluid.u.x, grid, 11);
-  test::set_random(fluid.u.y, grid, 12);
-  test::set_random(fluid.u.z, grid, 13);
-  FluidSolver solver(config, grid);
-  solver.fill_ghosts(fluid);
-  const FluidStepReport report = solver.advance(fluid, nullptr, 1e-3);  // makes it divergence-free
-  EXPECT_LT(report.continuity_residual, 1e-13);
-  const Convection convection{grid, fluid.u, fluid.u};
-  const double rate = sum_each_cell("test", grid, EnergyOfConvection{convection, false});
-  const double size = sum_each_cell("test", grid, EnergyOfConvection{convection, true});
-  EXPECT_LT(std::abs(rate), 1e-12 * size);
-}
-
 ExchangeOnFaces no_exchange(const Grid& grid) {
   return {test::make_faces(grid), test::make_faces(grid)};
 }
