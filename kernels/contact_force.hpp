@@ -25,10 +25,11 @@ struct ContactResult {
   Vec3 rolling;  // rolling torque on i [N m]
 };
 
-/// Friction coefficients of a pair of materials.
+/// Friction of a pair of materials.
 struct Friction {
-  Real sliding = 0;  // mu
-  Real rolling = 0;  // mu_r
+  Real sliding = 0;           // mu
+  Real rolling = 0;           // mu_r
+  Real dashpot_in_limit = 1;  // share of the normal dashpot in F_c: 1 total force, 0 elastic part
 };
 
 /// Slip velocity at the contact point: lever arms r - delta_n / 2 on both sides [m/s].
@@ -41,9 +42,9 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
 /// evaluate them (docs/model.md):
 ///   F_n = k_n delta_n - gamma_n v_n                     (attractive tail kept)
 ///   xi_t <- tangent-plane part of (xi_t + v_t dt)
-///   |k_t xi_t| <= mu |F_n|:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu |F_n| where it is
-///   longer else                     F_t = -mu |F_n| xi_t/|xi_t|, xi_t shortened to the limit
-///   (re-sticks)
+///   |k_t xi_t| <= mu F_c:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu F_c where it is longer
+///   else                   F_t = -mu F_c xi_t/|xi_t|, xi_t shortened to the limit (re-sticks)
+/// F_c = |F_n|, or k_n delta_n in the Coulomb limit of Chung & Ooi (2011).
 /// `history` is the result of the previous sub-step (zero at first touch); dt [s].
 template <class Stiffness, class Rolling>
 KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law,
@@ -54,12 +55,14 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law,
   const ContactStiffness k = law(pair.r_eff, pair.m_eff, pair.delta_n);
   const Real v_n = dot(pair.slip, pair.normal);
   const Vec3 v_t = pair.slip - v_n * pair.normal;
-  const Real f_n = k.k_n * pair.delta_n - k.gamma_n * v_n;
+  const Real elastic = k.k_n * pair.delta_n, dashpot = -k.gamma_n * v_n;
+  const Real f_n = elastic + dashpot;
 
   Vec3 xi = history.xi_t + dt * v_t;
   xi = xi - dot(xi, pair.normal) * pair.normal;
   const Real spring = k.k_t * norm(xi);
-  const Real limit = friction.sliding * Kokkos::abs(f_n);
+  const Real limit =
+      friction.sliding * Kokkos::abs(elastic + friction.dashpot_in_limit * dashpot);
   const bool slides = spring > limit;
   xi = (slides ? limit / spring : Real(1)) * xi;
   const Vec3 trial = (-k.k_t) * xi - (slides ? Real(0) : k.gamma_t) * v_t;

@@ -38,16 +38,15 @@ struct KineticEnergy {
   }
 };
 
-/// Slope dU/dy at the walls from the first row [1/s], with the sign it has at the floor.
+/// Slope of U towards a wall from the row next to it [1/s]: that of `row`, seen from a wall that moves
+/// with u_wall [m/s].
 struct WallShear {
   GridRef grid;
   FieldRef u;
-  bool bottom, top;  // which walls count
+  int row;
+  Real u_wall;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    Real slope = 0;
-    if (bottom && j == 0) slope += 2 * u(i, 0, k) / grid.dy(0);
-    if (top && j == grid.ny - 1) slope += 2 * u(i, j, k) / grid.dy(j);
-    return slope;
+    return j == row ? 2 * (u(i, j, k) - u_wall) / grid.dy(j) : 0;
   }
 };
 

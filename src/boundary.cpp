@@ -20,7 +20,11 @@ GhostRule ghost_rule(FieldKind kind, WallFlow wall) {
 
 void Boundary::fill(const Field& f, FieldKind kind) const {
   for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
-                FillWallGhosts{f, grid_.ny, ghost_rule(kind, bottom_), ghost_rule(kind, top_)});
+                FillWallGhosts{.f = f,
+                               .ny = grid_.ny,
+                               .bottom = ghost_rule(kind, bottom_),
+                               .top = ghost_rule(kind, top_),
+                               .top_value = kind == FieldKind::velocity_x ? top_velocity_ : 0});
   halo_.fill(f);
 }
 

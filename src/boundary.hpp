@@ -13,17 +13,20 @@ enum class FieldKind { velocity_x, velocity_y, velocity_z, scalar, eddy_viscosit
 ///
 /// | field             | no slip   | free slip | x, z     |
 /// |-------------------|-----------|-----------|----------|
-/// | velocity_x, _z    | opposite  | same      | periodic |
+/// | velocity_x, _z    | opposite* | same      | periodic |
 /// | velocity_y        | wall_face | wall_face | periodic |
 /// | scalar: p, alpha_f| same      | same      | periodic |
 /// | eddy_viscosity    | opposite  | same      | periodic |
+///
+/// * the upper wall may move along x.
 GhostRule ghost_rule(FieldKind kind, WallFlow wall);
 
 /// Fills ghost cells: the walls at y = 0 and y = Ly by the table, x and z through the halo.
 class Boundary {
  public:
-  Boundary(const Grid& grid, WallFlow bottom, WallFlow top)
-      : grid_(grid), halo_(grid), bottom_(bottom), top_(top) {}
+  /// top_velocity: of the wall at Ly along x [m/s], felt where it is no slip.
+  Boundary(const Grid& grid, WallFlow bottom, WallFlow top, Real top_velocity = 0)
+      : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
   void fill(const Field& f, FieldKind kind) const;
   void fill_velocity(const FaceVector& u) const;
@@ -37,6 +40,7 @@ class Boundary {
   Grid grid_;
   Halo halo_;
   WallFlow bottom_, top_;
+  Real top_velocity_;
 };
 
 }  // namespace barchan

@@ -12,6 +12,7 @@ namespace barchan {
 
 enum class Turbulence { none, wale };
 enum class WallFlow { no_slip, free_slip };
+enum class CoulombLimit { total, elastic };  // normal force that limits friction
 enum class RollingModel { none, epsd2, theta_m, cdt };
 enum class ContactModel { hertz_mindlin, linear };
 enum class GrainBoundaryX { exit, periodic, wall };
@@ -51,6 +52,7 @@ struct FluidConfig {
   double wale_constant = 0.325;
   WallFlow bottom = WallFlow::no_slip;
   WallFlow top = WallFlow::free_slip;
+  double top_velocity = 0;  // [m/s] along x, of a no-slip top: a lid that drags the flow
 
   bool operator==(const FluidConfig&) const = default;
 };
@@ -87,6 +89,7 @@ struct GrainConfig {
   double density = 2500;  // [kg/m^3]
   Material material;      // keys directly in [grains]
   Material wall;          // [grains.wall], defaults to `material`
+  CoulombLimit coulomb_limit = CoulombLimit::total;
   RollingModel rolling_model = RollingModel::epsd2;
   double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)
   ContactModel contact_model = ContactModel::hertz_mindlin;

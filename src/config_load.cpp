@@ -33,6 +33,7 @@ void read(Section& s, FluidConfig& c) {
   s.optional("wale_constant", c.wale_constant, {at_least(0), at_most(2)});
   s.optional("bottom", c.bottom);
   s.optional("top", c.top);
+  s.optional("top_velocity", c.top_velocity);
 }
 
 void read(Section& s, Material& c) {
@@ -49,6 +50,7 @@ void read(Section& s, GrainConfig& c, Reading& reading) {
   c.wall = c.material;
   Section wall(reading, s.take("wall"), "grains.wall");
   read(wall, c.wall);
+  s.optional("coulomb_limit", c.coulomb_limit);
   s.optional("rolling_model", c.rolling_model);
   s.optional("rolling_theta_m", c.rolling_theta_m, {above(0)});
   s.optional("contact_model", c.contact_model);

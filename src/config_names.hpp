@@ -20,6 +20,10 @@ struct ChoiceNames<WallFlow> {
   static constexpr std::array<std::string_view, 2> value{"no_slip", "free_slip"};
 };
 template <>
+struct ChoiceNames<CoulombLimit> {
+  static constexpr std::array<std::string_view, 2> value{"total", "elastic"};
+};
+template <>
 struct ChoiceNames<RollingModel> {
   static constexpr std::array<std::string_view, 4> value{"none", "epsd2", "theta_m", "cdt"};
 };

@@ -86,6 +86,7 @@ void write(Writer& w, const FluidConfig& c) {
   w.key("wale_constant", c.wale_constant);
   w.key("bottom", c.bottom);
   w.key("top", c.top);
+  w.key("top_velocity", c.top_velocity);
 }
 
 void write(Writer& w, const Material& c) {
@@ -100,6 +101,7 @@ void write(Writer& w, const GrainConfig& c) {
   w.section("grains");
   w.key("density", c.density);
   write(w, c.material);
+  w.key("coulomb_limit", c.coulomb_limit);
   w.key("rolling_model", c.rolling_model);
   w.key("rolling_theta_m", c.rolling_theta_m);
   w.key("contact_model", c.contact_model);

@@ -101,6 +101,9 @@ void check_fluid(const Config& c, Findings& found) {
     found.error({"fluid.pressure_gradient", "fluid.mean_velocity"},
                 "contradicts mean_velocity: give one of the two");
   }
+  if (fluid.top_velocity != 0 && fluid.top != WallFlow::no_slip) {
+    found.error({"fluid.top_velocity", "fluid.top"}, "must come with top = \"no_slip\"");
+  }
   if (fluid.ramp_time > 0 && !held) {
     found.error({"fluid.ramp_time", "fluid.mean_velocity"},
                 "must be absent without a mean_velocity to bring up");

@@ -8,13 +8,17 @@
 namespace barchan {
 
 Real FluidSolver::friction_velocity(const FluidState& fluid) const {
-  const bool bottom = config_.bottom == WallFlow::no_slip, top = config_.top == WallFlow::no_slip;
-  const int walls = (bottom ? 1 : 0) + (top ? 1 : 0);
-  if (walls == 0) return 0;
-  const Real sum =
-      sum_each_cell("fluid: wall shear", grid_, WallShear{grid_, fluid.u.x, bottom, top});
-  const Real mean = sum / (Real(walls) * grid_.nx * grid_.nz);
-  return std::sqrt(config_.kinematic_viscosity * std::abs(mean));
+  int walls = 0;
+  Real slope = 0;  // sum over the walls of the mean [1/s]
+  const auto add = [&](WallFlow wall, int row, Real u_wall) {
+    if (wall != WallFlow::no_slip) return;
+    const WallShear shear{.grid = grid_, .u = fluid.u.x, .row = row, .u_wall = u_wall};
+    slope += std::abs(sum_each_cell("fluid: wall shear", grid_, shear)) / (Real(grid_.nx) * grid_.nz);
+    ++walls;
+  };
+  add(config_.bottom, 0, 0);
+  add(config_.top, grid_.ny - 1, config_.top_velocity);
+  return walls == 0 ? 0 : std::sqrt(config_.kinematic_viscosity * slope / walls);
 }
 
 Real FluidSolver::bulk_velocity(const FluidState& fluid) const {

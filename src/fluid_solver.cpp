@@ -28,7 +28,7 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
     : config_(config.fluid.value()),
       solver_(config.solver),
       grid_(grid),
-      boundary_(grid, config_.bottom, config_.top),
+      boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
       u_star_(make_faces("fluid: u star", grid)),

@@ -40,8 +40,10 @@ RollingLaw make_rolling(const GrainConfig& grains) {
   return NoRolling{};
 }
 
-Friction friction_of(const Material& m) {
-  return {.sliding = m.sliding_friction, .rolling = m.rolling_friction};
+Friction friction_of(const Material& m, CoulombLimit limit) {
+  return {.sliding = m.sliding_friction,
+          .rolling = m.rolling_friction,
+          .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
 }  // namespace
@@ -51,8 +53,8 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
       pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
       wall_law_(make_law(*config.grains, config.grains->material, config.grains->wall)),
       rolling_(make_rolling(*config.grains)),
-      pair_friction_(friction_of(config.grains->material)),
-      wall_friction_(friction_of(config.grains->wall)),
+      pair_friction_(friction_of(config.grains->material, config.grains->coulomb_limit)),
+      wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)),
       exit_x_(config.grains->boundary_x == GrainBoundaryX::exit),
       lx_(config.size[0]) {
   const auto add = [this](Vec3 normal, Real offset) { plane_[n_walls_++] = {normal, offset}; };

@@ -130,7 +130,7 @@ enum class Target { same_material, stiff_and_dense, plane };
 
 /// Test 8: a spinning sphere meets one of five times its radius, or a rigid plane. Returns the
 /// tangent of the recoil angle of the contact patch, slip over normal speed after the impact.
-Real spinning_recoil(Real tan_incident, Target target) {
+Real spinning_recoil(Real tan_incident, Target target, CoulombLimit limit) {
   const Real r = 0.1, v = 0.2, large = 5 * r, dt = 5e-7;
   Material material = al_alloy();
   if (target == Target::stiff_and_dense) {
@@ -139,6 +139,7 @@ Real spinning_recoil(Real tan_incident, Target target) {
   }
   Config config = bench_config(material, 2700, r);
   config.grains->wall.youngs_modulus = kRigid;
+  config.grains->coulomb_limit = limit;
   const Real y = target == Target::plane ? r : 50 * r;
   InitialGrains g;
   add_grain(g, 2 * r, {50 * r, y + 1e-10, 50 * r}, {0, -v, 0}, {0, 0, tan_incident * v / r});
@@ -161,7 +162,7 @@ Real spinning_recoil(Real tan_incident, Target target) {
 
 /// Calls check(claim, incident, recoil, digitised) for every row and target.
 template <class Check>
-void for_spinning_impacts(Check check) {
+void for_spinning_impacts(CoulombLimit limit, Check check) {
   const std::vector<std::pair<std::string, Target>> targets{{"case A", Target::same_material},
                                                             {"case B", Target::stiff_and_dense},
                                                             {"plane", Target::plane}};
@@ -169,7 +170,7 @@ void for_spinning_impacts(Check check) {
     const auto q = numbers(cells);
     for (std::size_t t = 0; t < 3; ++t) {
       check("test 8 " + targets[t].first + " at " + cells[0], q[0],
-            spinning_recoil(q[0], targets[t].second), q[1 + t]);
+            spinning_recoil(q[0], targets[t].second, limit), q[1 + t]);
     }
   }
 }
@@ -179,16 +180,26 @@ void for_spinning_impacts(Check check) {
 // (dem_restitution_of_damped_hertz_law.csv): tan = (x - (7/2) mu (1 + 2 e_clip - e))/e.
 TEST(ChungOoiSpin, Test8SlidingEndsOfTheDampedLaw) {
   const Real e = 0.5, e_clip = 0.5503, mu = 0.4;
-  for_spinning_impacts([&](const std::string& claim, Real x, Real recoil, Real) {
-    if (x > 3) expect_relative(claim, recoil, (x - 3.5 * mu * (1 + 2 * e_clip - e)) / e, 0.01);
-  });
+  for_spinning_impacts(
+      CoulombLimit::total, [&](const std::string& claim, Real x, Real recoil, Real) {
+        if (x > 3) expect_relative(claim, recoil, (x - 3.5 * mu * (1 + 2 * e_clip - e)) / e, 0.01);
+      });
 }
 
-// The curves of the paper, and (x - 2.1)/0.5 in full sliding, which has no attractive tail.
-TEST(ChungOoiSpin, DISABLED_Test8SpinningImpact) {
-  for_spinning_impacts([](const std::string& claim, Real x, Real recoil, Real digitised) {
-    if (x > 3)
+// The curves of the paper, and (x - (7/2) mu (1 + e))/e = (x - 2.1)/0.5 in full sliding: friction
+// is limited by the elastic part of the normal force, whose impulse is m v (1 + e) like that of the
+// total. A sphere a thousand times stiffer and denser (case B) is a plane: the law knows the moduli
+// only through k_t/k_n. The digitised curve of case B lies up to 0.15 above that of the plane at
+// three angles, and is compared where it does not.
+TEST(ChungOoiSpin, Test8SpinningImpact) {
+  for_spinning_impacts(CoulombLimit::elastic, [](const std::string& claim, Real x, Real recoil,
+                                                 Real digitised) {
+    const bool sliding = x > 3, disputed = claim.find("case B") != claim.npos && x > 1.1 && x < 2;
+    if (sliding)
       expect_relative(claim + ", sliding", recoil, (x - 2.1) / 0.5, 0.01);
+    else if (disputed)
+      expect_absolute(claim + ", of the plane", recoil,
+                      spinning_recoil(x, Target::plane, CoulombLimit::elastic), 1e-3);
     else
       expect_absolute(claim, recoil, digitised, 0.1);
   });

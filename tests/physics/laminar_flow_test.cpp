@@ -105,5 +105,62 @@ TEST(FluidLaminar, ShearBetweenWallsAtRestDecaysAtTheKnownRate) {
   EXPECT_NEAR(friction, 2, 0.15);
 }
 
+/// Couette flow from rest, the lid at U: u/U = y/h + sum 2/(n pi) (-1)^n sin(n pi y/h) exp(-n^2
+/// pi^2 T), T = nu t/h^2. RMS error over U at T = 0.05; afterwards steady.
+struct CouetteErrors {
+  double starting, steady, friction;
+};
+CouetteErrors couette(int rows) {
+  const double height = 0.02, nu = 1e-5, lid = 0.1;
+  const double first = test::first_row(height, rows, 2.5);
+  Config config = test::flow_config({2, rows, 2}, {0.01, height, 0.01}, first);
+  config.fluid->kinematic_viscosity = nu;
+  config.fluid->bottom = config.fluid->top = WallFlow::no_slip;
+  config.fluid->top_velocity = lid;
+  const Grid grid = make_grid(config);
+  const HostGrid h(grid);
+  FluidState fluid = make_fluid_state(grid);
+  FluidSolver solver(config, grid);
+  solver.fill_ghosts(fluid);
+  const double scale = height * height / nu, dt = 0.1 * first * first / nu;
+  const auto advance = [&](double duration) {
+    const int steps = static_cast<int>(std::ceil(duration / dt));
+    for (int s = 0; s < steps; ++s) solver.advance(fluid, nullptr, duration / steps);
+  };
+  const auto error = [&](double decay_time) {
+    const auto u = test::to_host(fluid.u.x);
+    double sum = 0;
+    for (int j = 0; j < rows; ++j) {
+      double exact = h.y(j) / height;
+      for (int n = 1; n < 40; ++n) {
+        exact += 2 / (n * pi) * (n % 2 == 0 ? 1 : -1) * std::sin(n * pi * h.y(j) / height) *
+                 std::exp(-n * n * pi * pi * decay_time);
+      }
+      sum += std::pow(u(0, j, 0) / lid - exact, 2) * h.dy(j) / height;
+    }
+    return std::sqrt(sum);
+  };
+  CouetteErrors errors{};
+  advance(0.05 * scale);
+  errors.starting = error(0.05);
+  advance(3.2 * scale);  // what is left dies as exp(-pi^2 T)
+  errors.steady = error(3.25);
+  const double u_star = std::sqrt(nu * lid / height);
+  errors.friction = std::abs(solver.friction_velocity(fluid) / u_star - 1);
+  return errors;
+}
+
+TEST(FluidLaminar, CouetteFlowStartsAndBecomesLinear) {
+  const CouetteErrors coarse = couette(16), fine = couette(32);
+  const double order = std::log2(coarse.starting / fine.starting);
+  std::printf(
+      "[ measured ] Couette flow: order while starting %.3f (reference 2, tolerance 0.15), steady "
+      "profile off by %.1e, u* by %.1e (reference 0, tolerance 1e-12)\n",
+      order, fine.steady, fine.friction);
+  EXPECT_NEAR(order, 2, 0.15);
+  EXPECT_LT(fine.steady, 1e-12);
+  EXPECT_LT(fine.friction, 1e-12);
+}
+
 }  // namespace
 }  // namespace barchan
