@@ -25,6 +25,19 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
   return fluid;
 }
 
+/// Grains that left through a periodic side since the file's last list rebuild come back on the
+/// other; what would have to move by more than the domain is left for check_inside.
+void wrap(InitialGrains& grains, const Config& config) {
+  const auto into = [](double& x, double length) {
+    if (x < 0 && x >= -length) x += length;
+    if (x > length && x <= 2 * length) x -= length;
+  };
+  for (Vec3& x : grains.x) {
+    if (config.grains->boundary_x == GrainBoundaryX::periodic) into(x.x, config.size[0]);
+    if (config.grains->boundary_z == GrainBoundaryZ::periodic) into(x.z, config.size[2]);
+  }
+}
+
 /// Refuses grains that the domain does not hold.
 void check_inside(const InitialGrains& grains, const Config& config, const std::string& source) {
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -47,9 +60,10 @@ SystemState make_initial_state(const Config& config, const InitialFiles& files) 
   if (config.fluid) state.fluid = initial_fluid(config, files.fluid);
   if (config.grains) {
     const bool poured = config.initial.pour.has_value();
-    const InitialGrains grains =
+    InitialGrains grains =
         poured ? pour_grains(*config.initial.pour, config.grains->sizes, config.size)
                : read_grains(files.grains);
+    wrap(grains, config);
     check_inside(grains, config, poured ? "initial.grains.pour" : files.grains.string());
     state.grains = make_grain_state(grains, config.grains->density);
   }

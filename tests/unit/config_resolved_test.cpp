@@ -36,11 +36,13 @@ Config unusual() {
                         .turbulence = Turbulence::none,
                         .wale_constant = 0.5,
                         .bottom = WallFlow::free_slip,
-                        .top = WallFlow::no_slip};
+                        .top = WallFlow::no_slip,
+                        .top_velocity = 0.25};
   GrainConfig g;
   g.density = 2650;
   g.material = {1e7, 0.3, 0.9, 0.4, 0.01};
   g.wall = {1e9, 0.2, 0.8, 0.5, 0.02};
+  g.coulomb_limit = CoulombLimit::elastic;
   g.rolling_model = RollingModel::theta_m;
   g.rolling_theta_m = 0.2;
   g.contact_model = ContactModel::linear;

@@ -88,6 +88,8 @@ TEST(ConfigValidate, ContradictionsInTheFluid) {
   EXPECT_EQ(problems(fluid_case("ramp_time = 1\n")),
             only("case.toml:7: [fluid] ramp_time = 1: must be absent without a mean_velocity to "
                  "bring up"));
+  EXPECT_EQ(problems(fluid_case("top_velocity = 1\n")),
+            only("case.toml:7: [fluid] top_velocity = 1: must come with top = \"no_slip\""));
   EXPECT_EQ(problems(fluid_case("[initial]\nfluid = \"turbulent\"\n")),
             only("case.toml:8: [initial] fluid = \"turbulent\": must come with a mean_velocity or "
                  "pressure_gradient, which sets its log law"));
