@@ -2,6 +2,7 @@
 """Figures of a run.
 
     plot.py RUN_DIR [FIGURE ...] [--pdf]
+    plot.py validation [FIGURE ...]       figures of docs/validation.md: see validation.py
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
 behind curves to RUN_DIR/figures_data/<figure>.csv.
@@ -79,6 +80,10 @@ def draw(run, names, options):
 
 
 def main(arguments):
+    if arguments[:1] == ["validation"]:  # a run folder of that name is ./validation
+        import validation
+
+        return validation.main(arguments[1:])
     options = parse(arguments)
     for name in options.figures:
         if name not in FIGURES:

@@ -1,6 +1,7 @@
 """One look for all figures, and the saving of them."""
 
 import io
+import logging
 import os
 from pathlib import Path
 
@@ -54,6 +55,7 @@ _SETTINGS = {
 
 def use():
     plt.rcParams.update(_SETTINGS)
+    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it remarks on the dates of fonts
 
 
 def panel_label(axes, index, colour=BLACK):
@@ -77,6 +79,11 @@ def mark_if_few(t):
     return "o" if len(t) <= 12 else None
 
 
+def reference_marks(colour=BLACK, marker="o", size=3.4):
+    """Points of a reference: open symbols, beside lines of ours."""
+    return {"ls": "", "marker": marker, "mfc": "none", "mec": colour, "mew": 0.7, "ms": size}
+
+
 def round_length(length):
     """The largest of 1, 2, 5 x 10^n not above `length`."""
     power = 10.0
@@ -87,15 +94,23 @@ def round_length(length):
     return max(m * power for m in (1.0, 2.0, 5.0) if m * power <= length)
 
 
-def save(figure, folder, name, title, pdf=False):
+def legend_outside(figure, handles, height, **options):
+    """A legend above all panels (height > 0) or below them, in inches."""
+    share = abs(height) / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, share if height < 0 else 0, 1, 1 - share))
+    figure.legend(handles=handles, loc="upper center" if height > 0 else "lower center", **options)
+
+
+def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
     """Writes `name`.png (and .pdf) into the folder, beside and renamed; returns the paths."""
     encoded = io.BytesIO()
     figure.savefig(encoded, format="png", dpi=DPI, facecolor="white")
-    if encoded.tell() > LARGEST_PNG:
+    if encoded.tell() > largest:
         encoded = _with_palette(encoded)
     paths = [folder / f"{name}.png"]
     _replace(paths[0], encoded.getvalue())
     if pdf:
+        figure.set_layout_engine("none")  # panels stay where the PNG file has them
         document = io.BytesIO()
         figure.savefig(document, format="pdf", dpi=3 * DPI, metadata={"Title": f"{title}: {name}"})
         paths.append(folder / f"{name}.pdf")

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/support/grain_bench.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -64,6 +65,11 @@ void compare(const std::string& name, const Oblique& got, const std::vector<Real
              std::size_t paper, std::size_t law, Worst& worst) {
   const std::string claim = name + " at " + std::to_string(static_cast<int>(q[0])) + " degrees";
   const Real theta = q[0] * kDegree, percent = 0.01;
+  test::save_result("chung_ooi_4", {{"material", name},
+                                    {"theta_deg", q[0]},
+                                    {"et", got.et},
+                                    {"omega", got.omega},
+                                    {"patch_deg", got.patch}});
   add(worst.law, claim + ", et, law", got.et, q[law], percent * q[law]);
   add(worst.law, claim + ", omega, law", got.omega, q[law + 1], percent * std::abs(q[law + 1]));
   // The patch angle is a difference of the two, which vanishes between 5 and 10 degrees.
@@ -169,8 +175,12 @@ void for_spinning_impacts(CoulombLimit limit, Check check) {
   for (const auto& cells : reference_rows("dem_chung_ooi2011_test7_8.csv")) {
     const auto q = numbers(cells);
     for (std::size_t t = 0; t < 3; ++t) {
-      check("test 8 " + targets[t].first + " at " + cells[0], q[0],
-            spinning_recoil(q[0], targets[t].second, limit), q[1 + t]);
+      const Real recoil = spinning_recoil(q[0], targets[t].second, limit);
+      const std::string part = limit == CoulombLimit::total ? "total" : "elastic";
+      test::save_result(
+          "chung_ooi_8",
+          {{"limit", part}, {"target", targets[t].first}, {"tan_inc", q[0]}, {"tan_rec", recoil}});
+      check("test 8 " + targets[t].first + " at " + cells[0], q[0], recoil, q[1 + t]);
     }
   }
 }

@@ -1,6 +1,7 @@
 // Particle impacts of Chung & Ooi, Granular Matter 13, 643 (2011). Materials and curves are in
 // tests/reference/dem_chung_ooi2011_*.csv. Spinning and oblique impacts: chung_ooi_spin_test.cpp.
 #include "tests/support/grain_impact.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -53,13 +54,13 @@ Real force_at(const std::vector<ImpactSample>& loading, Real overlap) {
 
 /// Loading branch against the digitised one. The tolerance, 2 %, is of the largest force: the
 /// digitising error does not shrink with the force.
-void expect_loading_branch(const std::string& test, const std::string& material) {
-  const ImpactCase c = parameters(test, material).impact;
+void expect_loading_branch(const std::string& number, const std::string& material) {
+  const ImpactCase c = parameters(number, material).impact;
   const ImpactResult impact = run_impact(c, hertz_duration(c) / 1000);
   Real worst = 0, worst_at = 0;
   for (const auto& cells : reference_rows("dem_chung_ooi2011_test1_test2_force_overlap.csv")) {
     const auto q = numbers(cells);
-    if (cells[0] != test) continue;
+    if (cells[0] != number) continue;
     const Real overlap = 1e-6 * q[1];
     if (overlap > impact.max_overlap) {  // the curve's end may overshoot by the digitising error
       EXPECT_LT(overlap, 1.01 * impact.max_overlap);
@@ -67,7 +68,12 @@ void expect_loading_branch(const std::string& test, const std::string& material)
     const Real error = std::abs(force_at(impact.loading, overlap) - 1e3 * q[2]);
     if (error > worst) worst = error, worst_at = overlap;
   }
-  expect_absolute("test " + test + " " + material + ", largest error over largest force, at " +
+  for (std::size_t n = 0; n < impact.loading.size(); n += 10) {
+    const ImpactSample& s = impact.loading[n];
+    test::save_result("chung_ooi_1_2",
+                      {{"test", number}, {"overlap", s.overlap}, {"force", s.force}});
+  }
+  expect_absolute("test " + number + " " + material + ", largest error over largest force, at " +
                       std::to_string(1e6 * worst_at) + " um",
                   worst / impact.max_force, 0, 0.02);
 }
@@ -99,9 +105,9 @@ TEST(ChungOoi, Test3RestitutionIsTheInput) {
     for (const Real e : {0.2, 0.4, 0.6, 0.8, 1.0}) {
       ImpactCase c = parameters("3", material).impact;
       c.material.restitution = e;
-      const Real dt = hertz_duration(c) / 5000;
-      expect_absolute("test 3 " + material + ", restitution", run_impact(c, dt).restitution, e,
-                      1e-3);
+      const Real measured = run_impact(c, hertz_duration(c) / 5000).restitution;
+      test::save_result("chung_ooi_3", {{"material", material}, {"e", e}, {"measured", measured}});
+      expect_absolute("test 3 " + material + ", restitution", measured, e, 1e-3);
     }
   }
 }

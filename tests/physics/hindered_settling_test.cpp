@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "tests/support/lattice.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -73,6 +74,11 @@ void check(const char* name, DragLaw code, const Law& law, double alpha) {
       "exponent %.2f, Richardson-Zaki 3.82 gives %.6g m/s\n",
       name, alpha, measured, reference, 100 * (measured / reference - 1), exponent(measured),
       kAlone * std::pow(alpha, 3.821568));
+  test::save_result("hindered_settling", {{"law", std::string(name)},
+                                          {"alpha", alpha},
+                                          {"v", measured},
+                                          {"force_balance", reference},
+                                          {"alone", kAlone}});
   EXPECT_NEAR(measured / reference, 1, 0.02) << name << " " << alpha;
 }
 

@@ -9,6 +9,7 @@
 
 #include "src/fluid_solver.hpp"
 #include "tests/support/flow_errors.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -133,6 +134,17 @@ int steps_for(int n, int power) {
   return static_cast<int>(std::lround(kEnd / 2.5e-3 * std::pow(n / 48.0, power)));
 }
 
+void save(const std::string& table, const char* what, const ManufacturedFlow& flow, int n,
+          const FlowErrors& e) {
+  test::save_result(table, {{"fraction", std::string(what)},
+                            {"walls", std::string(name(flow.bottom)) + " / " + name(flow.top)},
+                            {"cells", n},
+                            {"u", e.u},
+                            {"u_max", e.u_max},
+                            {"p", e.p / flow.rho},
+                            {"p_max", e.p_max / flow.rho}});
+}
+
 /// Two meshes of ratio 2, each with the given pairs of walls.
 void expect_second_order_in_space(ManufacturedFlow flow, std::span<const Walls> pairs, int coarse_n,
                                   int power, const char* what) {
@@ -147,6 +159,7 @@ void expect_second_order_in_space(ManufacturedFlow flow, std::span<const Walls> 
       e[level] = run.errors();
       std::printf("[ measured ] %s, %d cells: u L2 %.3e max %.3e m/s, p L2 %.3e max %.3e Pa\n",
                   what, n, e[level].u, e[level].u_max, e[level].p, e[level].p_max);
+      save("manufactured_" + std::to_string(coarse_n), what, flow, n, e[level]);
     }
     const double u = std::log2(e[0].u / e[1].u), p = std::log2(e[0].p / e[1].p);
     std::printf(

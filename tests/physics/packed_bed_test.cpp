@@ -5,6 +5,7 @@
 
 #include "tests/support/lattice.hpp"
 #include "tests/support/reference_table.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -68,6 +69,11 @@ void check_ergun(const Bed& bed) {
       "%.3f %%, tolerance 3 %%); U off its target %.2f %%\n",
       bed.alpha, superficial, 1e3 * bed.smoothing, measured, ergun, 100 * (measured / ergun - 1),
       100 * (superficial / bed.superficial - 1));
+  test::save_result("packed_bed", {{"alpha", bed.alpha},
+                                   {"superficial", superficial},
+                                   {"smoothing", bed.smoothing},
+                                   {"gradient", measured},
+                                   {"ergun", ergun}});
   EXPECT_NEAR(measured / ergun, 1, 0.03);
 }
 

@@ -6,6 +6,7 @@
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 #include "tests/support/reference_table.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -17,6 +18,7 @@ using test::Water;
 struct Sphere {
   double d, rho_p = 2500;
   Water water = {};
+  std::string label = "";  // of its saved transient, if that is to be kept
 };
 
 struct Outcome {
@@ -42,6 +44,12 @@ Outcome settle(Config config, const Sphere& s, double times) {
     out.terminal = -run.velocity_of(1).y;
     out.transient_error =
         std::max(out.transient_error, std::abs(out.terminal / exact.velocity() - 1));
+    if (!s.label.empty() && n % std::max(1, steps / 60) == 0) {
+      test::save_result("settling_transients", {{"sphere", s.label},
+                                                {"t", n * config.time.fluid_step},
+                                                {"v", out.terminal},
+                                                {"theory", exact.velocity()}});
+    }
   }
   return out;
 }
@@ -94,7 +102,7 @@ TEST(Settling, TableTwoGrainsInStillWater) {
 /// Cells 40 diameters wide: what the grain stirs up is then small against its own velocity.
 TEST(Settling, TableTwoGrainsCoupled) {
   for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
-    const Sphere grain{.d = test::number(row, "d")};
+    const Sphere grain{.d = test::number(row, "d"), .label = "d = " + row.at("d")};
     const Outcome got = settle(in_flowing_water(grain, 40 * grain.d, 1e-4), grain, 10);
     check(("coupled, d = " + row.at("d")).c_str(), got, test::number(row, "v_SN"));
   }
@@ -111,7 +119,8 @@ TEST(Settling, TenCatesSphereInStillFluid) {
 
 TEST(Settling, TenCatesSphereCoupled) {
   for (const auto& row : test::reference_table("settling_ten_cate2002.csv")) {
-    const Sphere sphere{0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}};
+    const Sphere sphere{
+        0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}, row.at("case")};
     const double tau = SettlingSphere(sphere.d, sphere.rho_p, sphere.water).response_time();
     const Outcome got = settle(in_flowing_water(sphere, 40 * sphere.d, tau / 100), sphere, 8);
     check(("ten Cate coupled " + row.at("case")).c_str(), got, test::number(row, "u_SN"));
@@ -127,6 +136,7 @@ TEST(Settling, SelfInducedFlowVanishesWithCellSize) {
   for (const double cells : {5., 10., 20., 40.}) {
     const Outcome got = settle(in_flowing_water(grain, cells * grain.d, 1e-4), grain, 10);
     const double excess = got.terminal / alone - 1;
+    test::save_result("settling_excess", {{"cell_over_d", cells}, {"excess", excess}});
     std::printf("[ measured ] excess fall velocity, cell = %g d: %.3f %%, transient off %.3f %%\n",
                 cells, 100 * excess, 100 * got.transient_error);
     EXPECT_LT(std::abs(excess), 0.5 * last);

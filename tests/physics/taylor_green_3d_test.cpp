@@ -11,6 +11,7 @@
 #include "src/fluid_solver.hpp"
 #include "src/launch.hpp"
 #include "tests/support/flow_errors.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -180,7 +181,12 @@ Outcome taylor_green(int n, double end) {
   const std::vector<Record> run = flow.run(end, n / 16);
   const Outcome o = compare(run, reference());
   double subgrid = 0;
-  for (const Record& r : run) subgrid = std::max(subgrid, 1 - r.resolved / r.dissipation);
+  for (const Record& r : run) {
+    subgrid = std::max(subgrid, 1 - r.resolved / r.dissipation);
+    test::save_result(
+        "taylor_green_3d_" + std::to_string(n),
+        {{"t", r.t}, {"E", r.energy}, {"dissipation", r.dissipation}, {"resolved", r.resolved}});
+  }
   std::printf(
       "[ measured ] Taylor-Green Re 1600, %d^3: peak dissipation %.5f at t = %.2f (reference %.5f "
       "at "

@@ -6,6 +6,7 @@
 
 #include "src/fluid_solver.hpp"
 #include "tests/support/flow_errors.hpp"
+#include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
@@ -65,7 +66,17 @@ FlowErrors vortex_errors(const Vortex& vortex, int cells) {
   const int steps = 4 * cells;
   for (int s = 0; s < steps; ++s) solver.advance(fluid, nullptr, end / steps);
   // The pressure of a step is that of its middle, to second order.
-  return test::flow_errors(fluid, vortex.at(end), vortex.at(end - 0.5 * end / steps));
+  const FlowErrors e = test::flow_errors(fluid, vortex.at(end), vortex.at(end - 0.5 * end / steps));
+  test::save_result("taylor_green_2d", {{"a", vortex.a},
+                                        {"b", vortex.b},
+                                        {"mean_a", vortex.mean_a},
+                                        {"mean_b", vortex.mean_b},
+                                        {"cells", cells},
+                                        {"u", e.u},
+                                        {"u_max", e.u_max},
+                                        {"p", e.p / vortex.rho},
+                                        {"p_max", e.p_max / vortex.rho}});
+  return e;
 }
 
 void expect_second_order(const Vortex& vortex, const char* what) {

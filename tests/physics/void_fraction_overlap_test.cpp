@@ -7,6 +7,7 @@
 #include "src/mesh.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
+#include "tests/support/saved_results.hpp"
 #include "tests/support/sphere_box.hpp"
 
 namespace barchan {
@@ -107,6 +108,8 @@ TEST(VoidFractionOverlap, ErrorFallsAsDiameterOverCellSize) {
     }
     std::printf("[ measured ] share of a grain in wrong cells, h/d = %g: mean %.4f, worst %.3f\n",
                 ratio, mean, worst);
+    test::save_result("void_fraction_overlap",
+                      {{"cell_over_d", ratio}, {"mean", mean}, {"worst", worst}});
     if (last > 0) {
       EXPECT_NEAR(std::log2(last / mean), 1, 0.25) << ratio;
     }

@@ -1,0 +1,88 @@
+"""Figures of docs/validation.md, from saved results.
+
+    ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep MESH=RUN_DIR]
+
+Writes <figure>.png and .pdf, and channel_summary.csv. The results are tables that the tests write
+when BARCHAN_RESULTS names a folder, and statistics of channel runs taken over with --keep. Each
+says in its first lines which command, commit and machine made it, and when.
+Exit status as of plot.py.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import style
+import tables
+import validation_channel
+import validation_contacts
+import validation_flow
+import validation_water
+from plot import fail
+from run_folder import PlotError
+
+SAVED = tables.ROOT / "docs/validation"
+LARGEST_PNG = 140_000  # [bytes]; the pictures live in the repository
+FIGURES = {
+    "channel": validation_channel.draw,
+    "taylor_green": validation_flow.draw_taylor_green,
+    "contacts": validation_contacts.draw,
+    "grains_and_water": validation_water.draw,
+    "convergence": validation_flow.draw_convergence,
+}
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="plot validation",
+                                     description="Figures of docs/validation.md from saved results.")
+    parser.add_argument("figures", metavar="FIGURE", nargs="*", help=", ".join(FIGURES))
+    parser.add_argument("--from", dest="source", type=Path, default=SAVED, metavar="DIR",
+                        help="folder of the saved results (docs/validation)")
+    parser.add_argument("--out", type=Path, default=SAVED, metavar="DIR",
+                        help="folder for the pictures (docs/validation)")
+    parser.add_argument("--keep", action="append", default=[], metavar="MESH=RUN_DIR",
+                        help="first save the statistics of a channel run; MESH: "
+                        + ", ".join(validation_channel.MESHES))
+    parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
+    return parser.parse_args(arguments)
+
+
+def draw(name, options):
+    figure = FIGURES[name](options.source)
+    paths = style.save(figure, options.out, name, "Barchan, validation", pdf=True,
+                       largest=LARGEST_PNG)
+    if name == "channel":
+        paths.append(validation_channel.write_summary(options.source, options.out))
+    for path in paths:
+        print(path)
+
+
+def main(arguments):
+    options = parse(arguments)
+    for name in options.figures:
+        if name not in FIGURES:
+            return fail(f'no figure "{name}"; figures: {", ".join(FIGURES)}')
+    style.use()
+    unreadable, failed = 0, 0
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+        for mesh, _, run_dir in (text.partition("=") for text in options.keep):
+            print(validation_channel.save(mesh, run_dir, options.source))
+    except (OSError, PlotError) as error:
+        return fail(error)
+    for name in options.figures or FIGURES:
+        try:
+            draw(name, options)
+        except PlotError as reason:
+            unreadable += 1
+            fail(f"{name} {reason}")
+        except Exception as error:  # as in plot.py: the others are still drawn
+            if options.debug:
+                raise
+            failed += 1
+            fail(f"cannot draw {name}: {error or type(error).__name__}")
+    return 1 if failed else 2 if unreadable else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,198 @@
+"""channel: the clear-water channel on three meshes beside DNS, and its figures of merit.
+
+DNS: Moser, Kim & Mansour, Phys. Fluids 11, 943 (1999), Re_tau = 392.
+"""
+
+import datetime
+import json
+from dataclasses import dataclass
+from functools import cached_property
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import profiles
+import style
+import tables
+from run_folder import NotInRun, PlotError, RunFolder, read_table
+
+# saved as channel_<name>.csv: label, colour, line
+MESHES = {
+    "mesh1": ("mesh 1", style.BLUE, "-"),
+    "mesh1_dns_box": ("mesh 1, box of the DNS", style.SKY, (0, (5, 1.2))),
+    "mesh2": ("mesh 2, box of the DNS", style.GREEN, (0, (3, 1, 1, 1))),
+    "mesh3": ("mesh 3, box of the DNS", style.VERMILLION, "-"),
+}
+ROWS = {"mesh1": 30, "mesh1_dns_box": 30, "mesh2": 45, "mesh3": 60}
+DNS_BULK = 17.545  # bulk velocity over u_star
+TOLERANCE = 0.05   # of u_star, and so of U^+
+STRESSES = {"uu": "$\\langle u'u' \\rangle$", "vv": "$\\langle v'v' \\rangle$",
+            "ww": "$\\langle w'w' \\rangle$", "uv": "$-\\langle u'v' \\rangle$"}
+
+
+@dataclass
+class Channel:
+    name: str
+    label: str
+    colour: str
+    dashes: object
+    table: tables.Table
+
+    @property
+    def height(self):
+        return float(self.table.notes["height"].split()[0])
+
+    @cached_property
+    def curves(self):
+        """In wall units, uv with its sign turned, so that all peaks are maxima."""
+        curves = profiles.in_wall_units(self.table, self.height)
+        return {**curves, "uv": -curves["uv"]}
+
+
+def read_channels(folder):
+    paths = {name: folder / f"channel_{name}.csv" for name in MESHES}
+    channels = [Channel(name, *MESHES[name], tables.read(path)) for name, path in paths.items()
+                if path.exists()]
+    if not channels:
+        raise NotInRun(f"needs {folder}/channel_mesh1.csv or another saved channel")
+    return channels
+
+
+def read_dns():
+    dns = profiles.read_dns()
+    return {**dns, "uv": -dns["uv"]}
+
+
+def save(name, run_path, folder):
+    """Keeps the statistics of a run as channel_<name>.csv; returns the path."""
+    if name not in MESHES:
+        raise PlotError(f'no mesh "{name}"; meshes: {", ".join(MESHES)}')
+    run = RunFolder(run_path)
+    source = run.path / "statistics.csv"
+    if not source.exists() or not run.domain:
+        raise NotInRun(f"needs statistics.csv and config.toml in {run_path}")
+    config, identity = run.config, json.loads((run.path / "run.json").read_text())
+    fluid, statistics = config["fluid"], config["statistics"]
+    if fluid["cells"][1] != ROWS[name]:
+        raise PlotError(f'{run_path} has {fluid["cells"][1]} rows, {name} has {ROWS[name]}')
+    made = datetime.date.fromtimestamp(source.stat().st_mtime)
+    samples = read_table(source)["n_samples"][0]
+    case = "configs/validation/channel-" + name.partition("_")[0].replace("mesh", "mesh-") + ".toml"
+    changes = " --set 'domain.size={}' --set 'fluid.cells={}'".format(
+        *(str(value).replace(" ", "") for value in (config["domain"]["size"], fluid["cells"])))
+    notes = {
+        "title": run.title,
+        "command": f"./barchan run {case}" + (changes if name == "mesh1_dns_box" else ""),
+        "commit": identity["git_hash"],
+        "machine": f'{tables.machine()}; {identity["device"]}',
+        "date": made.isoformat(),
+        "cells": " x ".join(map(str, fluid["cells"])),
+        "height": f"{run.domain[1]:g} m",
+        "bulk velocity": f'{fluid["mean_velocity"]:g} m/s',
+        "averaged": f"{samples * statistics['interval']:.1f} s from {statistics['start']:g} s on",
+    }
+    path = folder / f"channel_{name}.csv"
+    tables.write(path, notes, source.read_text().splitlines())
+    return path
+
+
+def peak(y_plus, values):
+    """Height and value of the maximum, by the parabola through three points over ln y^+."""
+    n = int(np.argmax(values))
+    if n in (0, len(values) - 1):
+        return y_plus[n], values[n]
+    x = np.log(y_plus[n - 1:n + 2] / y_plus[n])
+    a, b, c = np.polyfit(x, values[n - 1:n + 2], 2)
+    return y_plus[n] * np.exp(-b / (2 * a)), c - b * b / (4 * a)
+
+
+def merits(channel, dns):
+    """(quantity, unit, reference, value) of everything that is compared."""
+    curves = channel.curves
+    u_star = profiles.friction_velocity(channel.table)
+    bulk = float(channel.table.notes["bulk velocity"].split()[0])
+    rows = [("u_star", "m/s", bulk / DNS_BULK, u_star)]
+    for name in STRESSES:
+        expected, found = (peak(c["y_plus"], c[name]) for c in (dns, curves))
+        stress = "-uv" if name == "uv" else name
+        rows.append((f"{stress} peak", "u_star^2", expected[1], found[1]))
+        rows.append((f"{stress} peak y+", "-", expected[0], found[0]))
+    inside = (curves["y_plus"] > 5) & (curves["y_plus"] < dns["y_plus"][-1])
+    y_plus, u_plus = curves["y_plus"][inside], curves["U_plus"][inside]
+    expected = np.interp(np.log(y_plus), np.log(dns["y_plus"]), dns["U_plus"])
+    off = u_plus / expected - 1
+    worst = int(np.argmax(abs(off)))
+    rows.append(("U+ over DNS less 1: largest for y+ > 5", "%", 0.0, 100 * off[worst]))
+    rows.append(("  at y+", "-", np.nan, y_plus[worst]))
+    deviation = curves["total"] - (1 - curves["y"])
+    worst = int(np.argmax(abs(deviation)))
+    rows.append(("total stress less 1 - y/h: largest", "%", 0.0, 100 * deviation[worst]))
+    rows.append(("  at y/h", "-", np.nan, curves["y"][worst]))
+    return rows
+
+
+def summary(folder):
+    """Lines of channel_summary.csv: a quantity each, value and deviation in % for each mesh."""
+    dns = read_dns()
+    channels = read_channels(folder)
+    header = ["quantity", "unit", "DNS"]
+    for channel in channels:
+        header += [channel.name, f"{channel.name} off (%)"]
+    lines = [",".join(header)]
+    for rows in zip(*(merits(channel, dns) for channel in channels)):
+        quantity, unit, reference, _ = rows[0]
+        cells = [quantity, unit, f"{reference:.4g}" if np.isfinite(reference) else ""]
+        for _, _, reference, value in rows:
+            off = 100 * (value / reference - 1) if reference > 0 else np.nan
+            cells += [f"{value:.4g}", f"{off:.1f}" if np.isfinite(off) else ""]
+        lines.append(",".join(cells))
+    return lines
+
+
+def sparse(x, count=28):
+    """Indices at which curves of the reference are marked, even on the logarithmic axis."""
+    wanted = np.geomspace(0.5, x[-1], count)
+    return np.unique([int(np.argmin(abs(np.log(x / at)))) for at in wanted])
+
+
+def draw(folder):
+    dns, channels = read_dns(), read_channels(folder)
+    figure, grid = plt.subplots(2, 3, figsize=(style.FULL_WIDTH, 4.6))
+    mean, total, panels = grid[0, 0], grid[1, 2], [*grid[0, 1:], *grid[1, :2]]
+    marks = sparse(dns["y_plus"])
+    profiles.draw_law_of_the_wall(mean)
+    low, high = ((1 + sign * TOLERANCE) * dns["U_plus"] for sign in (-1, 1))
+    mean.fill_between(dns["y_plus"], low, high, color="0.88", lw=0, label="DNS $\\pm$ 5 %")
+    mean.set_ylim(0, 23)
+    for axes, (name, label) in zip(panels, STRESSES.items()):
+        axes.set(xscale="log", xlim=(0.9, 420), xlabel="$y^+$", ylabel=label + "$ / u_*^2$")
+    total.plot([0, 1], [1, 0], color="k", lw=0.7, ls=":", label="$1 - y/h$")
+    total.set(xlim=(0, 1), ylim=(0, 1.1), xlabel="$y / h$", ylabel="total stress$ / u_*^2$")
+
+    for axes, name in zip([mean, *panels], ["U_plus", *STRESSES]):
+        axes.plot(dns["y_plus"][marks], dns[name][marks], label="DNS", zorder=1,
+                  **style.reference_marks())
+        for channel in channels:
+            axes.plot(channel.curves["y_plus"], channel.curves[name], color=channel.colour,
+                      ls=channel.dashes, lw=1.0, label=channel.label)
+        if name != "U_plus":
+            axes.set_ylim(0, None)
+    for channel in channels:
+        total.plot(channel.curves["y"], channel.curves["total"], color=channel.colour,
+                   ls=channel.dashes, lw=1.0)
+    handles, labels = mean.get_legend_handles_labels()
+    mean.legend(handles[:2], labels[:2], loc="upper left")
+    total.legend(loc="upper right")
+    handles, _ = panels[0].get_legend_handles_labels()
+    style.legend_outside(figure, handles, 0.25, ncols=len(handles))
+    for index, axes in enumerate(grid.ravel()):
+        style.panel_label(axes, index)
+    return figure
+
+
+def write_summary(source, out):
+    path = out / "channel_summary.csv"
+    notes = {"made by": "./barchan plot validation channel",
+             "DNS": "Moser, Kim & Mansour (1999), Re_tau = 392; u_star from the bulk velocity"}
+    tables.write(path, notes, summary(source))
+    return path

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# The figures of docs/validation.md from the results saved in docs/validation; and what bad input says.
+set -u
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+python=/usr/bin/python3
+[ -x "$python" ] || python=python3
+python="${BARCHAN_PYTHON:-$python}"
+"$python" -c 'import h5py, matplotlib, numpy' 2> /dev/null || { echo "no h5py or matplotlib"; exit 77; }
+export PYTHONDONTWRITEBYTECODE=1
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+failures=0
+figures=(channel taylor_green contacts grains_and_water convergence)
+
+fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+
+plot() {  # plot EXPECTED_STATUS ARGUMENT...
+  local expected=$1 status=0
+  shift
+  "$python" "$root/analysis/plot.py" validation "$@" > "$dir/out" 2> "$dir/err" || status=$?
+  [ "$status" = "$expected" ] || fail "plot validation $* ended with $status, not $expected: $(cat "$dir/err")"
+}
+
+says() {  # says TEXT: somewhere on the error stream
+  grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"
+}
+
+# Every saved result says where it comes from.
+for table in "$root"/docs/validation/*.csv; do
+  if [[ $table == */channel_summary.csv ]]; then continue; fi
+  for note in command commit machine date; do
+    grep -q "^# $note: ." "$table" || fail "$(basename "$table") does not say its $note"
+  done
+  [ "$(grep -vc '^#' "$table")" -gt 2 ] || fail "$(basename "$table") has no rows"
+done
+
+plot 0 --out "$dir/all"
+[ ! -s "$dir/err" ] || fail "saved results draw without warnings, but: $(cat "$dir/err")"
+for figure in "${figures[@]}"; do
+  picture="$dir/all/$figure.png"
+  [ "$(head -c 4 "$picture" 2> /dev/null | tail -c 3)" = PNG ] || { fail "no picture $figure.png"; continue; }
+  [ "$(wc -c < "$picture")" -gt 15000 ] || fail "$figure.png looks empty"
+  [ "$(wc -c < "$picture")" -lt 150000 ] || fail "$figure.png is larger than 150 kB"
+  [ "$(head -c 4 "$dir/all/$figure.pdf")" = %PDF ] || fail "no $figure.pdf"
+  [ -e "$root/docs/validation/$figure.png" ] || fail "docs/validation/$figure.png is not there"
+done
+# Figures of merit: every quantity has as many cells as the heading.
+awk -F, '!/^#/ { if (!columns) columns = NF; else rows += NF == columns; all += NF != columns }
+         END { exit !(rows >= 10 && !all && columns >= 5) }' "$dir/all/channel_summary.csv" ||
+  fail "channel_summary.csv is not a whole table"
+
+mkdir "$dir/empty"
+plot 2 --from "$dir/empty" --out "$dir/none" contacts
+says "contacts needs $dir/empty/chung_ooi_1_2.csv"
+printf 'test,overlap,force\n1,0,none\n' > "$dir/empty/chung_ooi_1_2.csv"
+plot 1 --from "$dir/empty" --out "$dir/none" contacts
+says "cannot draw contacts"
+plot 2 --keep mesh9="$dir/empty"
+says 'no mesh "mesh9"; meshes: mesh1'
+plot 2 --keep mesh1="$dir/empty" --from "$dir/empty"
+says "needs statistics.csv and config.toml"
+status=0
+"$root/barchan" plot validation zzz 2> "$dir/err" || status=$?
+[ "$status" = 2 ] || fail "the launcher ended with $status, not 2"
+says 'no figure "zzz"; figures: channel'
+
+[ "$failures" = 0 ] && echo "${#figures[@]} figures from saved results"
+exit $((failures > 0))
