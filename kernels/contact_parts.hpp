@@ -22,22 +22,34 @@ struct SplitContacts {
     const Vec3 s = box.nearest_image(grains(list.i(slot)).x - grains(list.j(slot)).x);
     return -cross((1 / norm(s)) * s, list.line(slot).twist);
   }
-  KOKKOS_FUNCTION void operator()(int g) const {
-    Vec3 pairs, pairs_tangential;
-    for (int p = list.first(g); p < list.first(g + 1); ++p) {
-      pairs += list.line(p).force;
-      pairs_tangential += tangential_of(p);
+  /// Takes the force of one pair into the sums that `normal` (all of it) and `tangential` hold.
+  KOKKOS_FUNCTION void add(int g, int slot, Real sign) const {
+    if (!list.touching(slot)) return;  // the line of an inner pair may be of an earlier touch
+    normal(g) += sign * list.line(slot).force;
+    tangential(g) += sign * tangential_of(slot);
+  }
+  KOKKOS_FUNCTION void operator()(int chunk) const {
+    const int begin = list.chunks.begin(chunk), end = list.chunks.end(chunk);
+    for (int g = begin; g < end; ++g) {
+      normal(g) = tangential(g) = Vec3{};
+      for (int p = list.first(g); p < list.first(g + 1); ++p) add(g, p, 1);
+      for (int s = list.other_first(g); s < list.other_first(g + 1); ++s) {
+        add(g, list.other_slot(s), -1);
+      }
     }
-    for (int s = list.other_first(g); s < list.other_first(g + 1); ++s) {
-      pairs += -list.line(list.other_slot(s)).force;
-      pairs_tangential += -tangential_of(list.other_slot(s));
+    for (int p = list.inner_first(begin); p < list.inner_first(end); ++p) {
+      add(list.i(p), p, 1);
+      add(list.j(p), p, -1);
     }
-    const Vec3 wall = contact_force(g) - pairs;
+    for (int g = begin; g < end; ++g) split_walls(g);
+  }
+  KOKKOS_FUNCTION void split_walls(int g) const {
+    const Vec3 wall = contact_force(g) - normal(g);
     Vec3 wall_normal;
     for (int w = kMaxWalls - 1; w >= 0; --w) {
       if (wall_touching(g) >> w & 1) wall_normal = dot(wall, plane[w].normal) * plane[w].normal;
     }
-    tangential(g) = pairs_tangential + (wall - wall_normal);
+    tangential(g) += wall - wall_normal;
     normal(g) = contact_force(g) - tangential(g);
   }
 };

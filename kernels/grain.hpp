@@ -18,6 +18,22 @@ struct alignas(32) GrainKinematics {
   Real padding = 0;
 };
 
+/// Three components and a spare number, taken from and to memory at once.
+struct alignas(32) Quad {
+  Real x, y, z, w;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 vec() const { return {x, y, z}; }
+};
+KOKKOS_FORCEINLINE_FUNCTION Quad quad(const Vec3& a) { return {a.x, a.y, a.z, 0}; }
+KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
+  return {s * a.x, s * a.y, s * a.z, s * a.w};
+}
+
 /// Periodic extents: zero where a direction is not periodic.
 struct PeriodicBox {
   Real lx = 0, lz = 0;  // [m]
@@ -32,25 +48,57 @@ struct PeriodicBox {
   }
 };
 
-/// What one pair did in the last sub-step: one cache line, all zero while it does not touch.
+/// Most rows of a chunk: on a CPU they stay in its L2 cache, on a GPU every row is a chunk.
+inline constexpr int kLargestChunk =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
+                               Kokkos::DefaultExecutionSpace::memory_space>::accessible
+        ? 2048
+        : 1;
+
+/// The grains in chunks of consecutive rows, each of which one thread takes at a time. Their size
+/// depends on the number of grains alone, so that results do not depend on the number of threads.
+struct Chunks {
+  int n = 0, rows = 1;
+
+  KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + rows - 1) / rows; }
+  KOKKOS_FORCEINLINE_FUNCTION int of(int g) const { return g / rows; }
+  KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * rows; }
+  KOKKOS_FORCEINLINE_FUNCTION int end(int chunk) const {
+    return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
+  }
+};
+/// Enough chunks to share among threads, unless that makes them tiny.
+inline Chunks make_chunks(int n) {
+  const int rows = n / 16 < 256 ? 256 : n / 16;
+  return {.n = n, .rows = rows < kLargestChunk ? rows : kLargestChunk};
+}
+
+/// What one pair did to its grains: one cache line, all zero while it does not touch. Crossing
+/// pairs write it in every sub-step, inner ones in the last of a fluid step.
 struct alignas(64) PairLine {
-  Vec3 force;       // on the first grain [N]
-  Real delta_n = 0; // [m]
-  Vec3 twist;       // n x F_t [N]
+  Vec3 force;        // on the first grain [N]
+  Real delta_n = 0;  // [m]
+  Vec3 twist;        // n x F_t [N]
   Real padding = 0;
 };
 
-/// Half Verlet list with the contacts' history. Pairs of grain i are the slots
-/// [first(i), first(i+1)), with i the first grain; grain i is the second one in the slots
-/// other_slot[other_first(i) .. other_first(i+1)).
+/// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains
+/// are of two chunks, the others those inside a chunk. Grain g is the first one of its pairs in the
+/// slots [first(g), first(g+1)), crossing, and [inner_first(g), inner_first(g+1)), inner; it is the
+/// second one in the crossing slots other_slot[other_first(g) .. other_first(g+1)).
 struct PairList {
-  int n_pairs = 0;
-  Kokkos::View<int*> first, other_first;  // (n + 1)
-  Kokkos::View<int*> i, j, other_slot;    // (n_pairs)
-  Kokkos::View<PairLine*> line;           // (n_pairs)
-  Kokkos::View<Vec3*> xi_t;               // tangential displacement of i relative to j [m]
-  Kokkos::View<Vec3*> rolling;            // rolling torque on i [N m]; empty without a rolling spring
-  Kokkos::View<std::uint8_t*> touching;   // 1 while in contact
+  Chunks chunks;
+  int n_pairs = 0, n_crossing = 0;
+  Kokkos::View<int*> first, inner_first, other_first;  // (n + 1)
+  Kokkos::View<int*> i, j;                             // (n_pairs)
+  Kokkos::View<int*> other_slot;                       // (n_crossing)
+  Kokkos::View<int*> active;     // (inner pairs) slots of a chunk's active pairs ...
+  Kokkos::View<int*> n_active;   // (chunks) ... this many, from its first inner pair on
+  Kokkos::View<Real*> slack;     // (chunks) relative way left until others may touch [m]
+  Kokkos::View<PairLine*> line;  // (n_pairs)
+  Kokkos::View<Vec3*> xi_t;      // tangential displacement of i relative to j [m]
+  Kokkos::View<Vec3*> rolling;   // rolling torque on i [N m]; empty without a rolling spring
+  Kokkos::View<std::uint8_t*> touching;  // 1 while in contact
 };
 
 }  // namespace barchan

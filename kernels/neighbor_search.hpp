@@ -1,5 +1,6 @@
 // Neighbour search in columns: grains are binned in x-z columns and sorted by height inside a
-// column, so only columns that hold grains exist and empty water costs nothing.
+// column, so only columns that hold grains exist and empty water costs nothing. Columns are
+// numbered along a Morton curve, so that grains of near rows are near in space.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,24 @@
 #include "kernels/grain.hpp"
 
 namespace barchan {
+
+/// Bits of a 16-bit number moved to the even places, and back.
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t spread_bits(std::uint32_t a) {
+  a = (a | (a << 8)) & 0x00ff00ffu;
+  a = (a | (a << 4)) & 0x0f0f0f0fu;
+  a = (a | (a << 2)) & 0x33333333u;
+  return (a | (a << 1)) & 0x55555555u;
+}
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t gather_bits(std::uint32_t a) {
+  a &= 0x55555555u;
+  a = (a | (a >> 1)) & 0x33333333u;
+  a = (a | (a >> 2)) & 0x0f0f0f0fu;
+  a = (a | (a >> 4)) & 0x00ff00ffu;
+  return (a | (a >> 8)) & 0x0000ffffu;
+}
+
+/// Columns along one direction, at most.
+inline constexpr int kMaxColumns = 65535;
 
 /// The x-z columns of the domain, each at least one cutoff wide.
 struct Columns {
@@ -20,8 +39,11 @@ struct Columns {
   KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const {
     const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
     const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);
-    return static_cast<std::uint32_t>(ix) * static_cast<std::uint32_t>(nz) +
-           static_cast<std::uint32_t>(iz);
+    return code_of(ix, iz);
+  }
+  KOKKOS_FUNCTION static std::uint32_t code_of(int ix, int iz) {
+    return (spread_bits(static_cast<std::uint32_t>(ix)) << 1) |
+           spread_bits(static_cast<std::uint32_t>(iz));
   }
   /// Sort key: column, then height. The largest key is kept for grains to be dropped.
   KOKKOS_FUNCTION std::uint64_t key_of(const Vec3& x) const {
@@ -32,13 +54,12 @@ struct Columns {
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
-    int ix = static_cast<int>(column) / nz + dx;
-    int iz = static_cast<int>(column) % nz + dz;
+    int ix = static_cast<int>(gather_bits(column >> 1)) + dx;
+    int iz = static_cast<int>(gather_bits(column)) + dz;
     if (periodic_x) ix = (ix + nx) % nx;
     if (periodic_z) iz = (iz + nz) % nz;
     if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
-    result = static_cast<std::uint32_t>(ix) * static_cast<std::uint32_t>(nz) +
-             static_cast<std::uint32_t>(iz);
+    result = code_of(ix, iz);
     return true;
   }
 };
@@ -49,9 +70,9 @@ inline constexpr int kForwardColumns = 4;  // half of the eight columns around o
 /// The columns that hold grains, in key order.
 struct OccupiedColumns {
   int n = 0;
-  Kokkos::View<std::uint32_t*> id;          // (n) ascending
-  Kokkos::View<int*> start;                 // (n + 1) first grain of each
-  Kokkos::View<int*> of_grain;              // (grains) occupied column of each grain
+  Kokkos::View<std::uint32_t*> id;               // (n) ascending
+  Kokkos::View<int*> start;                      // (n + 1) first grain of each
+  Kokkos::View<int*> of_grain;                   // (grains) occupied column of each grain
   Kokkos::View<int* [kForwardColumns]> forward;  // (n) occupied column or -1
 
   /// Position of a column id in `id`, or -1.
@@ -90,8 +111,8 @@ struct PairSearch {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
   PeriodicBox box;
-  Real skin = 0;     // [m]
-  Real r_max = 0;    // largest radius [m]
+  Real skin = 0;   // [m]
+  Real r_max = 0;  // largest radius [m]
 
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
@@ -117,14 +138,19 @@ struct PairSearch {
   }
 };
 
-/// Number of partners of each grain, into first(i) before the prefix sum.
+/// Number of partners of each grain, in its own chunk and in others.
 struct CountPairs {
   PairSearch search;
-  Kokkos::View<int*> count;
+  Chunks chunks;
+  Kokkos::View<int*> crossing, inner;
   KOKKOS_FUNCTION void operator()(int i) const {
-    int n = 0;
-    search.for_each_partner(i, [&n](int) { ++n; });
-    count(i) = n;
+    int n = 0, n_inner = 0;
+    search.for_each_partner(i, [&](int j) {
+      ++n;
+      n_inner += chunks.of(i) == chunks.of(j) ? 1 : 0;
+    });
+    crossing(i) = n - n_inner;
+    inner(i) = n_inner;
   }
 };
 
@@ -137,17 +163,20 @@ struct FillPairs {
   bool has_previous = false, has_rolling = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
-    int slot = list.first(i);
+    int crossing = list.first(i), inner = list.inner_first(i);
     search.for_each_partner(i, [&](int j) {
+      const int slot = list.chunks.of(i) == list.chunks.of(j) ? inner++ : crossing++;
       list.i(slot) = i;
       list.j(slot) = j;
       carry_history(slot, i, j);
-      ++slot;
     });
   }
   /// The old slot of pair (a, b) listed under a, or -1.
   KOKKOS_FUNCTION int old_slot(int a, int b) const {
     for (int p = previous.first(a); p < previous.first(a + 1); ++p) {
+      if (previous.j(p) == b) return p;
+    }
+    for (int p = previous.inner_first(a); p < previous.inner_first(a + 1); ++p) {
       if (previous.j(p) == b) return p;
     }
     return -1;
@@ -172,7 +201,8 @@ struct FillPairs {
   }
 };
 
-/// Registers each slot with its second grain; `cursor` holds the next free place of each grain.
+/// Registers each crossing slot with its second grain; `cursor` holds the next free place of each
+/// grain.
 struct RegisterOthers {
   PairList list;
   Kokkos::View<int*> cursor;

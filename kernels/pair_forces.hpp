@@ -1,6 +1,8 @@
-// Forces of all listed pairs, a block at a time: find the touching ones, lay them out side by
-// side, evaluate the law on all of them at once (vectorised on a CPU), put the results back.
+// Forces of listed pairs, a block at a time: lay the pairs out side by side, evaluate the law on
+// all of them at once (vectorised on a CPU), hand the results on.
 #pragma once
+
+#include <type_traits>
 
 #include "kernels/contact_force.hpp"
 #include "kernels/grain.hpp"
@@ -8,11 +10,20 @@
 
 namespace barchan {
 
-/// kBlock pairs per index; 1 on a GPU. Every pair goes through the same full vectors, so its result
-/// does not depend on where in a block it stands.
-template <class Stiffness, class Rolling, int kBlock>
+/// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
+inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
+
+/// Sum of the contact forces [N] and torques [N m] on a grain.
+struct ContactSum {
+  Quad force, torque;
+};
+
+/// As a kernel, the crossing pairs, kBlock of them per index. Every pair goes through the same full
+/// vectors, so its result does not depend on where in a block it stands.
+template <class Stiffness, class Rolling>
 struct PairForces {
   static constexpr int kVector = kBlock < 8 ? kBlock : 8;
+  static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
 
   Stiffness law;
   Rolling rolling;
@@ -22,50 +33,80 @@ struct PairForces {
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
 
-  /// Columns of a block: inputs, then results.
+  /// A block of pairs (a, b), a row each: inputs, history, results.
   struct Stage {
-    Real nx[kBlock], ny[kBlock], nz[kBlock], delta[kBlock];
-    Real ux[kBlock], uy[kBlock], uz[kBlock];  // velocity difference, then slip
-    Real sx[kBlock], sy[kBlock], sz[kBlock];  // sum of lever arm times spin
-    Real wx[kBlock], wy[kBlock], wz[kBlock];  // spin difference
-    Real r_eff[kBlock], m_eff[kBlock];
-    Real xi_x[kBlock], xi_y[kBlock], xi_z[kBlock];
-    Real tx[kBlock], ty[kBlock], tz[kBlock];  // rolling torque
-    Real fx[kBlock], fy[kBlock], fz[kBlock];  // force
-    Real cx[kBlock], cy[kBlock], cz[kBlock];  // twist
+    alignas(64) Quad separation[kBlock], slip[kBlock], arm_spin[kBlock], spin_sum[kBlock];
+    Quad spin_difference[kBlock];
+    Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
+    Quad xi[kBlock], rolling[kBlock];
+    Quad force[kBlock], twist[kBlock];  // force.w: overlap
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
     const int begin = block * kBlock;
-    const int end = begin + kBlock < list.n_pairs ? begin + kBlock : list.n_pairs;
-    int touching[kBlock];
-    const int n = find_touching(begin, end, touching);
-    if (n == 0) return;
-    Stage s;
-    for (int q = 0; q < n; ++q) load(s, q, touching[q]);
-    const int n_full = (n + kVector - 1) / kVector * kVector;
-    for (int q = n; q < n_full; ++q) load(s, q, touching[0]);
-    evaluate(s, n_full);
-    for (int q = 0; q < n; ++q) store(s, q, touching[q]);
-  }
-
-  /// Slots in [begin, end) that overlap now; slots that have just parted are cleared.
-  KOKKOS_FORCEINLINE_FUNCTION int find_touching(int begin, int end, int* found) const {
-    bool overlaps[kBlock];
-    for (int p = begin; p < end; ++p) {
-      const GrainKinematics& a = grains(list.i(p));
-      const GrainKinematics& b = grains(list.j(p));
-      const Vec3 s = box.nearest_image(a.x - b.x);
-      overlaps[p - begin] = dot(s, s) < (a.r + b.r) * (a.r + b.r);
-    }
+    const int end = begin + kBlock < list.n_crossing ? begin + kBlock : list.n_crossing;
+    int slots[kBlock];
     int n = 0;
     for (int p = begin; p < end; ++p) {
-      const bool touches = overlaps[p - begin];
-      found[n] = p;
-      n += touches ? 1 : 0;
-      if (!touches && list.touching(p)) clear(p);
+      slots[n] = p;
+      n += is_near(p, 0) ? 1 : 0;
     }
-    return n;
+    if (n == 0) return;
+    Stage s;
+    evaluate(s, slots, n);
+    for (int q = 0; q < n; ++q) store_line(s, q, slots[q]);
+  }
+
+  /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its rows; the
+  /// lines are written when `with_lines`.
+  KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums, bool with_lines) const {
+    const int first_row = list.chunks.begin(chunk);
+    const int* active = &list.active(list.inner_first(first_row) - list.n_crossing);
+    const int n_active = list.n_active(chunk);
+    Stage s;
+    for (int begin = 0; begin < n_active; begin += kBlock) {
+      const int n = begin + kBlock < n_active ? kBlock : n_active - begin;
+      const int* slots = active + begin;
+      evaluate(s, slots, n);
+      for (int q = 0; q < n; ++q) {
+        const int p = slots[q];
+        const Real half_overlap = s.force[q].w / 2;
+        ContactSum& a = sums[list.i(p) - first_row];
+        a.force = a.force + s.force[q];
+        a.torque = a.torque + (half_overlap - s.r_a[q]) * s.twist[q];
+        if constexpr (kRolls) a.torque = a.torque + s.rolling[q];
+        ContactSum& b = sums[list.j(p) - first_row];
+        b.force = b.force - s.force[q];
+        b.torque = b.torque + (half_overlap - s.r_b[q]) * s.twist[q];
+        if constexpr (kRolls) b.torque = b.torque - s.rolling[q];
+      }
+      if (!with_lines) continue;
+      for (int q = 0; q < n; ++q) store_line(s, q, slots[q]);
+    }
+  }
+
+  /// Lists the inner pairs of a chunk that are within `margin` [m] of contact as active.
+  KOKKOS_FUNCTION void find_active(int chunk, Real margin) const {
+    const int begin = list.inner_first(list.chunks.begin(chunk));
+    const int end = list.inner_first(list.chunks.end(chunk));
+    int* active = &list.active(begin - list.n_crossing);
+    int n = 0;
+    for (int p = begin; p < end; ++p) {
+      active[n] = p;
+      n += is_near(p, margin) ? 1 : 0;
+    }
+    list.n_active(chunk) = n;
+  }
+
+  /// Within `margin` of contact; a pair that is not has its history cleared.
+  KOKKOS_FORCEINLINE_FUNCTION bool is_near(int p, Real margin) const {
+    const GrainKinematics& a = grains(list.i(p));
+    const GrainKinematics& b = grains(list.j(p));
+    const Vec3 s = box.nearest_image(a.x - b.x);
+    const Real reach = a.r + b.r + margin;
+    const bool near = dot(s, s) < reach * reach;
+    if (!near && list.touching(p)) clear(p);
+    return near;
   }
 
   KOKKOS_FUNCTION void clear(int p) const {
@@ -75,67 +116,74 @@ struct PairForces {
     if constexpr (Rolling::has_history) list.rolling(p) = Vec3{};
   }
 
+  /// Loads n pairs, evaluates them and stores their history.
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, const int* slots, int n) const {
+    for (int q = 0; q < n; ++q) load(s, q, slots[q]);
+    const int n_full = (n + kVector - 1) / kVector * kVector;
+    for (int q = n; q < n_full; ++q) load(s, q, slots[0]);
+#pragma GCC ivdep
+    for (int q = 0; q < n_full; ++q) apply_law(s, q);
+    for (int q = 0; q < n; ++q) store_history(s, q, slots[q]);
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int p) const {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
-    const Vec3 separation = box.nearest_image(a.x - b.x);
-    s.nx[q] = separation.x, s.ny[q] = separation.y, s.nz[q] = separation.z;
-    s.delta[q] = a.r + b.r;
-    s.ux[q] = a.u.x - b.u.x, s.uy[q] = a.u.y - b.u.y, s.uz[q] = a.u.z - b.u.z;
-    s.sx[q] = a.r * a.omega.x + b.r * b.omega.x;
-    s.sy[q] = a.r * a.omega.y + b.r * b.omega.y;
-    s.sz[q] = a.r * a.omega.z + b.r * b.omega.z;
-    s.wx[q] = a.omega.x, s.wy[q] = a.omega.y, s.wz[q] = a.omega.z;
-    s.fx[q] = b.omega.x, s.fy[q] = b.omega.y, s.fz[q] = b.omega.z;
-    s.r_eff[q] = effective(a.r, b.r);
-    s.m_eff[q] = effective(a.m, b.m);
-    const Vec3& xi = list.xi_t(p);
-    s.xi_x[q] = xi.x, s.xi_y[q] = xi.y, s.xi_z[q] = xi.z;
-    if constexpr (Rolling::has_history) {
-      const Vec3& t = list.rolling(p);
-      s.tx[q] = t.x, s.ty[q] = t.y, s.tz[q] = t.z;
-    }
+    const Quad spin_a = quad(a.omega), spin_b = quad(b.omega);
+    s.separation[q] = quad(a.x) - quad(b.x);
+    s.slip[q] = quad(a.u) - quad(b.u);
+    s.arm_spin[q] = a.r * spin_a + b.r * spin_b;
+    s.spin_sum[q] = spin_a + spin_b;
+    if constexpr (kRolls) s.spin_difference[q] = spin_a - spin_b;
+    s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
+    s.xi[q] = quad(list.xi_t(p));
+    if constexpr (Rolling::has_history) s.rolling[q] = quad(list.rolling(p));
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int n) const {
-#pragma GCC ivdep
-    for (int q = 0; q < n; ++q) {
-      const Vec3 separation{s.nx[q], s.ny[q], s.nz[q]};
-      const Real distance = norm(separation);
-      const Vec3 normal = (1 / distance) * separation;
-      const Real delta_n = s.delta[q] - distance;
-      const Vec3 omega_i{s.wx[q], s.wy[q], s.wz[q]}, omega_j{s.fx[q], s.fy[q], s.fz[q]};
-      const Vec3 arm_spin =
-          Vec3{s.sx[q], s.sy[q], s.sz[q]} - (delta_n / 2) * (omega_i + omega_j);
-      const Vec3 slip = contact_slip(Vec3{s.ux[q], s.uy[q], s.uz[q]}, arm_spin, normal);
-      ContactResult history;
-      history.xi_t = Vec3{s.xi_x[q], s.xi_y[q], s.xi_z[q]};
-      if constexpr (Rolling::has_history) history.rolling = Vec3{s.tx[q], s.ty[q], s.tz[q]};
-      const ContactResult result = contact_force(law, rolling, friction,
-                                                 ContactPair{.normal = normal,
-                                                             .delta_n = delta_n,
-                                                             .slip = slip,
-                                                             .spin_difference = omega_i - omega_j,
-                                                             .r_eff = s.r_eff[q],
-                                                             .m_eff = s.m_eff[q]},
-                                                 history, dt);
-      s.delta[q] = delta_n;
-      s.fx[q] = result.force.x, s.fy[q] = result.force.y, s.fz[q] = result.force.z;
-      s.cx[q] = result.twist.x, s.cy[q] = result.twist.y, s.cz[q] = result.twist.z;
-      s.xi_x[q] = result.xi_t.x, s.xi_y[q] = result.xi_t.y, s.xi_z[q] = result.xi_t.z;
-      s.tx[q] = result.rolling.x, s.ty[q] = result.rolling.y, s.tz[q] = result.rolling.z;
-    }
+  KOKKOS_FORCEINLINE_FUNCTION void apply_law(Stage& s, int q) const {
+    const Vec3 separation = box.nearest_image(s.separation[q].vec());
+    const Real distance = norm(separation);
+    const Vec3 normal = (1 / distance) * separation;
+    const Real r_a = s.r_a[q], r_b = s.r_b[q];
+    const Real overlap = r_a + r_b - distance;
+    const bool touches = overlap > 0;
+    const Real delta_n = touches ? overlap : 0;
+    const Vec3 arm_spin = s.arm_spin[q].vec() - (delta_n / 2) * s.spin_sum[q].vec();
+    ContactResult history;
+    history.xi_t = s.xi[q].vec();
+    if constexpr (Rolling::has_history) history.rolling = s.rolling[q].vec();
+    Vec3 spin_difference;
+    if constexpr (kRolls) spin_difference = s.spin_difference[q].vec();
+    const ContactResult result =
+        contact_force(law, rolling, friction,
+                      ContactPair{.normal = normal,
+                                  .delta_n = delta_n,
+                                  .slip = contact_slip(s.slip[q].vec(), arm_spin, normal),
+                                  .spin_difference = spin_difference,
+                                  .r_eff = effective(r_a, r_b),
+                                  .m_eff = effective(s.m_a[q], s.m_b[q])},
+                      history, dt);
+    const Real on = touches ? 1 : 0;
+    put(s.force[q], on * result.force, delta_n);
+    put(s.twist[q], on * result.twist, 0);
+    put(s.xi[q], on * result.xi_t, 0);
+    if constexpr (kRolls) put(s.rolling[q], on * result.rolling, 0);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static void put(Quad& to, const Vec3& a, Real w) {
+    to.x = a.x, to.y = a.y, to.z = a.z, to.w = w;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void store(const Stage& s, int q, int p) const {
+  KOKKOS_FORCEINLINE_FUNCTION void store_history(const Stage& s, int q, int p) const {
+    list.xi_t(p) = s.xi[q].vec();
+    list.touching(p) = s.force[q].w > 0 ? 1 : 0;
+    if constexpr (kRolls) list.rolling(p) = s.rolling[q].vec();
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void store_line(const Stage& s, int q, int p) const {
     PairLine& line = list.line(p);
-    line.force = Vec3{s.fx[q], s.fy[q], s.fz[q]};
-    line.delta_n = s.delta[q];
-    line.twist = Vec3{s.cx[q], s.cy[q], s.cz[q]};
-    list.xi_t(p) = Vec3{s.xi_x[q], s.xi_y[q], s.xi_z[q]};
-    list.touching(p) = 1;
-    // Without a spring the torque of the constant-torque law still has to reach the gather.
-    if (list.rolling.extent(0) > 0) list.rolling(p) = Vec3{s.tx[q], s.ty[q], s.tz[q]};
+    line.force = s.force[q].vec();
+    line.delta_n = s.force[q].w;
+    line.twist = s.twist[q].vec();
   }
 };
 

@@ -10,6 +10,7 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
   if (!state.grains) return;
   frozen_ = config.grains->frozen;
   grains_ = std::make_unique<GrainSolver>(config, *state.grains);
+  state.grains->fluid.none = !state.fluid && !config.grains->ambient;
   const auto& g = config.grains->gravity;
   still_.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {

@@ -8,13 +8,6 @@ namespace barchan {
 
 namespace {
 
-/// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
-constexpr int kBlock =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
-                               Kokkos::DefaultExecutionSpace::memory_space>::accessible
-        ? 64
-        : 1;
-
 StiffnessLaw make_law(const GrainConfig& grains, const Material& a, const Material& b) {
   const Real damping = damping_ratio(b.restitution);
   if (grains.contact_model == ContactModel::linear) {
@@ -32,10 +25,14 @@ RollingLaw make_rolling(const GrainConfig& grains) {
     return NoRolling{};  // every model vanishes with mu_r
   }
   switch (grains.rolling_model) {
-    case RollingModel::epsd2: return Epsd2{};
-    case RollingModel::theta_m: return ThetaM{.theta_m = grains.rolling_theta_m};
-    case RollingModel::cdt: return ConstantTorque{};
-    case RollingModel::none: break;
+    case RollingModel::epsd2:
+      return Epsd2{};
+    case RollingModel::theta_m:
+      return ThetaM{.theta_m = grains.rolling_theta_m};
+    case RollingModel::cdt:
+      return ConstantTorque{};
+    case RollingModel::none:
+      break;
   }
   return NoRolling{};
 }
@@ -76,8 +73,8 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
 }
 
 template <class Stiffness, class Rolling>
-void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains,
-                            int n, Real dt) {
+void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n,
+                            Real dt) {
   const auto motion = [&] {
     return KickAndDrift{.dt = dt,
                         .grains = grains.kin,
@@ -87,21 +84,22 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                         .fluid = grains.fluid};
   };
   Real moved = 0;
+  Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", grains.n, motion(),
                           Kokkos::Max<Real>(moved));
   for (int s = 0; s < n; ++s) {
     if (list_.is_stale(moved)) list_.rebuild(grains, false);
-    const int n_blocks = (grains.list.n_pairs + kBlock - 1) / kBlock;
-    Kokkos::parallel_for("grains: pair forces", n_blocks,
-                         PairForces<Stiffness, Rolling, kBlock>{.law = law,
-                                                                .rolling = rolling,
-                                                                .friction = pair_friction_,
-                                                                .box = list_.box(),
-                                                                .dt = dt,
-                                                                .grains = grains.kin,
-                                                                .list = grains.list});
+    const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
+    const PairForces<Stiffness, Rolling> pairs{.law = law,
+                                               .rolling = rolling,
+                                               .friction = pair_friction_,
+                                               .box = list_.box(),
+                                               .dt = dt,
+                                               .grains = grains.kin,
+                                               .list = grains.list};
+    Kokkos::parallel_for("grains: crossing pairs", n_blocks, pairs);
     SumKickDrift<Stiffness, Rolling> sum{.motion = motion(),
-                                         .list = grains.list,
+                                         .pairs = pairs,
                                          .walls = {.n = n_walls_,
                                                    .plane = {},
                                                    .law = std::get<Stiffness>(wall_law_),
@@ -111,9 +109,11 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                                                    .torque = grains.wall_torque,
                                                    .touching = grains.wall_touching},
                                          .has_rolling = list_.with_rolling,
-                                         .last = s + 1 == n};
+                                         .last = s + 1 == n,
+                                         .margin = list_.margin()};
     for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
-    Kokkos::parallel_reduce("grains: sum, kick and drift", grains.n, sum, Kokkos::Max<Real>(moved));
+    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift", grains.list.chunks.count(),
+                            sum, Kokkos::Max<Real>(moved));
   }
 }
 
@@ -146,7 +146,7 @@ void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Ve
                       .normal = normal,
                       .tangential = tangential};
   for (int w = 0; w < n_walls_; ++w) split.plane[w] = plane_[w];
-  Kokkos::parallel_for("output: split contacts", grains.n, split);
+  Kokkos::parallel_for("output: split contacts", grains.list.chunks.count(), split);
 }
 
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {
@@ -162,7 +162,8 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
         overlap = relative > overlap ? relative : overlap;
       },
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
-  if (summary.n_contacts == 0) summary.max_overlap = 0;  // the maximum over nothing is minus infinity
+  if (summary.n_contacts == 0)
+    summary.max_overlap = 0;  // the maximum over nothing is minus infinity
   return summary;
 }
 

@@ -11,7 +11,7 @@ namespace barchan {
 namespace {
 
 int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
-  const int n = std::max(1, static_cast<int>(std::floor(extent / cutoff)));
+  const int n = std::clamp(static_cast<int>(std::floor(extent / cutoff)), 1, kMaxColumns);
   if (periodic && n < 3) {
     throw std::runtime_error(std::string("the domain is too narrow along ") + axis +
                              " for periodic grains: it must be at least three contact ranges (" +
@@ -29,19 +29,19 @@ void reserve(View& view, const char* label, int n) {
   }
 }
 
-/// Turns counts in [0, n) into starts, the total at n. Returns the total.
-int counts_to_starts(const Kokkos::View<int*>& a, int n) {
+/// Turns counts in [0, n) into starts from `begin` on, the end at n. Returns the end.
+int counts_to_starts(const Kokkos::View<int*>& a, int n, int begin = 0) {
   int total = 0;
   Kokkos::parallel_scan(
       "neighbors: prefix sum", n,
       KOKKOS_LAMBDA(int i, int& sum, bool final) {
         const int count = a(i);
-        if (final) a(i) = sum;
+        if (final) a(i) = begin + sum;
         sum += count;
       },
       total);
-  Kokkos::deep_copy(Kokkos::subview(a, n), total);
-  return total;
+  Kokkos::deep_copy(Kokkos::subview(a, n), begin + total);
+  return begin + total;
 }
 
 }  // namespace
@@ -153,16 +153,26 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   find_columns(kin, n);
   std::swap(grains.list, previous_);
   PairList& list = grains.list;
+  list.chunks = make_chunks(n);
   reserve(list.first, "pairs: first", n + 1);
+  reserve(list.inner_first, "pairs: inner first", n + 1);
   reserve(list.other_first, "pairs: other first", n + 1);
   const PairSearch pair_search{
       .grains = kin, .occupied = occupied_, .box = box_, .skin = skin_, .r_max = r_max_};
   Kokkos::parallel_for("neighbors: count", n,
-                       CountPairs{.search = pair_search, .count = list.first});
-  list.n_pairs = counts_to_starts(list.first, n);
+                       CountPairs{.search = pair_search,
+                                  .chunks = list.chunks,
+                                  .crossing = list.first,
+                                  .inner = list.inner_first});
+  list.n_crossing = counts_to_starts(list.first, n);
+  list.n_pairs = counts_to_starts(list.inner_first, n, list.n_crossing);
   reserve(list.i, "pairs: i", list.n_pairs);
   reserve(list.j, "pairs: j", list.n_pairs);
-  reserve(list.other_slot, "pairs: other slot", list.n_pairs);
+  reserve(list.other_slot, "pairs: other slot", list.n_crossing);
+  reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing);
+  reserve(list.n_active, "chunks: active pairs", list.chunks.count());
+  reserve(list.slack, "chunks: slack", list.chunks.count());
+  Kokkos::deep_copy(list.slack, -1.0);
   reserve(list.line, "pairs: line", list.n_pairs);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
@@ -177,13 +187,13 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   const PairList filled = list;
   Kokkos::deep_copy(filled.other_first, 0);
   Kokkos::parallel_for(
-      "neighbors: count others", filled.n_pairs,
+      "neighbors: count others", filled.n_crossing,
       KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&filled.other_first(filled.j(slot))); });
   counts_to_starts(list.other_first, n);
   reserve(cursor_, "pairs: cursor", n + 1);
   const auto span = std::pair<int, int>(0, n + 1);
   Kokkos::deep_copy(Kokkos::subview(cursor_, span), Kokkos::subview(list.other_first, span));
-  Kokkos::parallel_for("neighbors: register others", list.n_pairs,
+  Kokkos::parallel_for("neighbors: register others", list.n_crossing,
                        RegisterOthers{.list = list, .cursor = cursor_});
   Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
 }

@@ -106,7 +106,9 @@ TEST(GrainSolver, DragRelaxesToTheFluid) {
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
   const auto u_f = c.state.fluid.u_f;
   Kokkos::parallel_for(
-      "test: flow", 1, KOKKOS_LAMBDA(int p) { u_f(p) = Vec3{0.1, 0, 0.02}; });
+      "test: flow", 1, KOKKOS_LAMBDA(int p) {
+        u_f(p) = Vec3{0.1, 0, 0.02};
+      });
   c.solver.advance(c.state, 2000, 2.5e-6);
   const Real expected = 0.1 * (1 - std::exp(-5e-3 / (1.2 * 5e-3)));
   EXPECT_NEAR(rows_by_id(c.state)[1].u.x, expected, 1e-3 * expected);
@@ -116,6 +118,7 @@ TEST(GrainSolver, DragRelaxesToTheFluid) {
   EXPECT_NEAR(impulse(0).x / (1.2 * m * rows_by_id(c.state)[1].u.x), 1, 1e-12);
 }
 
+// Each call looks for active pairs anew, so this also shows that none is missed between calls.
 TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   Config config = grain_config();
   config.size = {0.003, 0.003, 0.003};
@@ -123,9 +126,11 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   config.grains->wall = config.grains->material;
   InitialGrains g;
   std::mt19937_64 generator(2);
-  for (int n = 0; n < 200; ++n) {
-    const auto u = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53 - 0.5; };
-    add_grain(g, 2e-4, {2.1e-4 * (n % 6 + 1), 2.1e-4 * (n / 36 + 1), 2.1e-4 * (n / 6 % 6 + 1)},
+  for (int n = 0; n < 1200; ++n) {
+    const auto u = [&generator] {
+      return static_cast<double>(generator() >> 11) * 0x1.0p-53 - 0.5;
+    };
+    add_grain(g, 2e-4, {2.1e-4 * (n % 12 + 1), 2.1e-4 * (n / 144 + 1), 2.1e-4 * (n / 12 % 12 + 1)},
               {0.4 * u(), 0.4 * u(), 0.4 * u()});
   }
   Case together(config, g), apart(config, g);
@@ -133,6 +138,9 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   together.solver.advance(together.state, 300, 2.5e-6);
   for (int n = 0; n < 300; ++n) apart.solver.advance(apart.state, 1, 2.5e-6);
   EXPECT_GT(together.solver.rebuilds(), 3);
+  const PairList& list = together.state.list;
+  EXPECT_GT(list.chunks.count(), 1);
+  EXPECT_GT(list.n_crossing, 100);
   const auto a = rows_by_id(together.state), b = rows_by_id(apart.state);
   for (std::size_t n = 1; n < a.size(); ++n) {
     EXPECT_EQ(norm(a[n].x - b[n].x), 0);
