@@ -1,0 +1,171 @@
+// Sediment transport over a flat bed of 5,000 grains under turbulent water, the case
+// configs/validation/flat-bed.toml: its flux is Wong & Parker's, and none well below threshold.
+#include <algorithm>
+#include <cmath>
+
+#include "src/config_load.hpp"
+#include "src/initial_flow.hpp"
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/drag_reference.hpp"
+#include "tests/support/packing.hpp"
+
+namespace barchan {
+namespace {
+
+using namespace testing;
+
+constexpr int kGrains = 5000;
+constexpr double kDiameter = 2e-4, kSubmerged = 1500 * 9.81, kDensity = 1000;
+
+Config bed_config() { return load_config(BARCHAN_SOURCE_DIR "/configs/validation/flat-bed.toml"); }
+
+/// Grains of 0.15 to 0.25 mm, settled from a loose lattice in still water.
+InitialGrains settled_bed() {
+  Config c = bed_config();
+  c.fluid.reset();
+  c.grains->ambient.emplace();
+  test::CoupledRun pour(c, lattice_packing(kGrains, c.size, 0.01));
+  pour.advance(300);
+  InitialGrains grains;
+  const auto kin = host_copy(pour.state.grains->kin);
+  for (int g = 0; g < pour.state.grains->n; ++g) add_grain(grains, 2 * kin(g).r, kin(g).x);
+  return grains;
+}
+
+/// The flow over the bed held in place, from the log law on: turbulence develops.
+FluidState developed_flow(Config c, const InitialGrains& grains, double seconds) {
+  c.grains->frozen = true;
+  SystemState state{make_fluid_state(make_grid(c)), make_grain_state(grains, c.grains->density)};
+  set_turbulent_flow(c, *state.fluid);
+  CoupledStep step(c, state);
+  step.start(state);
+  double drive = 0;
+  const int n_steps = static_cast<int>(std::lround(seconds / c.time.fluid_step));
+  for (int n = 1; n <= n_steps; ++n) {
+    step.advance(state);
+    drive += kDensity * state.fluid->drive;
+    if (n % (n_steps / 4) > 0) continue;
+    std::printf("[ measured ] bed held, up to %.2f s: drive %.4g Pa/m\n", n * c.time.fluid_step,
+                drive / (n_steps / 4));
+    drive = 0;
+  }
+  state.fluid->has_history = false;  // it goes on with another step: grains that move
+  return *state.fluid;
+}
+
+/// What a stretch of time has seen.
+struct Transport {
+  double time = 0;           // [s]
+  double flux = 0;           // solid volume per width and time [m^2/s]
+  double stress = 0;         // on the surface of the bed [Pa]
+  double fastest_drift = 0;  // of any grain, its displacement along x over the time [m/s]
+
+  double q_star() const { return flux / std::sqrt(kSubmerged / kDensity * std::pow(kDiameter, 3)); }
+  double shields() const { return stress / (kSubmerged * kDiameter); }
+  /// Wong & Parker, J. Hydraul. Eng. 132, 1159 (2006), their second form.
+  double wong_parker() const { return 3.97 * std::pow(std::max(0.0, shields() - 0.0495), 1.5); }
+};
+
+class FlatBed {
+ public:
+  FlatBed(const Config& c, const InitialGrains& grains, const FluidState& flow)
+      : config_(c), state_{flow, make_grain_state(grains, c.grains->density)}, step_(c, state_) {
+    for (const double d : grains.diameter) volume_.push_back(test::volume_of(d));
+    for (const double v : volume_) solid_ += v;
+    step_.start(state_);
+  }
+
+  void advance(double seconds) {
+    for (double t = 0; t < seconds * (1 - 1e-9); t += config_.time.fluid_step) {
+      step_.advance(state_);
+    }
+  }
+
+  /// The next `seconds`. The stress on the bed is what the drive gives the water above it, less
+  /// what that water keeps.
+  Transport measure(double seconds) {
+    Transport seen;
+    const double area = config_.size[0] * config_.size[2], dt = config_.time.fluid_step;
+    const double depth = solid_ / (0.58 * area);  // random loose to close packing
+    std::vector<double> drift(volume_.size());
+    const double before = momentum_per_area();
+    double impulse = 0;
+    for (; seen.time < seconds * (1 - 1e-9); seen.time += dt) {
+      step_.advance(state_);
+      impulse += kDensity * state_.fluid->drive * (config_.size[1] - depth) * dt;
+      const auto kin = host_copy(state_.grains->kin);
+      const auto id = host_copy(state_.grains->id);
+      for (int g = 0; g < state_.grains->n; ++g) {
+        drift[static_cast<std::size_t>(id(g) - 1)] += kin(g).u.x * dt;
+      }
+    }
+    seen.stress = (impulse - (momentum_per_area() - before)) / seen.time;
+    for (std::size_t g = 0; g < drift.size(); ++g) {
+      seen.flux += volume_[g] * drift[g] / (area * seen.time);
+      seen.fastest_drift = std::max(seen.fastest_drift, std::abs(drift[g]) / seen.time);
+    }
+    return seen;
+  }
+
+ private:
+  /// Of the water [N s/m2].
+  double momentum_per_area() {
+    const double area = config_.size[0] * config_.size[2];
+    return kDensity * step_.fluid_solver()->bulk_velocity(*state_.fluid) *
+           (config_.size[1] - solid_ / area);
+  }
+
+  Config config_;
+  SystemState state_;
+  CoupledStep step_;
+  std::vector<double> volume_;  // by id, from 1 on [m^3]
+  double solid_ = 0;            // [m^3]
+};
+
+void print(const char* what, const Transport& t) {
+  std::printf(
+      "[ measured ] %s, %.2f s: stress %.4g Pa, Shields %.4f, q %.3g m2/s, q* %.3g (Wong & Parker "
+      "%.3g), fastest drift %.3g m/s\n",
+      what, t.time, t.stress, t.shields(), t.flux, t.q_star(), t.wong_parker(), t.fastest_drift);
+}
+
+/// About the paper's stress, 0.256 Pa.
+TEST(BedLoadNightly, FluxIsWongAndParkersWithinAFactorOfThree) {
+  const Config c = bed_config();
+  const InitialGrains grains = settled_bed();
+  FlatBed bed(c, grains, developed_flow(c, grains, 2.0));
+  bed.advance(0.5);
+  Transport all;
+  constexpr int n_blocks = 5;
+  for (int b = 0; b < n_blocks; ++b) {
+    const Transport block = bed.measure(0.4);
+    print("block", block);
+    all.time += block.time;
+    all.flux += block.flux / n_blocks;
+    all.stress += block.stress / n_blocks;
+    all.fastest_drift = std::max(all.fastest_drift, block.fastest_drift);
+  }
+  print("all", all);
+  ASSERT_NEAR(all.stress, 0.256, 0.2 * 0.256) << "not the case that was meant";
+  EXPECT_GT(all.q_star(), all.wong_parker() / 3);
+  EXPECT_LT(all.q_star(), all.wong_parker() * 3);
+}
+
+/// At half the threshold: no flux, and no grain drifts by more than a diameter a second.
+TEST(BedLoadNightly, NothingMovesWellBelowTheThreshold) {
+  Config c = bed_config();
+  const double stress = 0.5 * 0.0495 * kSubmerged * kDiameter;
+  c.fluid->mean_velocity = 0;
+  c.fluid->pressure_gradient = stress / 0.0121;  // over the clear flow
+  const InitialGrains grains = settled_bed();
+  FlatBed bed(c, grains, developed_flow(c, grains, 1.0));
+  bed.advance(0.3);
+  const Transport seen = bed.measure(1.0);
+  print("below threshold", seen);
+  ASSERT_NEAR(seen.shields() / 0.0495, 0.5, 0.1) << "not the case that was meant";
+  EXPECT_LT(std::abs(seen.q_star()), 1e-4);
+  EXPECT_LT(seen.fastest_drift, kDiameter);
+}
+
+}  // namespace
+}  // namespace barchan
