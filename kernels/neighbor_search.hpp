@@ -195,7 +195,8 @@ struct FillPairs {
     list.touching(slot) = known ? previous.touching(p) : std::uint8_t{0};
     list.xi_t(slot) = known ? sign * previous.xi_t(p) : Vec3{};
     if (has_rolling) list.rolling(slot) = known ? sign * previous.rolling(p) : Vec3{};
-    PairLine line = known ? previous.line(p) : PairLine{};
+    // An inner pair may have the line of an earlier touch, which no crossing pair may have.
+    PairLine line = known && previous.touching(p) ? previous.line(p) : PairLine{};
     line.force = sign * line.force;  // twist = n x F_t keeps its sign
     list.line(slot) = line;
   }
