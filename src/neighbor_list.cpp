@@ -1,5 +1,6 @@
 #include "src/neighbor_list.hpp"
 
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <Kokkos_Sort.hpp>
 #include <algorithm>
 #include <cmath>
@@ -169,7 +170,7 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   reserve(list.i, "pairs: i", list.n_pairs);
   reserve(list.j, "pairs: j", list.n_pairs);
   reserve(list.other_slot, "pairs: other slot", list.n_crossing);
-  reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing);
+  reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "chunks: slack", list.chunks.count());
   Kokkos::deep_copy(list.slack, -1.0);
@@ -199,6 +200,7 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
 }
 
 void NeighborList::rebuild(GrainState& grains, bool drop) {
+  const Kokkos::Profiling::ScopedRegion region("list rebuild");
   check_positions(grains);
   wrap(grains);
   sort(grains, drop);

@@ -1,0 +1,139 @@
+#include "perf/cases.hpp"
+
+#include <cmath>
+
+#include "perf/heaps.hpp"
+#include "perf/options.hpp"
+#include "src/config_load.hpp"
+#include "src/initial_state.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr std::array<double, 3> paper_channel{0.4, 0.025, 0.1};  // [m]
+
+/// The same physics in a box that takes milliseconds.
+void shrink(Config& c) {
+  c.size = {0.04, 0.0125, 0.02};
+  if (c.fluid) c.fluid->cells = {32, 12, 16}, c.fluid->first_cell_height = 0;
+}
+
+void add_grains(Config& c) {
+  c.grains.emplace();
+  c.grains->wall = c.grains->material;
+}
+
+CaseSpec sized(CaseSpec spec) {
+  if (options().tiny) shrink(spec.config);
+  return spec;
+}
+
+}  // namespace
+
+CaseSpec grains_alone(const std::string& name, const std::string& heap, double rolling_friction) {
+  CaseSpec spec{.name = name, .config = {}, .heap = heap};
+  Config& c = spec.config;
+  c.size = paper_channel;
+  add_grains(c);
+  GrainConfig& grains = *c.grains;
+  grains.material.rolling_friction = grains.wall.rolling_friction = rolling_friction;
+  grains.gravity = {0, -5.886, 0};
+  grains.skin = 2e-5;
+  return sized(spec);
+}
+
+CaseSpec channel_flow(const std::string& name) {
+  CaseSpec spec{.name = name, .config = {}, .untimed_steps = 20};
+  Config& c = spec.config;
+  c.size = paper_channel;
+  c.fluid.emplace();
+  c.fluid->cells = {250, 30, 63};
+  c.fluid->first_cell_height = 2.625e-4;
+  c.fluid->mean_velocity = 0.28;
+  c.initial.fluid = "turbulent";
+  return sized(spec);
+}
+
+CaseSpec heap_in_channel(const std::string& name, const std::string& heap) {
+  CaseSpec spec = channel_flow(name);
+  spec.heap = heap;
+  spec.untimed_steps = 5;
+  add_grains(spec.config);
+  return spec;
+}
+
+CaseSpec shipped_10k(const std::string& name) {
+  CaseSpec spec{.name = name,
+                .config = load_config(BARCHAN_SOURCE_DIR "/configs/barchan-10k.toml"),
+                .heap = "heap_10k",
+                .untimed_steps = 5};
+  spec.config.initial.fluid = "turbulent";
+  return sized(spec);
+}
+
+namespace {
+
+/// Lets the water find its way around the grains before they may move: a flow that does not know of
+/// the heap would blow it apart in its first steps, and lists would be rebuilt all the time.
+void flow_around_held_grains(Config config, SystemState& state) {
+  constexpr int n_steps = 30;
+  config.grains->frozen = true;
+  CoupledStep step(config, state);
+  step.start(state);
+  for (int n = 0; n < n_steps; ++n) step.advance(state);
+}
+
+}  // namespace
+
+RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
+  Config& config = spec.config;
+  Config flow_alone = config;
+  flow_alone.grains.reset();
+  state = make_initial_state(flow_alone, {});
+  if (config.grains) {
+    Heap heap = settled_heap(spec.heap);
+    heap_source = heap.source;
+    if (config.size != paper_channel) move_into(heap.grains, config.size);
+    state.grains = make_grain_state(heap.grains, config.grains->density);
+  }
+  if (state.fluid && state.grains) flow_around_held_grains(config, state);
+  step = std::make_unique<CoupledStep>(config, state);
+  step->start(state);
+  // The list and the rows have two sets of memory, taken in the first two rebuilds.
+  if (state.grains) step->grain_solver()->start(*state.grains);
+  for (int n = 0; n < spec.untimed_steps; ++n) advance();
+}
+
+void RunningCase::advance() {
+  // start() is a rebuild that keeps the contact history, as after the loss of a grain.
+  if (spec.rebuild_each_step) step->grain_solver()->start(*state.grains);
+  step->advance(state);
+}
+
+double RunningCase::cells() const {
+  if (!state.fluid) return 0;
+  const Grid& g = state.fluid->grid;
+  return static_cast<double>(g.nx) * g.ny * g.nz;
+}
+
+namespace {
+
+std::unique_ptr<RunningCase>& last_case() {
+  static std::unique_ptr<RunningCase> the_case;
+  return the_case;
+}
+
+}  // namespace
+
+RunningCase& running_case(const CaseSpec& spec) {
+  std::unique_ptr<RunningCase>& last = last_case();
+  if (last && last->spec.name == spec.name) return *last;
+  last.reset();  // before the next takes memory
+  last = std::make_unique<RunningCase>(spec);
+  return *last;
+}
+
+void drop_running_case() { last_case().reset(); }
+
+}  // namespace barchan

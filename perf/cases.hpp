@@ -1,0 +1,52 @@
+// The workloads: configurations, settled heaps, and the case that is being run.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "src/coupled_step.hpp"
+
+namespace barchan {
+
+/// A workload, before it is set up.
+struct CaseSpec {
+  std::string name;  // also the key under which the running case is kept
+  Config config;
+  std::string heap = {};  // "heap_100k", "heap_10k", "lattice" (nothing touches) or none
+  bool rebuild_each_step = false;
+  int untimed_steps = 2;  // CoupledStep::advance before the first timed one
+};
+
+/// Grains alone as the peers run them: no water, gravity 5.886 m/s^2, skin 2e-5 m, 100 grain
+/// steps of 2.5e-6 s in one advance.
+CaseSpec grains_alone(const std::string& name, const std::string& heap, double rolling_friction);
+/// Mesh 1 of the paper (250 x 30 x 63 cells), WALE, bulk velocity 0.28 m/s, perturbed log law.
+CaseSpec channel_flow(const std::string& name);
+/// The heap on that mesh, 100 grain steps in a fluid step of 2.5e-4 s.
+CaseSpec heap_in_channel(const std::string& name, const std::string& heap);
+/// configs/barchan-10k.toml, from a perturbed flow over a heap at rest.
+CaseSpec shipped_10k(const std::string& name);
+
+/// A case that is set up and warm.
+class RunningCase {
+ public:
+  explicit RunningCase(const CaseSpec& spec);
+  void advance();
+
+  int grains() const { return state.grains ? state.grains->n : 0; }
+  double cells() const;
+  double per_grain(std::int64_t count) const { return static_cast<double>(count) / grains(); }
+
+  CaseSpec spec;
+  std::string heap_source;  // file, or "settled here"
+  SystemState state;
+  std::unique_ptr<CoupledStep> step;
+};
+
+/// The case of this name, set up unless it is the one that ran last: benchmarks that share it and
+/// the repetitions of one go on where the last stopped.
+RunningCase& running_case(const CaseSpec& spec);
+/// To be called before Kokkos ends.
+void drop_running_case();
+
+}  // namespace barchan

@@ -1,0 +1,121 @@
+#include "perf/heaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "perf/cases.hpp"
+#include "perf/options.hpp"
+#include "src/grain_files.hpp"
+#include "src/initial_state.hpp"
+
+namespace barchan {
+
+namespace {
+
+int grain_count(const std::string& name) {
+  if (name == "heap_10k") return options().tiny ? 500 : 10000;
+  return options().tiny ? 1000 : 100000;
+}
+
+/// Grains of the paper's Table II, in proportion, on the lattice that heaps settle from.
+void pour(Config& c, int n) {
+  const auto part = [n](std::int64_t of_100k) { return of_100k * n / 100000; };
+  c.grains->sizes = {{1.5e-4, part(2276)},
+                     {1.75e-4, part(13592)},
+                     {2e-4, part(68267)},
+                     {2.25e-4, part(13591)},
+                     {2.5e-4, part(2274)}};
+  c.initial.pour.emplace();
+  c.initial.pour->radius = 0.013 * std::cbrt(n / 1e5);
+  c.initial.pour->centre = {0.04, 0.05};
+}
+
+InitialGrains read_back(const GrainState& grains) {
+  InitialGrains list;
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grains.kin);
+  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grains.id);
+  for (int g = 0; g < grains.n; ++g) {
+    list.id.push_back(id(g));
+    list.diameter.push_back(2 * kin(g).r);
+    list.x.push_back(kin(g).x);
+    list.u.push_back({});
+    list.omega.push_back({});
+  }
+  return list;
+}
+
+InitialGrains settle(const std::string& name) {
+  CaseSpec spec = grains_alone("settling", "", 0);
+  Config& config = spec.config;
+  config.size = {0.4, 0.025, 0.1};
+  pour(config, grain_count(name));
+  const int n_steps = options().tiny ? 40 : 200;  // of 2.5e-4 s
+  if (!options().tiny) std::fprintf(stderr, "settling %s, once\n", name.c_str());
+  SystemState state = make_initial_state(config, {});
+  CoupledStep step(config, state);
+  step.start(state);
+  for (int n = 0; n < n_steps; ++n) step.advance(state);
+  return read_back(*state.grains);
+}
+
+void write_csv(const InitialGrains& grains, const std::filesystem::path& file) {
+  std::filesystem::create_directories(file.parent_path());
+  const std::filesystem::path beside = file.string() + ".part";
+  std::FILE* out = std::fopen(beside.c_str(), "w");
+  if (out == nullptr) throw std::runtime_error("cannot write " + beside.string());
+  std::fprintf(out, "id,diameter,x,y,z\n");
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vec3& x = grains.x[g];
+    std::fprintf(out, "%lld,%.6g,%.10g,%.10g,%.10g\n", static_cast<long long>(grains.id[g]),
+                 grains.diameter[g], x.x, x.y, x.z);
+  }
+  std::fclose(out);
+  std::filesystem::rename(beside, file);
+}
+
+/// Rows of grains with a gap of a diameter between them, off the floor.
+InitialGrains spread_out(int n) {
+  InitialGrains grains;
+  const double d = 2e-4, pitch = 2 * d;
+  const int side = static_cast<int>(std::ceil(std::cbrt(n)));
+  for (int g = 0; g < n; ++g) {
+    grains.id.push_back(g + 1);
+    grains.diameter.push_back(d);
+    grains.x.push_back({0.01 + pitch * (g % side), pitch * (1 + g / side / side),
+                        0.005 + pitch * (g / side % side)});
+    grains.u.push_back({});
+    grains.omega.push_back({});
+  }
+  return grains;
+}
+
+Heap make_heap(const std::string& name) {
+  if (name == "lattice") return {spread_out(grain_count(name)), "lattice"};
+  const bool keeps = !options().tiny && !options().heaps.empty();
+  const std::filesystem::path file = options().heaps / (name + ".csv");
+  if (keeps && std::filesystem::exists(file)) return {read_grains(file), file.string()};
+  Heap heap{settle(name), "settled here"};
+  if (keeps) write_csv(heap.grains, file);
+  return heap;
+}
+
+}  // namespace
+
+Heap settled_heap(const std::string& name) {
+  static std::map<std::string, Heap> heaps;
+  const auto known = heaps.find(name);
+  return known != heaps.end() ? known->second : heaps.emplace(name, make_heap(name)).first->second;
+}
+
+void move_into(InitialGrains& grains, const std::array<double, 3>& domain) {
+  double x = 0, z = 0;
+  for (const Vec3& at : grains.x) x += at.x, z += at.z;
+  const auto n = static_cast<double>(grains.size());
+  const double to_x = std::max(0.02, 0.1 * domain[0]) - x / n, to_z = domain[2] / 2 - z / n;
+  for (Vec3& at : grains.x) at.x += to_x, at.z += to_z;
+}
+
+}  // namespace barchan

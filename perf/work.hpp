@@ -1,0 +1,92 @@
+// Computed work of kernels and steps. Bytes: every array a pass needs is streamed once, 8 bytes a
+// double, writes without the line they fetch first; what a kernel reads again comes from cache.
+// Flops: counted in the source, with a division, a root and a comparison that selects as one each.
+#pragma once
+
+#include <cmath>
+
+#include "kernels/grain.hpp"
+
+namespace barchan {
+
+struct Work {
+  double bytes = 0, flops = 0;
+
+  Work operator+(const Work& other) const { return {bytes + other.bytes, flops + other.flops}; }
+};
+inline Work operator*(double times, const Work& work) {
+  return {times * work.bytes, times * work.flops};
+}
+
+namespace work {
+
+/// A pass over the cells: doubles read and written, flops, per cell.
+inline Work pass(double doubles, double flops) { return {doubles * sizeof(Real), flops}; }
+
+// --- grains, per grain and grain step
+// ---------------------------------------------------------------
+
+/// Sum, kicks, drift: kinematics there and back, reference position, steady force, wall bits; in
+/// water u_f, beta, added mass, and drag impulse there and back. 105 flops, 12 more with drag.
+inline Work integrate(bool in_water) {
+  const double alone = 2.0 * sizeof(GrainKinematics) + 2.0 * sizeof(Vec3) + 2;
+  const double water = 3.0 * sizeof(Vec3) + 2.0 * sizeof(Real);
+  return {alone + (in_water ? water : 0), in_water ? 117.0 : 105.0};
+}
+/// Pair forces: i, j and the slot of a pair; history (and rolling torque) and touching flag of a
+/// contact there and back. 181 flops a contact, 44 more with a rolling spring.
+inline Work pair_forces(double pairs, double contacts, bool rolling) {
+  const double history = 2.0 * sizeof(Vec3) * (rolling ? 2 : 1) + 2;
+  return {pairs * 3 * sizeof(int) + contacts * history, contacts * (rolling ? 225.0 : 181.0)};
+}
+/// List build: kinematics, eleven vectors and three numbers there and back in the new order, two
+/// passes of the search over the kinematics, sort keys and rows; i, j, flags, lines and histories
+/// of the pairs from the old list to the new. History of walls left out; flops do not matter.
+inline Work list_build(double pairs) {
+  const double grain =
+      4.0 * sizeof(GrainKinematics) + 22.0 * sizeof(Vec3) + 6.0 * sizeof(Real) + 2 * (8 + 4);
+  const double pair = 2.0 * (2 * sizeof(int) + 1 + sizeof(PairLine) + sizeof(Vec3));
+  return {grain + pairs * pair, 0};
+}
+/// Gather: kinematics; u_f, fluid force and carried impulse there and back; five vectors and two
+/// numbers written. The 8 values of each of the 10 interpolations come from cache.
+inline Work gather() {
+  return {sizeof(GrainKinematics) + 11.0 * sizeof(Vec3) + 2.0 * sizeof(Real), 10 * 24 + 80};
+}
+/// Deposit: kinematics, three vectors and two numbers read; 29 points sorted into about four cells,
+/// to each of which five sums are added in cache.
+inline Work deposit() {
+  return {sizeof(GrainKinematics) + 3.0 * sizeof(Vec3) + 2.0 * sizeof(Real), 29 * 16 + 4 * 5 * 3};
+}
+
+// --- flow, per cell and fluid step
+// ------------------------------------------------------------------
+
+/// u, v, w read, nu_t written.
+inline Work wale() { return pass(4, 135); }
+/// u, v, w, nu_t, alpha, three old rates read; rates and u* written; in addition with grains: three
+/// fluxes, the new alpha, six fields of the exchange.
+inline Work predict(bool with_grains) { return with_grains ? pass(24, 330) : pass(14, 301); }
+/// FFT in x (there 2, back 2), in z (2, 2), columns (2 and half a pivot); real transforms take
+/// 2.5 n log2 n flops, the columns 10 a cell.
+inline Work poisson(int nx, int nz) { return pass(10.5, 5 * (std::log2(nx) + std::log2(nz)) + 10); }
+/// One iteration of the conjugate gradients: the solve above, <r, z> (2), direction (3), operator
+/// (5), advance (6). Relaxed columns are few and left out.
+inline Work pressure_iteration(int nx, int nz) { return poisson(nx, nz) + pass(16, 40); }
+
+/// A step without grains: WALE, predictor, source (4), solve, correction (13), continuity (3).
+inline Work flow_step(int nx, int nz) {
+  return wale() + predict(false) + pass(4, 9) + poisson(nx, nz) + pass(13, 32) + pass(3, 11);
+}
+/// The fluid's part of a coupled step. Passes: mass flux 7, mobility 7, volume 1, extrapolation 3,
+/// source 7, start of the iterations 13, correction 17, continuity 5, flow rate 2; deposits cleared
+/// 5 and decoded 10, fractions 2, faces 10, force density 11, velocity change 6, ledger 9; eight
+/// smoothing solves of three to five fields.
+inline Work coupled_step(int nx, int nz, double iterations) {
+  return wale() + predict(true) + pass(62, 120) + pass(53, 140) +
+         iterations * pressure_iteration(nx, nz) + 8 * poisson(nx, nz);
+}
+
+}  // namespace work
+
+}  // namespace barchan
