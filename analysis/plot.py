@@ -14,6 +14,8 @@ import difflib
 import importlib
 import sys
 
+from messages import fail
+
 # figure: (module, what it shows)
 FIGURES = {
     "topviews": ("topview", "the grains from above, one row per time"),
@@ -23,11 +25,6 @@ FIGURES = {
     "profiles": ("profiles", "turbulence statistics over the height, beside channel DNS"),
     "history": ("history", "flow rate, shear, time step and solver against time"),
 }
-
-
-def fail(message):
-    print(f"plot: {message}", file=sys.stderr)
-    return 2
 
 
 def unknown_figure(name):

@@ -18,7 +18,7 @@ import validation_channel
 import validation_contacts
 import validation_flow
 import validation_water
-from plot import fail
+from messages import fail
 from run_folder import PlotError
 
 SAVED = tables.ROOT / "docs/validation"

@@ -1,0 +1,9 @@
+"""What the plot command says when it cannot draw."""
+
+import sys
+
+
+def fail(message):
+    """One line on standard error; returns the exit status of bad input."""
+    print(f"plot: {message}", file=sys.stderr)
+    return 2
