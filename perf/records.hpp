@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "perf/work.hpp"
+#include "perf/computed_work.hpp"
 
 namespace barchan {
 

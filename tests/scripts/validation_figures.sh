@@ -1,15 +1,8 @@
 #!/usr/bin/env bash
 # The figures of docs/validation.md from the results saved in docs/validation; and what bad input says.
 set -u
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-python=/usr/bin/python3
-[ -x "$python" ] || python=python3
-python="${BARCHAN_PYTHON:-$python}"
-"$python" -c 'import h5py, matplotlib, numpy' 2> /dev/null || { echo "no h5py or matplotlib"; exit 77; }
-export PYTHONDONTWRITEBYTECODE=1
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-failures=0
+# shellcheck source=tests/support/plotting.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 figures=(channel taylor_green contacts grains_and_water convergence)
 
 fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
