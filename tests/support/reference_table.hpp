@@ -1,6 +1,7 @@
 // Tables of tests/reference: comment lines with #, one line of column names, then numbers or names.
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -19,9 +20,9 @@ inline std::vector<std::string> split_commas(const std::string& line) {
   return cells;
 }
 
-inline std::vector<ReferenceRow> reference_table(const std::string& name) {
-  std::ifstream file(std::string(BARCHAN_SOURCE_DIR "/tests/reference/") + name);
-  if (!file) throw std::runtime_error("no reference table " + name);
+inline std::vector<ReferenceRow> table(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("no table " + path.string());
   std::vector<std::string> columns;
   std::vector<ReferenceRow> rows;
   for (std::string line; std::getline(file, line);) {
@@ -36,6 +37,10 @@ inline std::vector<ReferenceRow> reference_table(const std::string& name) {
     rows.push_back(row);
   }
   return rows;
+}
+
+inline std::vector<ReferenceRow> reference_table(const std::string& name) {
+  return table(std::filesystem::path(BARCHAN_SOURCE_DIR) / "tests/reference" / name);
 }
 
 inline double number(const ReferenceRow& row, const std::string& column) {

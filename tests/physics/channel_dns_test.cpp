@@ -1,0 +1,102 @@
+// The clear-water channel of the paper's Fig. 2 and Table I against DNS: configs/validation/
+// channel-mesh-1.toml, about 45 minutes on one core. BARCHAN_CHANNEL_RUN names a finished run to
+// judge instead of making one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "src/config_load.hpp"
+#include "src/simulation.hpp"
+#include "tests/support/coupled_case.hpp"
+#include "tests/support/reference_table.hpp"
+
+namespace barchan {
+namespace {
+
+using test::number;
+
+/// Columns of a table as curves over y+.
+struct Profiles {
+  std::vector<test::ReferenceRow> rows;
+  std::string y_plus;
+
+  double at(const std::string& column, double y) const {  // linear in y+
+    std::size_t n = 1;
+    while (n + 1 < rows.size() && number(rows[n], y_plus) < y) ++n;
+    const double y0 = number(rows[n - 1], y_plus), y1 = number(rows[n], y_plus);
+    const double f0 = number(rows[n - 1], column), f1 = number(rows[n], column);
+    return f0 + (f1 - f0) * (y - y0) / (y1 - y0);
+  }
+  struct Peak {
+    double y_plus, value;
+  };
+  /// Vertex of the parabola in ln y+ through the largest of scale x column and its neighbours.
+  Peak peak(const std::string& column, double scale) const {
+    std::size_t top = 1;
+    for (std::size_t n = 1; n + 1 < rows.size(); ++n) {
+      if (scale * number(rows[n], column) > scale * number(rows[top], column)) top = n;
+    }
+    const auto y = [&](std::size_t n) { return std::log(number(rows[n], y_plus)); };
+    const auto f = [&](std::size_t n) { return scale * number(rows[n], column); };
+    if (top < 2) return {std::exp(y(top)), f(top)};
+    const double left = (f(top) - f(top - 1)) / (y(top) - y(top - 1));
+    const double right = (f(top + 1) - f(top)) / (y(top + 1) - y(top));
+    const double curvature = (right - left) / (y(top + 1) - y(top - 1));
+    const double slope = left + curvature * (y(top) - y(top - 1));  // at the top
+    const double shift = -slope / (2 * curvature);
+    return {std::exp(y(top) + shift), f(top) + slope * shift + curvature * shift * shift};
+  }
+};
+
+/// Statistics of a run: an existing one or one made now.
+Profiles statistics(const std::filesystem::path& scratch) {
+  if (const char* finished = std::getenv("BARCHAN_CHANNEL_RUN")) {
+    return {test::table(std::filesystem::path(finished) / "statistics.csv"), "y_plus"};
+  }
+  const Config config = load_config(BARCHAN_SOURCE_DIR "/configs/validation/channel-mesh-1.toml");
+  report::start(true);
+  Simulation simulation(config, {.folder = scratch, .restart = {}}, {});
+  EXPECT_EQ(simulation.run(), Outcome::done);
+  report::stop_log();
+  return {test::table(scratch / "statistics.csv"), "y_plus"};
+}
+
+void expect_within(const std::string& claim, double value, double reference, double tolerance) {
+  std::printf("[ measured ] %s: %.5g, %+.1f %% (reference %.5g, tolerance %g %%)\n", claim.c_str(),
+              value, 100 * (value / reference - 1), reference, 100 * tolerance);
+  EXPECT_NEAR(value / reference, 1, tolerance) << claim;
+}
+
+TEST(ChannelNightly, MeanFlowAndStressesAreThoseOfTheDns) {
+  const testing::ScratchFolder scratch("barchan-channel");
+  const Profiles run = statistics(scratch / "run");
+  const Profiles dns{test::reference_table("dns_channel_mkm1999_chan395.csv"), "yplus"};
+  const double depth = 0.025, nu = 1e-6;
+  const double u_star = number(run.rows[0], "y_plus") / number(run.rows[0], "y") * nu;
+  expect_within("u*", u_star, 0.0160, 0.05);
+
+  double mean = 0, linear = 0;
+  for (const auto& row : run.rows) {
+    const double y_plus = number(row, "y_plus"), y = number(row, "y") / depth;
+    if (y_plus > 5)
+      mean = std::max(mean, std::abs(number(row, "U_plus") / dns.at("U", y_plus) - 1));
+    linear = std::max(linear, std::abs(number(row, "total_stress") / (u_star * u_star) - (1 - y)));
+  }
+  std::printf("[ measured ] U+ off by %.2f %% (tolerance 5), total stress by %.2f %% (2)\n",
+              100 * mean, 100 * linear);
+  EXPECT_LT(mean, 0.05);
+  EXPECT_LT(linear, 0.02);
+
+  for (const std::string stress : {"uu", "vv", "ww", "uv", "k"}) {
+    const double sign = stress == "uv" ? -1 : 1;
+    const Profiles::Peak got = run.peak(stress, sign / (u_star * u_star));
+    const Profiles::Peak reference = dns.peak(stress, sign);
+    expect_within(stress + ", peak", got.value, reference.value, 0.2);
+    expect_within(stress + ", y+ of the peak", got.y_plus, reference.y_plus, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace barchan
