@@ -188,8 +188,9 @@ struct DepositGrain {
     const GrainExchange e = of_grain(g);
     for (int q = 0; q < cells.n; ++q) {
       const Real w = cells.weight(q);
+      const std::int64_t cell = cells.cell[q].linear(locate.grid);
       const auto add = [&](int quantity, const FixedPoint& point, Real value) {
-        Kokkos::atomic_add(&deposits.sum(cells.cell[q], quantity), point.encode(w * value));
+        Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
       };
       add(0, deposits.volume, e.volume);
       add(1, deposits.implicit, e.implicit);
@@ -209,7 +210,7 @@ struct DecodeDeposit {
   Field density;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const std::int64_t cell = i + std::int64_t{grid.nx} * (j + std::int64_t{grid.ny} * k);
+    const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
     density(i, j, k) = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
   }
 };
@@ -273,12 +274,9 @@ struct CarryToGrain {
 
   KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {
     const GrainCells cells = locate(of_grain.grains(g));
-    const Grid& grid = locate.grid;
     Vec3 change;
     for (int q = 0; q < cells.n; ++q) {
-      const int i = static_cast<int>(cells.cell[q] % grid.nx);
-      const int j = static_cast<int>(cells.cell[q] / grid.nx % grid.ny);
-      const int k = static_cast<int>(cells.cell[q] / grid.nx / grid.ny);
+      const auto [i, j, k] = cells.cell[q];
       change += cells.weight(q) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
     }
     const Vec3 carried = of_grain(g).implicit * change;

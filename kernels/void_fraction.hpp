@@ -32,22 +32,34 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
           (corner & 4 ? -shell : shell) * root_half};
 }
 
+/// An owned cell by its place.
+struct CellIndex {
+  int i = 0, j = 0, k = 0;
+  /// i + nx (j + ny k).
+  KOKKOS_INLINE_FUNCTION std::int64_t linear(const Grid& grid) const {
+    return i + std::int64_t{grid.nx} * (j + std::int64_t{grid.ny} * k);
+  }
+  KOKKOS_INLINE_FUNCTION bool operator==(const CellIndex& b) const {
+    return i == b.i && j == b.j && k == b.k;
+  }
+};
+
 /// Cells that share a grain, and how many of its points each holds.
 struct GrainCells {
   int n = 0, n_points = 0;
-  std::int64_t cell[kDividedPoints];
+  CellIndex cell[kDividedPoints];
   int count[kDividedPoints];
 
-  KOKKOS_INLINE_FUNCTION void add(std::int64_t c) {
-    ++n_points;
+  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points = 1) {
+    n_points += points;
     for (int q = 0; q < n; ++q) {
       if (cell[q] == c) {
-        ++count[q];
+        count[q] += points;
         return;
       }
     }
     cell[n] = c;
-    count[n++] = 1;
+    count[n++] = points;
   }
   /// Share of the grain in its q-th cell; the shares add up to one.
   KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
@@ -56,28 +68,48 @@ struct GrainCells {
 /// `cfdem`: a point outside gives its share to the grain's own cell, as CFDEM does.
 enum class PointSet { divided, centre, cfdem };
 
-/// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one beyond
-/// the outlet goes to the last cell, periodic directions wrap.
+/// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
+/// beyond the outlet goes to the last cell, periodic directions wrap.
 struct Locate {
   Grid grid;
   PointSet points = PointSet::divided;
   bool wrap_x = false;
 
-  /// Linear index of the owned cell (i + nx (j + ny k)) that holds a point not far from a row.
-  KOKKOS_INLINE_FUNCTION std::int64_t cell_of(const Vec3& p, int row_nearby) const {
-    int i = static_cast<int>(Kokkos::floor((p.x - grid.x0) * (1 / grid.dx)));
-    int k = static_cast<int>(Kokkos::floor((p.z - grid.z0) * (1 / grid.dz)));
-    if (wrap_x) i = ((i % grid.nx) + grid.nx) % grid.nx;
+  /// Index from 0 to n - 1 along a periodic direction, of one that is rarely a period off.
+  KOKKOS_INLINE_FUNCTION static int wrap(int i, int n) {
+    if (i >= 0 && i < n) return i;
+    if (i >= -n && i < 2 * n) return i < 0 ? i + n : i - n;
+    return ((i % n) + n) % n;
+  }
+  KOKKOS_INLINE_FUNCTION int column_x(Real x) const {
+    return static_cast<int>(Kokkos::floor((x - grid.x0) * (1 / grid.dx)));
+  }
+  KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
+    return static_cast<int>(Kokkos::floor((z - grid.z0) * (1 / grid.dz)));
+  }
+  /// The owned cell that holds a point not far from a row.
+  KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
+    int i = column_x(p.x);
+    if (wrap_x) i = wrap(i, grid.nx);
     i = i < 0 ? 0 : (i >= grid.nx ? grid.nx - 1 : i);
-    k = ((k % grid.nz) + grid.nz) % grid.nz;
     Real y = p.y < 0 ? -p.y : p.y;
     y = y > grid.ly ? 2 * grid.ly - y : y;
-    return i + std::int64_t{grid.nx} * (grid.row_near(y, row_nearby) + std::int64_t{grid.ny} * k);
+    return {i, grid.row_near(y, row_nearby), wrap(column_z(p.z), grid.nz)};
+  }
+  /// All points lie between those at -reach and +reach from the centre: true when in one cell.
+  KOKKOS_INLINE_FUNCTION bool in_one_cell(const Vec3& x, Real reach, int row) const {
+    return column_x(x.x - reach) == column_x(x.x + reach) &&
+           column_z(x.z - reach) == column_z(x.z + reach) && x.y - reach >= grid.y_face(row) &&
+           x.y + reach < grid.y_face(row + 1);
   }
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
     GrainCells cells;
     const int n = points == PointSet::centre ? 1 : kDividedPoints;
     const int row = grid.row_of(g.x.y);
+    if (in_one_cell(g.x, kOuterShell * g.r, row)) {
+      cells.add(cell_of(g.x, row), n);
+      return cells;
+    }
     for (int p = 0; p < n; ++p) {
       const Vec3 point = g.x + g.r * divided_point(p);
       const bool outside = point.y < 0 || point.y > grid.ly;

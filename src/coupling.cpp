@@ -1,6 +1,7 @@
 #include "src/coupling.hpp"
 
-#include "src/launch.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace barchan {
 
@@ -71,6 +72,8 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       force_(face_vector("coupling: force density", grid)),
       convective_(face_vector("coupling: convective acceleration", grid)),
       on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
+  const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
+  for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
   for (Field& f : cell_) f = Field("coupling: cell density", grid);
   deposits_.sum = decltype(deposits_.sum)("deposits", static_cast<std::size_t>(grid.nx) *
                                                           static_cast<std::size_t>(grid.ny) *
@@ -81,8 +84,36 @@ ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
   return {.dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
 }
 
-void Coupling::force_density(const FluidState& fluid, const FluidForces& forces) {
-  for_each_cell("coupling: force density", grid_,
+CellRange Coupling::cells_around(const GrainState& grains) const {
+  const auto kin = grains.kin;
+  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
+  Kokkos::parallel_reduce(
+      "coupling: extent of the grains", grains.n,
+      KOKKOS_LAMBDA(int g, Real& left, Real& right, Real& top, Real& front, Real& back) {
+        const Vec3& x = kin(g).x;
+        left = Kokkos::fmin(left, x.x), right = Kokkos::fmax(right, x.x);
+        top = Kokkos::fmax(top, x.y);
+        front = Kokkos::fmin(front, x.z), back = Kokkos::fmax(back, x.z);
+      },
+      Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1), Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0),
+      Kokkos::Max<Real>(z1));
+  CellRange cells = owned_cells(grid_);
+  // One more on either side for the interpolation; everything where that reaches a periodic side.
+  const auto shrink = [](Real low, Real high, Real spacing, int n, int& first, int& last) {
+    const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 2;
+    if (begin >= 0 && end <= n) first = static_cast<int>(begin), last = static_cast<int>(end);
+  };
+  shrink(x0 - grid_.x0, x1 - grid_.x0, grid_.dx, grid_.nx, cells.i0, cells.i1);
+  shrink(z0 - grid_.z0, z1 - grid_.z0, grid_.dz, grid_.nz, cells.k0, cells.k1);
+  const auto above = std::upper_bound(y_face_.begin(), y_face_.end(), y1);
+  cells.j1 = std::min(grid_.ny, static_cast<int>(above - y_face_.begin()) + 1);
+  return cells;
+}
+
+void Coupling::force_density(const FluidState& fluid, const GrainState& grains,
+                             const FluidForces& forces) {
+  const CellRange cells = cells_around(grains);
+  for_each_cell("coupling: force density", cells,
                 FluidForceDensity{.grid = grid_,
                                   .u = fluid.u,
                                   .p = fluid.p,
@@ -96,7 +127,8 @@ void Coupling::force_density(const FluidState& fluid, const FluidForces& forces)
   const Grid grid = grid_;
   const Field force_y = force_.y;
   for_each_cell(
-      "coupling: force density at the walls", CellRange{0, grid.nx, 0, 1, 0, grid.nz},
+      "coupling: force density at the walls",
+      CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
       KOKKOS_LAMBDA(int i, int, int k) { force_y(i, 0, k) = force_y(i, grid.ny > 1 ? 1 : 0, k); });
   for (const FaceVector* f : {&force_, &convective_}) {
     boundary_.fill(f->x, FieldKind::scalar);
@@ -106,7 +138,7 @@ void Coupling::force_density(const FluidState& fluid, const FluidForces& forces)
 }
 
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
-  force_density(fluid, forces_);
+  force_density(fluid, grains, forces_);
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", grains.n,
@@ -133,7 +165,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
 
 void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
                             const GrainState& grains, const Kokkos::View<Vec3*>& force) {
-  force_density(fluid, which);
+  force_density(fluid, grains, which);
   const Grid grid = grid_;
   const FaceVector density = force_;
   const auto kin = grains.kin;

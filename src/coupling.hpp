@@ -2,6 +2,7 @@
 #pragma once
 
 #include <variant>
+#include <vector>
 
 #include "kernels/drag.hpp"
 #include "kernels/interphase.hpp"
@@ -9,6 +10,7 @@
 #include "src/config.hpp"
 #include "src/fluid_solver.hpp"
 #include "src/grain_state.hpp"
+#include "src/launch.hpp"
 #include "src/poisson_fft.hpp"
 
 namespace barchan {
@@ -49,7 +51,9 @@ class Coupling {
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
-  void force_density(const FluidState& fluid, const FluidForces& forces);
+  /// The cells whose faces the grains' velocities and forces are interpolated from.
+  CellRange cells_around(const GrainState& grains) const;
+  void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
   void choose_scales(const GrainState& grains, Real dt);
   void decode(int quantity, const FixedPoint& point, const Field& density) const;
   void sum_faces(Real dt, const FluidState& fluid);
@@ -67,7 +71,8 @@ class Coupling {
   Locate locate_;
   Real rho_f_ = 0, nu_ = 0;
   Vec3 gravity_;
-  FaceVector force_, convective_;
+  FaceVector force_, convective_;  // valid around the grains
+  std::vector<Real> y_face_;       // of rows 0 .. ny [m]
   Field cell_[4];  // implicit coefficient and impulse densities, later velocity changes
   Deposits deposits_;
   ExchangeOnFaces on_faces_;

@@ -27,8 +27,8 @@ struct Cells {
     const GrainCells cells = locate({.x = x, .r = r, .u = {}, .m = 1, .omega = {}});
     Shares s;
     for (int q = 0; q < cells.n; ++q) {
-      const int c = static_cast<int>(cells.cell[q]);
-      s[{c % kCells, c / kCells % kCells, c / kCells / kCells}] += cells.weight(q);
+      const CellIndex& c = cells.cell[q];
+      s[{c.i, c.j, c.k}] += cells.weight(q);
     }
     return s;
   }
