@@ -54,23 +54,23 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law,
                                                         const ContactResult& history, Real dt) {
   const ContactStiffness k = law(pair.r_eff, pair.m_eff, pair.delta_n);
   const Real v_n = dot(pair.slip, pair.normal);
-  const Vec3 v_t = pair.slip - v_n * pair.normal;
+  const Vec3 v_t = fused(-v_n, pair.normal, pair.slip);
   const Real elastic = k.k_n * pair.delta_n, dashpot = -k.gamma_n * v_n;
   const Real f_n = elastic + dashpot;
 
-  Vec3 xi = history.xi_t + dt * v_t;
-  xi = xi - dot(xi, pair.normal) * pair.normal;
-  const Real spring = k.k_t * norm(xi);
-  const Real limit =
-      friction.sliding * Kokkos::abs(elastic + friction.dashpot_in_limit * dashpot);
-  const bool slides = spring > limit;
-  xi = (slides ? limit / spring : Real(1)) * xi;
-  const Vec3 trial = (-k.k_t) * xi - (slides ? Real(0) : k.gamma_t) * v_t;
-  const Real size = norm(trial);
-  const Vec3 f_t = (size > limit ? limit / size : Real(1)) * trial;
+  Vec3 xi = fused(dt, v_t, history.xi_t);
+  xi = fused(-dot(xi, pair.normal), pair.normal, xi);
+  const Vec3 spring = (-k.k_t) * xi;
+  const Real limit = friction.sliding * Kokkos::abs(elastic + friction.dashpot_in_limit * dashpot);
+  const bool slides = dot(spring, spring) > limit * limit;
+  const Vec3 trial = fused(slides ? Real(0) : -k.gamma_t, v_t, spring);
+  const Real size2 = dot(trial, trial);  // that of the spring where it slides
+  const Real shorten = size2 > limit * limit ? limit / Kokkos::sqrt(size2) : Real(1);
+  const Vec3 f_t = shorten * trial;
+  xi = (slides ? shorten : Real(1)) * xi;
 
   ContactResult result;
-  result.force = f_n * pair.normal + f_t;
+  result.force = fused(f_n, pair.normal, f_t);
   result.twist = cross(pair.normal, f_t);
   result.xi_t = xi;
   result.rolling = rolling(RollingContact{.normal = pair.normal,

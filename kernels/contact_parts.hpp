@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// Splits contact_force(g) [N] of the last sub-step. Pairs: F_t = -n x (n x F_t), with n from the
+/// Splits contact_force(g) [N] of the last sub-step. Pairs: F_t = F - (F.n) n, with n from the
 /// positions, which have not changed since. Walls: what is left over the pairs, along and across
 /// the normal of the first wall that the grain touches.
 struct SplitContacts {
@@ -18,15 +18,14 @@ struct SplitContacts {
   Plane plane[kMaxWalls];
   Kokkos::View<Vec3*> normal, tangential;  // results [N]
 
-  KOKKOS_FUNCTION Vec3 tangential_of(int slot) const {
-    const Vec3 s = box.nearest_image(grains(list.i(slot)).x - grains(list.j(slot)).x);
-    return -cross((1 / norm(s)) * s, list.line(slot).twist);
-  }
   /// Takes the force of one pair into the sums that `normal` (all of it) and `tangential` hold.
   KOKKOS_FUNCTION void add(int g, int slot, Real sign) const {
-    if (!list.touching(slot)) return;  // the line of an inner pair may be of an earlier touch
-    normal(g) += sign * list.line(slot).force;
-    tangential(g) += sign * tangential_of(slot);
+    if (!list.touching(slot)) return;  // its force may be of an earlier touch
+    const Vec3 force = list.force(slot);
+    const Vec3 s = box.nearest_image(grains(list.i(slot)).x - grains(list.j(slot)).x);
+    const Vec3 n = (1 / norm(s)) * s;
+    normal(g) += sign * force;
+    tangential(g) += sign * (force - dot(force, n) * n);
   }
   KOKKOS_FUNCTION void operator()(int chunk) const {
     const int begin = list.chunks.begin(chunk), end = list.chunks.end(chunk);

@@ -7,17 +7,6 @@
 
 namespace barchan {
 
-/// What a contact needs of one grain, side by side in memory: two cache lines per neighbour
-/// instead of eleven.
-struct alignas(32) GrainKinematics {
-  Vec3 x;      // centre [m]
-  Real r = 0;  // radius [m]
-  Vec3 u;      // velocity [m/s]
-  Real m = 0;  // mass [kg]
-  Vec3 omega;  // spin [rad/s]
-  Real padding = 0;
-};
-
 /// Three components and a spare number, taken from and to memory at once.
 struct alignas(32) Quad {
   Real x, y, z, w;
@@ -30,9 +19,32 @@ KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
 KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
 }
+KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
+  return {fused(s, a.x, b.x), fused(s, a.y, b.y), fused(s, a.z, b.z), fused(s, a.w, b.w)};
+}
 KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
   return {s * a.x, s * a.y, s * a.z, s * a.w};
 }
+
+/// What a contact needs of one grain, side by side in memory: two cache lines per neighbour
+/// instead of eleven.
+struct alignas(32) GrainKinematics {
+  Vec3 x;      // centre [m]
+  Real r = 0;  // radius [m]
+  Vec3 u;      // velocity [m/s]
+  Real m = 0;  // mass [kg]
+  Vec3 omega;  // spin [rad/s]
+  Real padding = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Quad x_r() const { return {x.x, x.y, x.z, r}; }
+  KOKKOS_FORCEINLINE_FUNCTION Quad u_m() const { return {u.x, u.y, u.z, m}; }
+  KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, padding}; }
+};
+
+/// Sum of the contact forces [N] and torques [N m] on a grain.
+struct ContactSum {
+  Quad force, torque;
+};
 
 /// Periodic extents: zero where a direction is not periodic.
 struct PeriodicBox {
@@ -52,7 +64,7 @@ struct PeriodicBox {
 inline constexpr int kLargestChunk =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                Kokkos::DefaultExecutionSpace::memory_space>::accessible
-        ? 2048
+        ? 4096
         : 1;
 
 /// The grains in chunks of consecutive rows, each of which one thread takes at a time. Their size
@@ -67,19 +79,29 @@ struct Chunks {
     return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
   }
 };
-/// Enough chunks to share among threads, unless that makes them tiny.
+/// Large chunks have few pairs that cross; a multiple of eight of them shares well among threads,
+/// unless that makes them tiny.
 inline Chunks make_chunks(int n) {
-  const int rows = n / 16 < 256 ? 256 : n / 16;
-  return {.n = n, .rows = rows < kLargestChunk ? rows : kLargestChunk};
+  const int count = 8 * ((n + 8 * kLargestChunk - 1) / (8 * kLargestChunk));
+  const int rows = count > 0 ? (n + count - 1) / count : 1;
+  const int least = kLargestChunk < 256 ? kLargestChunk : 256;
+  return {.n = n, .rows = rows < least ? least : rows};
 }
 
-/// What one pair did to its grains: one cache line, all zero while it does not touch. Crossing
-/// pairs write it in every sub-step, inner ones in the last of a fluid step.
+/// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does
+/// not touch.
 struct alignas(64) PairLine {
   Vec3 force;        // on the first grain [N]
   Real delta_n = 0;  // [m]
   Vec3 twist;        // n x F_t [N]
   Real padding = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Quad force_overlap() const {
+    return {force.x, force.y, force.z, delta_n};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Quad twist_quad() const {
+    return {twist.x, twist.y, twist.z, padding};
+  }
 };
 
 /// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains
@@ -95,10 +117,14 @@ struct PairList {
   Kokkos::View<int*> active;     // (inner pairs) slots of a chunk's active pairs ...
   Kokkos::View<int*> n_active;   // (chunks) ... this many, from its first inner pair on
   Kokkos::View<Real*> slack;     // (chunks) relative way left until others may touch [m]
-  Kokkos::View<PairLine*> line;  // (n_pairs)
-  Kokkos::View<Vec3*> xi_t;      // tangential displacement of i relative to j [m]
-  Kokkos::View<Vec3*> rolling;   // rolling torque on i [N m]; empty without a rolling spring
-  Kokkos::View<std::uint8_t*> touching;  // 1 while in contact
+  Kokkos::View<PairLine*> line;  // (n_crossing)
+  Kokkos::View<Vec3*> xi_t;      // (n_pairs) tangential displacement of i relative to j [m]
+  Kokkos::View<Vec3*> rolling;   // (n_pairs) rolling torque on i [N m]; empty without rolling
+  Kokkos::View<Vec3*> force;     // (n_pairs) on i in the last sub-step [N]; empty unless asked for
+  Kokkos::View<std::uint8_t*> touching;  // (n_pairs) 1 while in contact
+
+  KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool has_force() const { return force.extent(0) > 0; }
 };
 
 }  // namespace barchan

@@ -26,14 +26,14 @@ KOKKOS_FORCEINLINE_FUNCTION ContactSum sum_crossing(const PairList& list, int g,
   ContactSum sum{};
   for (int p = list.first(g); p < list.first(g + 1); ++p) {
     const PairLine& line = list.line(p);
-    sum.force = sum.force + quad(line.force);
-    sum.torque = sum.torque + (line.delta_n / 2 - radius) * quad(line.twist);
+    sum.force = sum.force + line.force_overlap();
+    sum.torque = fused(line.delta_n / 2 - radius, line.twist_quad(), sum.torque);
     if (has_rolling) sum.torque = sum.torque + quad(list.rolling(p));
   }
   for (int s = list.other_first(g); s < list.other_first(g + 1); ++s) {
     const PairLine& line = list.line(list.other_slot(s));
-    sum.force = sum.force - quad(line.force);
-    sum.torque = sum.torque + (line.delta_n / 2 - radius) * quad(line.twist);
+    sum.force = sum.force - line.force_overlap();
+    sum.torque = fused(line.delta_n / 2 - radius, line.twist_quad(), sum.torque);
     if (has_rolling) sum.torque = sum.torque - quad(list.rolling(list.other_slot(s)));
   }
   return sum;
@@ -48,38 +48,46 @@ struct KickAndDrift {
   FluidOnGrains fluid;
 
   KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(int g, const GrainKinematics& grain,
-                                                 const Vec3& contacts, const Vec3& torque) const {
-    GrainForces f;
-    f.force = contacts + fluid.steady_force(g);
-    f.torque = torque;
-    f.inertia_mass = grain.m;
-    f.inertia_moment = sphere_inertia(grain.m, grain.r);
+                                                 const ContactSum& contacts) const {
+    GrainForces f{.force = contacts.force + quad(fluid.steady_force(g)),
+                  .torque = contacts.torque,
+                  .inertia_mass = grain.m,
+                  .inertia_moment = sphere_inertia(grain.m, grain.r)};
     if (fluid.none) return f;
-    f.u_f = fluid.u_f(g);
+    f.u_f = quad(fluid.u_f(g));
     f.beta = fluid.beta(g);
     f.inertia_mass += fluid.added_mass(g);
     return f;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void kick_and_drift(int g, GrainKinematics& grain,
-                                                  const HalfKick& kick, const GrainForces& f,
-                                                  Vec3& impulse, Real& largest) const {
-    impulse += kick(f, grain.u, grain.omega);
-    grain.x += dt * grain.u;
-    const Vec3 moved = grain.x - x_reference(g);
+  /// Half kick from here, then drift; returns the drag impulse. `largest` as below.
+  KOKKOS_FORCEINLINE_FUNCTION Quad kick_and_drift(int g, const HalfKick& kick, const GrainForces& f,
+                                                  Quad& x, Quad& u, Quad& omega,
+                                                  Real& largest) const {
+    const Quad impulse = kick(f, u, omega);
+    x = fused(dt, u, x);
+    const Vec3 moved = x.vec() - x_reference(g);
     const Real distance2 = dot(moved, moved);
     // The negation lets a NaN through, so that the next rebuild meets and reports it.
     if (!(distance2 <= largest)) largest = distance2;
+    return impulse;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void store(int g, const Quad& x, const Quad& u, const Quad& omega,
+                                         const Quad& impulse) const {
+    GrainKinematics& grain = grains(g);
+    grain.x = x.vec(), grain.u = u.vec(), grain.omega = omega.vec();
+    if (!fluid.none) fluid.drag_impulse(g) += impulse.vec();
   }
 
   /// Reduces the largest squared distance from the reference positions [m^2].
   KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
-    GrainKinematics grain = grains(g);
-    Vec3 impulse;
-    const GrainForces f = forces(g, grain, contact_force(g), contact_torque(g));
-    kick_and_drift(g, grain, HalfKick(dt / 2, f), f, impulse, largest);
-    if (!fluid.none) fluid.drag_impulse(g) += impulse;
-    grains(g) = grain;
+    const GrainKinematics& grain = grains(g);
+    Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
+    const GrainForces f =
+        forces(g, grain, {.force = quad(contact_force(g)), .torque = quad(contact_torque(g))});
+    const Quad impulse = kick_and_drift(g, HalfKick(dt / 2, f), f, x, u, omega, largest);
+    store(g, x, u, omega, impulse);
   }
 };
 
@@ -107,30 +115,32 @@ struct SumKickDrift {
         pairs.find_active(chunk, margin);
         slack = margin;
       }
-      pairs.add_inner(chunk, sums, last);
+      pairs.add_inner(chunk, sums);
     }
     Real fastest = 0;  // squared speed [m^2/s^2]
     for (int g = begin; g < end; ++g) {
-      const Vec3 u = move(g, sums[g - begin], largest);
-      fastest = dot(u, u) > fastest ? dot(u, u) : fastest;
+      const Real speed2 = move(g, sums[g - begin], largest);
+      fastest = speed2 > fastest ? speed2 : fastest;
     }
     if constexpr (kLargestChunk > 1)
       pairs.list.slack(chunk) -= 2 * motion.dt * Kokkos::sqrt(fastest);
   }
 
-  /// Returns the velocity of the drift [m/s].
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 move(int g, const ContactSum& sum, Real& largest) const {
-    GrainKinematics grain = motion.grains(g);
-    Vec3 force = sum.force.vec(), torque = sum.torque.vec();
-    walls.add(g, grain, motion.dt, force, torque);
-    if (last) motion.contact_force(g) = force, motion.contact_torque(g) = torque;
-    const GrainForces f = motion.forces(g, grain, force, torque);
+  /// Returns the squared speed of the drift [m^2/s^2].
+  KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum sum, Real& largest) const {
+    const GrainKinematics& grain = motion.grains(g);
+    walls.add(g, grain, motion.dt, sum);
+    if (last) {
+      motion.contact_force(g) = sum.force.vec();
+      motion.contact_torque(g) = sum.torque.vec();
+    }
+    Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
+    const GrainForces f = motion.forces(g, grain, sum);
     const HalfKick kick(motion.dt / 2, f);
-    Vec3 impulse = kick(f, grain.u, grain.omega);
-    if (!last) motion.kick_and_drift(g, grain, kick, f, impulse, largest);
-    if (!motion.fluid.none) motion.fluid.drag_impulse(g) += impulse;
-    motion.grains(g) = grain;
-    return grain.u;
+    Quad impulse = kick(f, u, omega);
+    if (!last) impulse = impulse + motion.kick_and_drift(g, kick, f, x, u, omega, largest);
+    motion.store(g, x, u, omega, impulse);
+    return dot(u.vec(), u.vec());
   }
 };
 

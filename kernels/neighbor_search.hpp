@@ -106,22 +106,47 @@ struct LinkColumns {
   }
 };
 
+/// Where grain i starts to look in the forward columns: grains below are too far down.
+using Windows = Kokkos::View<int* [kForwardColumns]>;
+
+/// Fills the windows of the grains of a column, walking up all five columns together: O(grains).
+struct FindWindows {
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+  Windows window;
+  Real reach = 0;  // largest sum of two radii + skin [m]
+
+  KOKKOS_FUNCTION void operator()(int c) const {
+    for (int m = 0; m < kForwardColumns; ++m) {
+      const int other = occupied.forward(c, m);
+      if (other < 0) continue;
+      int j = occupied.start(other);
+      const int end = occupied.start(other + 1);
+      for (int i = occupied.start(c); i < occupied.start(c + 1); ++i) {
+        const Real lowest = grains(i).x.y - reach;
+        while (j < end && grains(j).x.y < lowest) ++j;
+        window(i, m) = j;
+      }
+    }
+  }
+};
+
 /// Walks the candidates of one grain and calls f(j) for each within r_i + r_j + skin.
 struct PairSearch {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
+  Windows window;
   PeriodicBox box;
   Real skin = 0;   // [m]
   Real r_max = 0;  // largest radius [m]
 
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
-    const GrainKinematics a = grains(i);
-    const Real reach = a.r + r_max + skin;
+    const GrainKinematics& a = grains(i);
+    const Real highest = a.x.y + (a.r + r_max + skin);
     for (int j = begin; j < end; ++j) {
       const GrainKinematics& b = grains(j);
-      if (b.x.y < a.x.y - reach) continue;
-      if (b.x.y > a.x.y + reach) break;  // sorted by height
+      if (b.x.y > highest) break;  // sorted by height
       const Vec3 s = box.nearest_image(a.x - b.x);
       const Real cutoff = a.r + b.r + skin;
       if (dot(s, s) < cutoff * cutoff) action(j);
@@ -133,19 +158,25 @@ struct PairSearch {
     scan(i, i + 1, occupied.start(c + 1), action);
     for (int m = 0; m < kForwardColumns; ++m) {
       const int other = occupied.forward(c, m);
-      if (other >= 0) scan(i, occupied.start(other), occupied.start(other + 1), action);
+      if (other >= 0) scan(i, window(i, m), occupied.start(other + 1), action);
     }
   }
 };
 
-/// Number of partners of each grain, in its own chunk and in others.
+/// Partners that the counting pass notes down, so that few grains are searched twice.
+inline constexpr int kNoted = 8;
+using NotedPartners = Kokkos::View<int* [kNoted]>;
+
+/// Number of partners of each grain, in its own chunk and in others; notes the first of them.
 struct CountPairs {
   PairSearch search;
   Chunks chunks;
   Kokkos::View<int*> crossing, inner;
+  NotedPartners noted;
   KOKKOS_FUNCTION void operator()(int i) const {
     int n = 0, n_inner = 0;
     search.for_each_partner(i, [&](int j) {
+      if (n < kNoted) noted(i, n) = j;
       ++n;
       n_inner += chunks.of(i) == chunks.of(j) ? 1 : 0;
     });
@@ -154,51 +185,100 @@ struct CountPairs {
   }
 };
 
-/// Writes the pairs of each grain and takes over the history of those that were listed before.
-/// `previous` is the old list, `old_row` the old row of each grain.
-struct FillPairs {
-  PairSearch search;
-  PairList list, previous;
-  Kokkos::View<const int*> old_row;
-  bool has_previous = false, has_rolling = false;
+/// Contacts of a list that is about to be replaced, under their first grains (rows of that list).
+struct KeptContacts {
+  Kokkos::View<int*> first;            // (n + 1)
+  Kokkos::View<int*> partner;          // (contacts) row of the second grain
+  Kokkos::View<Vec3*> xi_t;            // (contacts) [m]
+  Kokkos::View<Vec3*> rolling, force;  // [N m], [N]; empty where the list has none
 
-  KOKKOS_FUNCTION void operator()(int i) const {
-    int crossing = list.first(i), inner = list.inner_first(i);
-    search.for_each_partner(i, [&](int j) {
-      const int slot = list.chunks.of(i) == list.chunks.of(j) ? inner++ : crossing++;
-      list.i(slot) = i;
-      list.j(slot) = j;
-      carry_history(slot, i, j);
-    });
-  }
-  /// The old slot of pair (a, b) listed under a, or -1.
-  KOKKOS_FUNCTION int old_slot(int a, int b) const {
-    for (int p = previous.first(a); p < previous.first(a + 1); ++p) {
-      if (previous.j(p) == b) return p;
-    }
-    for (int p = previous.inner_first(a); p < previous.inner_first(a + 1); ++p) {
-      if (previous.j(p) == b) return p;
+  /// Place of the contact (a, b) listed under a, or -1.
+  KOKKOS_FUNCTION int find(int a, int b) const {
+    for (int k = first(a); k < first(a + 1); ++k) {
+      if (partner(k) == b) return k;
     }
     return -1;
   }
-  KOKKOS_FUNCTION void carry_history(int slot, int i, int j) const {
-    int p = -1;
+};
+
+/// Calls f(slot) for the contacts listed under grain g.
+template <class Action>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_contact(const PairList& list, int g,
+                                                  const Action& action) {
+  for (int p = list.first(g); p < list.first(g + 1); ++p) {
+    if (list.touching(p)) action(p);
+  }
+  for (int p = list.inner_first(g); p < list.inner_first(g + 1); ++p) {
+    if (list.touching(p)) action(p);
+  }
+}
+
+struct CountContacts {
+  PairList list;
+  Kokkos::View<int*> count;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    int n = 0;
+    for_each_contact(list, g, [&](int) { ++n; });
+    count(g) = n;
+  }
+};
+
+struct KeepContacts {
+  PairList list;
+  KeptContacts kept;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    int k = kept.first(g);
+    for_each_contact(list, g, [&](int p) {
+      kept.partner(k) = list.j(p);
+      kept.xi_t(k) = list.xi_t(p);
+      if (list.has_rolling()) kept.rolling(k) = list.rolling(p);
+      if (list.has_force()) kept.force(k) = list.force(p);
+      ++k;
+    });
+  }
+};
+
+/// Writes the pairs of each grain and what they remember. `old_row` is the row of each grain in the
+/// list that `kept` comes from.
+struct FillPairs {
+  PairSearch search;
+  NotedPartners noted;
+  PairList list;
+  KeptContacts kept;
+  Kokkos::View<const int*> old_row;
+  bool has_kept = false;
+
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int crossing = list.first(i), inner = list.inner_first(i);
+    const int n = list.first(i + 1) - crossing + list.inner_first(i + 1) - inner;
+    const auto place = [&](int j) {
+      const int slot = list.chunks.of(i) == list.chunks.of(j) ? inner++ : crossing++;
+      list.i(slot) = i;
+      list.j(slot) = j;
+      remember(slot, i, j);
+    };
+    if (n > kNoted) {
+      search.for_each_partner(i, place);
+    } else {
+      for (int s = 0; s < n; ++s) place(noted(i, s));
+    }
+  }
+  KOKKOS_FUNCTION void remember(int slot, int i, int j) const {
+    int k = -1;
     Real sign = 1;
-    if (has_previous) {
-      p = old_slot(old_row(i), old_row(j));
-      if (p < 0) {
-        p = old_slot(old_row(j), old_row(i));
-        sign = -1;  // xi_t and the rolling torque are those of the first grain
+    if (has_kept) {
+      k = kept.find(old_row(i), old_row(j));
+      if (k < 0) {
+        k = kept.find(old_row(j), old_row(i));
+        sign = -1;  // forces and displacements are those of the first grain
       }
     }
-    const bool known = p >= 0;
-    list.touching(slot) = known ? previous.touching(p) : std::uint8_t{0};
-    list.xi_t(slot) = known ? sign * previous.xi_t(p) : Vec3{};
-    if (has_rolling) list.rolling(slot) = known ? sign * previous.rolling(p) : Vec3{};
-    // An inner pair may have the line of an earlier touch, which no crossing pair may have.
-    PairLine line = known && previous.touching(p) ? previous.line(p) : PairLine{};
-    line.force = sign * line.force;  // twist = n x F_t keeps its sign
-    list.line(slot) = line;
+    const bool known = k >= 0;
+    list.touching(slot) = known ? 1 : 0;
+    list.xi_t(slot) = known ? sign * kept.xi_t(k) : Vec3{};
+    if (list.has_rolling()) list.rolling(slot) = known ? sign * kept.rolling(k) : Vec3{};
+    if (list.has_force()) list.force(slot) = known ? sign * kept.force(k) : Vec3{};
+    if (slot < list.n_crossing) list.line(slot) = PairLine{};
   }
 };
 

@@ -13,11 +13,6 @@ namespace barchan {
 /// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
 inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
 
-/// Sum of the contact forces [N] and torques [N m] on a grain.
-struct ContactSum {
-  Quad force, torque;
-};
-
 /// As a kernel, the crossing pairs, kBlock of them per index. Every pair goes through the same full
 /// vectors, so its result does not depend on where in a block it stands.
 template <class Stiffness, class Rolling>
@@ -32,11 +27,11 @@ struct PairForces {
   Real dt = 0;  // [s]
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
+  bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
 
   /// A block of pairs (a, b), a row each: inputs, history, results.
   struct Stage {
-    alignas(64) Quad separation[kBlock], slip[kBlock], arm_spin[kBlock], spin_sum[kBlock];
-    Quad spin_difference[kBlock];
+    alignas(64) Quad separation[kBlock], slip[kBlock], spin_a[kBlock], spin_b[kBlock];
     Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
     Quad xi[kBlock], rolling[kBlock];
     Quad force[kBlock], twist[kBlock];  // force.w: overlap
@@ -57,9 +52,8 @@ struct PairForces {
     for (int q = 0; q < n; ++q) store_line(s, q, slots[q]);
   }
 
-  /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its rows; the
-  /// lines are written when `with_lines`.
-  KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums, bool with_lines) const {
+  /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its rows.
+  KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums) const {
     const int first_row = list.chunks.begin(chunk);
     const int* active = &list.active(list.inner_first(first_row) - list.n_crossing);
     const int n_active = list.n_active(chunk);
@@ -73,15 +67,13 @@ struct PairForces {
         const Real half_overlap = s.force[q].w / 2;
         ContactSum& a = sums[list.i(p) - first_row];
         a.force = a.force + s.force[q];
-        a.torque = a.torque + (half_overlap - s.r_a[q]) * s.twist[q];
+        a.torque = fused(half_overlap - s.r_a[q], s.twist[q], a.torque);
         if constexpr (kRolls) a.torque = a.torque + s.rolling[q];
         ContactSum& b = sums[list.j(p) - first_row];
         b.force = b.force - s.force[q];
-        b.torque = b.torque + (half_overlap - s.r_b[q]) * s.twist[q];
+        b.torque = fused(half_overlap - s.r_b[q], s.twist[q], b.torque);
         if constexpr (kRolls) b.torque = b.torque - s.rolling[q];
       }
-      if (!with_lines) continue;
-      for (int q = 0; q < n; ++q) store_line(s, q, slots[q]);
     }
   }
 
@@ -111,9 +103,9 @@ struct PairForces {
 
   KOKKOS_FUNCTION void clear(int p) const {
     list.touching(p) = 0;
-    list.line(p) = PairLine{};
+    if (p < list.n_crossing) list.line(p) = PairLine{};
     list.xi_t(p) = Vec3{};
-    if constexpr (Rolling::has_history) list.rolling(p) = Vec3{};
+    if constexpr (kRolls) list.rolling(p) = Vec3{};
   }
 
   /// Loads n pairs, evaluates them and stores their history.
@@ -129,12 +121,9 @@ struct PairForces {
   KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int p) const {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
-    const Quad spin_a = quad(a.omega), spin_b = quad(b.omega);
-    s.separation[q] = quad(a.x) - quad(b.x);
-    s.slip[q] = quad(a.u) - quad(b.u);
-    s.arm_spin[q] = a.r * spin_a + b.r * spin_b;
-    s.spin_sum[q] = spin_a + spin_b;
-    if constexpr (kRolls) s.spin_difference[q] = spin_a - spin_b;
+    s.separation[q] = a.x_r() - b.x_r();
+    s.slip[q] = a.u_m() - b.u_m();
+    s.spin_a[q] = a.spin(), s.spin_b[q] = b.spin();
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
     s.xi[q] = quad(list.xi_t(p));
     if constexpr (Rolling::has_history) s.rolling[q] = quad(list.rolling(p));
@@ -144,24 +133,24 @@ struct PairForces {
     const Vec3 separation = box.nearest_image(s.separation[q].vec());
     const Real distance = norm(separation);
     const Vec3 normal = (1 / distance) * separation;
-    const Real r_a = s.r_a[q], r_b = s.r_b[q];
+    const Real r_a = s.r_a[q], r_b = s.r_b[q], m_a = s.m_a[q], m_b = s.m_b[q];
+    const Real one_over = 1 / ((r_a + r_b) * (m_a + m_b));  // a division for two
     const Real overlap = r_a + r_b - distance;
     const bool touches = overlap > 0;
     const Real delta_n = touches ? overlap : 0;
-    const Vec3 arm_spin = s.arm_spin[q].vec() - (delta_n / 2) * s.spin_sum[q].vec();
+    const Vec3 spin_a = s.spin_a[q].vec(), spin_b = s.spin_b[q].vec();
+    const Vec3 arm_spin = fused(r_a - delta_n / 2, spin_a, (r_b - delta_n / 2) * spin_b);
     ContactResult history;
     history.xi_t = s.xi[q].vec();
     if constexpr (Rolling::has_history) history.rolling = s.rolling[q].vec();
-    Vec3 spin_difference;
-    if constexpr (kRolls) spin_difference = s.spin_difference[q].vec();
     const ContactResult result =
         contact_force(law, rolling, friction,
                       ContactPair{.normal = normal,
                                   .delta_n = delta_n,
                                   .slip = contact_slip(s.slip[q].vec(), arm_spin, normal),
-                                  .spin_difference = spin_difference,
-                                  .r_eff = effective(r_a, r_b),
-                                  .m_eff = effective(s.m_a[q], s.m_b[q])},
+                                  .spin_difference = spin_a - spin_b,
+                                  .r_eff = r_a * r_b * (m_a + m_b) * one_over,
+                                  .m_eff = m_a * m_b * (r_a + r_b) * one_over},
                       history, dt);
     const Real on = touches ? 1 : 0;
     put(s.force[q], on * result.force, delta_n);
@@ -177,6 +166,7 @@ struct PairForces {
     list.xi_t(p) = s.xi[q].vec();
     list.touching(p) = s.force[q].w > 0 ? 1 : 0;
     if constexpr (kRolls) list.rolling(p) = s.rolling[q].vec();
+    if (keep_force) list.force(p) = s.force[q].vec();
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_line(const Stage& s, int q, int p) const {

@@ -18,13 +18,13 @@ struct RollingContact {
 
 /// Relative spin without its part along the normal (no torsion) [rad/s].
 KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_spin(const RollingContact& c) {
-  return c.spin_difference - dot(c.spin_difference, c.normal) * c.normal;
+  return fused(-dot(c.spin_difference, c.normal), c.normal, c.spin_difference);
 }
 
 /// `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff F_n.
 KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c, Real k_r,
-                                                   const Vec3& torque) {
-  const Vec3 trial = torque - (k_r * c.dt) * rolling_spin(c);
+                                                        const Vec3& torque) {
+  const Vec3 trial = fused(-k_r * c.dt, rolling_spin(c), torque);
   const Real size = norm(trial);
   const Real limit = c.mu_r * c.r_eff * c.f_n;
   return (size > limit ? limit / size : Real(1)) * trial;
@@ -33,7 +33,9 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c,
 /// No rolling resistance.
 struct NoRolling {
   static constexpr bool has_history = false;
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact&, const Vec3&) const { return {}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact&, const Vec3&) const {
+    return {};
+  }
 };
 
 /// EPSD2: k_r = k_t R_eff^2, no dashpot (Ai et al. 2011 with the stiffness of Iwashita & Oda 1998;
@@ -55,7 +57,8 @@ struct ThetaM {
   }
 };
 
-/// Constant directional torque mu_r R_eff F_n against the relative rolling (Ai et al. 2011, model A).
+/// Constant directional torque mu_r R_eff F_n against the relative rolling (Ai et al. 2011, model
+/// A).
 struct ConstantTorque {
   static constexpr bool has_history = false;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3&) const {

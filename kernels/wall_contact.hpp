@@ -27,39 +27,35 @@ struct Walls {
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;  // (grain, wall): [m], [N m]
   Kokkos::View<std::uint8_t*> touching;                   // bit w: grain touches wall w
 
-  /// Adds the force [N] and torque [N m] of all walls on grain g; advances the history by dt.
-  /// Returns the largest overlap [m].
-  KOKKOS_FUNCTION Real add(int g, const GrainKinematics& grain, Real dt, Vec3& force,
-                           Vec3& torque_sum) const {
-    Real largest = 0;
+  /// Adds the force and torque of all walls on grain g; advances the history by dt.
+  KOKKOS_FORCEINLINE_FUNCTION void add(int g, const GrainKinematics& grain, Real dt,
+                                       ContactSum& sum) const {
+    const std::uint8_t before = touching(g);
+    std::uint8_t now = 0;
     for (int w = 0; w < n; ++w) {
       const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
       const Vec3& normal = plane[w].normal;
       const Real delta_n = grain.r - (dot(normal, grain.x) - plane[w].offset);
-      if (delta_n <= 0) {
-        touching(g) = static_cast<std::uint8_t>(touching(g) & ~bit);
-        continue;
-      }
+      if (delta_n <= 0) continue;
       ContactResult history;
-      if (touching(g) & bit) history.xi_t = xi_t(g, w), history.rolling = torque(g, w);
+      if (before & bit) history.xi_t = xi_t(g, w), history.rolling = torque(g, w);
       const Real arm = grain.r - delta_n / 2;
-      const ContactResult result = contact_force(
-          law, rolling, friction,
-          ContactPair{.normal = normal,
-                      .delta_n = delta_n,
-                      .slip = contact_slip(grain.u, arm * grain.omega, normal),
-                      .spin_difference = grain.omega,
-                      .r_eff = grain.r,
-                      .m_eff = grain.m},
-          history, dt);
-      force += result.force;
-      torque_sum += result.rolling - arm * result.twist;
+      const ContactResult result =
+          contact_force(law, rolling, friction,
+                        ContactPair{.normal = normal,
+                                    .delta_n = delta_n,
+                                    .slip = contact_slip(grain.u, arm * grain.omega, normal),
+                                    .spin_difference = grain.omega,
+                                    .r_eff = grain.r,
+                                    .m_eff = grain.m},
+                        history, dt);
+      sum.force = sum.force + quad(result.force);
+      sum.torque = sum.torque + quad(fused(-arm, result.twist, result.rolling));
       xi_t(g, w) = result.xi_t;
       torque(g, w) = result.rolling;
-      touching(g) = static_cast<std::uint8_t>(touching(g) | bit);
-      largest = delta_n > largest ? delta_n : largest;
+      now = static_cast<std::uint8_t>(now | bit);
     }
-    return largest;
+    if (now != before) touching(g) = now;
   }
 };
 

@@ -15,7 +15,7 @@ namespace {
 const std::string prefix = "restart_";
 const std::string ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
-constexpr std::int64_t format_version = 2;  // of restart files; 2: pairs in chunks
+constexpr std::int64_t format_version = 3;  // of restart files; 3: forces of pairs only where asked for
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");

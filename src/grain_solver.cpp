@@ -1,5 +1,7 @@
 #include "src/grain_solver.hpp"
 
+#include <stdexcept>
+
 #include "kernels/contact_parts.hpp"
 #include "kernels/grain_motion.hpp"
 #include "kernels/pair_forces.hpp"
@@ -70,6 +72,7 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
   grains.wall_xi_t = WallHistory("wall xi_t", n, static_cast<std::size_t>(n_walls_));
   grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
+  list_.with_force = config.output.grain_forces;
 }
 
 template <class Stiffness, class Rolling>
@@ -96,7 +99,8 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                                                .box = list_.box(),
                                                .dt = dt,
                                                .grains = grains.kin,
-                                               .list = grains.list};
+                                               .list = grains.list,
+                                               .keep_force = list_.with_force && s + 1 == n};
     Kokkos::parallel_for("grains: crossing pairs", n_blocks, pairs);
     SumKickDrift<Stiffness, Rolling> sum{.motion = motion(),
                                          .pairs = pairs,
@@ -137,6 +141,9 @@ void GrainSolver::remove_left(GrainState& grains) {
 
 void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
                                  const Kokkos::View<Vec3*>& tangential) const {
+  if (!grains.list.has_force()) {
+    throw std::logic_error("the forces of pairs were not kept: set output.grain_forces");
+  }
   SplitContacts split{.box = list_.box(),
                       .list = grains.list,
                       .grains = grains.kin,
@@ -153,12 +160,14 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   ContactSummary summary;
   const PairList list = grains.list;
   const auto kin = grains.kin;
+  const PeriodicBox box = list_.box();
   Kokkos::parallel_reduce(
       "grains: contact summary", list.n_pairs,
       KOKKOS_LAMBDA(int p, std::int64_t& count, Real& overlap) {
         if (!list.touching(p)) return;
         ++count;
-        const Real relative = list.line(p).delta_n / (kin(list.i(p)).r + kin(list.j(p)).r);
+        const GrainKinematics &a = kin(list.i(p)), &b = kin(list.j(p));
+        const Real relative = 1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r);
         overlap = relative > overlap ? relative : overlap;
       },
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));

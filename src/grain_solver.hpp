@@ -38,7 +38,8 @@ class GrainSolver {
   void remove_left(GrainState& grains);
   /// Contacts and largest overlap from the last sub-step.
   ContactSummary contacts(const GrainState& grains) const;
-  /// Normal and tangential contact force of each grain in the last sub-step [N].
+  /// Normal and tangential contact force of each grain in the last sub-step [N]; throws
+  /// std::logic_error without output.grain_forces.
   void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
                       const Kokkos::View<Vec3*>& tangential) const;
   /// The list as the last rebuild left it, from the x_reference of a restart; the history of its

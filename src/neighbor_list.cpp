@@ -21,12 +21,12 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
   return n;
 }
 
-/// Room for n entries, kept between rebuilds; grows by a quarter more than asked.
+/// Room for n entries, kept between rebuilds; grows by an eighth more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
   if (static_cast<int>(view.extent(0)) < n) {
     view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
-                static_cast<std::size_t>(n + n / 4 + 64));
+                static_cast<std::size_t>(n + n / 8 + 64));
   }
 }
 
@@ -140,56 +140,50 @@ void NeighborList::find_columns(const Kokkos::View<const GrainKinematics*>& kin,
       },
       occupied_.n);
   Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
-  if (static_cast<int>(occupied_.forward.extent(0)) < occupied_.n) {
-    occupied_.forward = Kokkos::View<int* [kForwardColumns]>(
-        "forward columns", static_cast<std::size_t>(occupied_.n + occupied_.n / 4 + 64));
-  }
+  reserve(occupied_.forward, "forward columns", occupied_.n);
   Kokkos::parallel_for("neighbors: link columns", occupied_.n,
                        LinkColumns{.columns = columns_, .occupied = occupied_});
+  reserve(window_, "search windows", n);
+  Kokkos::parallel_for(
+      "neighbors: windows", occupied_.n,
+      FindWindows{
+          .grains = kin, .occupied = occupied_, .window = window_, .reach = 2 * r_max_ + skin_});
 }
 
-void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
-                          bool has_previous) {
-  const int n = grains.n;
-  find_columns(kin, n);
-  std::swap(grains.list, previous_);
-  PairList& list = grains.list;
-  list.chunks = make_chunks(n);
-  reserve(list.first, "pairs: first", n + 1);
-  reserve(list.inner_first, "pairs: inner first", n + 1);
-  reserve(list.other_first, "pairs: other first", n + 1);
-  const PairSearch pair_search{
-      .grains = kin, .occupied = occupied_, .box = box_, .skin = skin_, .r_max = r_max_};
-  Kokkos::parallel_for("neighbors: count", n,
-                       CountPairs{.search = pair_search,
-                                  .chunks = list.chunks,
-                                  .crossing = list.first,
-                                  .inner = list.inner_first});
-  list.n_crossing = counts_to_starts(list.first, n);
-  list.n_pairs = counts_to_starts(list.inner_first, n, list.n_crossing);
+void NeighborList::keep_contacts(const GrainState& grains) {
+  const PairList& list = grains.list;
+  reserve(kept_.first, "contacts kept: first", grains.n + 1);
+  Kokkos::parallel_for("neighbors: count contacts", grains.n,
+                       CountContacts{.list = list, .count = kept_.first});
+  const int n = counts_to_starts(kept_.first, grains.n);
+  reserve(kept_.partner, "contacts kept: partner", n);
+  reserve(kept_.xi_t, "contacts kept: xi_t", n);
+  if (list.has_rolling()) reserve(kept_.rolling, "contacts kept: rolling", n);
+  if (list.has_force()) reserve(kept_.force, "contacts kept: force", n);
+  Kokkos::parallel_for("neighbors: keep contacts", grains.n,
+                       KeepContacts{.list = list, .kept = kept_});
+}
+
+void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.i, "pairs: i", list.n_pairs);
   reserve(list.j, "pairs: j", list.n_pairs);
   reserve(list.other_slot, "pairs: other slot", list.n_crossing);
+  reserve(list.line, "pairs: line", list.n_crossing);
   reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "chunks: slack", list.chunks.count());
   Kokkos::deep_copy(list.slack, -1.0);
-  reserve(list.line, "pairs: line", list.n_pairs);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
   if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
-  Kokkos::parallel_for("neighbors: fill", n,
-                       FillPairs{.search = pair_search,
-                                 .list = list,
-                                 .previous = previous_,
-                                 .old_row = row_,
-                                 .has_previous = has_previous,
-                                 .has_rolling = with_rolling});
-  const PairList filled = list;
-  Kokkos::deep_copy(filled.other_first, 0);
+  if (with_force) reserve(list.force, "pairs: force", list.n_pairs);
+}
+
+void NeighborList::register_others(const PairList& list, int n) {
+  Kokkos::deep_copy(list.other_first, 0);
   Kokkos::parallel_for(
-      "neighbors: count others", filled.n_crossing,
-      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&filled.other_first(filled.j(slot))); });
+      "neighbors: count others", list.n_crossing,
+      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.other_first(list.j(slot))); });
   counts_to_starts(list.other_first, n);
   reserve(cursor_, "pairs: cursor", n + 1);
   const auto span = std::pair<int, int>(0, n + 1);
@@ -199,17 +193,54 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
 }
 
+void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
+                          bool has_kept) {
+  const int n = grains.n;
+  find_columns(kin, n);
+  PairList& list = grains.list;
+  list.chunks = make_chunks(n);
+  reserve(list.first, "pairs: first", n + 1);
+  reserve(list.inner_first, "pairs: inner first", n + 1);
+  reserve(list.other_first, "pairs: other first", n + 1);
+  reserve(noted_, "noted partners", n);
+  const PairSearch pair_search{.grains = kin,
+                               .occupied = occupied_,
+                               .window = window_,
+                               .box = box_,
+                               .skin = skin_,
+                               .r_max = r_max_};
+  Kokkos::parallel_for("neighbors: count", n,
+                       CountPairs{.search = pair_search,
+                                  .chunks = list.chunks,
+                                  .crossing = list.first,
+                                  .inner = list.inner_first,
+                                  .noted = noted_});
+  list.n_crossing = counts_to_starts(list.first, n);
+  list.n_pairs = counts_to_starts(list.inner_first, n, list.n_crossing);
+  reserve_pairs(list);
+  Kokkos::parallel_for("neighbors: fill", n,
+                       FillPairs{.search = pair_search,
+                                 .noted = noted_,
+                                 .list = list,
+                                 .kept = kept_,
+                                 .old_row = row_,
+                                 .has_kept = has_kept});
+  register_others(list, n);
+}
+
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
+  const bool has_contacts = rebuilds_ > 0;
   check_positions(grains);
   wrap(grains);
+  if (has_contacts) keep_contacts(grains);
   sort(grains, drop);
   const auto kin = grains.kin;
   const auto reference = grains.x_reference;
   Kokkos::parallel_for(
       "neighbors: reference positions", grains.n,
       KOKKOS_LAMBDA(int g) { reference(g) = kin(g).x; });
-  search(grains, grains.kin, rebuilds_ > 0);
+  search(grains, grains.kin, has_contacts);
   ++rebuilds_;
 }
 

@@ -25,13 +25,16 @@ class NeighborList {
   Real margin() const { return skin_ / 10; }
   std::int64_t rebuilds() const { return rebuilds_; }
   bool with_rolling = false;  // keep a rolling torque per pair
+  bool with_force = false;    // keep the force of each pair in the last sub-step
   const PeriodicBox& box() const { return box_; }
 
  private:
+  void keep_contacts(const GrainState& grains);
   void sort(GrainState& grains, bool drop);
   void find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n);
-  void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
-              bool has_previous);
+  void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin, bool has_kept);
+  void reserve_pairs(PairList& list) const;
+  void register_others(const PairList& list, int n);
   void check_positions(const GrainState& grains) const;
   void wrap(GrainState& grains) const;
 
@@ -42,9 +45,11 @@ class NeighborList {
   bool exit_x_ = false;
   std::int64_t rebuilds_ = 0;
   OccupiedColumns occupied_;
-  PairList previous_;
+  Windows window_;
+  NotedPartners noted_;
+  KeptContacts kept_;
   Kokkos::View<std::uint64_t*> key_;
-  Kokkos::View<int*> row_, identity_, cursor_;
+  Kokkos::View<int*> row_, cursor_;
 };
 
 }  // namespace barchan

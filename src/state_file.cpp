@@ -54,10 +54,9 @@ void for_each_grain_array(const GrainState& s, const F& f) {
 template <class F>
 void for_each_pair_array(const PairList& list, const F& f) {
   const int n = list.n_pairs;
-  f("pairs/line", first_rows(list.line, n));
   f("pairs/xi_t", first_rows(list.xi_t, n));
   f("pairs/touching", first_rows(list.touching, n));
-  if (list.rolling.extent(0) > 0) f("pairs/rolling", first_rows(list.rolling, n));
+  if (list.has_rolling()) f("pairs/rolling", first_rows(list.rolling, n));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ inline Config grain_config() {
   c.grains->gravity = {0, 0, 0};
   c.time.fluid_step = 2.5e-4;
   c.time.grain_step = 2.5e-6;
+  c.output.grain_forces = true;  // so that the list keeps the force of each pair
   return c;
 }
 

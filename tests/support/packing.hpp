@@ -43,7 +43,7 @@ struct HostGrains {
         contact_force(host_copy(s.contact_force)),
         i(host_copy(s.list.i)),
         j(host_copy(s.list.j)),
-        line(host_copy(s.list.line)),
+        force(host_copy(s.list.force)),
         touching(host_copy(s.list.touching)),
         wall_touching(host_copy(s.wall_touching)) {}
 
@@ -56,13 +56,13 @@ struct HostGrains {
   }
   /// What the walls do to each grain: its contact force without that of the pairs [N].
   std::vector<Vec3> wall_forces() const {
-    std::vector<Vec3> force(static_cast<std::size_t>(n));
-    for (int g = 0; g < n; ++g) force[static_cast<std::size_t>(g)] = contact_force(g);
+    std::vector<Vec3> sum(static_cast<std::size_t>(n));
+    for (int g = 0; g < n; ++g) sum[static_cast<std::size_t>(g)] = contact_force(g);
     for_contacts([&](int p) {
-      force[static_cast<std::size_t>(i(p))] += -line(p).force;
-      force[static_cast<std::size_t>(j(p))] += line(p).force;
+      sum[static_cast<std::size_t>(i(p))] += -force(p);
+      sum[static_cast<std::size_t>(j(p))] += force(p);
     });
-    return force;
+    return sum;
   }
   Real kinetic_energy() const {
     Real sum = 0;
@@ -77,7 +77,7 @@ struct HostGrains {
   decltype(host_copy(GrainState().kin)) kin;
   decltype(host_copy(GrainState().contact_force)) contact_force;
   decltype(host_copy(PairList().i)) i, j;
-  decltype(host_copy(PairList().line)) line;
+  decltype(host_copy(PairList().force)) force;  // of config.output.grain_forces
   decltype(host_copy(PairList().touching)) touching;
   decltype(host_copy(GrainState().wall_touching)) wall_touching;
 };

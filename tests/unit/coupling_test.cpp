@@ -119,7 +119,9 @@ TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
 }
 
 TEST(Coupling, PartsOfTheContactForceAddUp) {
-  Coupled c(coupled_config());
+  Config config = coupled_config();
+  config.output.grain_forces = true;
+  Coupled c(config);
   c.advance(5);
   const auto forces = c.step.grain_forces(c.state);
   ASSERT_EQ(forces.size(), 7u);

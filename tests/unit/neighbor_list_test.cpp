@@ -88,7 +88,7 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
   c.size = {0.003, 0.003, 0.003};
   GrainState s = make_grain_state(random_grains(500, c.size, 3), 2500);
   NeighborList list(c, s.r_max);
-  list.with_rolling = true;
+  list.with_rolling = list.with_force = true;
   list.rebuild(s, false);
   // Mark each pair with its ids, seen from the grain of lower id.
   const auto mark = [&s](bool write) {
@@ -104,12 +104,12 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
           if (write) {
             l.xi_t(p) = expected;
             l.rolling(p) = Real(2) * expected;
-            l.line(p).force = Real(3) * expected;
+            l.force(p) = Real(3) * expected;
             l.touching(p) = 1;
           } else if (l.touching(p)) {
             errors += norm(l.xi_t(p) - expected) > 0 ||
                       norm(l.rolling(p) - Real(2) * expected) > 0 ||
-                      norm(l.line(p).force - Real(3) * expected) > 0;
+                      norm(l.force(p) - Real(3) * expected) > 0;
           }
         },
         wrong);
