@@ -28,7 +28,7 @@ class NeighborList {
   bool with_force = false;    // keep the force of each pair in the last sub-step
   const PeriodicBox& box() const { return box_; }
 
- private:
+  // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
   void keep_contacts(const GrainState& grains);
   void sort(GrainState& grains, bool drop);
   void find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n);
@@ -38,6 +38,7 @@ class NeighborList {
   void check_positions(const GrainState& grains) const;
   void wrap(GrainState& grains) const;
 
+ private:
   Columns columns_;
   PeriodicBox box_;
   Real skin_ = 0, r_max_ = 0;
