@@ -5,6 +5,7 @@
 #include "kernels/contact_parts.hpp"
 #include "kernels/grain_motion.hpp"
 #include "kernels/pair_forces.hpp"
+#include "src/launch.hpp"
 
 namespace barchan {
 
@@ -88,7 +89,7 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
   };
   Real moved = 0;
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", grains.n, motion(),
+  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(),
                           Kokkos::Max<Real>(moved));
   for (int s = 0; s < n; ++s) {
     if (list_.is_stale(moved)) list_.rebuild(grains, false);
@@ -101,7 +102,7 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                                                .grains = grains.kin,
                                                .list = grains.list,
                                                .keep_force = list_.with_force && s + 1 == n};
-    Kokkos::parallel_for("grains: crossing pairs", n_blocks, pairs);
+    Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
     SumKickDrift<Stiffness, Rolling> sum{.motion = motion(),
                                          .pairs = pairs,
                                          .walls = {.n = n_walls_,
@@ -116,8 +117,8 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                                          .last = s + 1 == n,
                                          .margin = list_.margin()};
     for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
-    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift", grains.list.chunks.count(),
-                            sum, Kokkos::Max<Real>(moved));
+    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
+                            items(grains.list.chunks.count()), sum, Kokkos::Max<Real>(moved));
   }
 }
 

@@ -18,13 +18,18 @@ inline CellRange owned_cells(const Grid& grid) { return {0, grid.nx, 0, grid.ny,
 inline constexpr bool runs_on_host =
     std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
 
+/// Work items 0..n-1. "Light" makes a device take the functor as the kernel's argument. Kokkos
+/// would copy one of more than 512 bytes through a buffer in constant memory, and wait at every
+/// launch until the last kernel that used the buffer is done.
+using Items = Kokkos::RangePolicy<Kokkos::DefaultExecutionSpace, Kokkos::IndexType<int>,
+                                  Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+inline Items items(int n) { return Items(0, n); }
+
 namespace launch_detail {
 
-using Policy = Kokkos::RangePolicy<Kokkos::DefaultExecutionSpace, Kokkos::IndexType<int>>;
-
-inline Policy policy(const CellRange& r) {
+inline Items policy(const CellRange& r) {
   const int rows = (r.j1 - r.j0) * (r.k1 - r.k0);
-  return Policy(0, runs_on_host ? rows : rows * (r.i1 - r.i0));
+  return items(runs_on_host ? rows : rows * (r.i1 - r.i0));
 }
 
 /// Index of a row (host) or of a cell (device) back to i, j, k.
