@@ -22,13 +22,13 @@ struct FluidForces {
 /// (Lima et al. 2022, B9 and B10; Set II: the same stress as in the fluid equation), and the
 /// convective acceleration u . grad u [m/s^2] of the added mass.
 struct FluidForceDensity {
-  Grid grid;
-  FaceVector u;
-  Field p;
+  GridRef grid;
+  FaceRef u;
+  FieldRef p;
   StressDivergence stress;
   Real rho_f = 0, drive = 0;
   FluidForces forces;
-  FaceVector force, convective;
+  FaceRef force, convective;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     const Real a = -forces.pressure_gradient, b = rho_f * forces.stress;
@@ -40,6 +40,16 @@ struct FluidForceDensity {
     convective.x(i, j, k) = acceleration.x(i, j, k);
     convective.y(i, j, k) = j > 0 ? acceleration.y(i, j, k) : Real(0);
     convective.z(i, j, k) = acceleration.z(i, j, k);
+  }
+};
+
+/// The force density on the lower wall takes the value of the first face inside; what ghosts hold
+/// behind both walls is constant, too.
+struct HoldForceAtWall {
+  FieldRef force_y;
+  int ny;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
+    force_y(i, 0, k) = force_y(i, ny > 1 ? 1 : 0, k);
   }
 };
 
@@ -69,9 +79,9 @@ KOKKOS_INLINE_FUNCTION Real exchange_relaxation(Real inertia, Real displaced_mas
 template <class DragLaw>
 struct GatherFluid {
   DragLaw drag;
-  Grid grid;
-  FaceVector u, force, convective;
-  Field alpha_f;
+  GridRef grid;
+  FaceRef u, force, convective;
+  FieldRef alpha_f;
   Real rho_f = 0, mu_f = 0, dt = 0;
   Vec3 gravity;
   FluidForces forces;
@@ -177,6 +187,22 @@ struct ExchangeOfGrain {
   }
 };
 
+/// What all grains together give: volume [m^3], implicit coefficient [kg], sum of |impulse|
+/// components and the impulse itself [N s].
+struct SumExchange {
+  ExchangeOfGrain of_grain;
+  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& implicit, Real& size, Real& x, Real& y,
+                                  Real& z) const {
+    const GrainExchange e = of_grain(g);
+    volume += e.volume;
+    implicit += e.implicit;
+    size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
+    x += e.impulse.x;
+    y += e.impulse.y;
+    z += e.impulse.z;
+  }
+};
+
 /// Deposits the volume and the exchange of each grain in the cells of its points.
 struct DepositGrain {
   Locate locate;
@@ -203,11 +229,11 @@ struct DepositGrain {
 
 /// One quantity of the deposits as a density on cells: sum / cell volume.
 struct DecodeDeposit {
-  Grid grid;
+  GridRef grid;
   Deposits deposits;
   FixedPoint point;
   int quantity = 0;
-  Field density;
+  FieldRef density;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
@@ -227,18 +253,18 @@ KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
 
 /// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
 struct SpreadToFaces {
-  Grid grid;
-  Field implicit, impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
-  ExchangeOnFaces exchange;
+  GridRef grid;
+  FieldRef implicit, impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
+  ExchangeRef exchange;
 
-  KOKKOS_INLINE_FUNCTION Real on_y_face(const Field& f, int i, int j, int k) const {
+  KOKKOS_INLINE_FUNCTION Real on_y_face(const FieldRef& f, int i, int j, int k) const {
     if (j == 0) return 0;
     return (f(i, j - 1, k) * grid.dy(j - 1) * y_face_shares(j - 1, grid.ny).upper +
             f(i, j, k) * grid.dy(j) * y_face_shares(j, grid.ny).lower) /
            grid.dy_centre(j);
   }
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const FaceVector &a = exchange.impulse, &m = exchange.implicit;
+    const FaceRef &a = exchange.impulse, &m = exchange.implicit;
     // The fluid gets the opposite of what the grains got.
     a.x(i, j, k) = -(impulse_x(i - 1, j, k) + impulse_x(i, j, k)) / 2;
     a.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
@@ -249,12 +275,37 @@ struct SpreadToFaces {
   }
 };
 
+/// Integrals over the volumes of the faces of one direction, for the ledger: of the impulse density,
+/// and of what the implicit part took while the velocity changed at the rate du_dt (nothing on the
+/// wall).
+struct FaceVolume {
+  GridRef grid;
+  bool y_faces;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int j) const {
+    return grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j));
+  }
+};
+struct SumImpulse {
+  FaceVolume volume;
+  FieldRef impulse;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return impulse(i, j, k) * volume(j);
+  }
+};
+struct SumImplicit {
+  FaceVolume volume;
+  FieldRef implicit, du_dt;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return volume.y_faces && j == 0 ? 0 : implicit(i, j, k) * du_dt(i, j, k) * volume(j);
+  }
+};
+
 /// Change of the fluid velocity within the step on cells: the adjoint of SpreadToFaces.
 struct VelocityChangeOnCells {
-  Grid grid;
-  FaceVector du_dt;
+  GridRef grid;
+  FaceRef du_dt;
   Real dt = 0;
-  Field x, y, z;
+  FieldRef x, y, z;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     const FaceShares share = y_face_shares(j, grid.ny);
@@ -269,7 +320,7 @@ struct VelocityChangeOnCells {
 struct CarryToGrain {
   Locate locate;
   ExchangeOfGrain of_grain;
-  Field x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
+  FieldRef x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
   Kokkos::View<Vec3*> carried_impulse;
 
   KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {

@@ -17,7 +17,7 @@ struct LinearStencil {
 struct PointStencil {
   LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
 
-  KOKKOS_INLINE_FUNCTION PointStencil(const Grid& g, const Vec3& point, bool wrap_x) {
+  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const Vec3& point, bool wrap_x) {
     Real x = point.x - g.x0;
     if (wrap_x) x -= g.lx * Kokkos::floor(x / g.lx);
     x = x < 0 ? 0 : (x > g.lx ? g.lx : x);
@@ -42,7 +42,7 @@ struct PointStencil {
 };
 
 /// Value of `f` from its eight surrounding nodes; exact for linear fields.
-KOKKOS_INLINE_FUNCTION Real interpolate(const Field& f, const LinearStencil& x,
+KOKKOS_INLINE_FUNCTION Real interpolate(const FieldRef& f, const LinearStencil& x,
                                         const LinearStencil& y, const LinearStencil& z) {
   const auto along_x = [&](int j, int k) {
     return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k);
@@ -53,10 +53,10 @@ KOKKOS_INLINE_FUNCTION Real interpolate(const Field& f, const LinearStencil& x,
   return (1 - z.t) * in_plane(z.i) + z.t * in_plane(z.i + 1);
 }
 
-KOKKOS_INLINE_FUNCTION Real interpolate_cell(const Field& f, const PointStencil& s) {
+KOKKOS_INLINE_FUNCTION Real interpolate_cell(const FieldRef& f, const PointStencil& s) {
   return interpolate(f, s.x_centre, s.y_centre, s.z_centre);
 }
-KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const FaceVector& f, const PointStencil& s) {
+KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const FaceRef& f, const PointStencil& s) {
   return {interpolate(f.x, s.x_face, s.y_centre, s.z_centre),
           interpolate(f.y, s.x_centre, s.y_face, s.z_centre),
           interpolate(f.z, s.x_centre, s.y_centre, s.z_face)};

@@ -36,7 +36,7 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
 struct CellIndex {
   int i = 0, j = 0, k = 0;
   /// i + nx (j + ny k).
-  KOKKOS_INLINE_FUNCTION std::int64_t linear(const Grid& grid) const {
+  KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
     return i + std::int64_t{grid.nx} * (j + std::int64_t{grid.ny} * k);
   }
   KOKKOS_INLINE_FUNCTION bool operator==(const CellIndex& b) const {
@@ -71,7 +71,7 @@ enum class PointSet { divided, centre, cfdem };
 /// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
 /// beyond the outlet goes to the last cell, periodic directions wrap.
 struct Locate {
-  Grid grid;
+  GridRef grid;
   PointSet points = PointSet::divided;
   bool wrap_x = false;
 

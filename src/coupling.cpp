@@ -123,13 +123,9 @@ void Coupling::force_density(const FluidState& fluid, const GrainState& grains,
                                   .forces = forces,
                                   .force = force_,
                                   .convective = convective_});
-  // Wall faces take the value of the first face inside; both sides of the walls are held constant.
-  const Grid grid = grid_;
-  const Field force_y = force_.y;
-  for_each_cell(
-      "coupling: force density at the walls",
-      CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
-      KOKKOS_LAMBDA(int i, int, int k) { force_y(i, 0, k) = force_y(i, grid.ny > 1 ? 1 : 0, k); });
+  for_each_cell("coupling: force density at the walls",
+                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
+                HoldForceAtWall{force_.y, grid_.ny});
   for (const FaceVector* f : {&force_, &convective_}) {
     boundary_.fill(f->x, FieldKind::scalar);
     boundary_.fill(f->y, FieldKind::scalar);
@@ -141,7 +137,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   force_density(fluid, grains, forces_);
   std::visit(
       [&](const auto& law) {
-        Kokkos::parallel_for("coupling: gather", grains.n,
+        Kokkos::parallel_for("coupling: gather", items(grains.n),
                              GatherFluid{.drag = law,
                                          .grid = grid_,
                                          .u = fluid.u,
@@ -166,8 +162,8 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
 void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
                             const GrainState& grains, const Kokkos::View<Vec3*>& force) {
   force_density(fluid, grains, which);
-  const Grid grid = grid_;
-  const FaceVector density = force_;
+  const GridRef grid = grid_;
+  const FaceRef density = force_;
   const auto kin = grains.kin;
   const bool wrap_x = locate_.wrap_x;
   Kokkos::parallel_for(
@@ -180,20 +176,9 @@ void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
 void Coupling::choose_scales(const GrainState& grains, Real dt) {
   // Bounds of what one cell can receive: everything.
   Real volume = 0, implicit = 0, impulse = 0;
-  const ExchangeOfGrain exchange = of_grain(grains, dt);
   Vec3 given;
-  Kokkos::parallel_reduce(
-      "coupling: totals", grains.n,
-      KOKKOS_LAMBDA(int g, Real& v, Real& m, Real& size, Real& x, Real& y, Real& z) {
-        const GrainExchange e = exchange(g);
-        v += e.volume;
-        m += e.implicit;
-        size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
-        x += e.impulse.x;
-        y += e.impulse.y;
-        z += e.impulse.z;
-      },
-      volume, implicit, impulse, given.x, given.y, given.z);
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
+                          volume, implicit, impulse, given.x, given.y, given.z);
   deposits_.volume = fixed_point_for(volume);
   deposits_.implicit = fixed_point_for(implicit);
   deposits_.impulse = fixed_point_for(impulse);
@@ -215,7 +200,7 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   choose_scales(grains, dt);
   Kokkos::deep_copy(deposits_.sum, 0);
   Kokkos::parallel_for(
-      "coupling: deposit", grains.n,
+      "coupling: deposit", items(grains.n),
       DepositGrain{.locate = locate_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
 
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
@@ -261,22 +246,14 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 }
 
 void Coupling::sum_faces(Real dt, const FluidState& fluid) {
-  const Grid grid = grid_;
-  const ExchangeOnFaces e = on_faces_;
-  const FaceVector rate = fluid.du_dt;
+  const ExchangeOnFaces& e = on_faces_;
+  const FaceVector& rate = fluid.du_dt;
   const auto sum = [&](const Field& impulse, const Field& implicit, const Field& du, bool y_faces,
                        Real& taken, Real& implicit_taken) {
-    const auto volume = KOKKOS_LAMBDA(int j) {
-      return grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j));
-    };
-    taken = -sum_each_cell(
-        "ledger: taken from the fluid", grid,
-        KOKKOS_LAMBDA(int i, int j, int k) { return impulse(i, j, k) * volume(j); });
+    const FaceVolume volume{grid_, y_faces};
+    taken = -sum_each_cell("ledger: taken from the fluid", grid_, SumImpulse{volume, impulse});
     implicit_taken =
-        dt * sum_each_cell(
-                 "ledger: implicit drag", grid, KOKKOS_LAMBDA(int i, int j, int k) {
-                   return y_faces && j == 0 ? 0 : implicit(i, j, k) * du(i, j, k) * volume(j);
-                 });
+        dt * sum_each_cell("ledger: implicit drag", grid_, SumImplicit{volume, implicit, du});
   };
   ExchangeLedger& l = ledger_;
   sum(e.impulse.x, e.implicit.x, rate.x, false, l.taken_from_fluid.x, l.implicit_on_fluid.x);
@@ -296,7 +273,7 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
     for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
   }
   Vec3& total = ledger_.carried_to_grains;
-  Kokkos::parallel_reduce("coupling: carry to grains", grains.n,
+  Kokkos::parallel_reduce("coupling: carry to grains", items(grains.n),
                           CarryToGrain{.locate = locate_,
                                        .of_grain = of_grain(grains, dt),
                                        .x = cell_[1],

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <map>
 
-#include "src/mesh.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
+#include "tests/support/flow_fields.hpp"
 #include "tests/support/saved_results.hpp"
 #include "tests/support/sphere_box.hpp"
 
@@ -19,8 +19,9 @@ using Shares = std::map<Index, double>;  // by cell, of the grain's volume
 constexpr int kCells = 6;  // cubic cells of edge one in each direction
 
 struct Cells {
-  Grid grid = make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0));
-  Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = true};
+  test::HostGrid grid{
+      make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0))};
+  Locate locate{.grid = grid.ref(), .points = PointSet::divided, .wrap_x = true};
 
   /// Shares by the code.
   Shares deposited(const Vec3& x, double r) const {

@@ -15,6 +15,11 @@ namespace barchan::test {
 struct HostField {
   Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace> values;
   Real operator()(int i, int j, int k) const { return values(i + 1, j + 1, k + 1); }
+  /// As kernels see a field, for those of their functions that a test calls on the host.
+  FieldRef ref() const {
+    const int row = static_cast<int>(values.extent(0)), plane = row * static_cast<int>(values.extent(1));
+    return {values.data() + 1 + row + plane, row, plane};
+  }
 };
 
 inline HostField to_host(const Field& f) {
@@ -51,6 +56,15 @@ struct HostGrid {
   explicit HostGrid(const Grid& g) : grid(g) {
     const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g.y_face_);
     for (std::size_t n = 0; n < face.extent(0); ++n) faces.push_back(face(n));
+    const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g.y_centre_);
+    for (std::size_t n = 0; n < centre.extent(0); ++n) centres.push_back(centre(n));
+  }
+  /// As kernels see a grid, for those of their functions that a test calls on the host.
+  GridRef ref() const {
+    GridRef r = grid;
+    r.y_face_ = faces.data();
+    r.y_centre_ = centres.data();
+    return r;
   }
   double x_face(int i) const { return grid.x0 + i * grid.dx; }
   double x(int i) const { return grid.x0 + (i + 0.5) * grid.dx; }
@@ -62,7 +76,7 @@ struct HostGrid {
   double volume(int j) const { return grid.dx * dy(j) * grid.dz; }
 
   Grid grid;
-  std::vector<double> faces;
+  std::vector<double> faces, centres;  // with those of the ghost rows
 };
 
 /// Stretched unless `first` is zero.

@@ -6,14 +6,14 @@
 
 #include "kernels/interpolation.hpp"
 #include "kernels/void_fraction.hpp"
-#include "src/domain.hpp"
-#include "src/launch.hpp"
-#include "src/mesh.hpp"
+#include "tests/support/flow_fields.hpp"
 
 namespace barchan {
 namespace {
 
-Grid awkward_grid() { return make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4)); }
+test::HostGrid awkward_grid() {
+  return test::HostGrid(make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4)));
+}
 
 TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
   const auto mean_radius = [](Real a, Real b) {
@@ -37,7 +37,8 @@ TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
 }
 
 TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
-  const Grid grid = awkward_grid();
+  const test::HostGrid host = awkward_grid();
+  const GridRef grid = host.ref();
   const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
   std::mt19937_64 generator(4);
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
@@ -72,7 +73,8 @@ TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
 }
 
 TEST(Locate, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
-  const Grid grid = awkward_grid();
+  const test::HostGrid host = awkward_grid();
+  const GridRef grid = host.ref();
   const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
   EXPECT_EQ(locate.cell_of({0.001, -1e-5, 0.001}, 0), locate.cell_of({0.001, 1e-5, 0.001}, 0));
   EXPECT_EQ(locate.cell_of({0.001, 1e-5, -1e-5}, 0), locate.cell_of({0.001, 1e-5, 0.00799}, 0));
@@ -101,31 +103,42 @@ TEST(FixedPoint, SumsDoNotDependOnTheOrder) {
   EXPECT_GT(fixed.encode(1000), std::int64_t{1} << 60);
 }
 
+/// A component on the host, ghosts included: value(i, j, k).
+template <class Value>
+test::HostField host_field(const GridRef& grid, Value value) {
+  test::HostField f{decltype(test::HostField::values)("f", grid.nx + 2, grid.ny + 2, grid.nz + 2)};
+  for (int k = -1; k <= grid.nz; ++k)
+    for (int j = -1; j <= grid.ny; ++j)
+      for (int i = -1; i <= grid.nx; ++i) f.ref()(i, j, k) = value(i, j, k);
+  return f;
+}
+
 TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
-  const Grid grid = awkward_grid();
-  const FaceVector f{Field("x", grid), Field("y", grid), Field("z", grid)};
-  const auto value = KOKKOS_LAMBDA(Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
-  for_each_cell(
-      "test: linear field", CellRange{-1, grid.nx + 1, -1, grid.ny + 1, -1, grid.nz + 1},
-      KOKKOS_LAMBDA(int i, int j, int k) {
-        f.x(i, j, k) = value(grid.x_face(i), grid.y_centre(j), grid.z_centre(k));
-        f.y(i, j, k) = value(grid.x_centre(i), grid.y_face(j), grid.z_centre(k));
-        f.z(i, j, k) = value(grid.x_centre(i), grid.y_centre(j), grid.z_face(k));
-      });
-  for (const Vec3& p :
-       {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075}, Vec3{0.00555, 0.0021, 0.0002},
-        Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
-    const Vec3 v = interpolate_faces(f, PointStencil(grid, p, false));
+  const test::HostGrid host = awkward_grid();
+  const GridRef g = host.ref();
+  const auto value = [](Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
+  const test::HostField u = host_field(g, [&](int i, int j, int k) {
+    return value(g.x_face(i), g.y_centre(j), g.z_centre(k));
+  });
+  const test::HostField v = host_field(g, [&](int i, int j, int k) {
+    return value(g.x_centre(i), g.y_face(j), g.z_centre(k));
+  });
+  const test::HostField w = host_field(g, [&](int i, int j, int k) {
+    return value(g.x_centre(i), g.y_centre(j), g.z_face(k));
+  });
+  const FaceRef f{u.ref(), v.ref(), w.ref()};
+  for (const Vec3& p : {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075},
+                        Vec3{0.00555, 0.0021, 0.0002}, Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
+    const Vec3 at = interpolate_faces(f, PointStencil(g, p, false));
     const Real expected = value(p.x, p.y, p.z);
-    EXPECT_NEAR(v.x, expected, 1e-12) << p.x << " " << p.y << " " << p.z;
-    EXPECT_NEAR(v.y, expected, 1e-12);
-    EXPECT_NEAR(v.z, expected, 1e-12);
+    EXPECT_NEAR(at.x, expected, 1e-12) << p.x << " " << p.y << " " << p.z;
+    EXPECT_NEAR(at.y, expected, 1e-12);
+    EXPECT_NEAR(at.z, expected, 1e-12);
   }
   // Ghosts that mirror the velocity make it vanish on the wall.
-  for_each_cell(
-      "test: no slip", CellRange{-1, grid.nx + 1, -1, 0, -1, grid.nz + 1},
-      KOKKOS_LAMBDA(int i, int, int k) { f.x(i, -1, k) = -f.x(i, 0, k); });
-  EXPECT_NEAR(interpolate_faces(f, PointStencil(grid, {0.003, 0, 0.002}, false)).x, 0, 1e-14);
+  for (int k = -1; k <= g.nz; ++k)
+    for (int i = -1; i <= g.nx; ++i) f.x(i, -1, k) = -f.x(i, 0, k);
+  EXPECT_NEAR(interpolate_faces(f, PointStencil(g, {0.003, 0, 0.002}, false)).x, 0, 1e-14);
 }
 
 }  // namespace
