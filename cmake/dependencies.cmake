@@ -23,17 +23,18 @@ else()
   set(hdf5_target hdf5::hdf5)
 endif()
 
-# FFTW ships no CMake package that can be relied on; FFTW3_ROOT is honoured by find_*.
-find_path(FFTW3_INCLUDE_DIR fftw3.h REQUIRED)
-find_library(FFTW3_LIBRARY fftw3 REQUIRED)
-find_library(FFTW3_OMP_LIBRARY fftw3_omp)
-add_library(barchan_fftw INTERFACE)
-target_include_directories(barchan_fftw SYSTEM INTERFACE "${FFTW3_INCLUDE_DIR}")
-if(FFTW3_OMP_LIBRARY)
-  target_link_libraries(barchan_fftw INTERFACE "${FFTW3_OMP_LIBRARY}")
-  target_compile_definitions(barchan_fftw INTERFACE BARCHAN_FFTW_OMP)
+# Fourier transforms: cuFFT where Kokkos has CUDA, else FFTW.
+add_library(barchan_fft INTERFACE)
+if(Kokkos_ENABLE_CUDA)
+  find_package(CUDAToolkit REQUIRED)
+  target_link_libraries(barchan_fft INTERFACE CUDA::cufft)
+else()
+  # FFTW ships no CMake package that can be relied on; FFTW3_ROOT is honoured by find_*.
+  find_path(FFTW3_INCLUDE_DIR fftw3.h REQUIRED)
+  find_library(FFTW3_LIBRARY fftw3 REQUIRED)
+  target_include_directories(barchan_fft SYSTEM INTERFACE "${FFTW3_INCLUDE_DIR}")
+  target_link_libraries(barchan_fft INTERFACE "${FFTW3_LIBRARY}")
 endif()
-target_link_libraries(barchan_fftw INTERFACE "${FFTW3_LIBRARY}")
 
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
@@ -50,5 +51,5 @@ if(TOMLPLUSPLUS_LIBRARY)
   target_link_libraries(barchan_toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
 endif()
 
-set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fftw Eigen3::Eigen CLI11::CLI11
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft Eigen3::Eigen CLI11::CLI11
     fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_toml)

@@ -1,7 +1,7 @@
-// Real Fourier transforms over x and z of every row of a grid field.
+// Real Fourier transforms over x and z of every row of a grid field. By FFTW on the host
+// (fft_fftw.cpp) or by cuFFT on the device (fft_cufft.cpp): CMake takes one of the two.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 
 #include "kernels/grid.hpp"
@@ -20,22 +20,16 @@ class PlaneFft {
   PlaneFft(const PlaneFft&) = delete;
   PlaneFft& operator=(const PlaneFft&) = delete;
 
-  Spectrum make_spectrum(const char* label) const;
+  Spectrum make_spectrum(const char* label) const { return Spectrum(label, nx_ / 2 + 1, ny_, nz_); }
   void forward(const Field& in, const Spectrum& out) const;
   /// Destroys `in`. Ghosts of `out` are left alone.
   void backward(const Spectrum& in, const Field& out) const;
 
  private:
-  struct Plans;
-  void forward_on_host(const Real* in, Kokkos::complex<Real>* out) const;
-  void backward_on_host(Kokkos::complex<Real>* in, Real* out) const;
+  struct Library;  // plans and work space
 
-  std::unique_ptr<Plans> plans_;
   int nx_, ny_, nz_;
-  std::ptrdiff_t row_, plane_;  // strides of a field's y and z
-  // Where fields live on a device: host copies that the transforms work on.
-  Field::Storage::host_mirror_type real_;
-  Spectrum::host_mirror_type spectrum_;
+  std::unique_ptr<Library> library_;
 };
 
 }  // namespace barchan
