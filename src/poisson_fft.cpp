@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "src/launch.hpp"
+
 namespace barchan {
 
 namespace {
@@ -14,10 +16,18 @@ Real eigenvalue(int m, int n, Real spacing) {
   return 4 * s * s / (spacing * spacing);
 }
 
+/// On a host all columns of a plane kz, side by side in vectors; on a device one column.
 struct SolveColumns {
   ColumnSolve columns;
   int n_modes;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int kz) const { columns.solve(0, n_modes, kz); }
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int index) const {
+    if constexpr (runs_on_host) {
+      columns.solve(0, n_modes, index);
+    } else {
+      const int kx = index % n_modes;
+      columns.solve(kx, kx + 1, index / n_modes);
+    }
+  }
 };
 
 }  // namespace
@@ -66,8 +76,8 @@ void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
 void PoissonFft::solve(const Field& in, const Field& out) const {
   fft_->forward(in, columns_.modes);
   const int n_modes = static_cast<int>(columns_.modes.extent(0));
-  Kokkos::parallel_for("poisson: columns",
-                       Kokkos::RangePolicy<>(0, static_cast<int>(columns_.modes.extent(2))),
+  const int planes = static_cast<int>(columns_.modes.extent(2));
+  Kokkos::parallel_for("poisson: columns", items(runs_on_host ? planes : planes * n_modes),
                        SolveColumns{columns_, n_modes});
   fft_->backward(columns_.modes, out);
 }
