@@ -85,6 +85,16 @@ void add_cone_use(const HostGrains& h, const PeriodicBox& box, Real mu, ConeUse&
   }
 }
 
+/// Weight and a force along x that grows with height.
+void set_shear(const GrainState& s) {
+  const auto force = s.fluid.steady_force;
+  const auto rows = s.kin;
+  Kokkos::parallel_for(
+      "test: shear", s.n, KOKKOS_LAMBDA(int p) {
+        force(p) = rows(p).m * Vec3{kG * (0.3 + 600 * rows(p).x.y), -kG, 0};
+      });
+}
+
 // A bed under gravity dragged along x by a force that grows with height; restitution 0.1.
 TEST(CoulombCone, IsNeverLeftInAShearedPacking) {
   for (const RollingModel model : {RollingModel::none, RollingModel::epsd2}) {
@@ -96,12 +106,7 @@ TEST(CoulombCone, IsNeverLeftInAShearedPacking) {
     GrainBench bench(config, lattice_packing(150, config.size, 0.05));
     ConeUse use;
     for (int n = 0; n < 2000; ++n) {
-      const auto force = bench.state.fluid.steady_force;
-      const auto rows = bench.state.kin;
-      Kokkos::parallel_for(
-          "test: shear", bench.state.n, KOKKOS_LAMBDA(int p) {
-            force(p) = rows(p).m * Vec3{kG * (0.3 + 600 * rows(p).x.y), -kG, 0};
-          });
+      set_shear(bench.state);
       bench.advance(5, 2.5e-6);
       add_cone_use(HostGrains(bench.state), {.lx = config.size[0], .lz = config.size[2]}, 0.4, use);
     }

@@ -54,18 +54,24 @@ TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
   }
 }
 
+struct SolidFraction {
+  GridRef grid;
+  FieldRef alpha;
+  bool times_volume;
+  KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
+    return (1 - alpha(i, j, k)) * (times_volume ? grid.cell_volume(j) : Real(1));
+  }
+};
+
 TEST(Coupling, FluidFractionIsThatOfTheGrainsAndBounded) {
   Coupled c(coupled_config());
   const Grid grid = c.state.fluid->grid;
   const Field alpha = c.state.fluid->alpha_f;
-  const Real solid = sum_each_cell(
-      "test: solid", grid,
-      KOKKOS_LAMBDA(int i, int j, int k) { return (1 - alpha(i, j, k)) * grid.cell_volume(j); });
+  const Real solid = sum_each_cell("test: solid", grid, SolidFraction{grid, alpha, true});
   const Real expected =
       20 * sphere_volume(7.5e-5) + 160 * sphere_volume(1e-4) + 20 * sphere_volume(1.25e-4);
   EXPECT_NEAR(solid / expected, 1, 1e-12);
-  const Real densest = max_each_cell(
-      "test: densest", grid, KOKKOS_LAMBDA(int i, int j, int k) { return 1 - alpha(i, j, k); });
+  const Real densest = max_each_cell("test: densest", grid, SolidFraction{grid, alpha, false});
   EXPECT_GT(densest, 0.05);
   EXPECT_LT(densest, 0.75);
 }

@@ -49,6 +49,51 @@ void drift(const GrainState& s, Real distance) {
       });
 }
 
+/// Marks each pair with its ids, seen from the grain of lower id; or counts the touching pairs whose
+/// marks are wrong.
+int handle_marks(const GrainState& s, bool write) {
+  const PairList l = s.list;
+  const auto id = s.id;
+  int wrong = 0;
+  Kokkos::parallel_reduce(
+      "test: marks", l.n_pairs,
+      KOKKOS_LAMBDA(int p, int& errors) {
+        const auto a = static_cast<Real>(id(l.i(p))), b = static_cast<Real>(id(l.j(p)));
+        const Real sign = a < b ? 1 : -1;
+        const Vec3 expected = sign * Vec3{Kokkos::min(a, b), Kokkos::max(a, b), 1};
+        if (write) {
+          l.xi_t(p) = expected;
+          l.rolling(p) = Real(2) * expected;
+          l.force(p) = Real(3) * expected;
+          l.touching(p) = 1;
+        } else if (l.touching(p)) {
+          errors += norm(l.xi_t(p) - expected) > 0 || norm(l.rolling(p) - Real(2) * expected) > 0 ||
+                    norm(l.force(p) - Real(3) * expected) > 0;
+        }
+      },
+      wrong);
+  return wrong;
+}
+
+/// Moves every tenth grain beyond the outlet.
+void push_out(const GrainState& s) {
+  const auto kin = s.kin;
+  const auto id = s.id;
+  Kokkos::parallel_for(
+      "test: push out", s.n, KOKKOS_LAMBDA(int g) {
+        if (id(g) % 10 == 0) kin(g).x.x = 0.0101;
+      });
+}
+
+void spoil(const GrainState& s, std::int64_t which) {
+  const auto kin = s.kin;
+  const auto id = s.id;
+  Kokkos::parallel_for(
+      "test: spoil", s.n, KOKKOS_LAMBDA(int g) {
+        if (id(g) == which) kin(g).x.y = Kokkos::Experimental::quiet_NaN_v<Real>;
+      });
+}
+
 struct Shape {
   GrainBoundaryX x;
   GrainBoundaryZ z;
@@ -90,36 +135,11 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
   NeighborList list(c, s.r_max);
   list.with_rolling = list.with_force = true;
   list.rebuild(s, false);
-  // Mark each pair with its ids, seen from the grain of lower id.
-  const auto mark = [&s](bool write) {
-    const PairList l = s.list;
-    const auto id = s.id;
-    int wrong = 0;
-    Kokkos::parallel_reduce(
-        "test: marks", l.n_pairs,
-        KOKKOS_LAMBDA(int p, int& errors) {
-          const auto a = static_cast<Real>(id(l.i(p))), b = static_cast<Real>(id(l.j(p)));
-          const Real sign = a < b ? 1 : -1;
-          const Vec3 expected = sign * Vec3{Kokkos::min(a, b), Kokkos::max(a, b), 1};
-          if (write) {
-            l.xi_t(p) = expected;
-            l.rolling(p) = Real(2) * expected;
-            l.force(p) = Real(3) * expected;
-            l.touching(p) = 1;
-          } else if (l.touching(p)) {
-            errors += norm(l.xi_t(p) - expected) > 0 ||
-                      norm(l.rolling(p) - Real(2) * expected) > 0 ||
-                      norm(l.force(p) - Real(3) * expected) > 0;
-          }
-        },
-        wrong);
-    return wrong;
-  };
-  mark(true);
+  handle_marks(s, true);
   const PairSet before = listed_pairs(s);
   drift(s, 1e-4);  // order and some pairs change
   list.rebuild(s, false);
-  EXPECT_EQ(mark(false), 0);
+  EXPECT_EQ(handle_marks(s, false), 0);
   // Every pair that stayed is still marked.
   const auto touching = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.touching);
   int kept = 0, marked = 0;
@@ -134,12 +154,7 @@ TEST(NeighborList, DropsAndCountsWhatLeft) {
   GrainState s = make_grain_state(random_grains(300, c.size, 11), 2500);
   NeighborList list(c, s.r_max);
   list.rebuild(s, true);
-  const auto kin = s.kin;
-  const auto id = s.id;
-  Kokkos::parallel_for(
-      "test: push out", s.n, KOKKOS_LAMBDA(int g) {
-        if (id(g) % 10 == 0) kin(g).x.x = 0.0101;
-      });
+  push_out(s);
   list.rebuild(s, false);
   EXPECT_EQ(s.n, 300) << "only a rebuild that may drop does";
   list.rebuild(s, true);
@@ -154,12 +169,7 @@ TEST(NeighborList, NamesTheGrainWhosePositionIsNotFinite) {
   GrainState s = make_grain_state(random_grains(20, c.size, 5), 2500);
   NeighborList list(c, s.r_max);
   list.rebuild(s, true);
-  const auto kin = s.kin;
-  const auto id = s.id;
-  Kokkos::parallel_for(
-      "test: spoil", s.n, KOKKOS_LAMBDA(int g) {
-        if (id(g) == 13) kin(g).x.y = NAN;
-      });
+  spoil(s, 13);
   try {
     list.rebuild(s, false);
     FAIL();
