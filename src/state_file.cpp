@@ -1,6 +1,7 @@
 #include "src/state_file.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace barchan {
 
@@ -59,6 +60,15 @@ void for_each_pair_array(const PairList& list, const F& f) {
   if (list.has_rolling()) f("pairs/rolling", first_rows(list.rolling, n));
 }
 
+/// Pairs stand in the order of the chunks, which are others on a GPU than on a CPU.
+void check_order_of_pairs(const CheckpointReader& file, const PairList& list) {
+  const std::string name = "pairs/rows_per_chunk";
+  if (!file.has(name) || file.integer(name) == list.chunks.rows) return;
+  throw std::runtime_error("cannot restart from " + file.path().string() +
+                           ": its contacts are in the order of another kind of device; go on where "
+                           "it was written, CPU or GPU");
+}
+
 }  // namespace
 
 void save_state(CheckpointWriter& file, const SystemState& state) {
@@ -77,6 +87,7 @@ void save_state(CheckpointWriter& file, const SystemState& state) {
     const GrainState& s = *state.grains;
     for_each_grain_array(s, write);
     for_each_pair_array(s.list, write);
+    file.scalar("pairs/rows_per_chunk", std::int64_t{s.list.chunks.rows});
     file.scalar("grains/r_max", s.r_max);
     file.scalar("grains/r_min", s.r_min);
     file.scalar("grains/sauter_diameter", s.sauter_diameter);
@@ -123,6 +134,7 @@ void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& s
   const auto read = [&file](const std::string& name, const auto& view) { file.array(name, view); };
   for_each_grain_array(*state.grains, read);
   step.grain_solver()->restore_list(*state.grains);
+  check_order_of_pairs(file, state.grains->list);
   for_each_pair_array(state.grains->list, read);
 }
 
