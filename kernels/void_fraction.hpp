@@ -32,6 +32,21 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
           (corner & 4 ? -shell : shell) * root_half};
 }
 
+/// The same points by height alone: nine at that of the centre, of each shell one at the top and at
+/// the bottom and four at half its radius above and below.
+inline constexpr int kDividedHeights = 9;
+struct PointsAtHeight {
+  Real offset;  // from the centre in units of the grain radius
+  int points;
+};
+KOKKOS_INLINE_FUNCTION constexpr PointsAtHeight divided_height(int q) {
+  if (q == 0) return {0, 9};
+  const Real shell = q <= 4 ? kInnerShell : kOuterShell;
+  const bool at_end = (q - 1) % 4 < 2;
+  const Real height = at_end ? shell : shell / 2;
+  return {q % 2 == 1 ? height : -height, at_end ? 1 : 4};
+}
+
 /// An owned cell by its place.
 struct CellIndex {
   int i = 0, j = 0, k = 0;
@@ -87,33 +102,44 @@ struct Locate {
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
     return static_cast<int>(Kokkos::floor((z - grid.z0) * (1 / grid.dz)));
   }
+  /// Row of a height near a row; what is beyond a wall is mirrored back.
+  KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
+    y = y < 0 ? -y : y;
+    return grid.row_near(y > grid.ly ? 2 * grid.ly - y : y, row_nearby);
+  }
   /// The owned cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
     int i = column_x(p.x);
     if (wrap_x) i = wrap(i, grid.nx);
     i = i < 0 ? 0 : (i >= grid.nx ? grid.nx - 1 : i);
-    Real y = p.y < 0 ? -p.y : p.y;
-    y = y > grid.ly ? 2 * grid.ly - y : y;
-    return {i, grid.row_near(y, row_nearby), wrap(column_z(p.z), grid.nz)};
+    return {i, row_of(p.y, row_nearby), wrap(column_z(p.z), grid.nz)};
   }
-  /// All points lie between those at -reach and +reach from the centre: true when in one cell.
-  KOKKOS_INLINE_FUNCTION bool in_one_cell(const Vec3& x, Real reach, int row) const {
+  /// All points lie between those at -reach and +reach: true when over and under each other.
+  KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {
     return column_x(x.x - reach) == column_x(x.x + reach) &&
-           column_z(x.z - reach) == column_z(x.z + reach) && x.y - reach >= grid.y_face(row) &&
-           x.y + reach < grid.y_face(row + 1);
+           column_z(x.z - reach) == column_z(x.z + reach);
   }
+  KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
+
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
     GrainCells cells;
-    const int n = points == PointSet::centre ? 1 : kDividedPoints;
     const int row = grid.row_of(g.x.y);
-    if (in_one_cell(g.x, kOuterShell * g.r, row)) {
-      cells.add(cell_of(g.x, row), n);
-      return cells;
-    }
-    for (int p = 0; p < n; ++p) {
-      const Vec3 point = g.x + g.r * divided_point(p);
-      const bool outside = point.y < 0 || point.y > grid.ly;
-      cells.add(cell_of(outside && points == PointSet::cfdem ? g.x : point, row));
+    const CellIndex own = cell_of(g.x, row);
+    const bool keeps_outside = points == PointSet::cfdem;
+    if (points == PointSet::centre) {
+      cells.add(own);
+    } else if (in_one_column(g.x, kOuterShell * g.r)) {
+      for (int q = 0; q < kDividedHeights; ++q) {
+        const PointsAtHeight at = divided_height(q);
+        const Real y = g.x.y + g.r * at.offset;
+        const int j = is_outside(y) && keeps_outside ? own.j : row_of(y, row);
+        cells.add({own.i, j, own.k}, at.points);
+      }
+    } else {
+      for (int p = 0; p < kDividedPoints; ++p) {
+        const Vec3 point = g.x + g.r * divided_point(p);
+        cells.add(is_outside(point.y) && keeps_outside ? own : cell_of(point, row));
+      }
     }
     return cells;
   }

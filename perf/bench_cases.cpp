@@ -92,6 +92,7 @@ void run_case(benchmark::State& run, const CaseSpec& spec) {
   if (c.state.fluid) {
     run.counters["pressure_iterations"] = iterations / static_cast<double>(run.iterations());
   }
+  run.counters["array_bytes"] = static_cast<double>(c.bytes());
   count_events(run, f, counted, rebuilds);
   add_work(f, c, run);
   facts() = std::move(f);
@@ -109,11 +110,15 @@ void register_cases() {
   CaseSpec flowing = grains_alone("dem/heap_100k_rebuild_100", "heap_100k", 0);
   flowing.rebuild_each_step = true;
   add_case(flowing);
+  add_case(ten_heaps());
   add_case(grains_alone("dem/heap_100k", "heap_100k", 0));
-  add_case(channel_flow("les/mesh1"));
+  add_case(channel_flow("les/mesh1", 1));
+  add_case(channel_flow("les/mesh2", 2));
+  add_case(channel_flow("les/mesh3", 3));
   add_case(shipped_10k("coupled/barchan_10k"));
-  add_case(heap_in_channel("coupled/heap_10k", "heap_10k"));
-  add_case(heap_in_channel("coupled/heap_100k", "heap_100k"));
+  add_case(heap_in_channel("coupled/heap_10k", "heap_10k", 1));
+  add_case(heap_in_channel("coupled/heap_10k_mesh3", "heap_10k", 3));
+  add_case(heap_in_channel("coupled/heap_100k", "heap_100k", 1));
 }
 
 }  // namespace barchan

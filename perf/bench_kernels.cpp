@@ -94,12 +94,17 @@ void register_grain_kernels() {
               .unit = "grain-steps",
               .per_unit = pair_force_work,
               .steps_at_once = n_substeps});
-  add_kernel({.name = "list_build",
-              .spec = heap,
-              .labels = {},
-              .prepare = build_list,
-              .unit = "grains",
-              .per_unit = [](RunningCase& c) { return work::list_build(pairs_of(c)); }});
+  const auto add_list_build = [](const std::string& name, const CaseSpec& spec) {
+    add_kernel({.name = name,
+                .spec = spec,
+                .labels = {},
+                .prepare = build_list,
+                .unit = "grains",
+                .per_unit = [](RunningCase& c) { return work::list_build(pairs_of(c)); }});
+  };
+  add_list_build("list_build", heap);
+  add_list_build("list_build_10k", grains_alone("dem/heap_10k", "heap_10k", 0));
+  add_list_build("list_build_1m", ten_heaps());
   add_kernel({.name = "integration",
               .spec = loose,
               .labels = {fused},
@@ -132,7 +137,7 @@ void register_flow_kernels() {
                       std::function<Action(RunningCase&)> prepare,
                       std::function<Work(RunningCase&)> per_unit) {
     add_kernel({.name = name,
-                .spec = channel_flow("les/mesh1"),
+                .spec = channel_flow("les/mesh1", 1),
                 .labels = std::move(labels),
                 .prepare = std::move(prepare),
                 .unit = "cell-steps",
@@ -156,7 +161,7 @@ Action gather(RunningCase& c) {
 }
 
 void register_coupling_kernels() {
-  const CaseSpec coupled = heap_in_channel("coupled/heap_100k", "heap_100k");
+  const CaseSpec coupled = heap_in_channel("coupled/heap_100k", "heap_100k", 1);
   add_kernel({.name = "deposit",
               .spec = coupled,
               .labels = {"coupling: deposit"},

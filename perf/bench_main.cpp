@@ -8,6 +8,7 @@
 
 #include "perf/bench.hpp"
 #include "perf/cases.hpp"
+#include "perf/events.hpp"
 #include "perf/options.hpp"
 
 namespace barchan {
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
   int status = 0;
   {
     Kokkos::ScopeGuard kokkos(argc, argv);
+    barchan::watch_arrays();
     status = barchan::run_suite_or_say_why(argc, argv);
     barchan::drop_running_case();
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "perf/events.hpp"
 #include "perf/heaps.hpp"
 #include "perf/options.hpp"
 #include "src/config_load.hpp"
@@ -43,20 +44,27 @@ CaseSpec grains_alone(const std::string& name, const std::string& heap, double r
   return sized(spec);
 }
 
-CaseSpec channel_flow(const std::string& name) {
+CaseSpec ten_heaps() {
+  CaseSpec spec = grains_alone("dem/heaps_1m", "heap_100k", 0);
+  spec.heaps_in_a_row = 10;
+  return spec;
+}
+
+CaseSpec channel_flow(const std::string& name, int mesh) {
   CaseSpec spec{.name = name, .config = {}, .untimed_steps = 20};
   Config& c = spec.config;
   c.size = paper_channel;
   c.fluid.emplace();
-  c.fluid->cells = {250, 30, 63};
-  c.fluid->first_cell_height = 2.625e-4;
+  constexpr double first_cell_height[] = {2.625e-4, 1.75e-4, 1.25e-4};  // as in configs/paper
+  c.fluid->cells = {250, 15 * (mesh + 1), 63};
+  c.fluid->first_cell_height = first_cell_height[mesh - 1];
   c.fluid->mean_velocity = 0.28;
   c.initial.fluid = "turbulent";
   return sized(spec);
 }
 
-CaseSpec heap_in_channel(const std::string& name, const std::string& heap) {
-  CaseSpec spec = channel_flow(name);
+CaseSpec heap_in_channel(const std::string& name, const std::string& heap, int mesh) {
+  CaseSpec spec = channel_flow(name, mesh);
   spec.heap = heap;
   spec.untimed_steps = 5;
   add_grains(spec.config);
@@ -86,7 +94,22 @@ void flow_around_held_grains(Config config, SystemState& state) {
 
 }  // namespace
 
+/// Copies of the grains, one box of length `lx` after the other.
+void repeat_along_x(InitialGrains& grains, int copies, double lx) {
+  const std::size_t n = grains.size();
+  for (int copy = 1; copy < copies; ++copy) {
+    for (std::size_t g = 0; g < n; ++g) {
+      grains.id.push_back(grains.id[g] + static_cast<std::int64_t>(n) * copy);
+      grains.diameter.push_back(grains.diameter[g]);
+      grains.x.push_back(grains.x[g] + Vec3{copy * lx, 0, 0});
+      grains.u.push_back(grains.u[g]);
+      grains.omega.push_back(grains.omega[g]);
+    }
+  }
+}
+
 RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
+  const std::int64_t bytes_before = array_bytes();
   Config& config = spec.config;
   Config flow_alone = config;
   flow_alone.grains.reset();
@@ -95,6 +118,8 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
     Heap heap = settled_heap(spec.heap);
     heap_source = heap.source;
     if (config.size != paper_channel) move_into(heap.grains, config.size);
+    repeat_along_x(heap.grains, spec.heaps_in_a_row, config.size[0]);
+    config.size[0] *= spec.heaps_in_a_row;
     state.grains = make_grain_state(heap.grains, config.grains->density);
   }
   if (state.fluid && state.grains) flow_around_held_grains(config, state);
@@ -103,6 +128,7 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
   // The list and the rows have two sets of memory, taken in the first two rebuilds.
   if (state.grains) step->grain_solver()->start(*state.grains);
   for (int n = 0; n < spec.untimed_steps; ++n) advance();
+  bytes_ = array_bytes() - bytes_before;
 }
 
 void RunningCase::advance() {

@@ -12,7 +12,8 @@ namespace barchan {
 struct CaseSpec {
   std::string name;  // also the key under which the running case is kept
   Config config;
-  std::string heap = {};  // "heap_100k", "heap_10k", "lattice" (nothing touches) or none
+  std::string heap = {};   // "heap_100k", "heap_10k", "lattice" (nothing touches) or none
+  int heaps_in_a_row = 1;  // copies along x, each in a box of the size of `config`
   bool rebuild_each_step = false;
   int untimed_steps = 2;  // CoupledStep::advance before the first timed one
 };
@@ -20,10 +21,13 @@ struct CaseSpec {
 /// Grains alone as the peers run them: no water, gravity 5.886 m/s^2, skin 2e-5 m, 100 grain
 /// steps of 2.5e-6 s in one advance.
 CaseSpec grains_alone(const std::string& name, const std::string& heap, double rolling_friction);
-/// Mesh 1 of the paper (250 x 30 x 63 cells), WALE, bulk velocity 0.28 m/s, perturbed log law.
-CaseSpec channel_flow(const std::string& name);
+/// Ten heaps of 100,000 grains in a row, for what a grain costs among ten times as many.
+CaseSpec ten_heaps();
+/// Mesh 1, 2 or 3 of the paper (250 x 30, 45 or 60 x 63 cells), WALE, bulk velocity 0.28 m/s,
+/// perturbed log law.
+CaseSpec channel_flow(const std::string& name, int mesh);
 /// The heap on that mesh, 100 grain steps in a fluid step of 2.5e-4 s.
-CaseSpec heap_in_channel(const std::string& name, const std::string& heap);
+CaseSpec heap_in_channel(const std::string& name, const std::string& heap, int mesh);
 /// configs/barchan-10k.toml, from a perturbed flow over a heap at rest.
 CaseSpec shipped_10k(const std::string& name);
 
@@ -35,12 +39,16 @@ class RunningCase {
 
   int grains() const { return state.grains ? state.grains->n : 0; }
   double cells() const;
+  std::int64_t bytes() const { return bytes_; }  // of its arrays, once it is warm
   double per_grain(std::int64_t count) const { return static_cast<double>(count) / grains(); }
 
   CaseSpec spec;
   std::string heap_source;  // file, or "settled here"
   SystemState state;
   std::unique_ptr<CoupledStep> step;
+
+ private:
+  std::int64_t bytes_ = 0;
 };
 
 /// The case of this name, set up unless it is the one that ran last: benchmarks that share it and

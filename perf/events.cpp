@@ -15,6 +15,8 @@ using Clock = std::chrono::steady_clock;
 // Kokkos calls bare functions, hence the globals.
 constexpr const char* rebuild_region = "list rebuild";  // as in src/neighbor_list.cpp
 EventCounts events;
+bool counting = false;
+std::int64_t bytes_alive = 0;
 std::vector<bool> regions;  // open ones, innermost last: is it a rebuild
 int open_rebuilds = 0;
 
@@ -29,9 +31,15 @@ void on_pop() {
   regions.pop_back();
 }
 
-void on_allocation(const Space, const char* label, const void*, const std::uint64_t) {
+void on_allocation(const Space, const char* label, const void*, const std::uint64_t size) {
+  bytes_alive += static_cast<std::int64_t>(size);
+  if (!counting) return;
   ++(open_rebuilds > 0 ? events.allocations_in_rebuild : events.allocations);
   ++events.allocated[(open_rebuilds > 0 ? "rebuild: " : "") + std::string(label)];
+}
+
+void on_deallocation(const Space, const char*, const void*, const std::uint64_t size) {
+  bytes_alive -= static_cast<std::int64_t>(size);
 }
 
 bool is_fill(const char* source) {  // what Kokkos calls the source of a fill with one value
@@ -87,20 +95,27 @@ void watch_kernels(decltype(&on_begin) begin, decltype(&on_end) end) {
 
 }  // namespace
 
+void watch_arrays() {
+  tools::set_allocate_data_callback(on_allocation);
+  tools::set_deallocate_data_callback(on_deallocation);
+}
+
+std::int64_t array_bytes() { return bytes_alive; }
+
 EventCounter::EventCounter() {
+  counting = true;
   events = {};
   regions.clear();
   open_rebuilds = 0;
   tools::set_push_region_callback(on_push);
   tools::set_pop_region_callback(on_pop);
-  tools::set_allocate_data_callback(on_allocation);
   tools::set_begin_deep_copy_callback(on_copy);
 }
 
 EventCounter::~EventCounter() {
+  counting = false;
   tools::set_push_region_callback(nullptr);
   tools::set_pop_region_callback(nullptr);
-  tools::set_allocate_data_callback(nullptr);
   tools::set_begin_deep_copy_callback(nullptr);
 }
 

@@ -17,7 +17,12 @@ struct EventCounts {
   std::map<std::string, std::int64_t> copied;     // host copies by label
 };
 
-/// Counts while it lives. One at a time, and no KernelClock beside it.
+/// Keeps account of the memory of all views from here on.
+void watch_arrays();
+/// Memory of the views that are alive [bytes].
+std::int64_t array_bytes();
+
+/// Counts while it lives; after watch_arrays(). One at a time, and no KernelClock beside it.
 class EventCounter {
  public:
   EventCounter();
