@@ -97,25 +97,25 @@ def draw_solid_volume(axes, table):
     ratio = table["cell_over_d"]
     slope = table["mean"][0] * ratio[0] / ratio
     axes.plot(ratio, 100 * slope, color="k", lw=0.7, ls=":", label="slope $-1$")
-    axes.plot(ratio, 100 * table["mean"], "o-", color=style.BLUE, ms=3.5, lw=1.0, label="mean")
-    axes.plot(ratio, 100 * table["worst"], "s--", color=style.SKY, ms=3.2, lw=0.8,
-              label="worst of 2000 places")
+    draw_over_cell_size(axes, table, mean="mean", worst="worst of 2000 places")
     axes.set(ylabel="solid volume in wrong cells (%)", ylim=(0.5, 60))
-    cell_size_axis(axes, ratio)
     axes.legend(loc="lower left")
 
 
 def draw_excess(axes, table):
-    ratio = table["cell_over_d"]
     axes.axhspan(0.001, 0.5, color="0.9", lw=0, label="tolerance at 40 $d$")
-    axes.plot(ratio, 100 * table["excess"], "o-", color=style.BLUE, ms=3.5, lw=1.0,
-              label="$d$ = 0.2 mm, coupled")
+    draw_over_cell_size(axes, table, excess="$d$ = 0.2 mm, coupled")
     axes.set(ylabel="excess fall velocity (%)", ylim=(0.005, 10))
-    cell_size_axis(axes, ratio)
     axes.legend(loc="upper right")
 
 
-def cell_size_axis(axes, ratio):
+def draw_over_cell_size(axes, table, **labels):
+    """Columns of the table, in per cent and with a label each, over the size of the cells."""
+    ratio = table["cell_over_d"]
+    lines = ({"marker": "o", "color": style.BLUE, "ms": 3.5, "lw": 1.0},
+             {"marker": "s", "color": style.SKY, "ms": 3.2, "lw": 0.8, "ls": "--"})
+    for (column, label), line in zip(labels.items(), lines):
+        axes.plot(ratio, 100 * table[column], label=label, **line)
     axes.set(xscale="log", yscale="log", xlabel="cell size over grain diameter")
     axes.set_xticks(ratio, [f"{r:g}" for r in ratio])
     axes.yaxis.set_major_formatter("{x:g}")
