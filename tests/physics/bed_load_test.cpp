@@ -151,18 +151,17 @@ TEST(BedLoadNightly, FluxIsWongAndParkersWithinAFactorOfThree) {
   EXPECT_LT(all.q_star(), all.wong_parker() * 3);
 }
 
-/// At half the threshold: no flux, and no grain drifts by more than a diameter a second.
+/// At half the threshold: no flux, and no grain drifts by more than a diameter a second. So slow a
+/// flow slowly loses its turbulence in this box, and its stress falls by a fifth in the second.
 TEST(BedLoadNightly, NothingMovesWellBelowTheThreshold) {
   Config c = bed_config();
-  const double stress = 0.5 * 0.0495 * kSubmerged * kDiameter;
-  c.fluid->mean_velocity = 0;
-  c.fluid->pressure_gradient = stress / 0.0121;  // over the clear flow
+  c.fluid->mean_velocity = 0.138;
   const InitialGrains grains = settled_bed();
   FlatBed bed(c, grains, developed_flow(c, grains, 1.0));
   bed.advance(0.3);
   const Transport seen = bed.measure(1.0);
   print("below threshold", seen);
-  ASSERT_NEAR(seen.shields() / 0.0495, 0.5, 0.1) << "not the case that was meant";
+  ASSERT_NEAR(seen.shields() / 0.0495, 0.5, 0.05) << "not the case that was meant";
   EXPECT_LT(std::abs(seen.q_star()), 1e-4);
   EXPECT_LT(seen.fastest_drift, kDiameter);
 }
