@@ -199,19 +199,22 @@ TEST(ChungOoiSpin, Test8SlidingEndsOfTheDampedLaw) {
 // The curves of the paper, and (x - (7/2) mu (1 + e))/e = (x - 2.1)/0.5 in full sliding: friction
 // is limited by the elastic part of the normal force, whose impulse is m v (1 + e) like that of the
 // total. A sphere a thousand times stiffer and denser (case B) is a plane: the law knows the moduli
-// only through k_t/k_n. The digitised curve of case B lies up to 0.15 above that of the plane at
-// three angles, and is compared where it does not.
+// only through k_t/k_n. The digitised curve of case B lies up to 0.15 above that of the plane. At
+// two angles it is missed by that (0.120 and 0.134 for 0.1; docs/validation.md says so): there the
+// motion is compared with the plane's.
 TEST(ChungOoiSpin, Test8SpinningImpact) {
   for_spinning_impacts(CoulombLimit::elastic, [](const std::string& claim, Real x, Real recoil,
                                                  Real digitised) {
-    const bool sliding = x > 3, disputed = claim.find("case B") != claim.npos && x > 1.1 && x < 2;
-    if (sliding)
+    const bool sliding = x > 3, missed = claim.find("case B") != claim.npos && x > 1.1 && x < 1.5;
+    if (sliding) {
       expect_relative(claim + ", sliding", recoil, (x - 2.1) / 0.5, 0.01);
-    else if (disputed)
+    } else if (!missed) {
+      expect_absolute(claim, recoil, digitised, 0.1);
+    } else {
+      print_measured(claim + ", missed", recoil, digitised, 0.1);
       expect_absolute(claim + ", of the plane", recoil,
                       spinning_recoil(x, Target::plane, CoulombLimit::elastic), 1e-3);
-    else
-      expect_absolute(claim, recoil, digitised, 0.1);
+    }
   });
 }
 
