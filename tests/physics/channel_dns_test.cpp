@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "src/config_load.hpp"
 #include "src/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
+#include "tests/support/finished_run.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {
@@ -52,8 +52,8 @@ struct Profiles {
 
 /// Statistics of a run: an existing one or one made now.
 Profiles statistics(const std::filesystem::path& scratch) {
-  if (const char* finished = std::getenv("BARCHAN_CHANNEL_RUN")) {
-    return {test::table(std::filesystem::path(finished) / "statistics.csv"), "y_plus"};
+  if (const auto finished = test::finished_run("BARCHAN_CHANNEL_RUN"); !finished.empty()) {
+    return {test::table(finished / "statistics.csv"), "y_plus"};
   }
   const Config config = load_config(BARCHAN_SOURCE_DIR "/configs/validation/channel-mesh-1.toml");
   report::start(true);
