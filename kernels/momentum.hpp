@@ -190,6 +190,14 @@ struct Predict {
   }
 };
 
+/// No flow through these faces.
+struct CloseFaces {
+  FieldRef a, b;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    a(i, j, k) = b(i, j, k) = 0;
+  }
+};
+
 /// flux = alpha u on faces [m/s]; to be called on ghost faces, too.
 struct MassFlux {
   GridRef grid;

@@ -24,9 +24,16 @@ struct Walls {
   Stiffness law;
   Rolling rolling;
   Friction friction;
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;  // (grain, wall): [m], [N m]
-  Kokkos::View<std::uint8_t*> touching;                   // bit w: grain touches wall w
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t,
+      torque;  // (grain, wall): [m], [N m]; torque of rolling springs alone
+  Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
+  KOKKOS_FORCEINLINE_FUNCTION ContactResult remembered(int g, int w) const {
+    ContactResult history;
+    history.xi_t = xi_t(g, w);
+    if constexpr (Rolling::has_history) history.rolling = torque(g, w);
+    return history;
+  }
   /// Adds the force and torque of all walls on grain g; advances the history by dt.
   KOKKOS_FORCEINLINE_FUNCTION void add(int g, const GrainKinematics& grain, Real dt,
                                        ContactSum& sum) const {
@@ -38,7 +45,7 @@ struct Walls {
       const Real delta_n = grain.r - (dot(normal, grain.x) - plane[w].offset);
       if (delta_n <= 0) continue;
       ContactResult history;
-      if (before & bit) history.xi_t = xi_t(g, w), history.rolling = torque(g, w);
+      if (before & bit) history = remembered(g, w);
       const Real arm = grain.r - delta_n / 2;
       const ContactResult result =
           contact_force(law, rolling, friction,
@@ -52,7 +59,7 @@ struct Walls {
       sum.force = sum.force + quad(result.force);
       sum.torque = sum.torque + quad(fused(-arm, result.twist, result.rolling));
       xi_t(g, w) = result.xi_t;
-      torque(g, w) = result.rolling;
+      if constexpr (Rolling::has_history) torque(g, w) = result.rolling;
       now = static_cast<std::uint8_t>(now | bit);
     }
     if (now != before) touching(g) = now;

@@ -69,12 +69,13 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),
       gravity_{config.grains->gravity[0], config.grains->gravity[1], config.grains->gravity[2]},
-      force_(face_vector("coupling: force density", grid)),
-      convective_(face_vector("coupling: convective acceleration", grid)),
+      force_(solver.idle().faces[0]),
+      convective_(solver.idle().faces[1]),
       on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
   const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
-  for (Field& f : cell_) f = Field("coupling: cell density", grid);
+  cell_[0] = Field("coupling: cell density", grid);
+  std::copy_n(solver.idle().cells.begin(), 3, cell_ + 1);
   deposits_.sum = decltype(deposits_.sum)("deposits", static_cast<std::size_t>(grid.nx) *
                                                           static_cast<std::size_t>(grid.ny) *
                                                           static_cast<std::size_t>(grid.nz));

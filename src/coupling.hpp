@@ -71,9 +71,11 @@ class Coupling {
   Locate locate_;
   Real rho_f_ = 0, nu_ = 0;
   Vec3 gravity_;
-  FaceVector force_, convective_;  // valid around the grains
+  FaceVector force_, convective_;  // valid around the grains; room of the flow solver
   std::vector<Real> y_face_;       // of rows 0 .. ny [m]
-  Field cell_[4];  // implicit coefficient and impulse densities, later velocity changes
+  // Implicit coefficient and impulse densities, later velocity changes; all but the first are room
+  // of the flow solver.
+  Field cell_[4];
   Deposits deposits_;
   ExchangeOnFaces on_faces_;
   ExchangeLedger ledger_;

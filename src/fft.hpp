@@ -21,6 +21,8 @@ class PlaneFft {
   PlaneFft& operator=(const PlaneFft&) = delete;
 
   Spectrum make_spectrum(const char* label) const { return Spectrum(label, nx_ / 2 + 1, ny_, nz_); }
+  /// Room for one spectrum, for whoever transforms there and back at once.
+  const Spectrum& spectrum() const { return spectrum_; }
   void forward(const Field& in, const Spectrum& out) const;
   /// Destroys `in`. Ghosts of `out` are left alone.
   void backward(const Spectrum& in, const Field& out) const;
@@ -29,6 +31,7 @@ class PlaneFft {
   struct Library;  // plans and work space
 
   int nx_, ny_, nz_;
+  Spectrum spectrum_;
   std::unique_ptr<Library> library_;
 };
 

@@ -72,7 +72,11 @@ struct PlaneFft::Library {
 };
 
 PlaneFft::PlaneFft(const Grid& grid)
-    : nx_(grid.nx), ny_(grid.ny), nz_(grid.nz), library_(std::make_unique<Library>(grid)) {}
+    : nx_(grid.nx),
+      ny_(grid.ny),
+      nz_(grid.nz),
+      spectrum_(make_spectrum("fft: spectrum")),
+      library_(std::make_unique<Library>(grid)) {}
 
 PlaneFft::~PlaneFft() = default;
 

@@ -34,12 +34,15 @@ struct PlaneFft::Library {
 };
 
 PlaneFft::PlaneFft(const Grid& grid)
-    : nx_(grid.nx), ny_(grid.ny), nz_(grid.nz), library_(std::make_unique<Library>()) {
+    : nx_(grid.nx),
+      ny_(grid.ny),
+      nz_(grid.nz),
+      spectrum_(make_spectrum("fft: spectrum")),
+      library_(std::make_unique<Library>()) {
   const int modes = nx_ / 2 + 1;
   const Field field("fft: field", grid);
-  const Spectrum spectrum = make_spectrum("fft: spectrum");
   Real* real = field.origin;
-  fftw_complex* z = as_fftw(spectrum.data());
+  fftw_complex* z = as_fftw(spectrum_.data());
   // Rows of a field start anywhere, hence unaligned; estimating keeps the plan reproducible.
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
   library_->x_forward = checked(fftw_plan_many_dft_r2c(

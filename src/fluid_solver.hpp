@@ -47,6 +47,14 @@ class FluidSolver {
   /// sum(rho alpha |u|^2 V) / 2 [J].
   Real kinetic_energy(const FluidState& fluid) const;
 
+  /// What holds nothing between two calls of advance() of a solver with grains: room for others
+  /// meanwhile, so that a step takes less memory.
+  struct Idle {
+    FaceVector faces[2];
+    std::array<Field, 3> cells;
+  };
+  Idle idle() const { return {{flux_, u_star_}, pressure_.idle_fields()}; }
+
   const Boundary& boundary() const { return boundary_; }
   const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }
   Real density() const { return config_.density; }

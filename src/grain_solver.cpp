@@ -71,8 +71,9 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
   using WallHistory = decltype(grains.wall_xi_t);
   const auto n = static_cast<std::size_t>(grains.n);
   grains.wall_xi_t = WallHistory("wall xi_t", n, static_cast<std::size_t>(n_walls_));
-  grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
+  if (list_.with_rolling)
+    grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
   list_.with_force = config.output.grain_forces;
 }
 

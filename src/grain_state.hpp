@@ -13,19 +13,19 @@ namespace barchan {
 /// Grains [0, n). Rows are in spatial order, which a list rebuild changes; `id` never changes.
 struct GrainState {
   int n = 0;
-  Kokkos::View<GrainKinematics*> kin;                  // position, velocity, spin, radius, mass
-  Kokkos::View<std::int64_t*> id;                      // never reused
-  Kokkos::View<Vec3*> contact_force, contact_torque;   // at the current positions [N], [N m]
-  Kokkos::View<Vec3*> x_reference;                     // positions at the last list rebuild [m]
-  FluidOnGrains fluid;                                 // constant over one fluid step
-  ExchangeOnGrains exchange;                           // kept for the deposit
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;  // (n, wall) tangential displacement [m]
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // (n, wall) rolling torque [N m]
-  Kokkos::View<std::uint8_t*> wall_touching;           // bit per wall
-  PairList list;                                       // neighbours and their contact history
-  Real r_max = 0, r_min = 0;                           // [m], of the initial grains
-  Real sauter_diameter = 0;                            // sum d^3 / sum d^2 of the same [m]
-  std::int64_t n_initial = 0, n_left = 0;              // grains at t = 0; left through the outlet
+  Kokkos::View<GrainKinematics*> kin;                    // position, velocity, spin, radius, mass
+  Kokkos::View<std::int64_t*> id;                        // never reused
+  Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
+  Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
+  FluidOnGrains fluid;                                   // constant over one fluid step
+  ExchangeOnGrains exchange;                             // kept for the deposit
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall) tangential displacement [m]
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
+  Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
+  PairList list;                                         // neighbours and their contact history
+  Real r_max = 0, r_min = 0;                             // [m], of the initial grains
+  Real sauter_diameter = 0;                              // sum d^3 / sum d^2 of the same [m]
+  std::int64_t n_initial = 0, n_left = 0;                // grains at t = 0; left through the outlet
 };
 
 /// Grains at rest in the list's eyes: no history, no fluid. density [kg/m^3].

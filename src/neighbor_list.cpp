@@ -21,10 +21,10 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
   return n;
 }
 
-/// Room for n entries, kept between rebuilds; grows by an eighth more than asked.
+/// Room for n entries, or a few, kept between rebuilds; grows by an eighth more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
-  if (static_cast<int>(view.extent(0)) < n) {
+  if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
     view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
                 static_cast<std::size_t>(n + n / 8 + 64));
   }

@@ -35,7 +35,7 @@ struct SolveColumns {
 PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass,
                        Real diffusion)
     : fft_(std::move(fft)) {
-  columns_.modes = fft_->make_spectrum("poisson: modes");
+  columns_.modes = fft_->spectrum();
   columns_.ny = grid.ny;
   columns_.singular = mass == 0;
   factorise(grid, mass, diffusion);

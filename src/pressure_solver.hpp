@@ -1,6 +1,8 @@
 // The pressure equation -div(c grad p) = b by preconditioned conjugate gradients.
 #pragma once
 
+#include <array>
+
 #include <memory>
 
 #include "src/config.hpp"
@@ -28,6 +30,9 @@ class PressureSolver {
 
   /// The same for c = 1, directly; the guess is not used.
   PressureReport solve_uniform(const Field& b, const Field& p);
+
+  /// Fields that hold nothing between two solves.
+  std::array<Field, 3> idle_fields() const { return {z_, direction_, image_}; }
 
  private:
   void precondition(const FaceVector& c);

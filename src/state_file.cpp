@@ -47,7 +47,7 @@ void for_each_grain_array(const GrainState& s, const F& f) {
   f("grains/fluid_force", first_rows(s.exchange.fluid_force, n));
   f("grains/carried_impulse", first_rows(s.exchange.carried_impulse, n));
   f("grains/wall_xi_t", first_rows(s.wall_xi_t, n));
-  f("grains/wall_torque", first_rows(s.wall_torque, n));
+  if (s.wall_torque.extent(0) > 0) f("grains/wall_torque", first_rows(s.wall_torque, n));
   f("grains/wall_touching", first_rows(s.wall_touching, n));
 }
 

@@ -109,7 +109,6 @@ class FreeBed {
   Config base() const {
     const int n = lattice_.columns;
     Config c = test::water_box({cells(), n, n}, {length(), edge_, edge_});
-    c.output.grain_forces = true;
     c.grains->gravity = {-9.81, 0, 0};
     c.grains->boundary_x = GrainBoundaryX::wall;
     c.grains->skin = 2e-5;

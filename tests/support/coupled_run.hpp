@@ -15,6 +15,7 @@ namespace barchan::test {
 inline Config water_box(std::array<int, 3> cells, std::array<double, 3> size) {
   Config c = flow_config(cells, size, 0);
   c.title = "water box";
+  c.output.grain_forces = true;
   c.fluid->turbulence = Turbulence::none;
   c.fluid->bottom = c.fluid->top = WallFlow::free_slip;
   c.coupling.smoothing_length = 0;
