@@ -38,6 +38,15 @@ struct PairForces {
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
+    if constexpr (kBlock == 1) {  // constant indices: the stage stays in registers
+      if (!is_near(block, 0)) return;
+      Stage s;
+      load(s, 0, block);
+      apply_law(s, 0);
+      store_history(s, 0, block);
+      store_line(s, 0, block);
+      return;
+    }
     const int begin = block * kBlock;
     const int end = begin + kBlock < list.n_crossing ? begin + kBlock : list.n_crossing;
     int slots[kBlock];
