@@ -53,6 +53,18 @@ struct HoldForceAtWall {
   }
 };
 
+/// Bounds of the grains' centres, without a lower one for the height [m].
+struct ExtentOfGrains {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION void operator()(int g, Real& left, Real& right, Real& top, Real& front,
+                                  Real& back) const {
+    const Vec3& x = grains(g).x;
+    left = Kokkos::fmin(left, x.x), right = Kokkos::fmax(right, x.x);
+    top = Kokkos::fmax(top, x.y);
+    front = Kokkos::fmin(front, x.z), back = Kokkos::fmax(back, x.z);
+  }
+};
+
 /// Per grain, what the gather keeps for the deposit.
 struct ExchangeOnGrains {
   Kokkos::View<Vec3*> u_start;           // velocity as the fluid step began [m/s]

@@ -86,19 +86,12 @@ ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
 }
 
 CellRange Coupling::cells_around(const GrainState& grains) const {
-  const auto kin = grains.kin;
-  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
-  Kokkos::parallel_reduce(
-      "coupling: extent of the grains", grains.n,
-      KOKKOS_LAMBDA(int g, Real& left, Real& right, Real& top, Real& front, Real& back) {
-        const Vec3& x = kin(g).x;
-        left = Kokkos::fmin(left, x.x), right = Kokkos::fmax(right, x.x);
-        top = Kokkos::fmax(top, x.y);
-        front = Kokkos::fmin(front, x.z), back = Kokkos::fmax(back, x.z);
-      },
-      Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1), Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0),
-      Kokkos::Max<Real>(z1));
   CellRange cells = owned_cells(grid_);
+  if (grains.n == 0) return cells;
+  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
+  Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
+                          ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
+                          Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
   // One more on either side for the interpolation; everything where that reaches a periodic side.
   const auto shrink = [](Real low, Real high, Real spacing, int n, int& first, int& last) {
     const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 2;
