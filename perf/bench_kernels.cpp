@@ -75,9 +75,12 @@ Action build_list(RunningCase& c) {
   return [&c] { c.step->grain_solver()->start(*c.state.grains); };
 }
 
+double contacts_of(RunningCase& c) {
+  return c.per_grain(c.step->grain_solver()->contacts(*c.state.grains).n_contacts);
+}
+
 Work pair_force_work(RunningCase& c) {
-  const auto contacts = c.step->grain_solver()->contacts(*c.state.grains).n_contacts;
-  return work::integrate(false) + work::pair_forces(pairs_of(c), c.per_grain(contacts), false);
+  return work::integrate(false) + work::pair_forces(pairs_of(c), contacts_of(c), false);
 }
 
 void register_grain_kernels() {
@@ -95,12 +98,13 @@ void register_grain_kernels() {
               .per_unit = pair_force_work,
               .steps_at_once = n_substeps});
   const auto add_list_build = [](const std::string& name, const CaseSpec& spec) {
-    add_kernel({.name = name,
-                .spec = spec,
-                .labels = {},
-                .prepare = build_list,
-                .unit = "grains",
-                .per_unit = [](RunningCase& c) { return work::list_build(pairs_of(c)); }});
+    add_kernel(
+        {.name = name,
+         .spec = spec,
+         .labels = {},
+         .prepare = build_list,
+         .unit = "grains",
+         .per_unit = [](RunningCase& c) { return work::list_build(pairs_of(c), contacts_of(c)); }});
   };
   add_list_build("list_build", heap);
   add_list_build("list_build_10k", grains_alone("dem/heap_10k", "heap_10k", 0));

@@ -10,6 +10,7 @@ import sys
 TEXTS = ("case", "backend", "device", "cpu", "git_hash", "version", "compiler", "build", "build_type", "date")
 POSITIVE = ("threads", "ranks", "repeats", "steps", "bytes_per_unit", "bandwidth", "bandwidth_fraction",
             "peak_memory_bytes")
+BYTES_PER_GRAIN, BYTES_PER_CELL = 1100, 360  # at most; cells with their ghosts, pairs as in a heap
 MOST_ITERATIONS = 12  # of the pressure, to 1e-6 with a heap; 4 are usual
 problems = []
 
@@ -45,12 +46,24 @@ def check_counts(record):
         return
     expect(case, counts["allocations_per_step"] == 0, f"allocates: {record['notes'].get('allocated')}")
     expect(case, counts["host_copies_per_step"] == 0, f"copies: {record['notes'].get('copied')}")
+    check_memory(record)
     if "cells" in record["sizes"]:
         most = MOST_ITERATIONS if has_grains else 1
         expect(case, 1 <= counts["pressure_iterations"] <= most,
                f"{counts['pressure_iterations']} pressure iterations")
     if case == "dem/heap_100k_rebuild_100":
         expect(case, counts["rebuilds_per_step"] >= 0.01, f"{counts['rebuilds_per_step']} rebuilds a step")
+
+
+def check_memory(record):
+    """No array more than there was: what a step keeps per grain and per cell."""
+    sizes, most = record["sizes"], 1e5
+    most += BYTES_PER_GRAIN * sizes.get("grains", 0)
+    if "cells" in sizes:
+        nx, ny, nz = sizes["cells"]
+        most += BYTES_PER_CELL * (nx + 2) * (ny + 2) * (nz + 2)
+    used = record["counts"]["array_bytes"]
+    expect(record["case"], 0 < used <= most, f"{used:g} bytes of arrays, at most {most:g} expected")
 
 
 def main():
