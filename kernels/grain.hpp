@@ -114,13 +114,15 @@ struct PairList {
   Kokkos::View<int*> first, inner_first, other_first;  // (n + 1)
   Kokkos::View<int*> i, j;                             // (n_pairs)
   Kokkos::View<int*> other_slot;                       // (n_crossing)
-  Kokkos::View<int*> active;     // (inner pairs) slots of a chunk's active pairs ...
-  Kokkos::View<int*> n_active;   // (chunks) ... this many, from its first inner pair on
-  Kokkos::View<Real*> slack;     // (chunks) relative way left until others may touch [m]
-  Kokkos::View<PairLine*> line;  // (n_crossing)
-  Kokkos::View<Vec3*> xi_t;      // (n_pairs) tangential displacement of i relative to j [m]
-  Kokkos::View<Vec3*> rolling;   // (n_pairs) rolling torque on i [N m]; empty without rolling
-  Kokkos::View<Vec3*> force;     // (n_pairs) on i in the last sub-step [N]; empty unless asked for
+  Kokkos::View<int*> active;              // (inner pairs) slots of a chunk's active pairs ...
+  Kokkos::View<int*> n_active;            // (chunks) ... this many, from its first inner pair on
+  Kokkos::View<Real*> slack;              // (chunks) relative way left until others may touch [m]
+  Kokkos::View<Real*> margin;             // (chunks) from contact, for the next active pairs [m]
+  Kokkos::View<std::uint8_t*> near_wall;  // (n) 1: may touch a wall until then
+  Kokkos::View<PairLine*> line;           // (n_crossing)
+  Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]
+  Kokkos::View<Vec3*> rolling;  // (n_pairs) rolling torque on i [N m]; empty without rolling
+  Kokkos::View<Vec3*> force;    // (n_pairs) on i in the last sub-step [N]; empty unless asked for
   Kokkos::View<std::uint8_t*> touching;  // (n_pairs) 1 while in contact
 
   KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }

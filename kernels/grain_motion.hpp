@@ -20,23 +20,30 @@ struct FluidOnGrains {
   bool none = false;                 // no fluid: all but steady_force is zero and not read
 };
 
-/// Sum of the crossing contacts of grain g from the pair lines, own slots first, then the others.
-KOKKOS_FORCEINLINE_FUNCTION ContactSum sum_crossing(const PairList& list, int g, Real radius,
-                                                    bool has_rolling) {
-  ContactSum sum{};
-  for (int p = list.first(g); p < list.first(g + 1); ++p) {
-    const PairLine& line = list.line(p);
-    sum.force = sum.force + line.force_overlap();
-    sum.torque = fused(line.delta_n / 2 - radius, line.twist_quad(), sum.torque);
-    if (has_rolling) sum.torque = sum.torque + quad(list.rolling(p));
+/// What the line of a crossing pair does to its first grain (sign 1) or second grain (-1).
+KOKKOS_FORCEINLINE_FUNCTION void add_line(const PairList& list, int slot, Real sign, Real radius,
+                                          bool has_rolling, ContactSum& sum) {
+  const PairLine& line = list.line(slot);
+  sum.force = fused(sign, line.force_overlap(), sum.force);
+  sum.torque = fused(line.delta_n / 2 - radius, line.twist_quad(), sum.torque);
+  if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
+}
+
+/// Sums of the crossing contacts of the rows [begin, end) from the pair lines, of each row its own
+/// slots first, then the others.
+KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
+                                              const Kokkos::View<GrainKinematics*>& grains,
+                                              int begin, int end, bool has_rolling,
+                                              ContactSum* sums) {
+  for (int g = begin; g < end; ++g) sums[g - begin] = ContactSum{};
+  for (int p = list.first(begin); p < list.first(end); ++p) {
+    const int g = list.i(p);
+    add_line(list, p, 1, grains(g).r, has_rolling, sums[g - begin]);
   }
-  for (int s = list.other_first(g); s < list.other_first(g + 1); ++s) {
-    const PairLine& line = list.line(list.other_slot(s));
-    sum.force = sum.force - line.force_overlap();
-    sum.torque = fused(line.delta_n / 2 - radius, line.twist_quad(), sum.torque);
-    if (has_rolling) sum.torque = sum.torque - quad(list.rolling(list.other_slot(s)));
+  for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
+    const int slot = list.other_slot(s), g = list.j(slot);
+    add_line(list, slot, -1, grains(g).r, has_rolling, sums[g - begin]);
   }
-  return sum;
 }
 
 /// The start of the sub-steps: first half kick with the stored contact forces, then drift.
@@ -101,18 +108,19 @@ struct SumKickDrift {
   Walls<Stiffness, Rolling> walls;
   bool has_rolling = false;
   bool last = false;
-  Real margin = 0;  // within which pairs are active [m]
+  Real largest_margin = 0;  // within which pairs are active [m]
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kLargestChunk];
-    for (int g = begin; g < end; ++g) {
-      sums[g - begin] = sum_crossing(pairs.list, g, motion.grains(g).r, has_rolling);
-    }
+    sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
     if constexpr (kLargestChunk > 1) {
       Real& slack = pairs.list.slack(chunk);
       if (!(slack >= 0)) {
+        const Real margin = pairs.list.margin(chunk);
         pairs.find_active(chunk, margin);
+        for (int g = begin; g < end; ++g)
+          pairs.list.near_wall(g) = walls.is_near(g, motion.grains(g), margin);
         slack = margin;
       }
       pairs.add_inner(chunk, sums);
@@ -122,14 +130,24 @@ struct SumKickDrift {
       const Real speed2 = move(g, sums[g - begin], largest);
       fastest = speed2 > fastest ? speed2 : fastest;
     }
-    if constexpr (kLargestChunk > 1)
-      pairs.list.slack(chunk) -= 2 * motion.dt * Kokkos::sqrt(fastest);
+    if constexpr (kLargestChunk > 1) {
+      const Real way = 2 * motion.dt * Kokkos::sqrt(fastest);  // of two grains towards each other
+      pairs.list.slack(chunk) -= way;
+      pairs.list.margin(chunk) = next_margin(way);
+    }
+  }
+
+  /// Enough for some forty sub-steps: where grains hardly move, hardly more than contacts is
+  /// active.
+  KOKKOS_FORCEINLINE_FUNCTION Real next_margin(Real way) const {
+    const Real least = largest_margin / 10, wanted = 40 * way;
+    return wanted < least ? least : (wanted < largest_margin ? wanted : largest_margin);
   }
 
   /// Returns the squared speed of the drift [m^2/s^2].
   KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum sum, Real& largest) const {
     const GrainKinematics& grain = motion.grains(g);
-    walls.add(g, grain, motion.dt, sum);
+    if (kLargestChunk == 1 || pairs.list.near_wall(g)) walls.add(g, grain, motion.dt, sum);
     if (last) {
       motion.contact_force(g) = sum.force.vec();
       motion.contact_torque(g) = sum.torque.vec();

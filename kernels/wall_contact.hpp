@@ -34,6 +34,18 @@ struct Walls {
     if constexpr (Rolling::has_history) history.rolling = torque(g, w);
     return history;
   }
+  KOKKOS_FORCEINLINE_FUNCTION Real overlap(int w, const GrainKinematics& grain) const {
+    return grain.r - (dot(plane[w].normal, grain.x) - plane[w].offset);
+  }
+  /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
+  KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, const GrainKinematics& grain,
+                                                   Real margin) const {
+    for (int w = 0; w < n; ++w) {
+      if (overlap(w, grain) > -margin) return 1;
+    }
+    touching(g) = 0;
+    return 0;
+  }
   /// Adds the force and torque of all walls on grain g; advances the history by dt.
   KOKKOS_FORCEINLINE_FUNCTION void add(int g, const GrainKinematics& grain, Real dt,
                                        ContactSum& sum) const {
@@ -42,7 +54,7 @@ struct Walls {
     for (int w = 0; w < n; ++w) {
       const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
       const Vec3& normal = plane[w].normal;
-      const Real delta_n = grain.r - (dot(normal, grain.x) - plane[w].offset);
+      const Real delta_n = overlap(w, grain);
       if (delta_n <= 0) continue;
       ContactResult history;
       if (before & bit) history = remembered(g, w);

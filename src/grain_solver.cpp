@@ -116,7 +116,7 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                                                    .touching = grains.wall_touching},
                                          .has_rolling = list_.with_rolling,
                                          .last = s + 1 == n,
-                                         .margin = list_.margin()};
+                                         .largest_margin = list_.largest_margin()};
     for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
     Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
                             items(grains.list.chunks.count()), sum, Kokkos::Max<Real>(moved));

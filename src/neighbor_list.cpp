@@ -173,6 +173,8 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "chunks: slack", list.chunks.count());
   Kokkos::deep_copy(list.slack, -1.0);
+  reserve(list.margin, "chunks: margin", list.chunks.count());
+  Kokkos::deep_copy(list.margin, largest_margin());
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
   if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
@@ -202,6 +204,7 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   reserve(list.first, "pairs: first", n + 1);
   reserve(list.inner_first, "pairs: inner first", n + 1);
   reserve(list.other_first, "pairs: other first", n + 1);
+  reserve(list.near_wall, "near a wall", n);
   reserve(noted_, "noted partners", n);
   const PairSearch pair_search{.grains = kin,
                                .occupied = occupied_,

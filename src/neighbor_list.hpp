@@ -21,8 +21,8 @@ class NeighborList {
   void rebuild(GrainState& grains, bool drop);
   /// Searches again from x_reference in the present order: the list as the last rebuild left it.
   void restore(GrainState& grains);
-  /// Distance from contact within which pairs are evaluated in every sub-step [m].
-  Real margin() const { return skin_ / 10; }
+  /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
+  Real largest_margin() const { return skin_ / 10; }
   std::int64_t rebuilds() const { return rebuilds_; }
   bool with_rolling = false;  // keep a rolling torque per pair
   bool with_force = false;    // keep the force of each pair in the last sub-step
