@@ -109,7 +109,6 @@ void repeat_along_x(InitialGrains& grains, int copies, double lx) {
 }
 
 RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
-  const std::int64_t bytes_before = array_bytes();
   Config& config = spec.config;
   Config flow_alone = config;
   flow_alone.grains.reset();
@@ -128,7 +127,7 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
   // The list and the rows have two sets of memory, taken in the first two rebuilds.
   if (state.grains) step->grain_solver()->start(*state.grains);
   for (int n = 0; n < spec.untimed_steps; ++n) advance();
-  bytes_ = array_bytes() - bytes_before;
+  bytes_ = array_bytes();
 }
 
 void RunningCase::advance() {
