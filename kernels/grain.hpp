@@ -41,6 +41,16 @@ struct alignas(32) GrainKinematics {
   KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, padding}; }
 };
 
+/// Lets a sub-step go ahead while the list still covers the way that the grains have come. A host
+/// that waits for a device only now and then launches sub-steps ahead of that knowledge; those behind
+/// a stale list then do nothing.
+struct Gate {
+  Kokkos::View<const Real*> moved;  // largest squared distance from the list's positions [m^2] ...
+  int before = 0;                   // ... as this sub-step begins: in this place
+  Real limit = 0;                   // [m^2]
+  KOKKOS_FORCEINLINE_FUNCTION bool open() const { return moved(before) <= limit; }
+};
+
 /// Sum of the contact forces [N] and torques [N m] on a grain.
 struct ContactSum {
   Quad force, torque;

@@ -17,7 +17,8 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> steady_force;  // weight, buoyancy, pressure gradient, ... [N]
   Kokkos::View<Real*> added_mass;    // [kg]
   Kokkos::View<Vec3*> drag_impulse;  // sum over the sub-steps of the drag on the grain [N s]
-  bool none = false;                 // no fluid: all but steady_force is zero and not read
+  Kokkos::View<Vec3*> u_start;       // velocity as the fluid step began [m/s]
+  bool none = true;                  // no fluid: nothing but steady_force is there
 };
 
 /// What the line of a crossing pair does to its first grain (sign 1) or second grain (-1).
@@ -75,8 +76,9 @@ struct KickAndDrift {
     x = fused(dt, u, x);
     const Vec3 moved = x.vec() - x_reference(g);
     const Real distance2 = dot(moved, moved);
-    // The negation lets a NaN through, so that the next rebuild meets and reports it.
-    if (!(distance2 <= largest)) largest = distance2;
+    // What is not a number counts as infinitely far: the next rebuild meets and reports it.
+    if (!(distance2 <= largest))
+      largest = distance2 > largest ? distance2 : Kokkos::Experimental::infinity_v<Real>;
     return impulse;
   }
 
@@ -111,6 +113,10 @@ struct SumKickDrift {
   Real largest_margin = 0;  // within which pairs are active [m]
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
+    if (!pairs.gate.open()) {  // so that the next one is closed, too
+      largest = Kokkos::Experimental::infinity_v<Real>;
+      return;
+    }
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kLargestChunk];
     sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);

@@ -65,13 +65,20 @@ struct ExtentOfGrains {
   }
 };
 
-/// Per grain, what the gather keeps for the deposit.
+/// Per grain, what the gather keeps for the deposit and for the next step.
 struct ExchangeOnGrains {
-  Kokkos::View<Vec3*> u_start;           // velocity as the fluid step began [m/s]
   Kokkos::View<Vec3*> added_mass_force;  // convective part, C_m rho V_p (u . grad u) [N]
   Kokkos::View<Vec3*> fluid_force;      // of pressure gradient and stress, as the grain sees it [N]
   Kokkos::View<Vec3*> carried_impulse;  // still owed to the grain by the implicit drag [N s]
-  Kokkos::View<Vec3*> paid_impulse;     // of it, given in this fluid step [N s]
+};
+
+/// Weight less buoyancy [N].
+struct SubmergedWeight {
+  Vec3 gravity;        // [m/s^2]
+  Real displaced = 0;  // density of what a grain displaces [kg/m^3]; 0: no buoyancy
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const GrainKinematics& grain) const {
+    return (grain.m - displaced * sphere_volume(grain.r)) * gravity;
+  }
 };
 
 /// Share by which a grain's view of the flow follows the flow in one fluid step. The exchange lags
@@ -95,7 +102,7 @@ struct GatherFluid {
   FaceRef u, force, convective;
   FieldRef alpha_f;
   Real rho_f = 0, mu_f = 0, dt = 0;
-  Vec3 gravity;
+  SubmergedWeight weight;
   FluidForces forces;
   bool wrap_x = false;
   bool at_once = false;  // no relaxation: the first step, grains that do not move
@@ -125,38 +132,37 @@ struct GatherFluid {
     on_grains.u_f(g) += share * (u_f - on_grains.u_f(g));
     exchange.fluid_force(g) +=
         share * (volume * interpolate_faces(force, at) - exchange.fluid_force(g));
-    exchange.paid_impulse(g) = share * exchange.carried_impulse(g);
-    exchange.carried_impulse(g) = exchange.carried_impulse(g) - exchange.paid_impulse(g);
+    const Vec3 paid = share * exchange.carried_impulse(g);
+    exchange.carried_impulse(g) = exchange.carried_impulse(g) - paid;
 
     on_grains.beta(g) = beta;
     on_grains.added_mass(g) = added_mass;
-    on_grains.steady_force(g) = (grain.m - forces.buoyancy * rho_f * volume) * gravity +
-                                exchange.fluid_force(g) + added +
-                                (1 / dt) * exchange.paid_impulse(g);
+    on_grains.steady_force(g) = weight(grain) + exchange.fluid_force(g) + added + (1 / dt) * paid;
     on_grains.drag_impulse(g) = Vec3{};
-    exchange.u_start(g) = grain.u;
+    on_grains.u_start(g) = grain.u;
     exchange.added_mass_force(g) = added;
   }
 };
 
 /// Still, unbounded fluid around grains without a flow solver: weight, buoyancy, Schiller-Naumann
-/// drag, added mass. rho_f = 0 leaves the weight alone.
+/// drag, added mass. Without a fluid the weight alone.
 struct GatherStillFluid {
   Real rho_f = 0, mu_f = 0;
-  Vec3 gravity;
+  SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    const Real volume = sphere_volume(grain.r);
+    on_grains.steady_force(g) = weight(grain);
+    if (on_grains.none) return;
     const LocalFlow flow{
         .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};
     on_grains.u_f(g) = Vec3{};
-    on_grains.beta(g) = rho_f > 0 ? SchillerNaumann{}(flow) : Real(0);
-    on_grains.added_mass(g) = kAddedMassCoefficient * rho_f * volume;
-    on_grains.steady_force(g) = (grain.m - rho_f * volume) * gravity;
+    on_grains.beta(g) = SchillerNaumann{}(flow);
+    on_grains.added_mass(g) = kAddedMassCoefficient * rho_f * sphere_volume(grain.r);
     on_grains.drag_impulse(g) = Vec3{};
+    on_grains.u_start(g) = grain.u;
   }
 };
 
@@ -195,7 +201,7 @@ struct ExchangeOfGrain {
     return {.volume = sphere_volume(grain.r),
             .implicit = dt * on_grains.beta(g) + added_mass,
             .impulse = on_grains.drag_impulse(g) + dt * exchange.added_mass_force(g) -
-                       added_mass * (grain.u - exchange.u_start(g))};
+                       added_mass * (grain.u - on_grains.u_start(g))};
   }
 };
 

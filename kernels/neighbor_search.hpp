@@ -90,6 +90,35 @@ struct OccupiedColumns {
   }
 };
 
+/// Numbers the occupied columns along grains in key order: `of_grain`, and how many there are.
+struct NumberColumns {
+  Columns columns;
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool opens(int g) const {
+    return g == 0 || columns.column_of(grains(g).x) != columns.column_of(grains(g - 1).x);
+  }
+  KOKKOS_FUNCTION void operator()(int g, int& count, bool final) const {
+    count += opens(g) ? 1 : 0;
+    if (final) occupied.of_grain(g) = count - 1;
+  }
+};
+
+/// Fills `id` and `start` but for its last entry.
+struct StartColumns {
+  Columns columns;
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const int c = occupied.of_grain(g);
+    if (g > 0 && occupied.of_grain(g - 1) == c) return;
+    occupied.id(c) = columns.column_of(grains(g).x);
+    occupied.start(c) = g;
+  }
+};
+
 /// Fills `forward`: half of the neighbouring columns, so that each pair is met once.
 struct LinkColumns {
   Columns columns;
@@ -107,7 +136,7 @@ struct LinkColumns {
 };
 
 /// Where grain i starts to look in the forward columns: grains below are too far down.
-using Windows = Kokkos::View<int* [kForwardColumns]>;
+using Windows = Kokkos::View<int* [kForwardColumns], Kokkos::MemoryUnmanaged>;
 
 /// Fills the windows of the grains of a column, walking up all five columns together: O(grains).
 struct FindWindows {
@@ -165,7 +194,7 @@ struct PairSearch {
 
 /// Partners that the counting pass notes down, so that few grains are searched twice.
 inline constexpr int kNoted = 8;
-using NotedPartners = Kokkos::View<int* [kNoted]>;
+using NotedPartners = Kokkos::View<int* [kNoted], Kokkos::MemoryUnmanaged>;
 
 /// Number of partners of each grain, in its own chunk and in others; notes the first of them.
 struct CountPairs {

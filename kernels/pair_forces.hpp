@@ -25,6 +25,7 @@ struct PairForces {
   Friction friction;
   PeriodicBox box;
   Real dt = 0;  // [s]
+  Gate gate;
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
   bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
@@ -38,6 +39,7 @@ struct PairForces {
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
+    if (!gate.open()) return;
     if constexpr (kBlock == 1) {  // constant indices: the stage stays in registers
       if (!is_near(block, 0)) return;
       Stage s;

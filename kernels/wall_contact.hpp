@@ -16,7 +16,8 @@ struct Plane {
 
 inline constexpr int kMaxWalls = 6;
 
-/// The walls, their material and every grain's history with each of them.
+/// The walls, their material and every grain's history with them. Walls 2s and 2s + 1 stand opposite
+/// each other, farther apart than a grain is wide, and share the history s.
 template <class Stiffness, class Rolling>
 struct Walls {
   int n = 0;
@@ -25,13 +26,13 @@ struct Walls {
   Rolling rolling;
   Friction friction;
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t,
-      torque;  // (grain, wall): [m], [N m]; torque of rolling springs alone
+      torque;  // (grain, wall / 2): [m], [N m]; torque of rolling springs alone
   Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
   KOKKOS_FORCEINLINE_FUNCTION ContactResult remembered(int g, int w) const {
     ContactResult history;
-    history.xi_t = xi_t(g, w);
-    if constexpr (Rolling::has_history) history.rolling = torque(g, w);
+    history.xi_t = xi_t(g, w / 2);
+    if constexpr (Rolling::has_history) history.rolling = torque(g, w / 2);
     return history;
   }
   KOKKOS_FORCEINLINE_FUNCTION Real overlap(int w, const GrainKinematics& grain) const {
@@ -70,8 +71,8 @@ struct Walls {
                         history, dt);
       sum.force = sum.force + quad(result.force);
       sum.torque = sum.torque + quad(fused(-arm, result.twist, result.rolling));
-      xi_t(g, w) = result.xi_t;
-      if constexpr (Rolling::has_history) torque(g, w) = result.rolling;
+      xi_t(g, w / 2) = result.xi_t;
+      if constexpr (Rolling::has_history) torque(g, w / 2) = result.rolling;
       now = static_cast<std::uint8_t>(now | bit);
     }
     if (now != before) touching(g) = now;

@@ -15,7 +15,7 @@ namespace {
 const std::string prefix = "restart_";
 const std::string ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
-constexpr std::int64_t format_version = 3;  // of restart files; 3: forces of pairs only where asked for
+constexpr std::int64_t format_version = 4;  // of restart files; 4: opposite walls share their history
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");

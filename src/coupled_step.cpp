@@ -10,13 +10,15 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
   if (!state.grains) return;
   frozen_ = config.grains->frozen;
   grains_ = std::make_unique<GrainSolver>(config, *state.grains);
-  state.grains->fluid.none = !state.fluid && !config.grains->ambient;
   const auto& g = config.grains->gravity;
-  still_.gravity = {g[0], g[1], g[2]};
+  still_.weight.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {
+    add_fluid(*state.grains);
+    add_exchange(*state.grains);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
   } else if (config.grains->ambient) {
-    still_.rho_f = config.grains->ambient->density;
+    add_fluid(*state.grains);
+    still_.rho_f = still_.weight.displaced = config.grains->ambient->density;
     still_.mu_f = still_.rho_f * config.grains->ambient->kinematic_viscosity;
   }
 }
@@ -83,6 +85,7 @@ void CoupledStep::advance_grains(GrainState& grains) {
 
 void CoupledStep::move_grains(GrainState& grains) {
   if (frozen_) {
+    if (grains.fluid.none) return;
     Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
                          DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
   } else {

@@ -48,6 +48,7 @@ class Coupling {
                     const Kokkos::View<Vec3*>& force);
 
   const ExchangeOnFaces& on_faces() const { return on_faces_; }
+  const SubmergedWeight& weight() const { return weight_; }
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
@@ -70,7 +71,7 @@ class Coupling {
   bool at_once_ = false;          // the same for this step: the first has nothing to start from
   Locate locate_;
   Real rho_f_ = 0, nu_ = 0;
-  Vec3 gravity_;
+  SubmergedWeight weight_;
   FaceVector force_, convective_;  // valid around the grains; room of the flow solver
   std::vector<Real> y_face_;       // of rows 0 .. ny [m]
   // Implicit coefficient and impulse densities, later velocity changes; all but the first are room

@@ -15,22 +15,32 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
-  const Kokkos::View<Vec3*> drag = grain_vector("drag", n), added = grain_vector("added mass", n),
-                            total = grain_vector("total", n);
+  const Kokkos::View<Vec3*> total = grain_vector("total", n);
   const FluidOnGrains on = grains.fluid;
-  const ExchangeOnGrains exchange = grains.exchange;
   const auto kin = grains.kin;
   const auto contact = grains.contact_force;
   const Real dt = dt_;
-  Kokkos::parallel_for(
-      "output: forces on grains", n, KOKKOS_LAMBDA(int g) {
-        drag(g) = (1 / dt) * on.drag_impulse(g);
-        added(g) = exchange.added_mass_force(g) + (1 / dt) * exchange.paid_impulse(g) -
-                   (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));
-        total(g) = contact(g) + on.steady_force(g) + drag(g) -
-                   (on.added_mass(g) / dt) * (kin(g).u - exchange.u_start(g));
-      });
-  forces.push_back({"force_drag", drag});
+  if (on.none) {
+    Kokkos::parallel_for(
+        "output: force on grains", n,
+        KOKKOS_LAMBDA(int g) { total(g) = contact(g) + on.steady_force(g); });
+  } else {
+    const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
+    const auto fluid_force = grains.exchange.fluid_force;
+    const bool computed = coupling_ != nullptr;
+    const SubmergedWeight weight = computed ? coupling_->weight() : still_.weight;
+    Kokkos::parallel_for(
+        "output: forces on grains", n, KOKKOS_LAMBDA(int g) {
+          const Vec3 inertia = (on.added_mass(g) / dt) * (kin(g).u - on.u_start(g));
+          // Of the steady force: what is neither weight nor of the pressure gradient and stress.
+          added(g) = on.steady_force(g) - weight(kin(g)) - inertia;
+          if (computed) added(g) = added(g) - fluid_force(g);
+          drag(g) = (1 / dt) * on.drag_impulse(g);
+          total(g) = contact(g) + on.steady_force(g) + drag(g) - inertia;
+        });
+    forces.push_back({"force_drag", drag});
+    forces.push_back({"force_added_mass", added});
+  }
   if (coupling_) {
     const FluidForces pressure{0, 1, 0, 0, 0}, stress{0, 0, 1, 0, 0};
     const auto p = grain_vector("pressure gradient", n), s = grain_vector("stress", n);
@@ -38,7 +48,6 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
     coupling_->single_force(stress, *state.fluid, grains, s);
     forces.push_back({"force_pressure_gradient", p});
     forces.push_back({"force_stress", s});
-    forces.push_back({"force_added_mass", added});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   grains_->split_contacts(grains, normal, tangential);

@@ -1,6 +1,8 @@
 #include "src/grain_solver.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "kernels/contact_parts.hpp"
 #include "kernels/grain_motion.hpp"
@@ -57,69 +59,86 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
       wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)),
       exit_x_(config.grains->boundary_x == GrainBoundaryX::exit),
       lx_(config.size[0]) {
-  const auto add = [this](Vec3 normal, Real offset) { plane_[n_walls_++] = {normal, offset}; };
-  add({0, 1, 0}, 0);
-  add({0, -1, 0}, -config.size[1]);
-  if (config.grains->boundary_x == GrainBoundaryX::wall) {
-    add({1, 0, 0}, 0);
-    add({-1, 0, 0}, -config.size[0]);
-  }
-  if (config.grains->boundary_z == GrainBoundaryZ::wall) {
-    add({0, 0, 1}, 0);
-    add({0, 0, -1}, -config.size[2]);
-  }
+  const auto add_walls = [&](Vec3 normal, Real distance) {
+    if (distance <= 2 * grains.r_max) {
+      throw std::runtime_error("domain.size: " + std::to_string(distance) +
+                               " m between two walls, less than the largest grain is wide");
+    }
+    plane_[n_walls_++] = {normal, 0};
+    plane_[n_walls_++] = {-normal, -distance};
+  };
+  add_walls({0, 1, 0}, config.size[1]);
+  if (config.grains->boundary_x == GrainBoundaryX::wall) add_walls({1, 0, 0}, config.size[0]);
+  if (config.grains->boundary_z == GrainBoundaryZ::wall) add_walls({0, 0, 1}, config.size[2]);
   using WallHistory = decltype(grains.wall_xi_t);
   const auto n = static_cast<std::size_t>(grains.n);
-  grains.wall_xi_t = WallHistory("wall xi_t", n, static_cast<std::size_t>(n_walls_));
+  const auto n_opposite = static_cast<std::size_t>(n_walls_ / 2);
+  grains.wall_xi_t = WallHistory("wall xi_t", n, n_opposite);
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
   if (list_.with_rolling)
-    grains.wall_torque = WallHistory("wall torque", n, static_cast<std::size_t>(n_walls_));
+    grains.wall_torque = WallHistory("wall torque", n, n_opposite);
   list_.with_force = config.output.grain_forces;
+}
+
+template <class Stiffness, class Rolling>
+void GrainSolver::sub_step(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
+                           const KickAndDrift& motion, int s, bool last) {
+  const PairForces<Stiffness, Rolling> pairs{
+      .law = law,
+      .rolling = rolling,
+      .friction = pair_friction_,
+      .box = list_.box(),
+      .dt = motion.dt,
+      .gate = {.moved = moved_, .before = place(s), .limit = list_.limit()},
+      .grains = grains.kin,
+      .list = grains.list,
+      .keep_force = list_.with_force && last};
+  const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
+  Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
+  SumKickDrift<Stiffness, Rolling> sum{.motion = motion,
+                                       .pairs = pairs,
+                                       .walls = {.n = n_walls_,
+                                                 .plane = {},
+                                                 .law = std::get<Stiffness>(wall_law_),
+                                                 .rolling = rolling,
+                                                 .friction = wall_friction_,
+                                                 .xi_t = grains.wall_xi_t,
+                                                 .torque = grains.wall_torque,
+                                                 .touching = grains.wall_touching},
+                                       .has_rolling = list_.with_rolling,
+                                       .last = last,
+                                       .largest_margin = list_.largest_margin()};
+  for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
+  Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
+                          items(grains.list.chunks.count()), sum, largest_way(s + 1));
 }
 
 template <class Stiffness, class Rolling>
 void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n,
                             Real dt) {
-  const auto motion = [&] {
-    return KickAndDrift{.dt = dt,
-                        .grains = grains.kin,
-                        .contact_force = grains.contact_force,
-                        .contact_torque = grains.contact_torque,
-                        .x_reference = grains.x_reference,
-                        .fluid = grains.fluid};
-  };
-  Real moved = 0;
+  const KickAndDrift motion{.dt = dt,
+                            .grains = grains.kin,
+                            .contact_force = grains.contact_force,
+                            .contact_torque = grains.contact_torque,
+                            .x_reference = grains.x_reference,
+                            .fluid = grains.fluid};
+  if (moved_.extent_int(0) != ahead_ + 1) {
+    moved_ = Kokkos::View<Real*>("way of the grains", static_cast<std::size_t>(ahead_ + 1));
+  }
+  const auto moved = Kokkos::create_mirror_view(moved_);
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(),
-                          Kokkos::Max<Real>(moved));
-  for (int s = 0; s < n; ++s) {
-    if (list_.is_stale(moved)) list_.rebuild(grains, false);
-    const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
-    const PairForces<Stiffness, Rolling> pairs{.law = law,
-                                               .rolling = rolling,
-                                               .friction = pair_friction_,
-                                               .box = list_.box(),
-                                               .dt = dt,
-                                               .grains = grains.kin,
-                                               .list = grains.list,
-                                               .keep_force = list_.with_force && s + 1 == n};
-    Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
-    SumKickDrift<Stiffness, Rolling> sum{.motion = motion(),
-                                         .pairs = pairs,
-                                         .walls = {.n = n_walls_,
-                                                   .plane = {},
-                                                   .law = std::get<Stiffness>(wall_law_),
-                                                   .rolling = rolling,
-                                                   .friction = wall_friction_,
-                                                   .xi_t = grains.wall_xi_t,
-                                                   .torque = grains.wall_torque,
-                                                   .touching = grains.wall_touching},
-                                         .has_rolling = list_.with_rolling,
-                                         .last = s + 1 == n,
-                                         .largest_margin = list_.largest_margin()};
-    for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
-    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
-                            items(grains.list.chunks.count()), sum, Kokkos::Max<Real>(moved));
+  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion, largest_way(0));
+  for (int s = 0; s < n;) {
+    const int end = std::min(s + ahead_, n);
+    for (int next = s; next < end; ++next)
+      sub_step(law, rolling, grains, motion, next, next + 1 == n);
+    Kokkos::deep_copy(moved, moved_);
+    const auto is_stale = [&](int step) { return !(moved(place(step)) <= list_.limit()); };
+    while (s < end && !is_stale(s)) ++s;
+    if (s < n && is_stale(s)) {
+      list_.rebuild(grains, false);
+      Kokkos::deep_copy(Kokkos::subview(moved_, place(s)), Real(0));
+    }
   }
 }
 

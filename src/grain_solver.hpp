@@ -46,8 +46,21 @@ class GrainSolver {
   /// slots is then to be read.
   void restore_list(GrainState& grains) { list_.restore(grains); }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
+  /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
+  /// results do not depend on it.
+  void set_sub_steps_ahead(int n) { ahead_ = n; }
 
  private:
+  using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
+  int place(int step) const { return step % (ahead_ + 1); }
+  /// Reduces into the place of a sub-step, without a wait.
+  Kokkos::Max<Real, DeviceMemory> largest_way(int step) const {
+    return Kokkos::Max<Real, DeviceMemory>(
+        Kokkos::View<Real, DeviceMemory>(moved_.data() + place(step)));
+  }
+  template <class Stiffness, class Rolling>
+  void sub_step(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
+                const KickAndDrift& motion, int s, bool last);
   template <class Stiffness, class Rolling>
   void sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n, Real dt);
 
@@ -57,6 +70,9 @@ class GrainSolver {
   Friction pair_friction_, wall_friction_;
   Plane plane_[kMaxWalls];
   int n_walls_ = 0;
+  int ahead_ = kLargestChunk > 1 ? 1 : 16;
+  Kokkos::View<Real*> moved_;  // largest squared distance from the list's positions [m^2]; in the
+                               // place of a sub-step: as that one begins
   bool exit_x_ = false;
   Real lx_ = 0;
 };

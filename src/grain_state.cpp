@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/launch.hpp"
+
 namespace barchan {
 
 namespace {
@@ -11,41 +13,42 @@ View rows(const char* label, int n) {
   return View(label, static_cast<std::size_t>(n));
 }
 
-/// One spare array per element type, so that reordering allocates once.
-template <class T>
-Kokkos::View<T*>& spare() {
-  static Kokkos::View<T*> array;
-  static bool hooked = false;
-  if (!hooked) {
-    Kokkos::push_finalize_hook([] { array = {}; });
-    hooked = true;
-  }
-  return array;
-}
-
-template <class T>
-void take_rows(Kokkos::View<T*>& array, const Kokkos::View<int*>& row, int n) {
-  Kokkos::View<T*>& target = spare<T>();
-  if (target.extent(0) != array.extent(0)) {
-    target = Kokkos::View<T*>(array.label(), array.extent(0));
-  }
-  const Kokkos::View<T*> from = array, to = target;
+/// Reorders the n first of a column of values; any column fits the room.
+template <class Column>
+void take_rows(const Column& column, const Kokkos::View<int*>& row, int n,
+               const Kokkos::View<Quad*>& room) {
+  using Value = typename Column::non_const_value_type;
+  static_assert(sizeof(Value) <= sizeof(Quad) && alignof(Value) <= alignof(Quad));
+  const Kokkos::View<Value*, Kokkos::MemoryUnmanaged> copy(reinterpret_cast<Value*>(room.data()),
+                                                           room.extent(0));
   Kokkos::parallel_for(
-      "grains: reorder", n, KOKKOS_LAMBDA(int g) { to(g) = from(row(g)); });
-  std::swap(array, target);
+      "grains: reorder", items(n), KOKKOS_LAMBDA(int g) { copy(g) = column(row(g)); });
+  Kokkos::parallel_for(
+      "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { column(g) = copy(g); });
 }
 
-void take_rows(Kokkos::View<Vec3**, Kokkos::LayoutLeft>& array, const Kokkos::View<int*>& row,
-               int n) {
-  for (std::size_t w = 0; w < array.extent(1); ++w) {
-    Kokkos::View<Vec3*>& copy = spare<Vec3>();
-    if (copy.extent(0) != array.extent(0)) copy = Kokkos::View<Vec3*>("rows", array.extent(0));
-    const Kokkos::View<Vec3*> from = copy;
-    const auto column = Kokkos::subview(array, Kokkos::ALL(), w);
-    Kokkos::deep_copy(from, column);
-    Kokkos::parallel_for(
-        "grains: reorder wall history", n, KOKKOS_LAMBDA(int g) { column(g) = from(row(g)); });
+/// The columns that the state has, one after the other.
+template <class Action>
+void for_each_column(const GrainState& s, const Action& action) {
+  using Parts = Kokkos::View<Quad* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
+  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Quad));
+  const Parts kin(reinterpret_cast<Quad*>(s.kin.data()), s.kin.extent(0));
+  for (int part = 0; part < 3; ++part) action(Kokkos::subview(kin, Kokkos::ALL(), part));
+  action(s.id);
+  for (const Kokkos::View<Vec3*>& array :
+       {s.contact_force, s.contact_torque, s.x_reference, s.fluid.u_f, s.fluid.steady_force,
+        s.fluid.drag_impulse, s.fluid.u_start, s.exchange.added_mass_force, s.exchange.fluid_force,
+        s.exchange.carried_impulse}) {
+    if (array.extent(0) > 0) action(array);
   }
+  for (const Kokkos::View<Real*>& array : {s.fluid.beta, s.fluid.added_mass}) {
+    if (array.extent(0) > 0) action(array);
+  }
+  for (const auto& history : {s.wall_xi_t, s.wall_torque}) {
+    for (std::size_t w = 0; w < history.extent(1); ++w)
+      action(Kokkos::subview(history, Kokkos::ALL(), w));
+  }
+  action(s.wall_touching);
 }
 
 }  // namespace
@@ -58,13 +61,9 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
   s.kin = rows<decltype(s.kin)>("grain kinematics", n);
   s.id = rows<decltype(s.id)>("grain id", n);
   for (Kokkos::View<Vec3*>* array :
-       {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.u_f, &s.fluid.steady_force,
-        &s.fluid.drag_impulse, &s.exchange.u_start, &s.exchange.added_mass_force,
-        &s.exchange.fluid_force, &s.exchange.carried_impulse, &s.exchange.paid_impulse}) {
+       {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.steady_force}) {
     *array = rows<Kokkos::View<Vec3*>>("grain vector", n);
   }
-  s.fluid.beta = rows<Kokkos::View<Real*>>("drag coefficient", n);
-  s.fluid.added_mass = rows<Kokkos::View<Real*>>("added mass", n);
   s.wall_touching = rows<Kokkos::View<std::uint8_t*>>("wall touching", n);
 
   const auto kin = Kokkos::create_mirror_view(s.kin);
@@ -91,20 +90,25 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
   return s;
 }
 
-void permute(GrainState& s, const Kokkos::View<int*>& row, int n) {
-  take_rows(s.kin, row, n);
-  take_rows(s.id, row, n);
-  for (Kokkos::View<Vec3*>* array :
-       {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.u_f, &s.fluid.steady_force,
-        &s.fluid.drag_impulse, &s.exchange.u_start, &s.exchange.added_mass_force,
-        &s.exchange.fluid_force, &s.exchange.carried_impulse, &s.exchange.paid_impulse}) {
-    take_rows(*array, row, n);
+void add_fluid(GrainState& s) {
+  s.fluid.none = false;
+  for (Kokkos::View<Vec3*>* array : {&s.fluid.u_f, &s.fluid.drag_impulse, &s.fluid.u_start}) {
+    *array = rows<Kokkos::View<Vec3*>>("grain vector", s.n);
   }
-  take_rows(s.fluid.beta, row, n);
-  take_rows(s.fluid.added_mass, row, n);
-  take_rows(s.wall_xi_t, row, n);
-  take_rows(s.wall_torque, row, n);
-  take_rows(s.wall_touching, row, n);
+  s.fluid.beta = rows<Kokkos::View<Real*>>("drag coefficient", s.n);
+  s.fluid.added_mass = rows<Kokkos::View<Real*>>("added mass", s.n);
+}
+
+void add_exchange(GrainState& s) {
+  for (Kokkos::View<Vec3*>* array : {&s.exchange.added_mass_force, &s.exchange.fluid_force,
+                                     &s.exchange.carried_impulse}) {
+    *array = rows<Kokkos::View<Vec3*>>("grain vector", s.n);
+  }
+}
+
+void permute(GrainState& s, const Kokkos::View<int*>& row, int n,
+             const Kokkos::View<Quad*>& room) {
+  for_each_column(s, [&](const auto& column) { take_rows(column, row, n, room); });
   s.n = n;
 }
 

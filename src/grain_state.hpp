@@ -19,7 +19,7 @@ struct GrainState {
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                   // constant over one fluid step
   ExchangeOnGrains exchange;                             // kept for the deposit
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall) tangential displacement [m]
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall / 2), see Walls [m]
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
   Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
   PairList list;                                         // neighbours and their contact history
@@ -30,8 +30,13 @@ struct GrainState {
 
 /// Grains at rest in the list's eyes: no history, no fluid. density [kg/m^3].
 GrainState make_grain_state(const InitialGrains& initial, Real density);
+/// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
+void add_fluid(GrainState& grains);
+void add_exchange(GrainState& grains);
 
-/// Takes the rows in the order of `row` (new row -> old row) and keeps the first n of them.
-void permute(GrainState& grains, const Kokkos::View<int*>& row, int n);
+/// Takes the rows in the order of `row` (new row -> old row) and keeps the first n of them. `room`:
+/// as many as there are grains, overwritten.
+void permute(GrainState& grains, const Kokkos::View<int*>& row, int n,
+             const Kokkos::View<Quad*>& room);
 
 }  // namespace barchan

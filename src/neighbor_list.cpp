@@ -21,12 +21,12 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
   return n;
 }
 
-/// Room for n entries, or a few, kept between rebuilds; grows by an eighth more than asked.
+/// Room for n entries, or a few, kept between rebuilds; grows by a sixteenth more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
   if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
     view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
-                static_cast<std::size_t>(n + n / 8 + 64));
+                static_cast<std::size_t>(n + n / 16 + 64));
   }
 }
 
@@ -95,14 +95,18 @@ void NeighborList::wrap(GrainState& grains) const {
       });
 }
 
+void NeighborList::make_room(int n) {
+  reserve(row_, "old row", n + 1);
+  reserve(room_, "room of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", n);
+}
+
 void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
-  if (static_cast<int>(key_.extent(0)) != n) {
-    key_ = Kokkos::View<std::uint64_t*>("sort key", static_cast<std::size_t>(n));
-    row_ = Kokkos::View<int*>("old row", static_cast<std::size_t>(n));
-  }
-  const auto key = key_;
-  const auto row = row_;
+  make_room(n);
+  const Kokkos::View<std::uint64_t*, Kokkos::MemoryUnmanaged> key(key_room_.data(),
+                                                                  static_cast<std::size_t>(n));
+  const auto row = Kokkos::subview(row_, std::pair<int, int>(0, n));
   const auto kin = grains.kin;
   const Columns columns = columns_;
   const Real lx = lx_;
@@ -118,36 +122,29 @@ void NeighborList::sort(GrainState& grains, bool drop) {
       },
       n_dropped);
   Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, row);
-  permute(grains, row, n - n_dropped);
+  permute(grains, row, n - n_dropped, room_);
   grains.n_left += n_dropped;
 }
 
-void NeighborList::find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n) {
+Windows NeighborList::find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n) {
   reserve(occupied_.of_grain, "column of grain", n);
-  reserve(occupied_.id, "occupied columns", n);
-  reserve(occupied_.start, "column starts", n + 1);
-  const Columns columns = columns_;
-  const OccupiedColumns occupied = occupied_;
-  Kokkos::parallel_scan(
-      "neighbors: occupied columns", n,
-      KOKKOS_LAMBDA(int g, int& count, bool final) {
-        const std::uint32_t column = columns.column_of(kin(g).x);
-        const bool opens = g == 0 || columns.column_of(kin(g - 1).x) != column;
-        count += opens ? 1 : 0;
-        if (!final) return;
-        occupied.of_grain(g) = count - 1;
-        if (opens) occupied.id(count - 1) = column, occupied.start(count - 1) = g;
-      },
-      occupied_.n);
+  const NumberColumns find{.columns = columns_, .grains = kin, .occupied = occupied_};
+  Kokkos::parallel_scan("neighbors: occupied columns", n, find, occupied_.n);
+  reserve(occupied_.id, "occupied columns", occupied_.n);
+  reserve(occupied_.start, "column starts", occupied_.n + 1);
+  Kokkos::parallel_for("neighbors: column starts", n,
+                       StartColumns{.columns = columns_, .grains = kin, .occupied = occupied_});
   Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
   reserve(occupied_.forward, "forward columns", occupied_.n);
   Kokkos::parallel_for("neighbors: link columns", occupied_.n,
                        LinkColumns{.columns = columns_, .occupied = occupied_});
-  reserve(window_, "search windows", n);
+  static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
+  const Windows window(reinterpret_cast<int*>(key_room_.data()), static_cast<std::size_t>(n));
   Kokkos::parallel_for(
       "neighbors: windows", occupied_.n,
       FindWindows{
-          .grains = kin, .occupied = occupied_, .window = window_, .reach = 2 * r_max_ + skin_});
+          .grains = kin, .occupied = occupied_, .window = window, .reach = 2 * r_max_ + skin_});
+  return window;
 }
 
 void NeighborList::keep_contacts(const GrainState& grains) {
@@ -187,28 +184,28 @@ void NeighborList::register_others(const PairList& list, int n) {
       "neighbors: count others", list.n_crossing,
       KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.other_first(list.j(slot))); });
   counts_to_starts(list.other_first, n);
-  reserve(cursor_, "pairs: cursor", n + 1);
   const auto span = std::pair<int, int>(0, n + 1);
-  Kokkos::deep_copy(Kokkos::subview(cursor_, span), Kokkos::subview(list.other_first, span));
+  Kokkos::deep_copy(Kokkos::subview(row_, span), Kokkos::subview(list.other_first, span));
   Kokkos::parallel_for("neighbors: register others", list.n_crossing,
-                       RegisterOthers{.list = list, .cursor = cursor_});
+                       RegisterOthers{.list = list, .cursor = row_});
   Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
 }
 
 void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
                           bool has_kept) {
   const int n = grains.n;
-  find_columns(kin, n);
+  const Windows window = find_windows(kin, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(n);
   reserve(list.first, "pairs: first", n + 1);
   reserve(list.inner_first, "pairs: inner first", n + 1);
   reserve(list.other_first, "pairs: other first", n + 1);
   reserve(list.near_wall, "near a wall", n);
-  reserve(noted_, "noted partners", n);
+  static_assert(kNoted * sizeof(int) == sizeof(Quad));
+  const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
   const PairSearch pair_search{.grains = kin,
                                .occupied = occupied_,
-                               .window = window_,
+                               .window = window,
                                .box = box_,
                                .skin = skin_,
                                .r_max = r_max_};
@@ -217,13 +214,13 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
                                   .chunks = list.chunks,
                                   .crossing = list.first,
                                   .inner = list.inner_first,
-                                  .noted = noted_});
+                                  .noted = noted});
   list.n_crossing = counts_to_starts(list.first, n);
   list.n_pairs = counts_to_starts(list.inner_first, n, list.n_crossing);
   reserve_pairs(list);
   Kokkos::parallel_for("neighbors: fill", n,
                        FillPairs{.search = pair_search,
-                                 .noted = noted_,
+                                 .noted = noted,
                                  .list = list,
                                  .kept = kept_,
                                  .old_row = row_,
@@ -257,6 +254,7 @@ void NeighborList::restore(GrainState& grains) {
         at_reference(g) = kin(g);
         at_reference(g).x = reference(g);
       });
+  make_room(grains.n);
   search(grains, at_reference, false);
   ++rebuilds_;
 }

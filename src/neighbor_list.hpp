@@ -15,8 +15,8 @@ class NeighborList {
  public:
   NeighborList(const Config& config, Real r_max);
 
-  /// True when the list no longer covers a motion of sqrt(distance2) [m^2] (NaN included).
-  bool is_stale(Real distance2) const { return !(distance2 <= skin_ * skin_ / 4); }
+  /// The list covers motions up to this squared distance [m^2].
+  Real limit() const { return skin_ * skin_ / 4; }
   /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
   void rebuild(GrainState& grains, bool drop);
   /// Searches again from x_reference in the present order: the list as the last rebuild left it.
@@ -31,7 +31,7 @@ class NeighborList {
   // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
   void keep_contacts(const GrainState& grains);
   void sort(GrainState& grains, bool drop);
-  void find_columns(const Kokkos::View<const GrainKinematics*>& kin, int n);
+  Windows find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n);
   void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin, bool has_kept);
   void reserve_pairs(PairList& list) const;
   void register_others(const PairList& list, int n);
@@ -39,6 +39,8 @@ class NeighborList {
   void wrap(GrainState& grains) const;
 
  private:
+  void make_room(int n);
+
   Columns columns_;
   PeriodicBox box_;
   Real skin_ = 0, r_max_ = 0;
@@ -46,11 +48,11 @@ class NeighborList {
   bool exit_x_ = false;
   std::int64_t rebuilds_ = 0;
   OccupiedColumns occupied_;
-  Windows window_;
-  NotedPartners noted_;
   KeptContacts kept_;
-  Kokkos::View<std::uint64_t*> key_;
-  Kokkos::View<int*> row_, cursor_;
+  Kokkos::View<int*> row_;  // old row of each grain; at the end next free place of other slots
+  // Room that serves twice: for reordering, then for noted partners; for sort keys, then windows.
+  Kokkos::View<Quad*> room_;
+  Kokkos::View<std::uint64_t* [2]> key_room_;
 };
 
 }  // namespace barchan

@@ -43,9 +43,11 @@ void for_each_grain_array(const GrainState& s, const F& f) {
   f("grains/contact_force", first_rows(s.contact_force, n));
   f("grains/contact_torque", first_rows(s.contact_torque, n));
   f("grains/x_reference", first_rows(s.x_reference, n));
-  f("grains/u_f", first_rows(s.fluid.u_f, n));
-  f("grains/fluid_force", first_rows(s.exchange.fluid_force, n));
-  f("grains/carried_impulse", first_rows(s.exchange.carried_impulse, n));
+  if (s.exchange.fluid_force.extent(0) > 0) {
+    f("grains/u_f", first_rows(s.fluid.u_f, n));
+    f("grains/fluid_force", first_rows(s.exchange.fluid_force, n));
+    f("grains/carried_impulse", first_rows(s.exchange.carried_impulse, n));
+  }
   f("grains/wall_xi_t", first_rows(s.wall_xi_t, n));
   if (s.wall_torque.extent(0) > 0) f("grains/wall_torque", first_rows(s.wall_torque, n));
   f("grains/wall_touching", first_rows(s.wall_touching, n));
