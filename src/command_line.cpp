@@ -27,6 +27,8 @@ CLI::App* add_run(CLI::App& app, CommandLine& line) {
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
   run->add_flag("--dry-run", line.dry_run, "check the case and show its numbers; nothing is run or written");
+  run->add_flag("--starts-only", line.starts_only,
+                "run the cases this one starts from where their results are missing, then stop");
   run->add_flag("--quiet", line.quiet, "no live line on the terminal");
   return run;
 }

@@ -150,7 +150,8 @@ struct OutputConfig {
   double dune_interval = 0.05;
   double grains_interval = 0.1;
   double fields_interval = 0.5;
-  bool grain_forces = false;  // each force separately in grains.h5
+  double tracks_interval = 0;  // ids and positions alone, in tracks.h5
+  bool grain_forces = false;   // each force separately in grains.h5
 
   bool operator==(const OutputConfig&) const = default;
 };
@@ -164,10 +165,12 @@ struct RestartConfig {
   bool operator==(const RestartConfig&) const = default;
 };
 
-/// [statistics]: turbulence statistics over planes and time; off without the section.
+/// [statistics]: averages over time; those over planes always. Off without the section.
 struct StatisticsConfig {
   double start = 0;        // [s], required
-  double interval = 0.01;  // between samples [s]
+  double interval = 0.01;     // between samples [s]
+  bool fields = false;        // means and second moments of the flow in every cell
+  bool grain_forces = false;  // resultant force on the grains in polar bins around the main dune
 
   bool operator==(const StatisticsConfig&) const = default;
 };

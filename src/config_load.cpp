@@ -136,6 +136,7 @@ void read(Section& s, OutputConfig& c) {
   s.optional("dune_interval", c.dune_interval, {at_least(0)});
   s.optional("grains_interval", c.grains_interval, {at_least(0)});
   s.optional("fields_interval", c.fields_interval, {at_least(0)});
+  s.optional("tracks_interval", c.tracks_interval, {at_least(0)});
   s.optional("grain_forces", c.grain_forces);
 }
 
@@ -148,6 +149,8 @@ void read(Section& s, RestartConfig& c) {
 void read(Section& s, StatisticsConfig& c) {
   s.require("start", c.start, {at_least(0)});
   s.optional("interval", c.interval, {above(0)});
+  s.optional("fields", c.fields);
+  s.optional("grain_forces", c.grain_forces);
 }
 
 void read(Section& s, SolverConfig& c) {

@@ -150,6 +150,7 @@ void write(Writer& w, const OutputConfig& c) {
   w.key("dune_interval", c.dune_interval);
   w.key("grains_interval", c.grains_interval);
   w.key("fields_interval", c.fields_interval);
+  w.key("tracks_interval", c.tracks_interval);
   w.key("grain_forces", c.grain_forces);
 }
 
@@ -164,6 +165,8 @@ void write(Writer& w, const StatisticsConfig& c) {
   w.section("statistics");
   w.key("start", c.start);
   w.key("interval", c.interval);
+  w.key("fields", c.fields);
+  w.key("grain_forces", c.grain_forces);
 }
 
 void write(Writer& w, const SolverConfig& c) {

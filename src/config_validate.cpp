@@ -215,12 +215,15 @@ void check_output(const Config& c, Findings& found) {
   check("output.dune_interval", c.output.dune_interval);
   check("output.grains_interval", c.output.grains_interval);
   check("output.fields_interval", c.output.fields_interval);
+  check("output.tracks_interval", c.output.tracks_interval);
 }
 
 void check_statistics(const Config& c, Findings& found) {
   if (!c.statistics) return;
   if (!c.fluid)
     found.error({"statistics.start", "fluid"}, "must be absent without a [fluid] section");
+  if (c.statistics->grain_forces && !c.grains)
+    found.error({"statistics.grain_forces", "grains"}, "must be absent without a [grains] section");
   if (c.statistics->start >= c.time.end) {
     found.error({"statistics.start", "time.end"},
                 fmt::format("must be before the end, {:.6g} s", c.time.end));

@@ -35,6 +35,8 @@ class CoupledStep {
   /// gradient, stress, added mass (with the impulse carried from the implicit exchange), contact
   /// normal and tangential, and total, the resultant with weight and buoyancy.
   std::vector<NamedForce> grain_forces(const SystemState& state);
+  /// The last of them alone.
+  Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
   const Ledger& ledger() const { return ledger_; }

@@ -25,6 +25,8 @@ HeightMap::HeightMap(const GrainCloud& grains, const DuneDomain& domain,
                      const DuneCriteria& criteria) {
   if (grains.centres.size() != 3 * grains.diameters.size())
     throw std::invalid_argument("dune map: need three coordinates and one diameter per grain");
+  if (!grains.u_x.empty() && grains.u_x.size() != grains.diameters.size())
+    throw std::invalid_argument("dune map: need a velocity for each grain, or none");
   if (!(domain.length_x > 0.0 && domain.length_z > 0.0))
     throw std::invalid_argument("dune map: the domain has no extent");
   if (grains.diameters.empty()) return;

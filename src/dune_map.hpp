@@ -13,6 +13,7 @@ namespace barchan {
 struct GrainCloud {
   std::span<const double> centres;    ///< x, y, z of grain 0, x, y, z of grain 1, ... [m]; size 3 N
   std::span<const double> diameters;  ///< [m]; size N
+  std::span<const double> u_x = {};   ///< streamwise velocities [m/s]; size N, or none: flux zero
 };
 
 /// Horizontal extent of the domain; the wall that carries the dunes is y = 0.

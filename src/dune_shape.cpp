@@ -85,10 +85,18 @@ class DuneMeasurement {
       row.cx += volume * x;
       row.cy += volume * grains_.centres[3 * p + 1];
       row.cz += volume * z;
+      if (!grains_.u_x.empty()) row.flux += volume * grains_.u_x[p];
       region->x.include(x - 0.5 * d, x + 0.5 * d);
       region->z.include(z - 0.5 * d, z + 0.5 * d);
     }
-    for (Region& region : regions_) {
+    std::vector<int> n_bins(regions_.size(), 0);
+    for (const HeightMap::Bin& bin : map_.bins()) {
+      if (bin.region >= 0) ++n_bins[bin.region];
+    }
+    const double bin_area = map_.bin_x() * map_.bin_z();
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      Region& region = regions_[i];
+      region.row.flux /= n_bins[i] * bin_area;
       region.row.cx /= region.row.volume;
       region.row.cy /= region.row.volume;
       region.row.cz /= region.row.volume;

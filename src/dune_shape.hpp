@@ -24,6 +24,8 @@ namespace barchan {
 ///            true crest, and blind to grains that fly
 ///   crest_x  mean x of the bins in the strip within max(0.05 h, d/2) of its highest median,
 ///            weighted by their height in that band, so that a moving crest moves smoothly
+///   flux     streamwise volume flux of grains per width, sum of V_p u_x over the region's footprint,
+///            which is the area of its bins
 ///   horns    from the lee foot on the centreline to the most downstream edge on either side of
 ///            the strip; zero for a heap
 /// When the strip is empty (no sand on the centreline) L is the whole extent in x, the horns zero.

@@ -15,16 +15,10 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
-  const Kokkos::View<Vec3*> total = grain_vector("total", n);
   const FluidOnGrains on = grains.fluid;
   const auto kin = grains.kin;
-  const auto contact = grains.contact_force;
   const Real dt = dt_;
-  if (on.none) {
-    Kokkos::parallel_for(
-        "output: force on grains", n,
-        KOKKOS_LAMBDA(int g) { total(g) = contact(g) + on.steady_force(g); });
-  } else {
+  if (!on.none) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
     const auto fluid_force = grains.exchange.fluid_force;
     const bool computed = coupling_ != nullptr;
@@ -36,7 +30,6 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
           added(g) = on.steady_force(g) - weight(kin(g)) - inertia;
           if (computed) added(g) = added(g) - fluid_force(g);
           drag(g) = (1 / dt) * on.drag_impulse(g);
-          total(g) = contact(g) + on.steady_force(g) + drag(g) - inertia;
         });
     forces.push_back({"force_drag", drag});
     forces.push_back({"force_added_mass", added});
@@ -53,8 +46,24 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   grains_->split_contacts(grains, normal, tangential);
   forces.push_back({"force_contact_normal", normal});
   forces.push_back({"force_contact_tangential", tangential});
-  forces.push_back({"force_total", total});
+  forces.push_back({"force_total", resultant_force(grains)});
   return forces;
+}
+
+Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const {
+  const Kokkos::View<Vec3*> total = grain_vector("total", grains.n);
+  const FluidOnGrains on = grains.fluid;
+  const auto kin = grains.kin;
+  const auto contact = grains.contact_force;
+  const Real dt = dt_;
+  Kokkos::parallel_for(
+      "output: resultant force", grains.n, KOKKOS_LAMBDA(int g) {
+        total(g) = contact(g) + on.steady_force(g);
+        if (on.none) return;
+        const Vec3 inertia = (on.added_mass(g) / dt) * (kin(g).u - on.u_start(g));
+        total(g) += (1 / dt) * on.drag_impulse(g) - inertia;
+      });
+  return total;
 }
 
 }  // namespace barchan

@@ -130,9 +130,12 @@ void write_axis(Hdf5File& file, const std::string& name, const std::vector<doubl
 
 OutputFiles::OutputFiles(const std::filesystem::path& folder, Provenance provenance,
                          std::optional<double> restart_time, MPI_Comm communicator)
-    : communicator_(communicator),
+    : folder_(folder),
+      provenance_(provenance),
+      communicator_(communicator),
       fields_(folder / "fields.h5", provenance, restart_time, communicator),
-      grains_(folder / "grains.h5", provenance, restart_time, communicator) {
+      grains_(folder / "grains.h5", provenance, restart_time, communicator),
+      tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {
   if (!field_frames().empty()) describe_fields();  // frames may have been dropped
   if (!grain_frames().empty()) describe_grains();
 }
@@ -175,6 +178,37 @@ void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t s
     for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
   });
   describe_fields();
+}
+
+void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
+                                std::span<const NamedField> fields,
+                                const std::map<std::string, double>& attributes) const {
+  FrameFile file(folder_ / "flow_average.h5", provenance_, {}, communicator_);  // begins anew
+  const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid, {}); };
+  file.append(t, step, preamble, [&](Hdf5File& h5, const std::string& group) {
+    FieldWriter writer(h5, group, grid, {});
+    for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
+    for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
+  });
+  if (rank_of(communicator_) == 0) {
+    write_atomically(folder_ / "flow_average.xdmf", fields_xdmf("flow_average.h5", file.frames()));
+  }
+}
+
+void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step) {
+  const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
+  const auto n = static_cast<std::size_t>(grains.n);
+  const FrameVectors<float> x("output: track", n);
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
+  const auto preamble = [](Hdf5File&) {};
+  tracks_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+    const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
+    const auto positions = on_host(x);
+    file.write(group + "/id", values_of(id), {n}, "1", rows);
+    file.write(group + "/x", values_of(positions), {n, 3}, "m", with_components(rows));
+  });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,14 @@ class OutputFiles {
   void write_grains(const GrainState& grains, double t, std::int64_t step,
                     std::span<const NamedForce> forces = {});
 
+  /// tracks.h5: ids and positions alone, in single precision.
+  void write_tracks(const GrainState& grains, double t, std::int64_t step);
+
+  /// flow_average.h5: one frame, replaced as a whole. `attributes`: numbers kept with the frame.
+  void write_average(const Grid& grid, double t, std::int64_t step,
+                     std::span<const NamedField> fields,
+                     const std::map<std::string, double>& attributes) const;
+
   const std::vector<FrameInfo>& field_frames() const { return fields_.frames(); }
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
@@ -63,8 +72,10 @@ class OutputFiles {
   void describe_fields() const;
   void describe_grains() const;
 
+  std::filesystem::path folder_;
+  Provenance provenance_;
   MPI_Comm communicator_;
-  FrameFile fields_, grains_;
+  FrameFile fields_, grains_, tracks_;
 };
 
 }  // namespace barchan

@@ -70,13 +70,17 @@ fs::path start_file(const std::string& source, const fs::path& beside) {
   return fs::path(source).extension().empty() ? fs::path{} : fs::path(source);
 }
 
-Outcome run_one(const Config& config, const RunOptions& options) {
+/// The files a case starts from; what is missing of them is run.
+InitialFiles start_files(const Config& config, const fs::path& folder) {
+  const fs::path beside = fs::absolute(folder).parent_path();
   InitialFiles files;
-  if (!options.restart) {
-    const fs::path beside = fs::absolute(options.folder).parent_path();
-    if (config.fluid) files.fluid = start_file(config.initial.fluid, beside);
-    if (config.grains) files.grains = start_file(config.initial.grains, beside);
-  }
+  if (config.fluid) files.fluid = start_file(config.initial.fluid, beside);
+  if (config.grains) files.grains = start_file(config.initial.grains, beside);
+  return files;
+}
+
+Outcome run_one(const Config& config, const RunOptions& options) {
+  const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);
   Simulation simulation(config, options, files);
@@ -110,6 +114,10 @@ int run_command(const CommandLine& line) {
   const RunOptions options{.folder = line.out.value_or(default_run_folder(line.file)),
                            .restart = line.restart};
   try {
+    if (line.starts_only) {
+      start_files(config, options.folder);
+      return 0;
+    }
     const Outcome outcome = run_one(config, options);
     if (outcome == Outcome::done) report::info("results in {}", options.folder.string());
     return outcome == Outcome::done ? 0 : 3;

@@ -24,13 +24,14 @@ const std::string history_header =
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap";
 const std::string dune_header =
-    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost";
+    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
   for (const char* name :
        {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5", "fields.xdmf",
-        "grains.h5", "grains.xdmf", "statistics.csv", "log.txt"}) {
+        "grains.h5", "grains.xdmf", "tracks.h5", "statistics.csv", "flow_average.h5",
+        "flow_average.xdmf", "force_map.csv", "log.txt"}) {
     std::filesystem::remove(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -114,9 +115,9 @@ void RunFolder::append(const HistoryRow& r) {
 void RunFolder::append(const DuneRow& r) {
   append_line(dune_, dune_name,
               fmt::format("{:.10g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},"
-                          "{:.9g},{:.9g},{:.9g},{}\n",
+                          "{:.9g},{:.9g},{:.9g},{},{:.9g}\n",
                           r.t, r.dune, r.n_grains, r.w, r.l, r.h, r.cx, r.cy, r.cz, r.horn_left,
-                          r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost));
+                          r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux));
 }
 
 void RunFolder::write_summary(const RunSummary& summary) {

@@ -37,6 +37,7 @@ struct DuneRow {
   double volume = 0;                     // [m^3]
   double celerity = 0;                   // [m/s]
   std::int64_t n_lost = 0;               // grains that left the domain so far
+  double flux = 0;  // streamwise, of grain volume, mean over the footprint [m^2/s]
 };
 
 /// run.json. Numbers that are not finite become null.

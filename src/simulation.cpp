@@ -53,13 +53,17 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
   report::log_to(folder_.file("log.txt"), restart_time_.has_value());
   folder_.write_config(provenance_.config);
   end_step_ = fluid_steps(config.time);
-  if (config.statistics) statistics_.emplace(*config.fluid, state_.fluid->grid);
+  if (config.statistics) {
+    statistics_.emplace(*config.fluid, state_.fluid->grid);
+    if (config.statistics->fields) flow_average_.emplace(state_.fluid->grid);
+    if (config.statistics->grain_forces) force_map_.emplace(dune_domain(config));
+  }
   if (options.restart) {
     const CheckpointReader file(*options.restart);
     load_state(file, state_, coupled_step_);
     step_ = file.integer("step");
     tracker_.set_state(file.array<double>("dunes"));
-    if (statistics_) statistics_->load(file);
+    load_statistics(file);
     report::info("going on from {} at t = {:.4f} s", options.restart->string(), time());
   } else {
     coupled_step_.start(state_);
@@ -155,10 +159,13 @@ void Simulation::write_due(bool first) {
     const PhaseTimer timer(phases_, "analytics");
     write_dunes();
   }
-  sample_flow();
+  sample_statistics();
   const PhaseTimer timer(phases_, "output");
   if (o.history_interval > 0 && (first || due(o.history_interval))) write_history();
   if (state_.grains && o.grains_interval > 0 && (first || due(o.grains_interval))) write_grains();
+  if (state_.grains && o.tracks_interval > 0 && (first || due(o.tracks_interval))) {
+    output_.write_tracks(*state_.grains, time(), step_);
+  }
   if (state_.fluid && o.fields_interval > 0 && (first || due(o.fields_interval))) {
     output_.write_fields(*state_.fluid, time(), step_);
   }
@@ -167,11 +174,14 @@ void Simulation::write_due(bool first) {
   if (due(o.history_interval)) write_summary("running", "");
 }
 
-/// From statistics.start on; the table on the disk follows the restart files and the end.
-void Simulation::sample_flow() {
+/// From statistics.start on; the results on the disk follow the restart files and the end.
+void Simulation::sample_statistics() {
   if (!statistics_ || time() < config_.statistics->start) return;
+  if (!due(config_.statistics->interval)) return;
   const PhaseTimer timer(phases_, "analytics");
-  if (due(config_.statistics->interval)) statistics_->sample(*state_.fluid);
+  statistics_->sample(*state_.fluid);
+  if (flow_average_) flow_average_->sample(*state_.fluid, time());
+  if (force_map_) sample_forces();
 }
 
 void Simulation::show_progress() {

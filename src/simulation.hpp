@@ -6,7 +6,9 @@
 #include "src/config.hpp"
 #include "src/coupled_step.hpp"
 #include "src/dune_analytics.hpp"
+#include "src/flow_average.hpp"
 #include "src/flow_statistics.hpp"
+#include "src/force_map.hpp"
 #include "src/initial_state.hpp"
 #include "src/output.hpp"
 #include "src/report.hpp"
@@ -42,7 +44,11 @@ class Simulation {
   void write_dunes();
   void write_grains();
   void write_restart();
-  void sample_flow();
+  void save_statistics(CheckpointWriter& file) const;
+  void load_statistics(const CheckpointReader& file);
+  void sample_statistics();
+  void sample_forces();
+  void write_statistics();
   void write_summary(const std::string& status, const std::string& message);
   void watch();
   void show_progress();
@@ -66,6 +72,8 @@ class Simulation {
   OutputFiles output_;
   DuneTracker tracker_;
   std::optional<FlowStatistics> statistics_;
+  std::optional<FlowAverage> flow_average_;
+  std::optional<ForceMap> force_map_;
   ProgressLine progress_;
   std::optional<DuneRow> largest_dune_;
   Interval interval_;

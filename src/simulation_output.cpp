@@ -22,6 +22,24 @@ double kinetic_energy(const GrainState& grains) {
   return energy;
 }
 
+/// Positions, diameters and velocities as the dune analytics take them.
+class HostGrains {
+ public:
+  explicit HostGrains(const GrainState& grains) {
+    const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+    for (int g = 0; g < grains.n; ++g) {
+      const Vec3& x = kin(g).x;
+      centres_.insert(centres_.end(), {x.x, x.y, x.z});
+      diameters_.push_back(2 * kin(g).r);
+      u_x_.push_back(kin(g).u.x);
+    }
+  }
+  GrainCloud cloud() const { return {centres_, diameters_, u_x_}; }
+
+ private:
+  std::vector<double> centres_, diameters_, u_x_;
+};
+
 }  // namespace
 
 void Simulation::write_history() {
@@ -53,19 +71,37 @@ void Simulation::write_history() {
 }
 
 void Simulation::write_dunes() {
-  const GrainState& grains = *state_.grains;
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
-  std::vector<double> centres, diameters;
-  for (int g = 0; g < grains.n; ++g) {
-    const Vec3& x = kin(g).x;
-    centres.insert(centres.end(), {x.x, x.y, x.z});
-    diameters.push_back(2 * kin(g).r);
-  }
+  const HostGrains grains(*state_.grains);
   largest_dune_.reset();
-  for (const DuneRow& dune : tracker_.update(time(), {centres, diameters})) {
+  for (const DuneRow& dune : tracker_.update(time(), grains.cloud())) {
     folder_.append(dune);
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
+}
+
+void Simulation::sample_forces() {
+  const HostGrains grains(*state_.grains);
+  const auto force = Kokkos::create_mirror_view_and_copy(
+      Kokkos::HostSpace{}, coupled_step_.resultant_force(*state_.grains));
+  force_map_->sample(grains.cloud(), {force.data(), force.size()});
+}
+
+void Simulation::save_statistics(CheckpointWriter& file) const {
+  if (statistics_) statistics_->save(file);
+  if (flow_average_) flow_average_->save(file);
+  if (force_map_) force_map_->save(file);
+}
+
+void Simulation::load_statistics(const CheckpointReader& file) {
+  if (statistics_) statistics_->load(file);
+  if (flow_average_) flow_average_->load(file);
+  if (force_map_) force_map_->load(file);
+}
+
+void Simulation::write_statistics() {
+  if (statistics_) statistics_->write(folder_.file("statistics.csv"));
+  if (flow_average_) flow_average_->write(output_, time(), step_);
+  if (force_map_) force_map_->write(folder_.file("force_map.csv"));
 }
 
 void Simulation::write_grains() {
@@ -81,10 +117,8 @@ void Simulation::write_restart() {
   file.scalar("step", step_);
   const std::vector<double> dunes = tracker_.state();
   file.array("dunes", std::span<const double>(dunes));
-  if (statistics_) {
-    statistics_->save(file);
-    statistics_->write(folder_.file("statistics.csv"));
-  }
+  save_statistics(file);
+  write_statistics();
   file.commit(config_.restart.keep);
   last_restart_at_ = WallClock::now();
 }

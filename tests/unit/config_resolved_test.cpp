@@ -62,9 +62,9 @@ Config unusual() {
   c.initial.fluid = "turbulent";
   c.initial.seed = 9;
   c.initial.pour = PourConfig{{0.04, 0.3}, 0.02, 0.001, 77};
-  c.output = {0.1, 0.2, 0.3, 0.4, true};
+  c.output = {0.1, 0.2, 0.3, 0.4, 0.05, true};
   c.restart = {0.5, 60, 4};
-  c.statistics = {0.15, 0.02};
+  c.statistics = {0.15, 0.02, true, true};
   c.solver = {1e-8, 50, 2, Preconditioner::jacobi};
   return c;
 }

@@ -336,6 +336,27 @@ TEST(DuneTracker, RestoredStateContinuesTheSame) {
   EXPECT_EQ(straight.state(), resumed.state());
 }
 
+TEST(DuneAnalytics, FluxIsVolumeTimesVelocityOverFootprint) {
+  Grains grains;
+  pile(grains, 30.0 * mm, 25.0 * mm, 12.0 * mm, cone(10.0 * mm, 3.0 * mm));
+  // The upper half of the channel moves, the other stands still; a stray grain is not the dune's.
+  std::vector<double> u;
+  for (std::size_t p = 0; p < grains.diameters.size(); ++p)
+    u.push_back(grains.centres[3 * p + 2] > 25.0 * mm ? 0.02 : 0.0);
+  grains.add(80.0 * mm, 0.5 * d, 25.0 * mm);
+  u.push_back(9.0);
+  GrainCloud cloud = grains.cloud();
+  EXPECT_EQ(measure_dunes(cloud, channel).at(0).flux, 0.0);
+  cloud.u_x = u;
+  const DuneRow dune = measure_dunes(cloud, channel).at(0);
+  const double area = std::numbers::pi * 10.0 * mm * 10.0 * mm;
+  // Half of the grains less the centre line; the footprint is known to within the rim of bins.
+  EXPECT_NEAR(dune.flux, dune.volume * 0.01 / area, 0.1 * dune.volume * 0.01 / area);
+  const std::vector<double> few(3, 1.0);
+  cloud.u_x = few;
+  EXPECT_THROW(measure_dunes(cloud, channel), std::invalid_argument);
+}
+
 TEST(DuneAnalytics, NothingGivesNothing) {
   EXPECT_TRUE(measure_dunes({}, channel).empty());
   DuneTracker tracker(channel);

@@ -187,6 +187,30 @@ TEST(Output, GrainsXdmfPointsAtTheArraysAndSkipsEmptyFrames) {
   EXPECT_EQ(count(text, "NumberType=\"Int\" Precision=\"8\" Dimensions=\"3\""), 1);
 }
 
+TEST(Output, TracksAreIdsAndPositions) {
+  const TemporaryFolder folder;
+  const GrainState grains = make_grains(4);
+  {
+    OutputFiles output(folder.path(), {.title = "tracks", .config = "[case]\n"});
+    output.write_tracks(grains, 0.1, 10);
+    output.write_tracks(grains, 0.2, 20);
+  }
+  OutputFiles later(folder.path(), {.title = "tracks", .config = "[case]\n"}, 0.1);
+  later.write_tracks(grains, 0.15, 15);  // the frame at 0.2 s is dropped
+  const Hdf5File file(folder / "tracks.h5", Hdf5File::Mode::read);
+  const auto frames = list_frames(file);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_DOUBLE_EQ(frames[1].t, 0.15);
+  EXPECT_EQ(frames[1].arrays.size(), 2u);
+  const auto n = static_cast<std::uint64_t>(grains.n);
+  EXPECT_EQ(file.read<std::int64_t>("frame_000001/id", {n}).size(), n);
+  const auto x = file.read<double>("frame_000001/x", {n, 3});
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  for (int g = 0; g < grains.n; ++g) {
+    EXPECT_NEAR(x[static_cast<std::size_t>(3 * g + 1)], kin(g).x.y, 1e-6 * std::abs(kin(g).x.y));
+  }
+}
+
 TEST(Output, ARestartGoesOnWithFilesAndDescriptions) {
   const TemporaryFolder folder;
   {

@@ -17,7 +17,7 @@ const std::string history_header =
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap\n";
 const std::string dune_header =
-    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost\n";
+    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux\n";
 
 HistoryRow history_row(double t) {
   HistoryRow row;
@@ -78,11 +78,12 @@ TEST(RunFolder, WritesTablesInTheDocumentedFormat) {
   dune.n_grains = 3000;
   dune.w = 0.04;
   dune.n_lost = 7;
+  dune.flux = 2e-6;
   run.append(dune);
   EXPECT_EQ(read_text(run.file("history.csv")),
             history_header + "0.1,400,0.0168,0,0,0,0,0,0,0,99999,0,0\n");
   EXPECT_EQ(read_text(run.file("dune.csv")),
-            dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7\n");
+            dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7,2e-06\n");
   run.write_config("[case]\n");
   EXPECT_EQ(read_text(run.file("config.toml")), "[case]\n");
 }

@@ -13,11 +13,20 @@
 namespace barchan {
 namespace {
 
+/// A study varies a case; tests/scripts/sweep.sh looks at those.
+bool is_study(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line == "[study]") return true;
+  }
+  return false;
+}
+
 std::vector<std::filesystem::path> shipped() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(BARCHAN_SOURCE_DIR "/configs")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && !is_study(entry.path())) files.push_back(entry.path());
   }
   return files;
 }
