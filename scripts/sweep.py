@@ -8,6 +8,7 @@ The study file is described in docs/conventions.md ("Studies"). Exit status: 0 a
 """
 
 import argparse
+import ctypes
 import fcntl
 import json
 import os
@@ -36,6 +37,14 @@ def resolved(program, study, case):
     if checked.returncode != 0:
         raise StudyError(f"case {case.name}: {checked.stderr.strip()}")
     return tomllib.loads(checked.stdout.partition("# What follows from it")[0])
+
+
+def end_with_parent():
+    """A case does not outlive a sweep that is killed: it is asked to stop, with a restart file."""
+    try:
+        ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG, of Linux
+    except (OSError, AttributeError):
+        pass
 
 
 def one_thread():
@@ -93,7 +102,8 @@ class Running:
         with open(self.folder / "sweep.txt", "a") as log:
             # A group of its own: a Ctrl-C reaches it once, through us.
             self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                            env=environment, start_new_session=True)
+                                            env=environment, start_new_session=True,
+                                            preexec_fn=end_with_parent)
 
     def progress(self):
         summary = read_json(self.folder / "run.json")
@@ -156,9 +166,11 @@ class Sweep:
         if restart is None:
             command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
+            threads = os.environ.get("OMP_NUM_THREADS", str(self.study.threads * self.study.at_once))
             with open(folder / "sweep.txt", "a") as log:
                 starts = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                          start_new_session=True)
+                                          env={**os.environ, "OMP_NUM_THREADS": threads},
+                                          start_new_session=True, preexec_fn=end_with_parent)
             while starts.poll() is None:
                 if self.stopping:
                     starts.send_signal(signal.SIGTERM)

@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# Studies: the cases they make, mistakes in them, a failed case, a kill in the middle and going on.
+set -u
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
+program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
+python=/usr/bin/python3
+[ -x "$program" ] || { echo "no program at $program"; exit 77; }
+dir="$(mktemp -d)"
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+export OMP_NUM_THREADS=1
+failures=0
+fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+
+sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
+
+# A pile of a few grains in still water, with a start of its own.
+cat > heap.toml << 'CASE'
+[case]
+title = "few grains"
+[time]
+end = 0.02
+fluid_step = 1e-3
+grain_step = 1e-5
+[domain]
+size = [0.02, 0.02, 0.02]
+[grains]
+youngs_modulus = 3e5
+sizes = [[2e-4, 200]]
+[initial]
+grains = { pour = { centre = [0.01, 0.01], radius = 0.003 } }
+CASE
+sed -e '/^sizes/d' -e 's/end = 0.02/end = 0.2/' -e 's/grains = { pour.*/grains = "heap.toml"/' heap.toml > case.toml
+cat > study.toml << 'STUDY'
+[study]
+title = "few grains, rubbed"
+base = "case.toml"
+at_once = 2
+threads = 1
+[set]
+restart.interval = 0.01
+[vary]
+grains.sliding_friction = [0.3, 0.6]
+grains.restitution = [0.1, 0.5]
+STUDY
+
+# --- the cases of a study
+sweep study.toml --list > list || fail "--list ended with $?"
+[ "$(cut -d' ' -f1 list | tr '\n' ' ')" = "base sliding_friction-0.6 restitution-0.5 " ] || fail "cases: $(cat list)"
+grep -q "^restitution-0.5 restart.interval=0.01 grains.sliding_friction=0.3 grains.restitution=0.5$" list ||
+  fail "values: $(cat list)"
+[ ! -e runs ] || fail "--list made a folder"
+printf '[study]\nbase = "case.toml"\n[grid]\ngrains.restitution = [0.1, 0.2]\n"grains.density" = [2500, 2600, 2700]\n' > grid.toml
+[ "$(sweep grid.toml --list | wc -l)" = 6 ] || fail "a grid of 2 x 3 has not 6 cases"
+
+# --- mistakes: status 2, one sentence, nothing written
+bad() {  # bad TEXT STUDY
+  local status=0
+  printf '%b' "$2" > bad.toml
+  sweep bad.toml > out 2> err || status=$?
+  [ "$status" = 2 ] || fail "'$2' ended with $status"
+  grep -qF -- "$1" err || fail "expected '$1', got '$(cat err)'"
+  ! grep -q Traceback err || fail "'$2' shows a traceback"
+  [ ! -e runs/bad ] || fail "'$2' left a folder"
+}
+bad 'did you mean "vary"' '[study]\nbase = "case.toml"\n[varry]\na = [1]\n'
+bad 'did you mean "at_once"' '[study]\nbase = "case.toml"\nat_onec = 2\n[vary]\na = [1]\n'
+bad 'no cases' '[study]\nbase = "case.toml"\n'
+bad 'must be a list' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = 0.2\n'
+bad 'nowhere.toml' '[study]\nbase = "nowhere.toml"\n[vary]\ngrains.restitution = [0.2]\n'
+bad 'two cases are named "x"' '[study]\nbase = "case.toml"\n[[case]]\nname = "x"\n[[case]]\nname = "x"\n'
+bad 'must be of letters' '[study]\nbase = "case.toml"\n[[case]]\nname = "../x"\n'
+bad 'grains.restitution' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = [7.0]\n'
+bad 'did you mean "restitution"' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitutoin = [0.2]\n'
+bad 'bad.toml' '[study\n'
+
+# --- killed in the middle; the same command goes on and gives the bits of an unbroken run
+"$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out killed > first 2>&1 &
+pid=$!
+for _ in $(seq 300); do
+  if ls killed/base/restart_*.h5 > /dev/null 2>&1; then break; fi
+  sleep 0.05
+done
+pkill -KILL -f -- "--out killed/" || fail "nothing ran when the kill came"
+kill -KILL "$pid"
+wait "$pid" 2> /dev/null
+! grep -q '"status": "done"' killed/base/run.json || fail "the base case was done before the kill: the test is too short"
+sweep study.toml --no-pictures --out killed > second 2>&1 || fail "going on ended with $?: $(cat second)"
+grep -q "base: goes on from restart_" second || fail "the base case was not continued: $(cat second)"
+sweep study.toml --no-pictures --out whole > third 2>&1 || fail "the unbroken study ended with $?: $(cat third)"
+for name in base sliding_friction-0.6 restitution-0.5; do
+  cmp -s killed/$name/history.csv whole/$name/history.csv || fail "$name: the broken run differs from the unbroken one"
+done
+[ "$(cut -d, -f1-4 whole/study.csv | head -n 3 | tail -n 1)" = "sliding_friction-0.6,0.6,0.1,done" ] ||
+  fail "table: $(cat whole/study.csv)"
+"$python" -c 'import json; s = json.load(open("whole/study.json"))
+assert [c["varied"] for c in s["cases"]] == [None, "grains.sliding_friction", "grains.restitution"], s' ||
+  fail "study.json"
+
+# --- done is done; a longer study goes on
+sweep study.toml --no-pictures --out whole > again 2>&1
+[ "$(grep -c 'done before' again)" = 3 ] || fail "a finished study was run again: $(cat again)"
+sed -i 's/^restart.interval.*/&\ntime.end = 0.25/' study.toml
+sweep study.toml --no-pictures --out whole > longer 2>&1 || fail "the longer study ended with $?"
+[ "$(grep -c 'goes on from' longer)" = 3 ] || fail "a longer study does not go on: $(cat longer)"
+
+# --- SIGTERM: status 3, and every running case has its restart file
+"$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out stopped > stopped.txt 2>&1 &
+pid=$!
+for _ in $(seq 300); do
+  if ls stopped/base/restart_*.h5 > /dev/null 2>&1; then break; fi
+  sleep 0.05
+done
+kill -TERM "$pid"
+status=0
+wait "$pid" || status=$?
+[ "$status" = 3 ] || fail "a stopped sweep ended with $status: $(cat stopped.txt)"
+grep -q '"status": "stopped"' stopped/base/run.json || fail "the base case was not stopped with grace"
+
+# --- a case that fails does not stop the others
+printf '[study]\nbase = "case.toml"\n[set]\nrestart.interval = 0.01\n[[case]]\nname = "broken"\nset = { initial.grains = "overlap.csv" }\n[[case]]\nname = "good"\n' > mixed.toml
+printf 'id,diameter,x,y,z\n1,2e-4,0.01,5e-3,0.01\n1,2e-4,0.012,5e-3,0.01\n' > overlap.csv
+status=0
+sweep mixed.toml --no-pictures > mixed 2>&1 || status=$?
+[ "$status" = 1 ] || fail "a study with a failed case ended with $status: $(cat mixed)"
+grep -q '^broken,.*failed' runs/mixed/study.csv || fail "table: $(cat runs/mixed/study.csv)"
+grep -q '^good,.*done' runs/mixed/study.csv || fail "the good case was not run: $(cat mixed)"
+
+# --- the studies that ship name cases that load
+for study in $(grep -l '^\[study\]' -r "$root/configs"); do
+  sweep "$study" --list > list 2>&1 || fail "$study: $(cat list)"
+done
+
+[ "$failures" -eq 0 ] || exit 1
+echo "sweep: fine"
