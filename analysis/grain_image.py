@@ -52,23 +52,32 @@ def depth_buffer(x, d, window, pixel):
     return grain.reshape(rows, columns), height.reshape(rows, columns)
 
 
+def by_height(x, d, top):
+    """Colours (N, 3) of the grains from 0 to `top` [m] in the height map of the style."""
+    return matplotlib.colormaps[HEIGHT_MAP](np.clip((x[:, 1] + 0.5 * d) / top, 0, 1))[:, :3]
+
+
 def top_view(x, d, window, width, top):
     """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by height.
 
-    The first row is z0. Colours run from 0 to `top` [m] in the height map of the style.
+    The first row is z0. Colours run from 0 to `top` [m].
     """
+    return coloured_view(x, d, by_height(x, d, top), window, width)
+
+
+def coloured_view(x, d, colours, window, width):
+    """The same with a colour for each grain: colours (N, 3)."""
     inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
               & (x[:, 2] < window[3]))
-    x, d = x[inside], d[inside]
+    x, d, colours = x[inside], d[inside], colours[inside]
     pixel = (window[1] - window[0]) / width
     if len(d) == 0:
         return np.ones((max(1, round((window[3] - window[2]) / pixel)), width, 3))
     visible = ~hidden(x, d)
-    x, d = x[visible], d[visible]
+    x, d, colours = x[visible], d[visible], colours[visible]
     # Finer than the grains, then averaged: smooth edges, at a bounded size.
     finer = int(np.clip(np.ceil(6 * pixel / np.median(d)), 2, 6))
     grain, height = depth_buffer(x, d, window, pixel / finer)
-    colours = matplotlib.colormaps[HEIGHT_MAP](np.clip((x[:, 1] + 0.5 * d) / top, 0, 1))[:, :3]
     picture = np.ones(grain.shape + (3,), np.float32)
     covered = grain >= 0
     picture[covered] = colours[grain[covered]] * shade(grain, height, x, d, window,

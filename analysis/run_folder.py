@@ -219,13 +219,13 @@ class RunFolder:
                 for a in ("x", "y"))
         return Flow(time, float(grid["z"][k]), x, y, u, v, alpha_f)
 
-    def write_curves(self, figure, columns):
-        """The numbers behind a figure: figures_data/`figure`.csv, at most 2,000 lines."""
+    def write_curves(self, figure, columns, most=2000):
+        """The numbers behind a figure: figures_data/`figure`.csv, at most `most` lines."""
         folder = self.path / "figures_data"
         folder.mkdir(exist_ok=True)
         names = list(columns)
         rows = np.column_stack([columns[name] for name in names])
-        rows = rows[thin(len(rows))]
+        rows = rows[thin(len(rows), most)]
         np.savetxt(folder / f"{figure}.csv", rows, delimiter=",", fmt="%.9g",
                    header=",".join(names), comments="")
 

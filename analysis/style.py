@@ -19,6 +19,7 @@ SAND, SAND_EDGE = "#E8D9B5", "#6B5B3A"
 
 HEIGHT_MAP = "viridis"
 VELOCITY_MAP = "cividis"
+FORCE_MAP = "coolwarm"  # Moreland (2009): zero is grey, so that white is left for "no data"
 
 FULL_WIDTH = 7.1  # [in], two columns of a journal page
 DPI = 150
@@ -74,6 +75,15 @@ def scale_bar(axes, length_mm, x, y, colour=BLACK):
                   color=colour, fontsize=7.5)
 
 
+def flow_arrow(axes, x, y, colour=BLACK):
+    """"flow" and an arrow to the right behind it; x, y (left end) in axes fractions."""
+    text = axes.annotate("flow", (x, y), xycoords="axes fraction", va="center", color=colour, fontsize=7.5,
+                         annotation_clip=False)
+    axes.annotate("", (1.05, 0.5), xycoords=text, xytext=(20, 0), textcoords="offset points", va="center",
+                  arrowprops={"arrowstyle": "<|-", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
+                  annotation_clip=False)
+
+
 def mark_if_few(t):
     """The marker for a curve: few points are marked, many are a line."""
     return "o" if len(t) <= 12 else None
@@ -106,7 +116,7 @@ def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
     encoded = io.BytesIO()
     figure.savefig(encoded, format="png", dpi=DPI, facecolor="white")
     if encoded.tell() > largest:
-        encoded = _with_palette(encoded)
+        encoded = _with_palette(encoded, _colour_maps(figure))
     paths = [folder / f"{name}.png"]
     _replace(paths[0], encoded.getvalue())
     if pdf:
@@ -119,11 +129,17 @@ def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
     return paths
 
 
-def _with_palette(encoded):
+def _colour_maps(figure):
+    """The maps of the colour bars, each once."""
+    shown = [axes._colorbar.cmap for axes in figure.axes if hasattr(axes, "_colorbar")]
+    return list({colours.name: colours for colours in shown}.values())
+
+
+def _with_palette(encoded, colour_maps):
     """256 colours: most fitted to the picture, some kept for the gradients of the colour bars."""
     picture = Image.open(encoded).convert("RGB")
-    kept = np.concatenate([matplotlib.colormaps[name](np.linspace(0, 1, 48))[:, :3]
-                           for name in (HEIGHT_MAP, VELOCITY_MAP)] + [np.zeros((1, 3))])
+    kept = np.concatenate([colours(np.linspace(0, 1, 48))[:, :3] for colours in colour_maps]
+                          + [np.zeros((1, 3))])
     n_fitted = 256 - len(kept)
     fitted = np.array(picture.quantize(n_fitted).getpalette()).reshape(-1, 3)[:n_fitted]
     fitted[fitted.min(axis=1) > 245] = 255  # paper stays white
