@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Figures of a run.
 
-    plot.py RUN_DIR [FIGURE ...] [--pdf]
+    plot.py RUN_DIR [FIGURE ...] [--pdf] [--time T] [--from T] [--to T]
     plot.py validation [FIGURE ...]       figures of docs/validation.md: see validation.py
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
@@ -24,7 +24,20 @@ FIGURES = {
     "midplane": ("midplane", "flow and grains in the vertical plane through the dune"),
     "profiles": ("profiles", "turbulence statistics over the height, beside channel DNS"),
     "history": ("history", "flow rate, shear, time step and solver against time"),
+    "horns": ("horns", "lengths of the horns, their grains and where these came from, against time"),
+    "horn_origins": ("horn_origins", "fig11, fig12: grains of the horns, their paths and origins (--time)"),
+    "force_map": ("force_map", "fig13: mean resultant force on the grains about the dune (--from, --to)"),
+    "sectors": ("sectors", "in words: shares of horn grains by sector, signs of the force; no picture"),
 }
+ALIASES = {"fig11": "horn_origins", "fig12": "horn_origins", "fig13": "force_map"}
+OF_PAPER = set(ALIASES.values())  # these are written as PDF, too
+NOT_BY_ITSELF = {"sectors"}       # only when asked for
+
+
+def figure_name(name):
+    """As in FIGURES: hyphens are as good as underscores, the numbers of the paper as good as names."""
+    plain = name.replace("-", "_")
+    return ALIASES.get(plain.replace("_", ""), plain)
 
 
 def unknown_figure(name):
@@ -34,13 +47,18 @@ def unknown_figure(name):
 
 
 def parse(arguments):
-    listing = "\n".join(f"  {name:<11} {about}" for name, (_, about) in FIGURES.items())
+    listing = "\n".join(f"  {name:<12} {about}" for name, (_, about) in FIGURES.items())
     parser = argparse.ArgumentParser(
         prog="plot", description="Figures of a run, by default all that its files allow.",
         epilog=f"figures:\n{listing}", formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run_dir", metavar="RUN_DIR")
     parser.add_argument("figures", metavar="FIGURE", nargs="*")
     parser.add_argument("--pdf", action="store_true", help="write PDF files besides the PNG files")
+    parser.add_argument("--time", type=float, metavar="T",
+                        help="horn_origins, sectors: at T seconds, not at the end")
+    parser.add_argument("--from", type=float, metavar="T", dest="start",
+                        help="force_map, sectors: mean over the frames of grains.h5 from T seconds on")
+    parser.add_argument("--to", type=float, metavar="T", dest="end", help="... up to T seconds")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     return parser.parse_args(arguments)
 
@@ -60,8 +78,13 @@ def draw(run, names, options):
     outcome = Outcome()
     for name in names:
         try:
-            figure = importlib.import_module(FIGURES[name][0]).draw(run)
-            for path in style.save(figure, run.path, name, run.title, options.pdf):
+            module = importlib.import_module(FIGURES[name][0])
+            wanted = {key: getattr(options, key) for key in getattr(module, "OPTIONS", ())}
+            figure = module.draw(run, **wanted)
+            if figure is None:  # it has said what it has to say
+                outcome.paths.append(name)
+                continue
+            for path in style.save(figure, run.path, name, run.title, options.pdf or name in OF_PAPER):
                 print(path)
                 outcome.paths.append(path)
         except NotInRun as reason:
@@ -82,16 +105,17 @@ def main(arguments):
 
         return validation.main(arguments[1:])
     options = parse(arguments)
-    for name in options.figures:
+    names = list(dict.fromkeys(map(figure_name, options.figures)))
+    for name, given in zip(map(figure_name, options.figures), options.figures):
         if name not in FIGURES:
-            return fail(unknown_figure(name))
+            return fail(unknown_figure(given))
     from run_folder import PlotError, RunFolder  # after the cheap checks: h5py takes a while
 
     try:
         run = RunFolder(options.run_dir)
     except PlotError as error:
         return fail(error)
-    outcome = draw(run, options.figures or FIGURES, options)
+    outcome = draw(run, names or [name for name in FIGURES if name not in NOT_BY_ITSELF], options)
     wrong = outcome.failed + outcome.unreadable + (outcome.missing if options.figures else [])
     for sentence in wrong:
         fail(sentence)
