@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Horn grains, their origins and the force map of synthetic runs in which all of these are known: a dune
+# along the axes, turned, across the periodic boundaries, with and without tracks.h5 and dune.csv.
+set -u
+# shellcheck source=tests/support/plotting.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
+
+fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+
+make_run() { "$python" "$root/tests/support/make_horn_run.py" "$@" || fail "make_horn_run $*"; }
+
+plot() {  # plot EXPECTED_STATUS ARGUMENT...
+  local expected=$1 status=0
+  shift
+  "$python" "$root/analysis/plot.py" "$@" > "$dir/out" 2> "$dir/err" || status=$?
+  [ "$status" = "$expected" ] || fail "plot $* ended with $status, not $expected: $(cat "$dir/err")"
+  ! grep -q Traceback "$dir/err" || fail "plot $* shows a traceback"
+  [ "$expected" != 0 ] || [ ! -s "$dir/err" ] || fail "plot $* warns: $(cat "$dir/err")"
+}
+
+check() { "$python" "$root/tests/support/check_horn_run.py" "$@" || fail "check $*"; }
+
+says() { grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"; }
+
+is_figure() {  # PNG under 300 kB and PDF
+  [ "$(head -c 4 "$1.png" 2> /dev/null | tail -c 3)" = PNG ] || fail "no picture $1.png"
+  [ "$(wc -c < "$1.png")" -lt 300000 ] || fail "$1.png is larger than 300 kB"
+  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
+}
+
+make_run "$dir/straight"
+plot 0 "$dir/straight" fig11 horns force-map sectors
+is_figure "$dir/straight/horn_origins"
+is_figure "$dir/straight/force_map"
+[ -s "$dir/straight/horns.png" ] || fail "no picture of the horns"
+grep -q '80.0 % from 105-160 and 210-260 degrees (uniform 29.2 %' "$dir/out" || fail "no line on sectors"
+grep -q -- '-1e-07 N on the crest (-), -1e-07 N between the horns (-)' "$dir/out" || fail "no line on forces"
+check "$dir/straight" straight origins numbers force
+
+make_run "$dir/turned" --angle 8 --seam --tracks --program-map --until 3
+plot 0 "$dir/turned" horn-origins horns fig13 sectors --time 3
+check "$dir/turned" origins numbers map
+plot 2 "$dir/turned" force-map --from 7 --to 8
+says "force_map needs a frame with forces between t = 7 s and 8 s"
+plot 2 "$dir/turned" fig12 --time 1
+says "horn_origins needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s"
+
+make_run "$dir/alone" --angle -5 --seam --without table
+plot 0 "$dir/alone" horns force-map --from 0 --to 1
+plot 0 "$dir/alone" sectors
+check "$dir/alone" numbers force_100
+plot 2 "$dir/alone" sectors --time -1
+says "no frame at or before t = -1 s"
+rm "$dir/alone/grains.h5"
+plot 2 "$dir/alone" fig-14
+says 'no figure "fig-14"'
+plot 2 "$dir/alone" fig-13
+says "force_map needs force_map.csv, or grains.h5 with force_total"
+plot 2 "$dir/alone" horns
+says "horns needs grains.h5 with at least one frame"
+
+[ "$failures" = 0 ] && echo "horn grains, origins and forces as known"
+exit $((failures > 0))
