@@ -186,7 +186,7 @@ def draw_radii(run, axes, r, heap):
     ours, all_grains = smooth_density(r, at), smooth_density(heap, at)
     density.plot(at, ours, color=style.BLUE, label="to the horns")
     density.plot(at, all_grains, color=style.BLACK, lw=0.9, ls=(0, (4, 1.5)), label="whole heap")
-    top = 1.3 * max(ours.max(), all_grains.max(), count.max() / (len(r) * R_BIN))
+    top = 1.5 * max(ours.max(), all_grains.max(), count.max() / (len(r) * R_BIN))
     density.set(ylim=(0, top), ylabel="PDF")
     axes.set_ylim(0, top * len(r) * R_BIN)  # the bars are the same density on the other scale
     axes.tick_params(right=False)
