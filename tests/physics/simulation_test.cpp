@@ -63,15 +63,24 @@ TEST(Simulation, TwoRunsAreBitwiseIdentical) {
 
 TEST(Simulation, RestartContinuesBitwise) {
   const ScratchFolder scratch("barchan-restart");
-  const Config whole = coupled_config();
+  Config whole = coupled_config();
+  whole.statistics.emplace();
+  whole.statistics->interval = 2 * whole.time.fluid_step;
+  whole.statistics->fields = whole.statistics->grain_forces = true;
   Config half = whole;
   half.time.end = whole.time.end / 2;
   const auto at_once = run(whole, scratch / "whole");
   const auto middle = run(half, scratch / "parts");
   const auto in_parts = run(whole, scratch / "parts", middle);
   expect_same_state(at_once, in_parts);
-  for (const char* table : {"history.csv", "dune.csv"}) {
-    EXPECT_EQ(text_of(scratch / "whole" / table), text_of(scratch / "parts" / table)) << table;
+  for (const char* table : {"history.csv", "dune.csv", "statistics.csv", "force_map.csv"}) {
+    const std::string text = text_of(scratch / "whole" / table);
+    EXPECT_GT(text.size(), 500u) << table;
+    EXPECT_EQ(text, text_of(scratch / "parts" / table)) << table;
+  }
+  const CheckpointReader a(at_once), b(in_parts);
+  for (const char* sums : {"statistics/sum_uv", "statistics/first_u", "statistics/force_map"}) {
+    EXPECT_EQ(a.array<double>(sums), b.array<double>(sums)) << sums;
   }
 }
 
@@ -105,9 +114,14 @@ TEST(Simulation, WritesEveryFileOfARun) {
   Config config = coupled_config();
   config.time.end = 20 * config.time.fluid_step;
   config.output.grain_forces = true;
+  config.output.tracks_interval = 5 * config.time.fluid_step;
+  config.statistics.emplace();
+  config.statistics->fields = config.statistics->grain_forces = true;
+  config.statistics->interval = config.time.fluid_step;
   run(config, scratch / "run");
   for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
-                           "fields.xdmf", "grains.h5", "grains.xdmf", "log.txt"}) {
+                           "fields.xdmf", "grains.h5", "grains.xdmf", "log.txt", "tracks.h5",
+                           "statistics.csv", "flow_average.h5", "flow_average.xdmf"}) {
     EXPECT_TRUE(std::filesystem::exists(scratch / "run" / name)) << name;
   }
   const std::string json = text_of(scratch / "run" / "run.json");
