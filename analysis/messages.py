@@ -5,5 +5,10 @@ import sys
 
 def fail(message):
     """One line on standard error; returns the exit status of bad input."""
-    print(f"plot: {message}", file=sys.stderr)
+    note(message)
     return 2
+
+
+def note(message):
+    """One line on standard error."""
+    print(f"plot: {message}", file=sys.stderr)

@@ -156,7 +156,10 @@ def sparse(x, count=28):
 
 
 def draw(folder):
-    dns, channels = read_dns(), read_channels(folder)
+    return draw_channels(read_channels(folder), read_dns())
+
+
+def draw_channels(channels, dns):
     figure, grid = plt.subplots(2, 3, figsize=(style.FULL_WIDTH, 4.6))
     mean, total, panels = grid[0, 0], grid[1, 2], [*grid[0, 1:], *grid[1, :2]]
     marks = sparse(dns["y_plus"])

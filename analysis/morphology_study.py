@@ -1,0 +1,75 @@
+"""morphology of a study: W, L, C_x, C_z of the main dune against time, a curve per value of one key.
+
+As Figs. 7 (sliding friction), 8 (restitution) and 9 (rolling friction) of Lima et al. (2022). C_x is
+drawn from its first value, C_z from the middle of the channel.
+"""
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+from morphology import widen
+from run_folder import NotInRun
+from study_folder import shown, symbol
+
+PANELS = (("W", "width $W$ (mm)"), ("L", "length $L$ (mm)"),
+          ("Cx", "centroid $C_x - C_x(0)$ (mm)"), ("Cz", "centroid $C_z - L_z/2$ (mm)"))
+MARKERS = "osD^v<>ph"
+MARKS = 10  # on the longest curve
+
+
+def looks(count):
+    """(colour, marker) of each curve: darker to lighter as the value grows, lightest still legible."""
+    shades = np.linspace(0.0, 0.86, count) if count > 1 else [0.3]
+    return [(matplotlib.colormaps["viridis"](shade), MARKERS[i % len(MARKERS)])
+            for i, shade in enumerate(shades)]
+
+
+def main_dune(run):
+    """Columns of dune.csv of the first main dune, Cx and Cz as they are drawn."""
+    dune = dict(run.dunes[min(run.dunes)])
+    dune["Cx"] = dune["Cx"] - dune["Cx"][0]
+    dune["Cz"] = dune["Cz"] - (0.5 * run.domain[2] if run.domain else dune["Cz"][0])
+    return dune
+
+
+def draw(study, key):
+    cases = study.series(key, lambda run: run.dunes is not None)
+    if not cases:
+        raise NotInRun("needs a case with dune.csv")
+    dunes = [main_dune(case.run) for case in cases]
+    figure, grid = plt.subplots(2, 2, sharex=True, figsize=(style.FULL_WIDTH, 4.9))
+    step = max(dune["t"][-1] - dune["t"][0] for dune in dunes) / MARKS
+    for index, (axes, (name, label)) in enumerate(zip(grid.ravel(), PANELS)):
+        for order, (dune, (colour, marker)) in enumerate(zip(dunes, looks(len(cases)))):
+            axes.plot(dune["t"], 1e3 * dune[name], color=colour, marker=marker, ms=4, lw=0.9,
+                      mec=colour, mfc="white", mew=0.9, markevery=marks(dune["t"], step, order / len(cases)),
+                      label=f"{symbol(key)} = {shown(cases[order].values[key])}")
+        axes.set_ylabel(label)
+        axes.margins(x=0.02)
+        style.panel_label(axes, index)
+        widen(axes, 0.4 if name == "Cz" else 0.0)
+    for axes in grid[1]:
+        axes.set_xlabel("$t$ (s)")
+    handles, _ = grid[0, 0].get_legend_handles_labels()
+    columns = min(5, len(handles))
+    style.legend_outside(figure, handles, 0.1 + 0.18 * -(-len(handles) // columns), ncols=columns)
+    write(study, key, cases, dunes)
+    return figure
+
+
+def marks(t, step, share):
+    """Indices of marks every `step` [s]; those of one curve lie between those of the others."""
+    if len(t) <= MARKS + 2:
+        return None
+    wanted = np.arange(t[0] + (share + 0.1) * step, t[-1], step)
+    return np.unique([int(np.argmin(abs(t - time))) for time in wanted]).astype(int).tolist()
+
+
+def write(study, key, cases, dunes):
+    columns = {key: [[case.values[key]] * len(dune["t"]) for case, dune in zip(cases, dunes)]}
+    for name, column in (("t", "t_s"), ("W", "W_m"), ("L", "L_m"), ("Cx", "Cx_from_start_m"),
+                         ("Cz", "Cz_from_middle_m")):
+        columns[column] = [dune[name] for dune in dunes]
+    study.write_rows(f"morphology_{study.short(key)}", columns)

@@ -1,0 +1,46 @@
+"""Which figures a study folder has: one per varied key, and one of the channels of all cases."""
+
+FIGURES = {
+    "topviews": ("topview_study", "the grains from above, a row per time, a column per value"),
+    "morphology": ("morphology_study", "width, length, centroid against time, a curve per value"),
+    "channel": ("channel_study", "turbulence statistics of all cases beside channel DNS"),
+}
+# figures of Lima et al. (2022): (figure, what it varies)
+PAPER = {
+    "fig2": ("channel", None),
+    "fig4": ("topviews", "grains.sliding_friction"),
+    "fig5": ("topviews", "grains.restitution"),
+    "fig6": ("topviews", "grains.rolling_friction"),
+    "fig7": ("morphology", "grains.sliding_friction"),
+    "fig8": ("morphology", "grains.restitution"),
+    "fig9": ("morphology", "grains.rolling_friction"),
+}
+SAME = {"profiles": "channel"}
+
+
+def known(name):
+    return name in PAPER or SAME.get(name, name) in FIGURES
+
+
+def jobs(study, names):
+    """(file name, module, further arguments) of each figure; without names those of all keys."""
+    result = []
+    for name in names or FIGURES:
+        figure, key = PAPER.get(name, (SAME.get(name, name), None))
+        module = FIGURES[figure][0]
+        if figure == "channel":
+            result.append((name if names else "fig2", module, ()))
+        elif key:
+            result.append((name, module, (key,)))
+        else:
+            result += [(file_name(study, figure, key, numbered=not names), module, (key,))
+                       for key in study.keys]
+    return result
+
+
+def file_name(study, figure, key, numbered):
+    """By default a figure that is in the paper has its number there."""
+    for name, what in PAPER.items():
+        if numbered and what == (figure, key):
+            return name
+    return f"{figure}_{study.short(key)}"

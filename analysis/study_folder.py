@@ -1,0 +1,129 @@
+"""Reads a study folder: study.json and the run folders of its cases, as `barchan sweep` leaves them.
+
+Cases may be absent, unfinished or failed: what they have is used, `gaps` says what they lack.
+"""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from run_folder import NotInRun, PlotError, RunFolder, thin
+
+NAME = "study.json"
+SYMBOLS = {"grains.sliding_friction": "$\\mu$", "grains.restitution": "$e$",
+           "grains.rolling_friction": "$\\mu_r$"}
+
+
+@dataclass
+class Case:
+    """One run: varied is the key it changes, None for the base case; values of all keys studied."""
+
+    name: str
+    varied: str | None
+    values: dict
+    run: RunFolder | None
+    gap: str | None
+
+    @property
+    def label(self):
+        """What distinguishes it, for a legend."""
+        if self.varied is None:
+            return self.name
+        return f"{symbol(self.varied)} = {shown(self.values.get(self.varied))}"
+
+
+def symbol(key):
+    """The name of a configuration key in a figure."""
+    return SYMBOLS.get(key) or key.rpartition(".")[2].replace("_", " ")
+
+
+def shown(value):
+    if isinstance(value, list):
+        return " x ".join(map(shown, value))
+    return f"{value:g}" if isinstance(value, (int, float)) else str(value)
+
+
+def gap_of(path):
+    """Why a case is not whole: a few words, None when it is done."""
+    if not path.is_dir():
+        return "is not there"
+    try:
+        summary = json.loads((path / "run.json").read_text())
+        status = summary.get("status")
+    except (OSError, ValueError, AttributeError):
+        return "has no readable run.json"
+    return None if status == "done" else {"failed": "failed"}.get(status, "is unfinished")
+
+
+class StudyFolder:
+    def __init__(self, path):
+        self.path = Path(path)
+        try:
+            study = json.loads((self.path / NAME).read_text())
+            self.title = study.get("title") or self.path.resolve().name
+            self.cases = [self._case(entry) for entry in study["cases"]]
+        except (OSError, ValueError) as error:
+            raise PlotError(f"cannot read {self.path / NAME}: {error}") from error
+        except (KeyError, TypeError, AttributeError) as error:
+            raise PlotError(f"{self.path / NAME} does not list its cases as a study does") from error
+
+    def _case(self, entry):
+        path = self.path / entry["folder"]
+        run = RunFolder(path) if path.is_dir() else None
+        return Case(str(entry["name"]), entry.get("varied"), dict(entry.get("values", {})), run,
+                    gap_of(path))
+
+    @property
+    def gaps(self):
+        """One sentence on the cases that are not whole; empty when all are."""
+        return ", ".join(f"{case.name} {case.gap}" for case in self.cases if case.gap)
+
+    @cached_property
+    def keys(self):
+        """The keys that are varied, in order of appearance."""
+        return list(dict.fromkeys(case.varied for case in self.cases if case.varied))
+
+    def short(self, key):
+        """The last part of a key, for the names of files; all of it where two keys end alike."""
+        last = key.rpartition(".")[2]
+        alike = [other for other in self.keys if other.rpartition(".")[2] == last]
+        return last if len(alike) < 2 else key.replace(".", "_")
+
+    def series(self, key, usable=lambda run: True):
+        """Cases that differ in `key` alone, by its value; those that are there and `usable`.
+
+        The base case belongs to every series; of two cases of one value the first is kept.
+        """
+        if key not in self.keys:
+            raise NotInRun(f"needs a study of {key}")
+        chosen = {}
+        for case in self.cases:
+            if case.varied in (None, key) and key in case.values and case.run and usable(case.run):
+                chosen.setdefault(json.dumps(case.values[key]), case)
+        cases = list(chosen.values())
+        if all(isinstance(case.values[key], (int, float)) for case in cases):
+            cases.sort(key=lambda case: case.values[key])
+        return cases
+
+    def write_rows(self, figure, columns):
+        """The numbers behind a figure: figures_data/`figure`.csv.
+
+        columns: {name: list of a column per case}; text stands as it is, each case has at most 500
+        lines.
+        """
+        folder = self.path / "figures_data"
+        folder.mkdir(exist_ok=True)
+        lines = [",".join(columns)]
+        for parts in zip(*columns.values()):
+            for row in thin(len(parts[0]), 500):
+                lines.append(",".join(cell(part[row]) for part in parts))
+        (folder / f"{figure}.csv").write_text("\n".join(lines) + "\n")
+
+
+def cell(value):
+    if isinstance(value, (float, np.floating, int, np.integer)):
+        return f"{value:.9g}"
+    return shown(value).replace(",", ";")
