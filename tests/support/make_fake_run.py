@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Writes a synthetic run folder: a heap that turns into a barchan, with the flow over it.
 
-    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut]
+    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study]
 
 The formats are those of a run; nothing is simulated. `--cut` leaves the folder as a killed run
-would: a CSV line without its end, a frame without its arrays, no run.json.
+would: a CSV line without its end, a frame without its arrays, no run.json. `--average` adds
+flow_average.h5 of a known flow, `--study` writes a study folder with such runs as its cases.
 """
 
 import argparse
+import json
 import os
 from pathlib import Path
 
@@ -19,6 +21,7 @@ import h5py  # noqa: E402
 SIZE = (0.1, 0.025, 0.04)  # [m]
 D = 2e-4                   # mean diameter [m]
 END, FRAMES = 8.0, 17
+U_STAR = 0.0168            # friction velocity [m/s]
 CONFIG = f"""[case]
 title = "synthetic barchan"
 [time]
@@ -43,6 +46,11 @@ def surface(x, z, t):
     return np.clip(np.minimum(0.28 * (radius - r), 0.55 * np.maximum(lee, 0)), 0, None)
 
 
+def known_width(t):
+    """Width of the dune in dune.csv at time t, less noise of 1e-4 [m]."""
+    return 12e-3 + 2.4e-3 * (1 - np.exp(-t))
+
+
 def make_grains(t, random):
     """Grains under the surface, and a few that have left the dune."""
     side = np.arange(0, 0.03, 0.93 * D)
@@ -65,7 +73,7 @@ def make_grains(t, random):
 
 def make_flow(t, x, y, z):
     """A logarithmic profile lifted by the dune, with reversed flow behind the crest."""
-    u_star, centre = 0.0168, shape(t)[0]
+    u_star, centre = U_STAR, shape(t)[0]
     z3, y3, x3 = np.meshgrid(z, y, x, indexing="ij")
     h = surface(x3, z3, t)
     above = np.maximum(y3 - h, 0)
@@ -93,34 +101,62 @@ def write_frame(file, index, t, arrays):
         group.create_dataset(name, data=values).attrs["units"] = "SI"
 
 
-def write_grains(folder, cut):
+def write_grains(folder, cut, frames=FRAMES):
     random = np.random.default_rng(1)
     with open_file(folder / "grains.h5") as file:
-        for index, t in enumerate(np.linspace(0, END, FRAMES)):
+        for index, t in enumerate(np.linspace(0, END, frames)):
             x, d = make_grains(t, random)
             write_frame(file, index, t, {"id": random.permutation(len(d)), "x": x, "d": d,
                                          "u": 0 * x, "omega": 0 * x})
         if cut:
-            write_frame(file, FRAMES, END + 0.5, {"id": np.arange(3)})
+            write_frame(file, frames, END + 0.5, {"id": np.arange(3)})
+
+
+def write_grid(file):
+    """Centres of the cells along x, y, z."""
+    x_face, z_face = np.linspace(0, SIZE[0], 101), np.linspace(0, SIZE[2], 41)
+    y_face = SIZE[1] * np.expm1(2.5 * np.linspace(0, 1, 31)) / np.expm1(2.5)
+    for name, face in (("x", x_face), ("y", y_face), ("z", z_face)):
+        file[f"grid/{name}_face"] = face
+        file[f"grid/{name}"] = 0.5 * (face[1:] + face[:-1])
+    return [file[f"grid/{name}"][:] for name in ("x", "y", "z")]
 
 
 def write_fields(folder):
-    x_face, z_face = np.linspace(0, SIZE[0], 101), np.linspace(0, SIZE[2], 41)
-    y_face = SIZE[1] * np.expm1(2.5 * np.linspace(0, 1, 31)) / np.expm1(2.5)
     with open_file(folder / "fields.h5") as file:
-        for name, face in (("x", x_face), ("y", y_face), ("z", z_face)):
-            file[f"grid/{name}_face"] = face
-            file[f"grid/{name}"] = 0.5 * (face[1:] + face[:-1])
-        centres = [file[f"grid/{name}"][:] for name in ("x", "y", "z")]
+        centres = write_grid(file)
         for index, t in enumerate((0.0, END)):
             write_frame(file, index, t, make_flow(t, *centres))
 
 
-def write_tables(folder, cut):
+def known_flow(x, y, z):
+    """Mean flow that turns and slows down along x until it is reversed: angle to x [rad], speed along it
+    [m/s], and the second moments along, across and mixed [m^2/s^2] in axes turned by that angle."""
+    angle = 8.0 * (x - 0.045)
+    slower = np.maximum(-2.4, 1.1 - 250.0 * abs(x - shape(END)[0] - 4.4e-3))  # linear over the dune
+    speed = 0.3 * ((y / SIZE[1]) ** (1 / 7) - slower) * (1 + 50.0 * (z - 0.5 * SIZE[2]))
+    stress = U_STAR**2 * (1 - y / SIZE[1])
+    return angle, speed, 9.0 * stress, stress, -stress
+
+
+def write_average(folder):
+    with open_file(folder / "flow_average.h5") as file:
+        z, y, x = np.meshgrid(*write_grid(file)[::-1], indexing="ij")
+        angle, speed, along, across, mixed = known_flow(x, y, z)
+        c, s, zero = np.cos(angle), np.sin(angle), 0.0 * speed
+        write_frame(file, 0, END, {
+            "u": c * speed, "v": s * speed, "w": zero, "p": zero, "alpha_f": zero + 1, "nu_t": zero,
+            "uu": c * c * along - 2 * c * s * mixed + s * s * across,
+            "vv": s * s * along + 2 * c * s * mixed + c * c * across, "ww": across,
+            "uv": (c * c - s * s) * mixed + c * s * (along - across), "uw": zero, "vw": zero})
+        file["frame_000000"].attrs.update(window_start=0.5 * END, n_samples=400)
+
+
+def write_tables(folder, cut, wider=1.0):
     random = np.random.default_rng(2)
     t = np.linspace(0, END, 400)
     noise = random.normal(size=(12, len(t)))
-    u_star = 0.0168 + 3e-4 * noise[0]
+    u_star = U_STAR + 3e-4 * noise[0]
     history = [t, t / 2.5e-4, u_star, 0.28 + 1e-5 * noise[1], -11 + 0.3 * noise[2],
                4e-3 + 1e-5 * noise[3], 3e-9 * (1 + np.exp(-t) + 0.1 * noise[4]),
                0.05 + 2e-3 * noise[5], 10 ** (-9 + 0.2 * noise[6]), 3 + (noise[7] > 0.5),
@@ -134,7 +170,7 @@ def write_tables(folder, cut):
     for i, time in enumerate(np.linspace(0, END, 161)):
         wiggle = 1e-4 * random.normal(size=7)
         centre, horn = shape(time)
-        width = 12e-3 + 2.4e-3 * (1 - np.exp(-time))
+        width = wider * known_width(time)
         row = [time, 0, 8000 - int(20 * time), width + wiggle[0], width - horn + wiggle[1],
                2.0e-3 - 4e-4 * (1 - np.exp(-time)) + 0.2 * wiggle[2], centre + 0.2 * wiggle[3],
                6e-4, 0.02 + 0.5 * wiggle[4], max(0, horn + wiggle[5]), max(0, horn + wiggle[6]),
@@ -162,21 +198,56 @@ def write_statistics(folder):
                header=header, comments="")
 
 
+# name, varied key, values of friction and restitution, width over that of the base, what is there
+STUDY = (("base", None, (0.6, 0.1), 1.0, "done"),
+         ("sliding_friction-0.2", "grains.sliding_friction", (0.2, 0.1), 1.2, "done"),
+         ("sliding_friction-0.4", "grains.sliding_friction", (0.4, 0.1), None, None),
+         ("restitution-0.5", "grains.restitution", (0.6, 0.5), None, "failed"),
+         ("restitution-0.9", "grains.restitution", (0.6, 0.9), 0.9, "running"))
+
+
+def write_study(folder):
+    """Two keys of two values with results each, one case that is not there and one that failed."""
+    keys = ("grains.sliding_friction", "grains.restitution")
+    cases = [{"name": name, "folder": name, "varied": varied, "values": dict(zip(keys, values))}
+             for name, varied, values, _, _ in STUDY]
+    (folder / "study.json").write_text(json.dumps(
+        {"title": "synthetic study", "base": "base.toml", "cases": cases}))
+    for name, _, _, wider, status in STUDY:
+        if status is None:
+            continue
+        run = folder / name
+        run.mkdir(exist_ok=True)
+        (run / "run.json").write_text(json.dumps({"status": status}))
+        (run / "config.toml").write_text(CONFIG)
+        if wider:
+            write_grains(run, False, frames=3)
+            write_tables(run, False, wider)
+    write_statistics(folder / "base")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
     parser.add_argument("--without", action="append", default=[],
                         choices=("grains", "fields", "tables"))
     parser.add_argument("--cut", action="store_true", help="as a killed run leaves it")
+    parser.add_argument("--frames", type=int, default=FRAMES, help=f"of grains.h5 ({FRAMES})")
+    parser.add_argument("--average", action="store_true", help="with flow_average.h5")
+    parser.add_argument("--study", action="store_true", help="a study folder instead of a run folder")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
+    if options.study:
+        return write_study(options.out)
     if "grains" not in options.without:
-        write_grains(options.out, options.cut)
+        write_grains(options.out, options.cut, options.frames)
     if "fields" not in options.without:
         write_fields(options.out)
     if "tables" not in options.without:
         write_tables(options.out, options.cut)
         write_statistics(options.out)
+    if options.average:
+        write_average(options.out)
     if not options.cut:
         (options.out / "config.toml").write_text(CONFIG)
         (options.out / "run.json").write_text('{"status": "done", "title": "synthetic barchan"}\n')

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# Figures 2 to 10 of the paper from synthetic runs and a synthetic study: each is there and not empty,
+# and the numbers behind it are those of the known flow and dune.
+set -u
+# shellcheck source=tests/support/plotting.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
+
+fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+
+fake() { "$python" "$root/tests/support/make_fake_run.py" "$@" || fail "make_fake_run $*"; }
+
+programs=$PATH  # where plot finds ffmpeg, if any
+plot() {  # plot EXPECTED_STATUS ARGUMENT...
+  local expected=$1 status=0
+  shift
+  PATH="$programs" "$python" "$root/analysis/plot.py" "$@" > "$dir/out" 2> "$dir/err" || status=$?
+  [ "$status" = "$expected" ] || fail "plot $* ended with $status, not $expected: $(cat "$dir/err")"
+  ! grep -q Traceback "$dir/err" || fail "plot $* shows a traceback"
+}
+
+numbers() {  # numbers FIGURE FOLDER: the CSV behind it against what was put in
+  "$python" "$root/tests/support/check_paper_figures.py" "$@" > "$dir/why" 2>&1 ||
+    fail "$1: $(tail -n 1 "$dir/why")"
+}
+
+is_paper_figure() {  # PATH without its end: PNG under 300 kB, and PDF
+  local picture=$1.png
+  [ "$(head -c 4 "$picture" 2> /dev/null | tail -c 3)" = PNG ] || { fail "no picture $picture"; return; }
+  [ "$(wc -c < "$picture")" -lt 300000 ] || fail "$picture is larger than 300 kB"
+  [ "$(wc -c < "$picture")" -gt 15000 ] || fail "$picture looks empty"
+  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
+}
+
+says() {  # says TEXT: one line on the error stream, with this text in it
+  grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"
+  [ "$(wc -l < "$dir/err")" = 1 ] || fail "expected one line, got: $(cat "$dir/err")"
+}
+
+# One run.
+fake "$dir/run" --average --without fields --frames 4
+plot 0 "$dir/run" fig2 fig3
+for figure in fig2 fig3; do is_paper_figure "$dir/run/$figure"; done
+[ ! -s "$dir/err" ] || fail "figures of a run are drawn without warnings, but: $(cat "$dir/err")"
+numbers profiles "$dir/run"
+
+# A movie: numbered pictures with no ffmpeg that works, else every pixel of every frame goes to it.
+mkdir "$dir/programs" "$dir/broken"
+printf '#!/bin/bash\nexit 1\n' > "$dir/broken/ffmpeg"
+chmod +x "$dir/broken/ffmpeg"
+programs="$dir/broken:$PATH"
+plot 0 "$dir/run" fig10
+[ "$(find "$dir/run/movie" -name '[0-9]*.png' -size +8k | wc -l)" = 4 ] || fail "not 4 pictures of a movie"
+[ "$(du -sk "$dir/run/movie" | cut -f 1)" -lt 3000 ] || fail "the pictures take $(du -sh "$dir/run/movie")"
+[ ! -e "$dir/run/movie.mp4" ] || fail "a film without ffmpeg"
+numbers movie "$dir/run"
+cat > "$dir/programs/ffmpeg" <<'FFMPEG'
+#!/bin/bash
+for last in "$@"; do :; done
+size=$(sed -E 's/.* -s ([0-9]+)x([0-9]+) .*/\1*\2/' <<< "$*")
+echo "$((size)) $(wc -c)" > "$last"
+FFMPEG
+chmod +x "$dir/programs/ffmpeg"
+programs="$dir/programs:$PATH"
+numbers add_tracks "$dir/run"  # from here on the finer frames of tracks.h5
+plot 0 "$dir/run" movie
+numbers tracks "$dir/run"
+grep -qx "$dir/run/movie.mp4" "$dir/out" || fail "the film is not named"
+awk '{ exit !($1 > 100000 && $2 == 7 * 3 * $1) }' "$dir/run/movie.mp4" ||
+  fail "not 7 frames: $(cat "$dir/run/movie.mp4")"
+[ -z "$(find "$dir/run" -name '*.part*')" ] || fail "a part of a film is left"
+programs=$PATH
+
+# A study with a case that is not there and one that failed: what there is, and a line on the rest.
+fake "$dir/study" --study
+plot 0 "$dir/study"
+says "sliding_friction-0.4 is not there, restitution-0.5 failed, restitution-0.9 is unfinished"
+for figure in fig2 fig4 fig5 fig7 fig8; do is_paper_figure "$dir/study/$figure"; done
+for figure in fig6 fig9; do
+  [ ! -e "$dir/study/$figure.png" ] || fail "$figure of a key that is not varied"
+done
+numbers morphology "$dir/study"
+numbers topviews "$dir/study"
+[ "$(grep -c '^base,' "$dir/study/figures_data/channel.csv")" = 30 ] || fail "no curves of the channel"
+
+# What bad input says.
+echo '{"title": "gone", "cases": []}' > "$dir/run/study.json"
+plot 2 "$dir/run" fig9
+says "fig9 needs a study of grains.rolling_friction"
+echo '{"cases": [{"name"' > "$dir/run/study.json"
+plot 2 "$dir/run" fig4
+says "cannot read $dir/run/study.json"
+echo '{"cases": [1]}' > "$dir/run/study.json"
+plot 2 "$dir/run" fig4
+says "does not list its cases as a study does"
+rm "$dir/run/study.json" "$dir/run/flow_average.h5"
+plot 2 "$dir/run" profiles-over-dune
+says "profiles_over_dune needs flow_average.h5"
+plot 2 "$dir/run" fig1
+says "no figure \"fig1\""
+
+[ "$failures" = 0 ] && echo "figures 2 to 10 as expected"
+exit $((failures > 0))
