@@ -41,9 +41,9 @@ make_run "$dir/turned" --angle 8 --seam --tracks --program-map --until 3
 plot 0 "$dir/turned" horn-origins horns fig13 sectors --time 3
 check "$dir/turned" origins numbers map
 plot 2 "$dir/turned" force-map --from 7 --to 8
-says "fig13 needs a frame with forces between t = 7 s and 8 s"
+says "force_map needs a frame with forces between t = 7 s and 8 s"
 plot 2 "$dir/turned" fig12 --time 1
-says "horn_origins needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s"
+says "fig12 needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s"
 
 make_run "$dir/alone" --angle -5 --seam --without table
 plot 0 "$dir/alone" horns force-map --from 0 --to 1
@@ -53,9 +53,9 @@ plot 2 "$dir/alone" sectors --time -1
 says "no frame at or before t = -1 s"
 rm "$dir/alone/grains.h5"
 plot 2 "$dir/alone" fig-14
-says 'no figure "fig-14"'
-plot 2 "$dir/alone" fig-13
-says "force_map needs force_map.csv, or grains.h5 with force_total"
+says 'no figure "fig_14"'
+plot 2 "$dir/alone" fig13
+says "fig13 needs force_map.csv, or grains.h5 with force_total"
 plot 2 "$dir/alone" horns
 says "horns needs grains.h5 with at least one frame"
 
