@@ -27,6 +27,7 @@ FIGURES = {
     "midplane": ("midplane", "flow and grains in the vertical plane through the dune"),
     "profiles": ("profiles", "turbulence statistics over the height, beside channel DNS"),
     "history": ("history", "flow rate, shear, time step and solver against time"),
+    "report": ("report", "one page about the run, with the grains as an animation: report.html"),
     "profiles_over_dune": ("profiles_over_dune", "mean flow and stresses at stations along a frozen dune"),
     "movie": ("movie", "the grains from above through the whole run"),
     "horns": ("horns", "lengths of the horns, their grains and where these came from, against time"),

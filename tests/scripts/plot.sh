@@ -31,7 +31,8 @@ fake "$dir/whole"
 plot 0 "$dir/whole"
 for figure in topviews height_map morphology midplane profiles history horns horn_origins; do is_picture "$dir/whole/$figure.png"; done
 [ ! -s "$dir/err" ] || fail "a whole run draws without warnings, but: $(cat "$dir/err")"
-[ "$(wc -l < "$dir/out")" = "$(find "$dir/whole" -name '*.p[nd][gf]' | wc -l)" ] || fail "each picture is named on a line of its own"
+[ -s "$dir/whole/report.html" ] || fail "no report of a whole run"
+[ "$(wc -l < "$dir/out")" = "$(find "$dir/whole" -name '*.p[nd][gf]' -o -name report.html | wc -l)" ] || fail "each picture is named on a line of its own"
 for curves in height_map morphology history; do
   [ "$(wc -l < "$dir/whole/figures_data/$curves.csv")" -gt 20 ] || fail "no curves of $curves"
 done
