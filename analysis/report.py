@@ -171,7 +171,7 @@ def player(facts, missing):
 <div class="below"><span class="bar">0 <i style="background:linear-gradient(90deg, {swatch})"></i>
 {1e3 * facts["top"]:.2g} mm <span class="quiet">height of a grain's top</span></span>
 <label><input id="near" type="checkbox"> follow the dune</label></div>
-<p class="quiet">{escape(facts["note"])} Seen from above, then from the side; the flow goes from
+<p class="quiet">{escape(facts["note"])} Seen from above, then from the side, x (downstream) from
 left to right. Arrow keys go from one time to the next, the space bar plays.</p></div>"""
 
 

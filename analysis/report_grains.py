@@ -39,6 +39,7 @@ def pack(run):
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
         "window": dune_window(positions, bounds), "colours": colours(),
+        "flow": "fluid" in run.config or "grains" not in run.config,
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
     words += [quantise(x[:, axis], *bounds[axis]) for x in positions for axis in range(3)]

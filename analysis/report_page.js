@@ -175,7 +175,7 @@
     const context = sized(canvas, height);
     paint(context, inView.sort((a, b) => y[a] - y[b]), { ...grains, up: (i) => (z[i] - z0) * scale });
     lettering(context);
-    flowArrow(context);
+    if (facts.flow) flowArrow(context);
     scaleBar(context, width, height, scale);
   }
 
