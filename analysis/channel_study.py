@@ -5,7 +5,7 @@ The cases are those with statistics.csv, such as the channel on several meshes.
 
 import style
 import tables
-import validation_channel
+from validation import channel as validation_channel
 from run_folder import NotInRun, read_table
 
 LOOKS = ((style.BLUE, "-"), (style.VERMILLION, (0, (5, 1.2))), (style.GREEN, (0, (3, 1, 1, 1))),
@@ -14,7 +14,7 @@ COLUMNS = ("y", "y_plus", "U_plus", "uu", "vv", "ww", "uv", "total")
 
 
 def read_channels(study):
-    """Channels of validation_channel, one per case that has plane statistics over a wall."""
+    """Channels of validation, one per case that has plane statistics over a wall."""
     channels = []
     for case in study.cases:
         path = case.run.path / "statistics.csv" if case.run else None

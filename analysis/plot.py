@@ -3,7 +3,7 @@
 
     plot.py RUN_DIR [FIGURE ...] [--pdf] [--time T] [--from T] [--to T]
     plot.py STUDY_DIR [FIGURE ...] [--pdf]
-    plot.py validation [FIGURE ...]       figures of docs/validation.md: see validation.py
+    plot.py validation [FIGURE ...]       figures of docs/validation.md: see validation
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
 behind curves to RUN_DIR/figures_data/<figure>.csv. A figure may be named by its number in the paper

@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 import style
-from dune_outline import centreline, main_dune
+from dune_outline import main_outline
 from flow_average import FlowAverage, friction_velocity, in_streamline_axes
 from run_folder import NotInRun
 
@@ -31,11 +31,10 @@ MARKERS = "osD^v"
 
 def draw(run):
     average = FlowAverage(run)
-    file = run.need_grains()
+    run.need_grains()
     if run.domain is None:
         raise NotInRun("needs config.toml with domain.size")
-    dune = main_dune(run.grains(len(file.frames) - 1), run.domain)
-    outline = centreline(dune, run.domain)
+    outline = main_outline(run)
     scales = {"delta": run.domain[1], "U_delta": average.top, "u_star": friction_velocity(run, average)}
     if not (scales["U_delta"] > 0.0 and scales["u_star"] > 0.0):
         raise NotInRun("needs a mean flow along +x")

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import style
-from dune_outline import main_dune
+from dune_regions import Bed, find_dunes
 from grain_image import top_view
 from run_folder import NotInRun
 from study_folder import shown, symbol
@@ -44,10 +44,11 @@ def common_window(frames, domain):
     """(x0, x1, z0, z1) [m] around the main dunes of all frames; grains that are lost go out of it."""
     boxes = []
     for grains in frames:
-        try:
-            x = main_dune(grains, domain).x if domain else grains.x
-        except NotInRun:  # no dune is left
+        # As they are drawn, a dune across a seam in two pieces.
+        dunes = find_dunes(grains, Bed((domain[0], domain[2]), (False, False))) if domain else []
+        if domain and not dunes:
             continue
+        x = grains.x[dunes[0].rows] if dunes else grains.x
         boxes.append((*x.min(axis=0)[[0, 2]], *x.max(axis=0)[[0, 2]]))
     if not boxes:
         boxes = [(*g.x.min(axis=0)[[0, 2]], *g.x.max(axis=0)[[0, 2]]) for g in frames]

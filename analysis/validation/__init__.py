@@ -14,21 +14,21 @@ from pathlib import Path
 
 import style
 import tables
-import validation_channel
-import validation_contacts
-import validation_flow
-import validation_water
+from validation import channel
+from validation import contacts
+from validation import flow
+from validation import water
 from messages import fail
 from run_folder import PlotError
 
 SAVED = tables.ROOT / "docs/validation"
 LARGEST_PNG = 140_000  # [bytes]; the pictures live in the repository
 FIGURES = {
-    "channel": validation_channel.draw,
-    "taylor_green": validation_flow.draw_taylor_green,
-    "contacts": validation_contacts.draw,
-    "grains_and_water": validation_water.draw,
-    "convergence": validation_flow.draw_convergence,
+    "channel": channel.draw,
+    "taylor_green": flow.draw_taylor_green,
+    "contacts": contacts.draw,
+    "grains_and_water": water.draw,
+    "convergence": flow.draw_convergence,
 }
 
 
@@ -42,7 +42,7 @@ def parse(arguments):
                         help="folder for the pictures (docs/validation)")
     parser.add_argument("--keep", action="append", default=[], metavar="MESH=RUN_DIR",
                         help="first save the statistics of a channel run; MESH: "
-                        + ", ".join(validation_channel.MESHES))
+                        + ", ".join(channel.MESHES))
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     return parser.parse_args(arguments)
 
@@ -52,7 +52,7 @@ def draw(name, options):
     paths = style.save(figure, options.out, name, "Barchan, validation", pdf=True,
                        largest=LARGEST_PNG)
     if name == "channel":
-        paths.append(validation_channel.write_summary(options.source, options.out))
+        paths.append(channel.write_summary(options.source, options.out))
     for path in paths:
         print(path)
 
@@ -67,7 +67,7 @@ def main(arguments):
     try:
         options.out.mkdir(parents=True, exist_ok=True)
         for mesh, _, run_dir in (text.partition("=") for text in options.keep):
-            print(validation_channel.save(mesh, run_dir, options.source))
+            print(channel.save(mesh, run_dir, options.source))
     except (OSError, PlotError) as error:
         return fail(error)
     for name in options.figures or FIGURES:

@@ -1,6 +1,6 @@
 """report: one page about a run that needs nothing else: no network, no other file.
 
-Its parts: report_page.html, .css and .js beside this file; numbers from run.json, config.toml, log.txt, the
+Its parts: page.html, .css and .js beside this file; numbers from run.json, config.toml, log.txt, the
 tables and grains.h5, as far as they are there. All text from the run is escaped.
 """
 
@@ -12,14 +12,14 @@ from datetime import datetime
 from html import escape
 from pathlib import Path
 
-import report_curves
-import report_grains
-import report_health
+from report import curves as curve_figures
+from report import grains as grain_pictures
+from report import health as health_checks
 from run_folder import NotInRun, PlotError
 
 HERE = Path(__file__).parent
-MARKS = {report_health.OK: ("ok", "✓"), report_health.LOOK: ("look", "!"),
-         report_health.UNKNOWN: ("none", "–")}
+MARKS = {health_checks.OK: ("ok", "✓"), health_checks.LOOK: ("look", "!"),
+         health_checks.UNKNOWN: ("none", "–")}
 PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "deposit": "grains to mesh",
           "fluid": "flow", "pressure": "pressure", "output": "files", "analytics": "dune analytics"}
 
@@ -29,7 +29,7 @@ def write_files(run):
     summary = read_summary(run)
     if not (summary or run.config or run.history or run.dunes):
         raise NotInRun("needs at least run.json, config.toml or a table with a line in it")
-    found = report_health.checks(run, summary)
+    found = health_checks.checks(run, summary)
     facts, data, missing = packed_grains(run)
     parts = {
         "title": escape(title(run, summary)), "status": status(summary), "header": header(run, summary),
@@ -37,7 +37,7 @@ def write_files(run):
         "player": player(facts, missing), "curves": curves(run),
         "phases": phases(summary), "rates": rates(summary), "config": config(run),
         "files": files(run), "commands": commands(run, summary), "css": template("css"), "js": template("js"),
-        "facts": report_grains.to_script(facts or {}), "data": data,
+        "facts": grain_pictures.to_script(facts or {}), "data": data,
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
     path = run.path / "report.html"
@@ -48,7 +48,7 @@ def write_files(run):
 
 
 def template(ending):
-    return (HERE / f"report_page.{ending}").read_text(encoding="utf-8")
+    return (HERE / f"page.{ending}").read_text(encoding="utf-8")
 
 
 def read_summary(run):
@@ -67,7 +67,7 @@ def title(run, summary):
 def packed_grains(run):
     """(facts, data, None), or (None, "", a sentence why there are no grains)."""
     try:
-        return *report_grains.pack(run), None
+        return *grain_pictures.pack(run), None
     except NotInRun:
         return None, "", "This run has no pictures of grains (no frame with grains in grains.h5)."
     except PlotError as reason:
@@ -114,10 +114,10 @@ def duration(seconds):
 
 
 def verdict(found):
-    look = [check.name for check in found if check.verdict == report_health.LOOK]
+    look = [check.name for check in found if check.verdict == health_checks.LOOK]
     if look:
         return f'<span class="mark look">!</span> Look at: {escape(", ".join(look))}.'
-    known = sum(check.verdict == report_health.OK for check in found)
+    known = sum(check.verdict == health_checks.OK for check in found)
     rest = "" if known == len(found) else f" The other {len(found) - known} are not recorded."
     return f'<span class="mark ok">✓</span> {known} of {len(found)} checks are ok.{rest}'
 
@@ -181,9 +181,9 @@ def curves(run):
         others = len(run.dunes) - 1
         more = f" {others} more {'dune has' if others == 1 else 'dunes have'} been counted." if others else ""
         parts.append(("The dune", f"Dune {min(run.dunes)}, the largest of the first time.{more}",
-                      report_curves.figures(run.dunes[min(run.dunes)], report_curves.MORPHOLOGY)))
+                      curve_figures.figures(run.dunes[min(run.dunes)], curve_figures.MORPHOLOGY)))
     if run.history:
-        parts.append(("Flow and solver", "", report_curves.figures(run.history, report_curves.HISTORY)))
+        parts.append(("Flow and solver", "", curve_figures.figures(run.history, curve_figures.HISTORY)))
     return "".join(f'<section><h2>{name}</h2><p class="quiet">{about}</p>'
                    f'<div class="plots">{plots}</div></section>' for name, about, plots in parts if plots)
 

@@ -3,7 +3,7 @@
 (function () {
   const element = (id) => document.getElementById(id);
   const facts = JSON.parse(element("facts").textContent);
-  const last = 65534, absent = 65535;  // 16-bit places, as in report_grains.py
+  const last = 65534, absent = 65535;  // 16-bit places, as in grains.py
 
   // --- curves ---------------------------------------------------------------------------------
 
