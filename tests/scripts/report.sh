@@ -4,8 +4,6 @@ set -u
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
-
 report() {  # report KIND FAKE_ARGUMENT...: a run folder of that name, its page, and what is in it
   local kind=$1
   shift

@@ -10,8 +10,6 @@ done
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
-
 "$python" "$root/tests/support/make_fake_run.py" "$dir/run" || fail "make_fake_run"
 "$python" "$root/analysis/plot.py" "$dir/run" report > /dev/null || fail "no report"
 {

@@ -5,19 +5,6 @@ set -u
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 figures=(channel taylor_green contacts grains_and_water convergence)
 
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
-
-plot() {  # plot EXPECTED_STATUS ARGUMENT...
-  local expected=$1 status=0
-  shift
-  "$python" "$root/analysis/plot.py" validation "$@" > "$dir/out" 2> "$dir/err" || status=$?
-  [ "$status" = "$expected" ] || fail "plot validation $* ended with $status, not $expected: $(cat "$dir/err")"
-}
-
-says() {  # says TEXT: somewhere on the error stream
-  grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"
-}
-
 # Every saved result says where it comes from.
 for table in "$root"/docs/validation/*.csv; do
   if [[ $table == */channel_summary.csv ]]; then continue; fi
@@ -27,7 +14,7 @@ for table in "$root"/docs/validation/*.csv; do
   [ "$(grep -vc '^#' "$table")" -gt 2 ] || fail "$(basename "$table") has no rows"
 done
 
-plot 0 --out "$dir/all"
+plot 0 validation --out "$dir/all"
 [ ! -s "$dir/err" ] || fail "saved results draw without warnings, but: $(cat "$dir/err")"
 for figure in "${figures[@]}"; do
   picture="$dir/all/$figure.png"
@@ -43,14 +30,14 @@ awk -F, '!/^#/ { if (!columns) columns = NF; else rows += NF == columns; all += 
   fail "channel_summary.csv is not a whole table"
 
 mkdir "$dir/empty"
-plot 2 --from "$dir/empty" --out "$dir/none" contacts
+plot 2 validation --from "$dir/empty" --out "$dir/none" contacts
 says "contacts needs $dir/empty/chung_ooi_1_2.csv"
 printf 'test,overlap,force\n1,0,none\n' > "$dir/empty/chung_ooi_1_2.csv"
-plot 1 --from "$dir/empty" --out "$dir/none" contacts
+plot 1 validation --from "$dir/empty" --out "$dir/none" contacts
 says "cannot draw contacts"
-plot 2 --keep mesh9="$dir/empty"
+plot 2 validation --keep mesh9="$dir/empty"
 says 'no mesh "mesh9"; meshes: mesh1'
-plot 2 --keep mesh1="$dir/empty" --from "$dir/empty"
+plot 2 validation --keep mesh1="$dir/empty" --from "$dir/empty"
 says "needs statistics.csv and config.toml"
 status=0
 "$root/barchan" plot validation zzz 2> "$dir/err" || status=$?
