@@ -18,19 +18,19 @@ is_figure() {  # PNG under 300 kB and PDF
 }
 
 make_run "$dir/straight"
-plot 0 "$dir/straight" fig11 horns fig13 sectors
+plot 0 "$dir/straight" fig11 horns fig13 sectors morphology
 quiet
 is_figure "$dir/straight/fig11"
 is_figure "$dir/straight/fig13"
 [ -s "$dir/straight/horns.png" ] || fail "no picture of the horns"
 grep -q '80.0 % from 105-160 and 210-260 degrees (uniform 29.2 %' "$dir/out" || fail "no line on sectors"
 grep -q -- '-1e-07 N on the crest (-), -1e-07 N between the horns (-)' "$dir/out" || fail "no line on forces"
-check "$dir/straight" straight origins numbers force
+check "$dir/straight" shape straight origins numbers force
 
 make_run "$dir/turned" --angle 8 --seam --tracks --program-map --until 3
-plot 0 "$dir/turned" horn-origins horns fig13 sectors --time 3
+plot 0 "$dir/turned" horn-origins horns fig13 sectors morphology --time 3
 quiet
-check "$dir/turned" origins numbers map
+check "$dir/turned" shape origins numbers map
 plot 2 "$dir/turned" force-map --from 7 --to 8
 says "force_map needs a frame with forces between t = 7 s and 8 s"
 plot 2 "$dir/turned" fig12 --time 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares the CSV files of the horn figures with what make_horn_run.py knows; a line per difference.
 
-    check_horn_run.py RUN_DIR origins|numbers|straight|force|force_100|map ...
+    check_horn_run.py RUN_DIR shape|origins|numbers|straight|force|force_100|map ...
 """
 
 import sys
@@ -103,12 +103,32 @@ def program_map(run):
         same(name, said[name], wanted, 1e-15)
 
 
+def shape(run):
+    """W, L, H, horns and centroid found in the grains, turned and across the seams, against dune.csv, which
+    make_horn_run.py wrote from the blocks alone; and so are the curves of the morphology figure."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "analysis"))
+    from run_folder import RunFolder
+    from tracks import Tracks
+
+    table, tracks = read(run, "dune"), Tracks(RunFolder(run))
+    for index, row in enumerate(table[table["dune"] == 0]):
+        dune = tracks.main_dune(tracks.read(index), None)
+        for name in ("W", "L", "H", "horn_left", "horn_right"):
+            same(f"{name} at {row['t']} s", getattr(dune, name), row[name], 1e-8)  # single precision
+        for axis, name in enumerate(("Cx", "Cy", "Cz")):
+            difference = tracks.bed.nearest(dune.centroid - [row["Cx"], row["Cy"], row["Cz"]])[axis]
+            same(f"{name} at {row['t']} s", difference, 0.0, 1e-8)
+    curves = read(run, "figures_data/morphology")
+    for name in ("W", "L", "H", "horn_left", "horn_right"):
+        same(f"{name} of the figure", curves[name], table[table["dune"] == 0][name], 1e-10)  # nine digits
+
+
 def values(run):
     table = read(run, "figures_data/sectors")
     return dict(zip(table["quantity"], table["value"]))
 
 
-CHECKS = {"origins": origins, "numbers": numbers, "straight": straight, "map": program_map,
+CHECKS = {"shape": shape, "origins": origins, "numbers": numbers, "straight": straight, "map": program_map,
           "force": lambda run: force(run, 1.0), "force_100": lambda run: force(run, 100.0)}
 
 
