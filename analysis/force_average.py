@@ -47,16 +47,9 @@ def read(run, start=None, end=None):
     path = run.path / "force_map.csv"
     bins = read_table(path) if path.exists() and start is None and end is None else {}
     if all(name in bins for name in COLUMNS) and len(bins["n"]):
-        began, ended = program_window(run)
+        began, ended = (float(bins[name][0]) if name in bins else None for name in ("t_start", "t_end"))
         return ForceMap({name: bins[name] for name in COLUMNS}, began, ended, "mean over the run")
     return over_frames(run, start, end)
-
-
-def program_window(run):
-    """(statistics.start, last time of the run) [s]; (None, None) when not known."""
-    start = run.config.get("statistics", {}).get("start")
-    ends = [table["t"][-1] for table in (run.history, run._table("dune.csv")) if table is not None]
-    return (float(start), float(max(ends))) if start is not None and ends else (None, None)
 
 
 def over_frames(run, start, end):

@@ -37,6 +37,9 @@ class CoupledStep {
   std::vector<NamedForce> grain_forces(const SystemState& state);
   /// The last of them alone.
   Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
+  /// Its mean over the last step, what changed the grains' momentum in water; without, the same as
+  /// above. Contacts of one grain step alone would be mostly vibration.
+  Kokkos::View<Vec3*> mean_resultant_force(const GrainState& grains) const;
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
   const Ledger& ledger() const { return ledger_; }

@@ -20,14 +20,16 @@ double nearest(double difference, double length, bool periodic) {
 
 }  // namespace
 
-void ForceMap::sample(const GrainCloud& grains, std::span<const Vec3> force) {
+void ForceMap::sample(double t, const GrainCloud& grains, std::span<const Vec3> force) {
   const std::vector<DuneRow> dunes = measure_dunes(grains, domain_);
   if (dunes.empty()) return;
   const DuneRow& dune = dunes.front();
   if (step_ == 0) {  // kept: grains that leave must not move the bins
     const double sum = std::accumulate(grains.diameters.begin(), grains.diameters.end(), 0.0);
     step_ = bin_diameters * sum / static_cast<double>(grains.diameters.size());
+    start_ = t;
   }
+  end_ = t;
   for (std::size_t g = 0; g < force.size(); ++g) {
     const double x = nearest(grains.centres[3 * g] - dune.cx, domain_.length_x, domain_.periodic_x);
     const double z =
@@ -44,23 +46,23 @@ void ForceMap::sample(const GrainCloud& grains, std::span<const Vec3> force) {
 
 void ForceMap::write(const std::filesystem::path& file) const {
   if (step_ == 0) return;
-  std::string text = "r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z\n";
+  std::string text = "r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end\n";
   const double angle = 360.0 / n_angles;
   for (int a = 0; a < n_angles; ++a) {
     for (int r = 0; r < n_radii; ++r) {
       const Bin& bin = bins_[static_cast<std::size_t>(a * n_radii + r)];
       if (bin.n == 0) continue;
       const Vec3 mean = (1 / bin.n) * bin.force;
-      text +=
-          fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g}\n", r * step_,
-                      (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x, mean.y, mean.z);
+      text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
+                          r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
+                          mean.y, mean.z, start_, end_);
     }
   }
   write_atomically(file, text);
 }
 
 void ForceMap::save(CheckpointWriter& file) const {
-  std::vector<double> numbers{step_};
+  std::vector<double> numbers{step_, start_, end_};
   for (const Bin& bin : bins_) {
     numbers.insert(numbers.end(), {bin.n, bin.force.x, bin.force.y, bin.force.z});
   }
@@ -70,10 +72,10 @@ void ForceMap::save(CheckpointWriter& file) const {
 void ForceMap::load(const CheckpointReader& file) {
   if (!file.has("statistics/force_map")) return;
   const auto numbers = file.array<double>("statistics/force_map");
-  if (numbers.size() != 1 + 4 * bins_.size()) return;  // of other bins: begin anew
-  step_ = numbers[0];
+  if (numbers.size() != 3 + 4 * bins_.size()) return;  // of other bins: begin anew
+  step_ = numbers[0], start_ = numbers[1], end_ = numbers[2];
   for (std::size_t b = 0; b < bins_.size(); ++b) {
-    const double* of_bin = &numbers[1 + 4 * b];
+    const double* of_bin = &numbers[3 + 4 * b];
     bins_[b] = {of_bin[0], {of_bin[1], of_bin[2], of_bin[3]}};
   }
 }

@@ -23,7 +23,7 @@ class ForceMap {
   explicit ForceMap(const DuneDomain& domain) : domain_(domain), bins_(n_radii * n_angles) {}
 
   /// force: resultant on each grain [N], rows as in the cloud. Nothing while there is no dune.
-  void sample(const GrainCloud& grains, std::span<const Vec3> force);
+  void sample(double t, const GrainCloud& grains, std::span<const Vec3> force);
 
   struct Bin {
     double n = 0;  // grain samples
@@ -42,7 +42,8 @@ class ForceMap {
  private:
   DuneDomain domain_;
   std::vector<Bin> bins_;
-  double step_ = 0;  // width of a bin along the radius [m]; 0: no sample yet
+  double step_ = 0;             // width of a bin along the radius [m]; 0: no sample yet
+  double start_ = 0, end_ = 0;  // first and last sample [s]
 };
 
 }  // namespace barchan

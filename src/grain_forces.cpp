@@ -66,4 +66,16 @@ Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const
   return total;
 }
 
+Kokkos::View<Vec3*> CoupledStep::mean_resultant_force(const GrainState& grains) const {
+  const FluidOnGrains on = grains.fluid;
+  if (on.none) return resultant_force(grains);
+  const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
+  const auto kin = grains.kin;
+  const Real dt = dt_;
+  Kokkos::parallel_for(
+      "output: mean resultant force", grains.n,
+      KOKKOS_LAMBDA(int g) { mean(g) = (kin(g).m / dt) * (kin(g).u - on.u_start(g)); });
+  return mean;
+}
+
 }  // namespace barchan

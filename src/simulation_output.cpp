@@ -82,8 +82,8 @@ void Simulation::write_dunes() {
 void Simulation::sample_forces() {
   const HostGrains grains(*state_.grains);
   const auto force = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{}, coupled_step_.resultant_force(*state_.grains));
-  force_map_->sample(grains.cloud(), {force.data(), force.size()});
+      Kokkos::HostSpace{}, coupled_step_.mean_resultant_force(*state_.grains));
+  force_map_->sample(time(), grains.cloud(), {force.data(), force.size()});
 }
 
 void Simulation::save_statistics(CheckpointWriter& file) const {

@@ -30,6 +30,9 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
     const Vec3 total = test::force_on_first(run, "force_total");
     worst = std::max(worst, norm(total - rate) / norm(rate));
     if (displaced_density == 0) continue;
+    const Vec3 mean = Kokkos::create_mirror_view_and_copy(
+        Kokkos::HostSpace{}, run.step.mean_resultant_force(*run.state.grains))(0);
+    EXPECT_LT(norm(mean - rate), 1e-12 * norm(rate)) << what;
     const double parts = weight + test::force_on_first(run, "force_drag").y +
                          test::force_on_first(run, "force_added_mass").y;
     if (!c.fluid) worst_parts = std::max(worst_parts, std::abs(parts - total.y) / norm(rate));

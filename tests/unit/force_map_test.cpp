@@ -62,8 +62,8 @@ TEST(ForceMap, MeansOfAKnownForceAnywhereInTheChannel) {
   for (const double z : {0.02, 0.001, 0.0391}) {  // the last two lie across the seam
     const Heap heap(0.03, z, domain);
     ForceMap map(domain);
-    map.sample({heap.centres, heap.diameters}, heap.force);
-    map.sample({heap.centres, heap.diameters}, heap.force);
+    map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
+    map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
     EXPECT_NEAR(map.radius_step(), 2.5 * d, 1e-15);
     expect_known(map, 2.0 * static_cast<double>(heap.diameters.size()));
   }
@@ -72,7 +72,7 @@ TEST(ForceMap, MeansOfAKnownForceAnywhereInTheChannel) {
 TEST(ForceMap, NothingWithoutADune) {
   const TemporaryFolder folder;
   ForceMap map({.length_x = 0.1, .length_z = 0.04});
-  map.sample({}, {});
+  map.sample(0.5, {}, {});
   map.write(folder / "force_map.csv");
   EXPECT_FALSE(std::filesystem::exists(folder / "force_map.csv"));
 }
@@ -82,14 +82,14 @@ TEST(ForceMap, TableAndRestartKeepTheSums) {
   const DuneDomain domain{.length_x = 0.1, .length_z = 0.04};
   const Heap heap(0.03, 0.02, domain);
   ForceMap map(domain), again(domain);
-  map.sample({heap.centres, heap.diameters}, heap.force);
+  map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
   CheckpointWriter writer(folder.path(), 1, {.title = "map", .config = "[case]\n"});
   map.save(writer);
   again.load(CheckpointReader(writer.commit(1)));
   again.write(folder / "force_map.csv");
   const std::string text = read_text(folder / "force_map.csv");
   EXPECT_NE(text.find("\n0.001,0.0015,0,10,"), std::string::npos);
-  EXPECT_TRUE(text.starts_with("r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z\n0"));
+  EXPECT_TRUE(text.starts_with("r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end\n0"));
   map.write(folder / "straight.csv");
   EXPECT_EQ(text, read_text(folder / "straight.csv"));
 }
