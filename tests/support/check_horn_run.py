@@ -95,7 +95,7 @@ def force(run, factor):
 def program_map(run):
     """The program's own map is shown as it is; the means over the regions are those put in."""
     drawn, given = read(run, "figures_data/force_map"), read(run, "force_map")
-    for name in given.dtype.names:
+    for name in drawn.dtype.names:
         same(name, drawn[name], given[name], 1e-9 * abs(given[name]).max())
     said = values(run)
     for name, wanted in (("F_x_upstream", 3e-7), ("F_x_crest", -2e-7), ("F_x_between_horns", -1e-7),

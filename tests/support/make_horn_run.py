@@ -169,7 +169,7 @@ def main_rows(x, number, n_heap):
 
 def write_program_map(folder, measured):
     """A force_map.csv that is constant in the regions about which the paper speaks."""
-    lines = ["r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z"]
+    lines = ["r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end"]
     W, L = (np.mean([one[i] for one, t in zip(measured, TIMES) if t >= START]) for i in (1, 2))
     for ring in range(10):
         for phi in range(0, 360, 15):
@@ -183,7 +183,7 @@ def write_program_map(folder, measured):
                 F_x = -2e-7 if x <= CREST + L / 10 else -1e-7
             F_z = np.sign(z) * (4e-8 if x < CREST else -5e-8)
             lines.append(f"{2 * D * ring:.9g},{2 * D * (ring + 1):.9g},{phi},{phi + 15},{1 + ring},"
-                         f"{F_x:.9g},0,{F_z:.9g}")
+                         f"{F_x:.9g},0,{F_z:.9g},{START},{TIMES[-1]}")
     (folder / "force_map.csv").write_text("\n".join(lines) + "\n")
 
 
