@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/grid.hpp"
+#include "kernels/vec3.hpp"
 
 namespace barchan {
 
@@ -24,6 +25,12 @@ enum FlowMoment : int {
 
 using FlowSums = Kokkos::Array<FieldRef, n_flow_moments>;
 
+/// The velocity at a cell's centre.
+KOKKOS_FORCEINLINE_FUNCTION Vec3 centre_velocity(const FaceRef& u, int i, int j, int k) {
+  return {(u.x(i, j, k) + u.x(i + 1, j, k)) / 2, (u.y(i, j, k) + u.y(i, j + 1, k)) / 2,
+          (u.z(i, j, k) + u.z(i, j, k + 1)) / 2};
+}
+
 /// Adds one instant. Products are of deviations from the flow at the first sample, so that a long
 /// mean does not drown small fluctuations.
 struct AddFlowMoments {
@@ -33,10 +40,9 @@ struct AddFlowMoments {
   FieldRef first_u, first_v, first_w;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real x = (u.x(i, j, k) + u.x(i + 1, j, k)) / 2;
-    const Real y = (u.y(i, j, k) + u.y(i, j + 1, k)) / 2;
-    const Real z = (u.z(i, j, k) + u.z(i, j, k + 1)) / 2;
-    const Real a = x - first_u(i, j, k), b = y - first_v(i, j, k), c = z - first_w(i, j, k);
+    const Vec3 now = centre_velocity(u, i, j, k);
+    const Real a = now.x - first_u(i, j, k), b = now.y - first_v(i, j, k),
+               c = now.z - first_w(i, j, k);
     const Real value[n_flow_moments] = {
         a,     b,     c,     p(i, j, k), alpha_f(i, j, k), nu_t(i, j, k), a * a, b * b,
         c * c, a * b, a * c, b * c};
@@ -44,14 +50,13 @@ struct AddFlowMoments {
   }
 };
 
-/// The velocity at the cell centres.
+/// Writes it for all cells.
 struct CentreVelocity {
   FaceRef u;
   FieldRef x, y, z;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    x(i, j, k) = (u.x(i, j, k) + u.x(i + 1, j, k)) / 2;
-    y(i, j, k) = (u.y(i, j, k) + u.y(i, j + 1, k)) / 2;
-    z(i, j, k) = (u.z(i, j, k) + u.z(i, j, k + 1)) / 2;
+    const Vec3 now = centre_velocity(u, i, j, k);
+    x(i, j, k) = now.x, y(i, j, k) = now.y, z(i, j, k) = now.z;
   }
 };
 

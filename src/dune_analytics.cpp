@@ -8,11 +8,6 @@
 namespace barchan {
 namespace {
 
-/// The difference of two coordinates, to the nearest image.
-double nearest(double dx, double length, bool periodic) {
-  return periodic ? dx - std::round(dx / length) * length : dx;
-}
-
 /// Least-squares slope dx/dt of (t, x) samples [m/s]; not a number for fewer than two times.
 template <class Samples>
 double slope(const Samples& samples) {
@@ -91,15 +86,14 @@ std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
 }
 
 double DuneTracker::distance(const Track& track, const DuneRow& row) const {
-  return std::hypot(nearest(row.cx - track.x, domain_.length_x, domain_.periodic_x),
-                    nearest(row.cz - track.z, domain_.length_z, domain_.periodic_z));
+  return std::hypot(domain_.nearest_x(row.cx - track.x), domain_.nearest_z(row.cz - track.z));
 }
 
 void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
   double x = row.cx;
   if (!track.samples.empty()) {
     const double last = track.samples.back().x;
-    x = last + nearest(row.cx - last, domain_.length_x, domain_.periodic_x);
+    x = last + domain_.nearest_x(row.cx - last);
   }
   track.samples.push_back({t, x});
   // The sample before the last stays even when it is older than the window. The tolerance keeps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,15 @@ struct DuneDomain {
   double length_z = 0.0;  ///< across the flow [m]
   bool periodic_x = false;
   bool periodic_z = true;
+
+  /// Differences of coordinates, to the nearest image [m].
+  [[nodiscard]] double nearest_x(double dx) const { return nearest(dx, length_x, periodic_x); }
+  [[nodiscard]] double nearest_z(double dz) const { return nearest(dz, length_z, periodic_z); }
+
+ private:
+  static double nearest(double difference, double length, bool periodic) {
+    return periodic ? difference - std::round(difference / length) * length : difference;
+  }
 };
 
 /// What counts as a dune. Lengths are in mean grain diameters, covers are the summed cross-sections

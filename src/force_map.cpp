@@ -11,15 +11,6 @@
 
 namespace barchan {
 
-namespace {
-
-/// The difference of two coordinates, to the nearest image.
-double nearest(double difference, double length, bool periodic) {
-  return periodic ? difference - std::round(difference / length) * length : difference;
-}
-
-}  // namespace
-
 void ForceMap::sample(double t, const GrainCloud& grains, std::span<const Vec3> force) {
   const std::vector<DuneRow> dunes = measure_dunes(grains, domain_);
   if (dunes.empty()) return;
@@ -31,9 +22,8 @@ void ForceMap::sample(double t, const GrainCloud& grains, std::span<const Vec3> 
   }
   end_ = t;
   for (std::size_t g = 0; g < force.size(); ++g) {
-    const double x = nearest(grains.centres[3 * g] - dune.cx, domain_.length_x, domain_.periodic_x);
-    const double z =
-        nearest(grains.centres[3 * g + 2] - dune.cz, domain_.length_z, domain_.periodic_z);
+    const double x = domain_.nearest_x(grains.centres[3 * g] - dune.cx);
+    const double z = domain_.nearest_z(grains.centres[3 * g + 2] - dune.cz);
     const double turns = std::atan2(-z, x) / (2 * std::numbers::pi);
     const auto a = static_cast<std::size_t>((turns - std::floor(turns)) * n_angles) % n_angles;
     const double r = std::hypot(x, z) / step_;
