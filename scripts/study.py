@@ -101,13 +101,12 @@ def lists_of(table, path, section):
     return lists
 
 
-def one_at_a_time(lists, base_config, common):
+def one_at_a_time(lists, base_config, common, path):
     """The base case, then for each key its other values."""
-    fixed = {key: lookup(base_config, key) for key in lists}
+    fixed = {key: common.get(key, lookup(base_config, key)) for key in lists}
     for key, value in fixed.items():
-        if value is None:  # the file does not say: its first value in the study is the base's
-            fixed[key] = lists[key][0]
-    fixed.update({key: value for key, value in common.items() if key in lists})
+        if value is None:  # the program's default is not known here, and a guess would be wrong
+            raise StudyError(f"{path}: [vary] {key} has no value in the base case: give it there or in [set]")
     cases = [Case("base", {**common, **fixed})]
     for key, values in lists.items():
         cases += [Case(label(key, value), {**common, **fixed, key: value}, key)
@@ -161,7 +160,7 @@ def read_study(path, options):
     common = flatten(table.get("set", {}))
     cases = []
     if "vary" in table:
-        cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base_config, common)
+        cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base_config, common, path)
     cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), common)
     cases += named_cases(table.get("case", []), common, path)
     if not cases:

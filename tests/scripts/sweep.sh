@@ -26,6 +26,8 @@ grain_step = 1e-5
 size = [0.02, 0.02, 0.02]
 [grains]
 youngs_modulus = 3e5
+sliding_friction = 0.3
+restitution = 0.1
 sizes = [[2e-4, 200]]
 [initial]
 grains = { pour = { centre = [0.01, 0.01], radius = 0.003 } }
@@ -64,6 +66,7 @@ bad() {  # bad TEXT STUDY
   [ ! -e runs/bad ] || fail "'$2' left a folder"
 }
 bad 'did you mean "vary"' '[study]\nbase = "case.toml"\n[varry]\na = [1]\n'
+bad 'grains.density has no value in the base case' '[study]\nbase = "case.toml"\n[vary]\ngrains.density = [2500, 2600]\n'
 bad 'did you mean "at_once"' '[study]\nbase = "case.toml"\nat_onec = 2\n[vary]\na = [1]\n'
 bad 'no cases' '[study]\nbase = "case.toml"\n'
 bad 'must be a list' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = 0.2\n'
@@ -71,7 +74,7 @@ bad 'nowhere.toml' '[study]\nbase = "nowhere.toml"\n[vary]\ngrains.restitution =
 bad 'two cases are named "x"' '[study]\nbase = "case.toml"\n[[case]]\nname = "x"\n[[case]]\nname = "x"\n'
 bad 'must be of letters' '[study]\nbase = "case.toml"\n[[case]]\nname = "../x"\n'
 bad 'grains.restitution' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = [7.0]\n'
-bad 'did you mean "restitution"' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitutoin = [0.2]\n'
+bad 'did you mean "restitution"' '[study]\nbase = "case.toml"\n[set]\ngrains.restitutoin = 0.2\n[vary]\ngrains.restitution = [0.2]\n'
 bad 'bad.toml' '[study\n'
 
 # --- killed in the middle; the same command goes on and gives the bits of an unbroken run
