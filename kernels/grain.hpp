@@ -41,9 +41,17 @@ struct alignas(32) GrainKinematics {
   KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, padding}; }
 };
 
+/// Asks the caches of a CPU for something that is needed soon.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetch([[maybe_unused]] const T& a) {
+  KOKKOS_IF_ON_HOST((const char* begin = reinterpret_cast<const char*>(&a);
+                     for (std::size_t line = 0; line < sizeof(T); line += 64)
+                         __builtin_prefetch(begin + line);))
+}
+
 /// Lets a sub-step go ahead while the list still covers the way that the grains have come. A host
-/// that waits for a device only now and then launches sub-steps ahead of that knowledge; those behind
-/// a stale list then do nothing.
+/// that waits for a device only now and then launches sub-steps ahead of that knowledge; those
+/// behind a stale list then do nothing.
 struct Gate {
   Kokkos::View<const Real*> moved;  // largest squared distance from the list's positions [m^2] ...
   int before = 0;                   // ... as this sub-step begins: in this place

@@ -30,6 +30,12 @@ KOKKOS_FORCEINLINE_FUNCTION void add_line(const PairList& list, int slot, Real s
   if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
 }
 
+KOKKOS_FORCEINLINE_FUNCTION void fetch_line(const PairList& list, int s) {
+  if (s >= list.n_crossing) return;
+  prefetch(list.line(list.other_slot(s)));
+  prefetch(list.j(list.other_slot(s)));
+}
+
 /// Sums of the crossing contacts of the rows [begin, end) from the pair lines, of each row its own
 /// slots first, then the others.
 KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
@@ -42,6 +48,7 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
     add_line(list, p, 1, grains(g).r, has_rolling, sums[g - begin]);
   }
   for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
+    if constexpr (kLargestChunk > 1) fetch_line(list, s + 8);
     const int slot = list.other_slot(s), g = list.j(slot);
     add_line(list, slot, -1, grains(g).r, has_rolling, sums[g - begin]);
   }

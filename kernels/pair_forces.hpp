@@ -12,13 +12,28 @@ namespace barchan {
 
 /// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
 inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
+inline constexpr int kVector = kBlock < 8 ? kBlock : 8;  // pairs in the widest vectors
+
+/// Vectors of the pairs of a block, component by component: the law writes these in full vectors,
+/// in a pass of its own they become one Quad a pair.
+struct BlockOfVectors {
+  alignas(64) Real x[kBlock], y[kBlock], z[kBlock], w[kBlock];
+
+  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const Vec3& a, Real a_w) {
+    x[q] = a.x, y[q] = a.y, z[q] = a.z, w[q] = a_w;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void to_quads(int n, Quad* to) const {
+#pragma GCC ivdep
+    for (int q = 0; q < n; ++q) to[q].x = x[q], to[q].y = y[q], to[q].z = z[q], to[q].w = w[q];
+  }
+};
 
 /// As a kernel, the crossing pairs, kBlock of them per index. Every pair goes through the same full
 /// vectors, so its result does not depend on where in a block it stands.
 template <class Stiffness, class Rolling>
 struct PairForces {
-  static constexpr int kVector = kBlock < 8 ? kBlock : 8;
   static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
+  static constexpr int kAhead = 16;  // pairs that are fetched before their turn
 
   Stiffness law;
   Rolling rolling;
@@ -36,6 +51,7 @@ struct PairForces {
     Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
     Quad xi[kBlock], rolling[kBlock];
     Quad force[kBlock], twist[kBlock];  // force.w: overlap
+    BlockOfVectors new_xi, new_rolling, new_force, new_twist;
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
@@ -45,6 +61,7 @@ struct PairForces {
       Stage s;
       load(s, 0, block);
       apply_law(s, 0);
+      collect(s, 1);
       store_history(s, 0, block);
       store_line(s, 0, block);
       return;
@@ -54,12 +71,13 @@ struct PairForces {
     int slots[kBlock];
     int n = 0;
     for (int p = begin; p < end; ++p) {
+      fetch_grains(p + kAhead < list.n_crossing ? p + kAhead : p);
       slots[n] = p;
       n += is_near(p, 0) ? 1 : 0;
     }
     if (n == 0) return;
     Stage s;
-    evaluate(s, slots, n);
+    evaluate(s, slots, n, n);
     for (int q = 0; q < n; ++q) store_line(s, q, slots[q]);
   }
 
@@ -72,7 +90,7 @@ struct PairForces {
     for (int begin = 0; begin < n_active; begin += kBlock) {
       const int n = begin + kBlock < n_active ? kBlock : n_active - begin;
       const int* slots = active + begin;
-      evaluate(s, slots, n);
+      evaluate(s, slots, n, n_active - begin);
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
         const Real half_overlap = s.force[q].w / 2;
@@ -119,13 +137,26 @@ struct PairForces {
     if constexpr (kRolls) list.rolling(p) = Vec3{};
   }
 
-  /// Loads n pairs, evaluates them and stores their history.
-  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, const int* slots, int n) const {
-    for (int q = 0; q < n; ++q) load(s, q, slots[q]);
+  KOKKOS_FORCEINLINE_FUNCTION void fetch_grains(int p) const {
+    prefetch(grains(list.i(p)));
+    prefetch(grains(list.j(p)));
+  }
+
+  /// Loads n pairs, evaluates them and stores their history; `n_to_come`: entries of `slots`, those
+  /// of later blocks among them.
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, const int* slots, int n,
+                                            int n_to_come) const {
+    for (int q = 0; q < n; ++q) {
+      const int ahead = slots[q + kAhead < n_to_come ? q + kAhead : q];
+      prefetch(grains(list.j(ahead)));
+      prefetch(list.xi_t(ahead));
+      load(s, q, slots[q]);
+    }
     const int n_full = (n + kVector - 1) / kVector * kVector;
     for (int q = n; q < n_full; ++q) load(s, q, slots[0]);
 #pragma GCC ivdep
     for (int q = 0; q < n_full; ++q) apply_law(s, q);
+    collect(s, n_full);
     for (int q = 0; q < n; ++q) store_history(s, q, slots[q]);
   }
 
@@ -164,13 +195,16 @@ struct PairForces {
                                   .m_eff = m_a * m_b * (r_a + r_b) * one_over},
                       history, dt);
     const Real on = touches ? 1 : 0;
-    put(s.force[q], on * result.force, delta_n);
-    put(s.twist[q], on * result.twist, 0);
-    put(s.xi[q], on * result.xi_t, 0);
-    if constexpr (kRolls) put(s.rolling[q], on * result.rolling, 0);
+    s.new_force.put(q, on * result.force, delta_n);
+    s.new_twist.put(q, on * result.twist, 0);
+    s.new_xi.put(q, on * result.xi_t, 0);
+    if constexpr (kRolls) s.new_rolling.put(q, on * result.rolling, 0);
   }
-  KOKKOS_FORCEINLINE_FUNCTION static void put(Quad& to, const Vec3& a, Real w) {
-    to.x = a.x, to.y = a.y, to.z = a.z, to.w = w;
+  KOKKOS_FORCEINLINE_FUNCTION static void collect(Stage& s, int n) {
+    s.new_force.to_quads(n, s.force);
+    s.new_twist.to_quads(n, s.twist);
+    s.new_xi.to_quads(n, s.xi);
+    if constexpr (kRolls) s.new_rolling.to_quads(n, s.rolling);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_history(const Stage& s, int q, int p) const {
