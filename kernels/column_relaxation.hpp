@@ -5,8 +5,42 @@
 
 namespace barchan {
 
-/// Rows [0, height) of each column (i, k) take part in the relaxation; 0: none do.
-using ColumnHeights = Kokkos::View<int**, Kokkos::LayoutLeft>;
+/// Rows [0, height) of each column (i, k) take part in the relaxation; 0: none do. Kept as a field
+/// of one row, so that the columns of other ranks come as ghosts.
+struct ColumnHeights {
+  FieldRef height;
+  KOKKOS_FORCEINLINE_FUNCTION int operator()(int i, int k) const {
+    return static_cast<int>(height(i, 0, k));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void set(int i, int k, int rows) const { height(i, 0, k) = rows; }
+};
+
+/// The columns of one rank among all. Along a direction that it has to itself the neighbour across
+/// the seam is its own last column; otherwise ghosts hold it.
+struct ColumnPlaces {
+  int nx = 0, nz = 0, nx_all = 0, nz_all = 0;
+  int i_begin = 0, k_begin = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION int left(int i) const {
+    return i == 0 && nx == nx_all ? nx - 1 : i - 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int right(int i) const { return i == nx_all - 1 ? 0 : i + 1; }
+  KOKKOS_FORCEINLINE_FUNCTION int back(int k) const {
+    return k == 0 && nz == nz_all ? nz - 1 : k - 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int front(int k) const { return k == nz_all - 1 ? 0 : k + 1; }
+
+  /// Neighbouring columns never share a colour, not even across an odd periodic seam.
+  KOKKOS_FORCEINLINE_FUNCTION int colours() const {
+    return nx_all % 2 == 0 && nz_all % 2 == 0 ? 2 : 3;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int colour(int i, int k) const {
+    return (part(i + i_begin, nx_all) + part(k + k_begin, nz_all)) % colours();
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static int part(int index, int n) {
+    return index == n - 1 && n % 2 == 1 ? 2 : index % 2;
+  }
+};
 
 /// Height of a column up to its highest cell with a face where c is below `threshold`.
 struct FindColumns {
@@ -27,20 +61,20 @@ struct FindColumns {
       const Real least = Kokkos::min(c.y(i, j, k), sides(i, j, k));
       top = least < threshold ? j + 1 : top;
     }
-    height(i, k) = top;
+    height.set(i, k, top);
   }
 };
 
 /// One more layer all around: a column reaches one row above itself and its neighbours.
 struct WidenColumns {
-  int nx, ny, nz;
-  ColumnHeights before, after;
+  int ny;
+  ColumnHeights before, after;  // the former with ghosts
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
-    const int left = before(i > 0 ? i - 1 : nx - 1, k), right = before(i < nx - 1 ? i + 1 : 0, k);
-    const int back = before(i, k > 0 ? k - 1 : nz - 1), front = before(i, k < nz - 1 ? k + 1 : 0);
+    const int left = before(i - 1, k), right = before(i + 1, k);
+    const int back = before(i, k - 1), front = before(i, k + 1);
     const int around = Kokkos::max(Kokkos::max(left, right), Kokkos::max(back, front));
     const int highest = Kokkos::max(around, before(i, k) + (before(i, k) > 0 ? 1 : 0));
-    after(i, k) = Kokkos::min(highest, ny);
+    after.set(i, k, Kokkos::min(highest, ny));
   }
 };
 
@@ -74,29 +108,22 @@ struct FactoriseColumn {
 };
 
 /// Solves the columns of one colour for z with all other columns, and the cells above, as they are:
-/// a block Gauss-Seidel step. Neighbouring columns never share a colour, not even across an odd
-/// periodic seam, so the result does not depend on the order within a colour.
+/// a block Gauss-Seidel step, whose result does not depend on the order within a colour.
 struct RelaxColumns {
   ColumnEquations equations;
+  ColumnPlaces places;
   ColumnHeights height;
   FieldRef pivot, r, z;
   int colour;
-
-  KOKKOS_FORCEINLINE_FUNCTION static int part(int index, int n) {
-    return index == n - 1 && n % 2 == 1 ? 2 : index % 2;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static int colours(const GridRef& grid) {
-    return grid.nx % 2 == 0 && grid.nz % 2 == 0 ? 2 : 3;
-  }
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     const GridRef& grid = equations.grid;
     const int rows = height(i, k);
     if (rows == 0) return;
-    if ((part(i, grid.nx) + part(k, grid.nz)) % colours(grid) != colour) return;
+    if (places.colour(i, k) != colour) return;
     const FaceRef& c = equations.c;
-    const int left = i > 0 ? i - 1 : grid.nx - 1, right = i < grid.nx - 1 ? i + 1 : 0;
-    const int back = k > 0 ? k - 1 : grid.nz - 1, front = k < grid.nz - 1 ? k + 1 : 0;
+    const int left = places.left(i), right = places.right(i);
+    const int back = places.back(k), front = places.front(k);
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
     Real below = 0;  // pivot * eliminated right-hand side of the row below
     for (int j = 0; j < rows; ++j) {

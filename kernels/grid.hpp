@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "kernels/vec3.hpp"
 
@@ -60,8 +61,16 @@ struct BasicGrid {
 /// The grid as kernels see it: trivially copyable, valid while its Grid lives.
 using GridRef = BasicGrid<const Real*>;
 
-/// The grid with its memory.
+class Decomposition;  // src/decomposition.hpp
+
+/// The grid with its memory: the part that one rank owns.
 struct Grid : BasicGrid<Kokkos::View<Real*>> {
+  int nx_all = 0, nz_all = 0;                  // cells of all ranks together
+  int i_begin = 0, k_begin = 0;                // the first owned cell among them
+  std::shared_ptr<const Decomposition> ranks;  // none: one rank owns everything
+
+  /// All x-z columns times the height of the domain [m].
+  Real height_of_all_columns() const { return ly * nx_all * nz_all; }
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
     return {nx, ny, nz, dx, dz, x0, z0, lx, ly, lz, y_face_.data(), y_centre_.data()};
   }

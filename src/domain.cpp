@@ -1,19 +1,34 @@
 #include "src/domain.hpp"
 
+#include <utility>
+
+#include "src/decomposition.hpp"
 #include "src/mesh.hpp"
 
 namespace barchan {
 
-Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces) {
+Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces,
+               std::shared_ptr<const Decomposition> ranks) {
   Grid grid;
-  grid.nx = nx;
+  grid.nx = grid.nx_all = nx;
   grid.ny = static_cast<int>(y_faces.size()) - 1;
-  grid.nz = nz;
+  grid.nz = grid.nz_all = nz;
   grid.lx = lx;
   grid.ly = y_faces.back() - y_faces.front();
   grid.lz = lz;
   grid.dx = lx / nx;
   grid.dz = lz / nz;
+  if (ranks) {
+    grid.nx = ranks->x().count(ranks->along_x().place);
+    grid.nz = ranks->z().count(ranks->along_z().place);
+    grid.i_begin = ranks->x().begin(ranks->along_x().place);
+    grid.k_begin = ranks->z().begin(ranks->along_z().place);
+    grid.x0 = grid.i_begin * grid.dx;
+    grid.z0 = grid.k_begin * grid.dz;
+    grid.lx = grid.nx * grid.dx;
+    grid.lz = grid.nz * grid.dz;
+    grid.ranks = std::move(ranks);
+  }
   grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);
   grid.y_centre_ = Kokkos::View<Real*>("grid: y centres", grid.ny + 2);
 

@@ -1,38 +1,47 @@
-// Real Fourier transforms over x and z of every row of a grid field. By FFTW on the host
-// (fft_fftw.cpp) or by cuFFT on the device (fft_cufft.cpp): CMake takes one of the two.
+// Real Fourier transforms over x and z of every row of a grid field, whichever ranks own it.
 #pragma once
 
 #include <memory>
 
 #include "kernels/grid.hpp"
+#include "src/line_fft.hpp"
+#include "src/transpose.hpp"
 
 namespace barchan {
 
-/// Fourier coefficients (kx, j, kz), kx = 0 .. nx/2 fastest, y untransformed.
+/// Fourier coefficients (kx, j, kz), kx fastest, y untransformed and whole: those of one rank.
 using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
 
-/// Both directions without normalisation: backward(forward(f)) = nx nz f. Plans do not depend on
-/// timing, so that two runs give the same bits.
+/// Both directions without normalisation: backward(forward(f)) = nx nz f, with the nx, nz of all
+/// ranks. All ranks call together.
+///
+/// Over ranks the lines of x, then of z, then the rows are made whole, three transposes each way:
+///   (x, y, z) -> (x, y', z) -> along x -> (kx, y', z) -> (kx', y', z) -> along z -> (kx', y, kz')
+/// where a prime means a share of the ranks beside each other.
 class PlaneFft {
  public:
   explicit PlaneFft(const Grid& grid);
-  ~PlaneFft();
-  PlaneFft(const PlaneFft&) = delete;
-  PlaneFft& operator=(const PlaneFft&) = delete;
 
-  Spectrum make_spectrum(const char* label) const { return Spectrum(label, nx_ / 2 + 1, ny_, nz_); }
+  Spectrum make_spectrum(const char* label) const {
+    return Spectrum(label, modes_x_, ny_, modes_z_);
+  }
   /// Room for one spectrum, for whoever transforms there and back at once.
   const Spectrum& spectrum() const { return spectrum_; }
+  /// Wave number of the first mode of this rank along x and z.
+  int first_mode_x() const { return first_x_; }
+  int first_mode_z() const { return first_z_; }
   void forward(const Field& in, const Spectrum& out) const;
   /// Destroys `in`. Ghosts of `out` are left alone.
   void backward(const Spectrum& in, const Field& out) const;
 
  private:
-  struct Library;  // plans and work space
+  /// What more than one rank needs.
+  struct Shared;
 
-  int nx_, ny_, nz_;
+  int ny_ = 0, modes_x_ = 0, modes_z_ = 0, first_x_ = 0, first_z_ = 0;
   Spectrum spectrum_;
-  std::unique_ptr<Library> library_;
+  std::shared_ptr<Shared> shared_;
+  std::shared_ptr<LineFft> lines_;
 };
 
 }  // namespace barchan

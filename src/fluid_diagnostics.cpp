@@ -13,7 +13,8 @@ Real FluidSolver::friction_velocity(const FluidState& fluid) const {
   const auto add = [&](WallFlow wall, int row, Real u_wall) {
     if (wall != WallFlow::no_slip) return;
     const WallShear shear{.grid = grid_, .u = fluid.u.x, .row = row, .u_wall = u_wall};
-    slope += std::abs(sum_each_cell("fluid: wall shear", grid_, shear)) / (Real(grid_.nx) * grid_.nz);
+    slope += std::abs(sum_each_cell("fluid: wall shear", grid_, shear)) /
+             (Real(grid_.nx_all) * grid_.nz_all);
     ++walls;
   };
   add(config_.bottom, 0, 0);

@@ -121,7 +121,7 @@ Real FluidSolver::target_bulk_velocity(const FluidState& fluid) const {
 }
 
 void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const Real all_height = grid_.ly * grid_.nx * grid_.nz;
+  const Real all_height = grid_.height_of_all_columns();
   if (exchange != nullptr) {
     drive_response_ = sum_each_cell(
         "fluid: mobility", grid_,

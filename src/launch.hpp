@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "kernels/grid.hpp"
+#include "src/messages.hpp"
 
 namespace barchan {
 
@@ -124,18 +125,18 @@ void for_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   for_each_cell(label, owned_cells(grid), functor);
 }
 
-/// Sum of functor(i, j, k), which may also write. The order of additions depends only on the
-/// grid and the number of threads.
+/// Sum of functor(i, j, k), which may also write, over the cells of all ranks. The order of
+/// additions depends only on the grid and the numbers of threads and ranks.
 template <class Functor>
 Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) {
   Real sum = 0;
   const CellRange range = owned_cells(grid);
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
                           launch_detail::SumLoop<Functor>{functor, range}, sum);
-  return sum;
+  return sum_over_ranks(grid, sum);
 }
 
-/// Largest functor(i, j, k), for values that are not negative; infinity if one is not a number.
+/// Largest functor(i, j, k) over the cells of all ranks, for values that are not negative; infinity if one is not a number.
 template <class Functor>
 Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
   Real largest = 0;
@@ -143,7 +144,7 @@ Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
                           launch_detail::MaxLoop<Functor>{functor, range},
                           Kokkos::Max<Real>(largest));
-  return largest;
+  return max_over_ranks(grid, largest);
 }
 
 }  // namespace barchan

@@ -11,14 +11,22 @@ namespace {
 constexpr int sweeps = 2;
 constexpr Real hindered_below = 0.98;
 
+Grid flat(Grid grid) {
+  grid.ny = 1;
+  return grid;
+}
+
 }  // namespace
 
 LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
     : grid_(grid),
       halo_(halo),
-      found_("local: hindered", grid.nx, grid.nz),
-      height_("local: columns", grid.nx, grid.nz),
-      around_("local: around", grid.nx, grid.nz),
+      places_{grid.nx, grid.nz, grid.nx_all, grid.nz_all, grid.i_begin, grid.k_begin},
+      flat_(flat(grid)),
+      flat_halo_(flat_),
+      found_("local: hindered", flat_),
+      height_("local: columns", flat_),
+      around_("local: around", flat_),
       pivot_("local: pivot", grid),
       local_("local: correction", grid),
       kept_("local: kept", grid) {}
@@ -31,29 +39,43 @@ void LocalCorrection::each_column(const char* label, const Functor& functor) con
 void LocalCorrection::update(const FaceVector& c) {
   c_ = c;
   Kokkos::deep_copy(local_.storage, Real(0));  // also in the columns of the step before
-  each_column("local: find columns", FindColumns{c, grid_.ny, hindered_below, found_});
-  each_column("local: widen", WidenColumns{grid_.nx, grid_.ny, grid_.nz, found_, height_});
-  each_column("local: widen", WidenColumns{grid_.nx, grid_.ny, grid_.nz, height_, around_});
-  each_column("local: factorise", FactoriseColumn{{grid_, c}, height_, pivot_});
+  const ColumnHeights height = heights(height_);
+  each_column("local: find columns", FindColumns{c, grid_.ny, hindered_below, heights(found_)});
+  flat_halo_.fill(found_);
+  each_column("local: widen", WidenColumns{grid_.ny, heights(found_), height});
+  flat_halo_.fill(height_);
+  each_column("local: widen", WidenColumns{grid_.ny, height, heights(around_)});
+  each_column("local: factorise", FactoriseColumn{{grid_, c}, height, pivot_});
 }
 
 void LocalCorrection::relax(const Field& r, const Field& z, bool forward) const {
-  const int colours = RelaxColumns::colours(grid_);
+  const int colours = places_.colours();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int n = 0; n < colours; ++n) {
       const int colour = forward ? n : colours - 1 - n;
-      each_column("local: relax", RelaxColumns{{grid_, c_}, height_, pivot_, r, z, colour});
+      share(z);
+      each_column("local: relax", RelaxColumns{.equations = {grid_, c_},
+                                               .places = places_,
+                                               .height = heights(height_),
+                                               .pivot = pivot_,
+                                               .r = r,
+                                               .z = z,
+                                               .colour = colour});
     }
   }
 }
 
+void LocalCorrection::share(const Field& z) const {
+  if (grid_.ranks) halo_.fill(z);
+}
+
 void LocalCorrection::apply(const PoissonFft& poisson, const Field& r, const Field& z) const {
-  each_column("local: clear", ClearColumns{around_, local_});
+  each_column("local: clear", ClearColumns{heights(around_), local_});
   relax(r, local_, true);
   halo_.fill(local_);
-  each_column("local: subtract", SubtractLocal{grid_, c_, around_, local_, r, kept_});
+  each_column("local: subtract", SubtractLocal{grid_, c_, heights(around_), local_, r, kept_});
   poisson.solve(r, z);
-  each_column("local: add", AddLocal{around_, local_, kept_, r, z});
+  each_column("local: add", AddLocal{heights(around_), local_, kept_, r, z});
   relax(r, z, false);
 }
 

@@ -26,11 +26,17 @@ class LocalCorrection {
   template <class Functor>
   void each_column(const char* label, const Functor& functor) const;
   void relax(const Field& r, const Field& z, bool forward) const;
+  /// The columns of other ranks are ghosts: to be filled whenever they may have changed.
+  void share(const Field& z) const;
+  static ColumnHeights heights(const Field& f) { return {f}; }
 
   Grid grid_;
   Halo halo_;
   FaceVector c_;
-  ColumnHeights found_, height_, around_;  // hindered; and one layer; and another
+  ColumnPlaces places_;
+  Grid flat_;  // one row of cells
+  Halo flat_halo_;
+  Field found_, height_, around_;  // ColumnHeights: hindered; and one layer; and another
   Field pivot_, local_, kept_;
 };
 

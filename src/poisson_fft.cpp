@@ -37,28 +37,31 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
     : fft_(std::move(fft)) {
   columns_.modes = fft_->spectrum();
   columns_.ny = grid.ny;
-  columns_.singular = mass == 0;
+  const bool has_constant = fft_->first_mode_x() == 0 && fft_->first_mode_z() == 0;
+  columns_.singular = mass == 0 && has_constant && columns_.modes.size() > 0;
   factorise(grid, mass, diffusion);
 }
 
 void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
-  const int ny = grid.ny, n_modes = grid.nx / 2 + 1;
+  const int ny = grid.ny;
+  const int n_modes = columns_.modes.extent_int(0), planes = columns_.modes.extent_int(2);
   columns_.weight = Kokkos::View<Real*>("poisson: weight", ny);
   columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
   columns_.pivot =
-      Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, grid.nz);
+      Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
   const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
   const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_centre_);
   const auto weight = Kokkos::create_mirror_view(columns_.weight);
   const auto coupling = Kokkos::create_mirror_view(columns_.coupling);
   const auto pivot = Kokkos::create_mirror_view(columns_.pivot);
   const auto dy = [&](int j) { return face(j + 2) - face(j + 1); };
-  for (int j = 0; j < ny; ++j) weight(j) = dy(j) / (Real(grid.nx) * grid.nz);
+  for (int j = 0; j < ny; ++j) weight(j) = dy(j) / (Real(grid.nx_all) * grid.nz_all);
   for (int j = 1; j < ny; ++j) coupling(j) = diffusion / (centre(j + 1) - centre(j));
 
-  for (int kz = 0; kz < grid.nz; ++kz) {
+  for (int kz = 0; kz < planes; ++kz) {
     for (int kx = 0; kx < n_modes; ++kx) {
-      const Real lambda = eigenvalue(kx, grid.nx, grid.dx) + eigenvalue(kz, grid.nz, grid.dz);
+      const Real lambda = eigenvalue(fft_->first_mode_x() + kx, grid.nx_all, grid.dx) +
+                          eigenvalue(fft_->first_mode_z() + kz, grid.nz_all, grid.dz);
       for (int j = 0; j < ny; ++j) {
         const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(kx, j - 1, kz) : 0;
         const Real diagonal = (mass + diffusion * lambda) * dy(j) + coupling(j) + coupling(j + 1);
@@ -75,8 +78,8 @@ void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
 
 void PoissonFft::solve(const Field& in, const Field& out) const {
   fft_->forward(in, columns_.modes);
-  const int n_modes = static_cast<int>(columns_.modes.extent(0));
-  const int planes = static_cast<int>(columns_.modes.extent(2));
+  const int n_modes = columns_.modes.extent_int(0);
+  const int planes = n_modes > 0 ? columns_.modes.extent_int(2) : 0;
   Kokkos::parallel_for("poisson: columns", items(runs_on_host ? planes : planes * n_modes),
                        SolveColumns{columns_, n_modes});
   fft_->backward(columns_.modes, out);

@@ -20,7 +20,7 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       image_("pressure: image", grid) {}
 
 void PressureSolver::remove_mean(const Field& f) {
-  const Real height = grid_.ly * grid_.nx * grid_.nz;
+  const Real height = grid_.height_of_all_columns();
   const Real mean = sum_each_cell("pressure: mean", grid_, HeightSum{grid_, f}) / height;
   for_each_cell("pressure: remove mean", grid_, Subtract{f, mean});
 }

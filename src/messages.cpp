@@ -1,0 +1,109 @@
+#include "src/messages.hpp"
+
+#include <mpi.h>
+#if __has_include(<mpi-ext.h>)
+#include <mpi-ext.h>
+#endif
+
+#include <array>
+#include <numeric>
+#include <string>
+
+#include "src/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+MessageCounts counts;
+
+void count_message(std::size_t numbers) {
+  ++counts.messages;
+  counts.bytes += static_cast<std::int64_t>(numbers * sizeof(Real));
+}
+
+std::vector<int> starts_of(const std::vector<int>& sizes) {
+  std::vector<int> starts(sizes.size());
+  std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
+  return starts;
+}
+
+Real reduce(const Grid& grid, Real mine, MPI_Op operation) {
+  if (!grid.ranks) return mine;
+  ++counts.reductions;
+  Real all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, operation, grid.ranks->all());
+  return all;
+}
+
+}  // namespace
+
+const MessageCounts& message_counts() { return counts; }
+
+bool mpi_reaches_device() {
+  if (runs_on_host) return true;
+#if defined(MPIX_CUDA_AWARE_SUPPORT)
+  return MPIX_Query_cuda_support() == 1;
+#else
+  return false;
+#endif
+}
+
+MessageBuffer::MessageBuffer(const char* label, std::size_t n) : numbers_(label, n) {
+  if (!mpi_reaches_device())
+    staged_ = Kokkos::View<Real*, Kokkos::HostSpace>(std::string(label) + ", staged", n);
+}
+
+const Real* MessageBuffer::to_send() const {
+  if (staged_.extent(0) == 0) {
+    Kokkos::fence("messages: written");
+    return numbers_.data();
+  }
+  Kokkos::deep_copy(staged_, numbers_);
+  return staged_.data();
+}
+
+Real* MessageBuffer::to_receive() const {
+  return staged_.extent(0) == 0 ? numbers_.data() : staged_.data();
+}
+
+void MessageBuffer::received() const {
+  if (staged_.extent(0) > 0) Kokkos::deep_copy(numbers_, staged_);
+}
+
+void exchange(const RankLine& line, const Rims& rims) {
+  constexpr int forth = 1, back = 2;
+  const int n = static_cast<int>(rims.to_after.size());
+  std::array<MPI_Request, 4> requests;
+  MPI_Irecv(rims.from_before.to_receive(), n, MPI_DOUBLE, line.before(), forth, line.communicator,
+            &requests[0]);
+  MPI_Irecv(rims.from_after.to_receive(), n, MPI_DOUBLE, line.after(), back, line.communicator,
+            &requests[1]);
+  MPI_Isend(rims.to_after.to_send(), n, MPI_DOUBLE, line.after(), forth, line.communicator,
+            &requests[2]);
+  MPI_Isend(rims.to_before.to_send(), n, MPI_DOUBLE, line.before(), back, line.communicator,
+            &requests[3]);
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  rims.from_before.received();
+  rims.from_after.received();
+  count_message(rims.to_after.size());
+  count_message(rims.to_before.size());
+}
+
+void exchange_all(const RankLine& line, const MessageBuffer& send,
+                  const std::vector<int>& send_counts, const MessageBuffer& receive,
+                  const std::vector<int>& receive_counts) {
+  const std::vector<int> from = starts_of(send_counts), to = starts_of(receive_counts);
+  MPI_Alltoallv(send.to_send(), send_counts.data(), from.data(), MPI_DOUBLE, receive.to_receive(),
+                receive_counts.data(), to.data(), MPI_DOUBLE, line.communicator);
+  receive.received();
+  for (int place = 0; place < line.count; ++place) {
+    const int n = send_counts[static_cast<std::size_t>(place)];
+    if (place != line.place && n > 0) count_message(static_cast<std::size_t>(n));
+  }
+}
+
+Real sum_over_ranks(const Grid& grid, Real mine) { return reduce(grid, mine, MPI_SUM); }
+Real max_over_ranks(const Grid& grid, Real mine) { return reduce(grid, mine, MPI_MAX); }
+
+}  // namespace barchan

@@ -1,0 +1,60 @@
+// What ranks tell each other: every message of a step goes through here and is counted.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/grid.hpp"
+#include "src/decomposition.hpp"
+
+namespace barchan {
+
+/// Of this rank since the program started.
+struct MessageCounts {
+  std::int64_t messages = 0;    // sent to another rank
+  std::int64_t bytes = 0;       // in them
+  std::int64_t reductions = 0;  // single numbers summed or compared over all ranks
+};
+const MessageCounts& message_counts();
+
+/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
+/// MPI library says so. Otherwise messages pass through the host.
+bool mpi_reaches_device();
+
+/// Numbers that kernels write and MPI sends, or the other way round.
+class MessageBuffer {
+ public:
+  MessageBuffer() = default;
+  MessageBuffer(const char* label, std::size_t n);
+  /// For kernels.
+  Real* data() const { return numbers_.data(); }
+  std::size_t size() const { return numbers_.extent(0); }
+
+  /// For MPI: what kernels wrote, complete; and where to put what kernels will read.
+  const Real* to_send() const;
+  Real* to_receive() const;
+  /// After to_receive() was filled.
+  void received() const;
+
+ private:
+  Kokkos::View<Real*> numbers_;
+  Kokkos::View<Real*, Kokkos::HostSpace> staged_;  // empty where MPI reaches the numbers
+};
+
+/// Sends a rim to the rank before and one to the rank after, and takes theirs.
+struct Rims {
+  MessageBuffer to_before, to_after, from_before, from_after;
+};
+void exchange(const RankLine& line, const Rims& rims);
+
+/// Piece p of `send`, counts[p] numbers one after the other, goes to the rank at place p of the
+/// line.
+void exchange_all(const RankLine& line, const MessageBuffer& send,
+                  const std::vector<int>& send_counts, const MessageBuffer& receive,
+                  const std::vector<int>& receive_counts);
+
+/// Over the ranks that share the grid, the same bits on all of them.
+Real sum_over_ranks(const Grid& grid, Real mine);
+Real max_over_ranks(const Grid& grid, Real mine);
+
+}  // namespace barchan

@@ -1,0 +1,60 @@
+// The same problem on one rank alone and cut among all ranks, side by side.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include "src/communicator.hpp"
+#include "src/decomposition.hpp"
+#include "tests/support/flow_fields.hpp"
+
+namespace barchan::test {
+
+/// Every rank has all of the grid, and its pencil of it.
+struct SharedGrid {
+  SharedGrid(std::array<int, 3> n, std::array<double, 3> size, double first)
+      : ranks(std::make_shared<const Decomposition>(MPI_COMM_WORLD, n[0], n[2])),
+        whole(stretched_grid(n, size, first)),
+        mine(stretched_grid(n, size, first, ranks)) {}
+
+  /// Sets both to value(i, j, k) with the cells counted over all ranks.
+  template <class Value>
+  void set(const Field& of_whole, const Field& of_mine, Value value) const {
+    set_field(of_whole, whole, value);
+    set_field(of_mine, mine,
+              [&](int i, int j, int k) { return value(i + mine.i_begin, j, k + mine.k_begin); });
+  }
+
+  /// Largest difference over the owned cells of all ranks, relative to the largest magnitude.
+  double difference(const Field& of_whole, const Field& of_mine) const {
+    const HostField a = to_host(of_whole), b = to_host(of_mine);
+    double numbers[2] = {0, 0};
+    for (int k = 0; k < mine.nz; ++k)
+      for (int j = 0; j < mine.ny; ++j)
+        for (int i = 0; i < mine.nx; ++i) {
+          const double exact = a(i + mine.i_begin, j, k + mine.k_begin);
+          const double off = std::abs(b(i, j, k) - exact);
+          numbers[0] = off <= numbers[0] ? numbers[0] : off;  // keeps what is not a number
+          numbers[1] = std::max(numbers[1], std::abs(exact));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, numbers, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return numbers[0] / numbers[1];
+  }
+
+  std::shared_ptr<const Decomposition> ranks;
+  Grid whole, mine;
+};
+
+/// A number in [-1, 1] for each cell, the same on every rank.
+inline double noise(int i, int j, int k, unsigned seed = 1) {
+  std::uint64_t h = seed;
+  for (const int n : {i, j, k}) {
+    h = (h ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 29;
+  }
+  return 2 * (static_cast<double>(h >> 11) * 0x1p-53) - 1;
+}
+
+}  // namespace barchan::test
