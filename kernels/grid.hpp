@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "kernels/vec3.hpp"
 
@@ -65,9 +64,9 @@ class Decomposition;  // src/decomposition.hpp
 
 /// The grid with its memory: the part that one rank owns.
 struct Grid : BasicGrid<Kokkos::View<Real*>> {
-  int nx_all = 0, nz_all = 0;                  // cells of all ranks together
-  int i_begin = 0, k_begin = 0;                // the first owned cell among them
-  std::shared_ptr<const Decomposition> ranks;  // none: one rank owns everything
+  int nx_all = 0, nz_all = 0;            // cells of all ranks together
+  int i_begin = 0, k_begin = 0;          // the first owned cell among them
+  const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
 
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }

@@ -15,7 +15,8 @@ namespace {
 const std::string prefix = "restart_";
 const std::string ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
-constexpr std::int64_t format_version = 4;  // of restart files; 4: opposite walls share their history
+constexpr std::int64_t format_version =
+    4;  // of restart files; 4: opposite walls share their history
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");
@@ -170,20 +171,29 @@ Extents CheckpointReader::extents(const std::string& name) const {
   return file_.info(name).extents;
 }
 
+void CheckpointReader::expect(const std::string& name, const Extents& extents_here,
+                              ElementType type) const {
+  const Extents found = extents(name);
+  if (!extents_here.empty() && found != extents_here) {
+    fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
+                     to_string(found), to_string(extents_here)));
+  }
+  if (file_.info(name).type != type) fail(name + " holds numbers of another type");
+}
+
 template <class T>
 std::vector<T> CheckpointReader::array(const std::string& name, const Extents& expected) const {
-  const Extents found = extents(name);
-  if (!expected.empty() && found != expected) {
-    fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
-                     to_string(found), to_string(expected)));
-  }
-  constexpr auto wanted =
-      std::is_integral_v<T> ? ElementType::int64 : ElementType::float64;  // bit for bit
-  if (file_.info(name).type != wanted) fail(name + " holds numbers of another type");
-  return file_.read<T>(name);
+  expect(name, expected, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
+  return file_.read<T>(name);  // bit for bit
 }
 template std::vector<double> CheckpointReader::array(const std::string&, const Extents&) const;
 template std::vector<std::int64_t> CheckpointReader::array(const std::string&,
                                                            const Extents&) const;
+
+std::vector<double> CheckpointReader::part(const std::string& name, const Extents& whole,
+                                           const Extents& first, const Extents& size) const {
+  expect(name, whole, ElementType::float64);
+  return file_.read_block(name, whole, first, size);
+}
 
 }  // namespace barchan

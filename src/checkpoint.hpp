@@ -161,6 +161,10 @@ class CheckpointReader {
   template <class T>
   std::vector<T> array(const std::string& name, const Extents& expected = {}) const;
 
+  /// The block of an array of real numbers that begins at `first`; extents slowest first.
+  std::vector<double> part(const std::string& name, const Extents& whole, const Extents& first,
+                           const Extents& size) const;
+
   /// Into a host or device view of the extents it was written with.
   template <class View>
   requires Kokkos::is_view_v<View>
@@ -174,6 +178,8 @@ class CheckpointReader {
 
  private:
   CheckpointScalar find_scalar(const std::string& path) const;
+  /// Refuses an array of other extents (if these are not empty) or of another type.
+  void expect(const std::string& name, const Extents& extents_here, ElementType type) const;
   [[noreturn]] void fail(const std::string& what) const;
 
   Hdf5File file_;

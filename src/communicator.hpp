@@ -24,4 +24,24 @@ inline int rank_of(MPI_Comm communicator) {
   return rank;
 }
 
+/// Waits for all ranks.
+inline void synchronise(MPI_Comm communicator) {
+  if (mpi_runs()) MPI_Barrier(communicator);
+}
+
+/// What rank 0 says, on all ranks: for questions to the clock or the disk that they might answer
+/// differently.
+inline bool as_rank_0_says(bool answer, MPI_Comm communicator) {
+  int said = answer ? 1 : 0;
+  if (mpi_runs()) MPI_Bcast(&said, 1, MPI_INT, 0, communicator);
+  return said != 0;
+}
+
+/// True on all ranks if it is true on any.
+inline bool on_any_rank(bool answer, MPI_Comm communicator) {
+  int said = answer ? 1 : 0;
+  if (mpi_runs()) MPI_Allreduce(MPI_IN_PLACE, &said, 1, MPI_INT, MPI_MAX, communicator);
+  return said != 0;
+}
+
 }  // namespace barchan

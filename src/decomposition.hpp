@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "kernels/grid.hpp"
+#include "src/communicator.hpp"
+
 namespace barchan {
 
 /// [0, n) in consecutive parts, as equal as can be, the longer ones first.
@@ -49,5 +52,8 @@ class Decomposition {
   RankLine along_x_, along_z_;
   MPI_Comm all_ = MPI_COMM_NULL;
 };
+
+/// Among the ranks of a grid; 0 where one rank has all of it.
+inline int rank_of(const Grid& grid) { return grid.ranks ? rank_of(grid.ranks->all()) : 0; }
 
 }  // namespace barchan

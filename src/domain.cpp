@@ -1,14 +1,14 @@
 #include "src/domain.hpp"
 
-#include <utility>
+#include <stdexcept>
 
-#include "src/decomposition.hpp"
+#include "src/config_load.hpp"
 #include "src/mesh.hpp"
 
 namespace barchan {
 
 Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces,
-               std::shared_ptr<const Decomposition> ranks) {
+               const Decomposition* ranks) {
   Grid grid;
   grid.nx = grid.nx_all = nx;
   grid.ny = static_cast<int>(y_faces.size()) - 1;
@@ -27,7 +27,7 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
     grid.z0 = grid.k_begin * grid.dz;
     grid.lx = grid.nx * grid.dx;
     grid.lz = grid.nz * grid.dz;
-    grid.ranks = std::move(ranks);
+    grid.ranks = ranks;
   }
   grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);
   grid.y_centre_ = Kokkos::View<Real*>("grid: y centres", grid.ny + 2);
@@ -44,10 +44,21 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   return grid;
 }
 
-Grid make_grid(const Config& config) {
+Grid make_grid(const Config& config, const Decomposition* ranks) {
   const FluidConfig& fluid = config.fluid.value();
   return make_grid(fluid.cells[0], fluid.cells[2], config.size[0], config.size[2],
-                   stretched_faces(config.size[1], fluid.cells[1], fluid.first_cell_height));
+                   stretched_faces(config.size[1], fluid.cells[1], fluid.first_cell_height), ranks);
+}
+
+std::unique_ptr<const Decomposition> make_decomposition(const Config& config,
+                                                        MPI_Comm communicator) {
+  if (!config.fluid || rank_count(communicator) == 1) return {};
+  try {
+    const auto& cells = config.fluid->cells;
+    return std::make_unique<const Decomposition>(communicator, cells[0], cells[2]);
+  } catch (const std::runtime_error& problem) {
+    throw ConfigError({problem.what()});
+  }
 }
 
 }  // namespace barchan

@@ -1,5 +1,6 @@
 #include "src/flow_average.hpp"
 
+#include "src/field_file.hpp"
 #include "src/launch.hpp"
 
 namespace barchan {
@@ -83,10 +84,10 @@ void FlowAverage::write(const OutputFiles& output, double t, std::int64_t step) 
 
 void FlowAverage::save(CheckpointWriter& file) const {
   for (std::size_t q = 0; q < sum_.size(); ++q) {
-    file.array(std::string("statistics/sum_") + quantities[q].name, sum_[q].storage);
+    save_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
   }
   for (std::size_t q = 0; q < first_.size(); ++q) {
-    file.array(std::string("statistics/first_") + quantities[q].name, first_[q].storage);
+    save_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
   }
   file.scalar("statistics/n_field_samples", n_samples_);
   file.scalar("statistics/window_start", start_);
@@ -95,10 +96,10 @@ void FlowAverage::save(CheckpointWriter& file) const {
 void FlowAverage::load(const CheckpointReader& file) {
   if (!file.has("statistics/n_field_samples")) return;
   for (std::size_t q = 0; q < sum_.size(); ++q) {
-    file.array(std::string("statistics/sum_") + quantities[q].name, sum_[q].storage);
+    load_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
   }
   for (std::size_t q = 0; q < first_.size(); ++q) {
-    file.array(std::string("statistics/first_") + quantities[q].name, first_[q].storage);
+    load_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
   }
   n_samples_ = file.integer("statistics/n_field_samples");
   start_ = file.real("statistics/window_start");

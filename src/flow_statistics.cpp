@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "src/atomic_file.hpp"
+#include "src/communicator.hpp"
+#include "src/decomposition.hpp"
 
 namespace barchan {
 
@@ -21,12 +23,24 @@ void FlowStatistics::sample(const FluidState& fluid) {
   ++n_samples_;
 }
 
+FlowStatistics::HostSums FlowStatistics::sums_of_ranks() const {
+  const HostSums sums("statistics: of all ranks", sums_.extent(0));
+  Kokkos::deep_copy(sums, sums_);
+  if (grid_.ranks) {
+    static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(),
+                  static_cast<int>(sums.size()) * PlaneSums::n_quantities, MPI_DOUBLE, MPI_SUM,
+                  grid_.ranks->all());
+  }
+  return sums;
+}
+
 FlowStatisticsTable FlowStatistics::table() const {
   using Q = PlaneSums;
-  const auto sums = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
+  const HostSums sums = sums_of_ranks();
   const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid_.y_face_);
   const double per_sample =
-      1 / (static_cast<double>(n_samples_) * grid_.nx * static_cast<double>(grid_.nz));
+      1 / (static_cast<double>(n_samples_) * grid_.nx_all * static_cast<double>(grid_.nz_all));
   const auto mean = [&](int j, Q::Quantity q) {
     return sums(static_cast<std::size_t>(j)).value[q] * per_sample;
   };
@@ -69,17 +83,18 @@ void FlowStatistics::write(const std::filesystem::path& file) const {
     }
     text += fmt::format(",{}\n", t.n_samples);
   }
-  write_atomically(file, text);
+  if (rank_of(grid_) == 0) write_atomically(file, text);
 }
 
 void FlowStatistics::save(CheckpointWriter& file) const {
-  file.array("statistics/sums", sums_);
+  file.array("statistics/sums", sums_of_ranks());
   file.scalar("statistics/n_samples", n_samples_);
 }
 
 void FlowStatistics::load(const CheckpointReader& file) {
   if (!file.has("statistics/n_samples")) return;
   file.array("statistics/sums", sums_);
+  if (rank_of(grid_) != 0) Kokkos::deep_copy(sums_, PlaneSums{});  // one rank goes on with them
   n_samples_ = file.integer("statistics/n_samples");
 }
 

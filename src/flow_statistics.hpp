@@ -41,6 +41,10 @@ class FlowStatistics {
   void load(const CheckpointReader& file);
 
  private:
+  /// Of all ranks, on the host.
+  using HostSums = Kokkos::View<PlaneSums*, Kokkos::HostSpace>;
+  HostSums sums_of_ranks() const;
+
   Grid grid_;
   double viscosity_;
   Kokkos::View<PlaneSums*> sums_;

@@ -130,6 +130,29 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
   return values;
 }
 
+std::vector<double> Hdf5File::read_block(const std::string& name, const Extents& whole,
+                                         const Extents& first, const Extents& size) const {
+  const ArrayInfo found = info(name);
+  if (found.extents != whole) {
+    fail("it is " + to_string(found.extents) + ", expected was " + to_string(whole), name);
+  }
+  const auto [base, rest] = place_of(name);
+  const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
+  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose);
+  const std::vector<hsize_t> begin(first.begin(), first.end()), count(size.begin(), size.end());
+  check(
+      H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr),
+      name);
+  const Handle memory = dataspace(size);
+  std::uint64_t n = 0;
+  count_elements(size, n);
+  std::vector<double> values(n);
+  check(H5Dread(array.get(), memory_type<double>(), memory.get(), file.get(), H5P_DEFAULT,
+                values.data()),
+        name);
+  return values;
+}
+
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) const {
   const ArrayInfo found = info(name);

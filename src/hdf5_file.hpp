@@ -75,6 +75,11 @@ class Hdf5File {
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});
 
+  /// The block of an array of real numbers that begins at `first`; the array must have the extents
+  /// `whole`. Each rank reads its own.
+  std::vector<double> read_block(const std::string& name, const Extents& whole,
+                                 const Extents& first, const Extents& size) const;
+
   /// Type and extents of an array; extents are checked against the file's size before they are
   /// believed.
   ArrayInfo info(const std::string& name) const;

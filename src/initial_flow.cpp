@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/derived.hpp"
+#include "src/messages.hpp"
 
 namespace barchan {
 
@@ -48,7 +49,9 @@ struct Profile {
   }
 };
 
-std::vector<Mode> draw_modes(const Grid& grid, const Profile& profile, std::uint64_t seed) {
+/// size: of the whole domain [m].
+std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size,
+                             const Profile& profile, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   // Drawn by hand: the standard distributions differ between libraries.
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
@@ -60,14 +63,15 @@ std::vector<Mode> draw_modes(const Grid& grid, const Profile& profile, std::uint
   const auto most = [](double length, double wave, int cells) {
     return std::max(1, std::min(static_cast<int>(length / wave), cells / 4));
   };
-  const int most_x = most(grid.lx, scale, grid.nx), most_z = most(grid.lz, 0.5 * scale, grid.nz);
+  const double lx = size[0], lz = size[2];
+  const int most_x = most(lx, scale, grid.nx_all), most_z = most(lz, 0.5 * scale, grid.nz_all);
   std::vector<Mode> modes;
   for (int m = 0; m < n_vortex_modes + n_wave_modes; ++m) {
     const bool vortex = m < n_vortex_modes;
     Mode mode;
     mode.mx = vortex ? 0 : whole(1, most_x);
     mode.mz = vortex ? whole(std::max(1, most_z / 3), most_z) : whole(0, most_z);
-    const double k = 2 * pi * std::hypot(mode.mx / grid.lx, mode.mz / grid.lz);
+    const double k = 2 * pi * std::hypot(mode.mx / lx, mode.mz / lz);
     for (std::size_t c = 0; c < 3; ++c) {
       const double weight = vortex ? (c == 0 ? 2.0 : 0.0) : 1.0;
       mode.strength[c] = weight * (2 * uniform() - 1) / k;
@@ -94,12 +98,12 @@ HostArray potential(int c, const Grid& grid, const std::vector<double>& y_faces,
   }
   for (const Mode& mode : modes) {
     for (int i = 0; i < nx; ++i) {
-      const double x = (i + (c == 0 ? 0.5 : 0)) / grid.nx;
+      const double x = (grid.i_begin + i + (c == 0 ? 0.5 : 0)) / grid.nx_all;
       along_x[static_cast<std::size_t>(i)] =
           mode.strength[component] * std::cos(2 * pi * mode.mx * x + mode.phase_x[component]);
     }
     for (int k = 0; k < nz; ++k) {
-      const double z = (k + (c == 2 ? 0.5 : 0)) / grid.nz;
+      const double z = (grid.k_begin + k + (c == 2 ? 0.5 : 0)) / grid.nz_all;
       const double along_z = std::cos(2 * pi * mode.mz * z + mode.phase_z[component]);
       for (int j = 0; j < ny; ++j) {
         const double factor = along_z * envelope[static_cast<std::size_t>(j)];
@@ -178,7 +182,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
                         .bottom = setup.bottom == WallFlow::no_slip,
                         .top = setup.top == WallFlow::no_slip};
   const std::vector<double> faces = host_faces(grid);
-  const std::vector<Mode> modes = draw_modes(grid, profile, config.initial.seed);
+  const std::vector<Mode> modes = draw_modes(grid, config.size, profile, config.initial.seed);
   const auto psi = [&](int c) { return potential(c, grid, faces, profile, modes); };
   Curl curl{psi(0), psi(1), psi(2), grid.dx, grid.dz, {}};
   for (std::size_t j = 0; j + 1 < faces.size(); ++j) curl.dy.push_back(faces[j + 1] - faces[j]);
@@ -192,7 +196,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
       }
     }
   }
-  const double rms = std::sqrt(sum / (grid.ly * grid.nx * grid.nz));
+  const double rms = std::sqrt(sum_over_ranks(grid, sum) / grid.height_of_all_columns());
   const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
   const std::vector<double> mean = mean_profile(numbers, profile, faces, setup.kinematic_viscosity);
   set_owned(fluid.u.x, grid, [&](int i, int j, int k) {

@@ -12,10 +12,11 @@ namespace barchan {
 
 namespace {
 
-FluidState initial_fluid(const Config& config, const std::filesystem::path& file) {
-  FluidState fluid = make_fluid_state(make_grid(config));
+FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
+                         const Decomposition* ranks) {
+  FluidState fluid = make_fluid_state(make_grid(config, ranks));
   if (!file.empty()) {
-    load_flow(CheckpointReader(file), fluid);
+    load_flow(CheckpointReader(file, ranks ? ranks->all() : MPI_COMM_SELF), fluid);
     fluid.time = 0;
     // The precursor's fluid step may be another one, and grains now push the water aside.
     fluid.has_history = false;
@@ -55,9 +56,10 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
 
 }  // namespace
 
-SystemState make_initial_state(const Config& config, const InitialFiles& files) {
+SystemState make_initial_state(const Config& config, const InitialFiles& files,
+                               const Decomposition* ranks) {
   SystemState state;
-  if (config.fluid) state.fluid = initial_fluid(config, files.fluid);
+  if (config.fluid) state.fluid = initial_fluid(config, files.fluid, ranks);
   if (config.grains) {
     const bool poured = config.initial.pour.has_value();
     InitialGrains grains =

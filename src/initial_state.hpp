@@ -15,6 +15,7 @@ struct InitialFiles {
 
 /// Flow at rest, turbulent or from a file; grains poured or from a file. The grains' list and the
 /// fluid fraction come with CoupledStep::start. Throws std::runtime_error if a file does not fit.
-SystemState make_initial_state(const Config& config, const InitialFiles& files);
+SystemState make_initial_state(const Config& config, const InitialFiles& files,
+                               const Decomposition* ranks = nullptr);
 
 }  // namespace barchan

@@ -2,12 +2,16 @@
 #include <mpi.h>
 
 #include <Kokkos_Core.hpp>
+#include <chrono>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <thread>
 
 #include "barchan_version.hpp"
 #include "src/check.hpp"
 #include "src/command_line.hpp"
+#include "src/communicator.hpp"
 #include "src/config_load.hpp"
 #include "src/info.hpp"
 #include "src/report.hpp"
@@ -29,15 +33,34 @@ int execute(const barchan::CommandLine& line) {
     case Command::run: {
       Kokkos::InitializationSettings settings;
       if (line.threads > 0) settings.set_num_threads(line.threads);
+      // Ranks that share cores were asked for: a warning from each would bury the run's own lines.
+      if (barchan::rank_count(MPI_COMM_WORLD) > 1) settings.set_disable_warnings(true);
       const Kokkos::ScopeGuard kokkos(settings);
       return barchan::run_command(line);
     }
-    case Command::check: return barchan::run_check(line, std::cout);
-    case Command::info: return barchan::run_info(line.file);
-    case Command::none: break;
+    case Command::check:
+      return barchan::run_check(line, std::cout);
+    case Command::info:
+      return barchan::run_info(line.file);
+    case Command::none:
+      break;
   }
   (line.exit_code == 0 ? std::cout : std::cerr) << line.text;
   return line.exit_code;
+}
+
+/// One message and an end for all ranks. A problem that all of them met is told by rank 0, which
+/// ends the others; one that another rank met alone is told by that rank a moment later.
+int fail(const std::string& message, int exit_code) {
+  const int rank = barchan::rank_of(MPI_COMM_WORLD);
+  if (rank == 0) {
+    barchan::report::error("{}", message);
+  } else {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::cerr << "error: rank " + std::to_string(rank) + ": " + message + "\n" << std::flush;
+  }
+  if (barchan::rank_count(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, exit_code);
+  return exit_code;
 }
 
 }  // namespace
@@ -47,21 +70,12 @@ int main(int argc, char** argv) {
   try {
     const auto line = barchan::parse_command_line(
         argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
-    int ranks = 1;
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (ranks > 1) {
-      if (rank == 0) std::cerr << "this version runs on one rank; start it without mpirun, or with --ranks 1\n";
-      return 2;
-    }
-    barchan::report::start(line.quiet);
+    barchan::report::start(line.quiet, barchan::rank_of(MPI_COMM_WORLD));
     return execute(line);
-  } catch (const barchan::ConfigError& problem) {
-    std::cerr << problem.what() << '\n';
+  } catch (const barchan::ConfigError& problem) {  // all ranks read the same
+    if (barchan::rank_of(MPI_COMM_WORLD) == 0) std::cerr << problem.what() << '\n';
     return 2;
   } catch (const std::exception& problem) {
-    barchan::report::error("{}", problem.what());
-    return 1;
+    return fail(problem.what(), 1);
   }
 }

@@ -27,15 +27,15 @@ auto values_of(const View& host) {
 /// Brings one field after the other to the host and into the group of a frame.
 class FieldWriter {
  public:
-  FieldWriter(Hdf5File& file, std::string group, const Grid& grid, const GridPlace& place)
+  FieldWriter(Hdf5File& file, std::string group, const Grid& grid)
       : file_(file),
         group_(std::move(group)),
         cells_({0, 0, 0}, {grid.nx, grid.ny, grid.nz}),
         values_("output: frame field", grid.nx, grid.ny, grid.nz),
         extents_{size(grid.nz), size(grid.ny), size(grid.nx)} {
-    if (place.nx == 0) return;
-    share_ = {.whole = {size(place.nz), size(grid.ny), size(place.nx)},
-              .first = {size(place.first_k), 0, size(place.first_i)}};
+    if (!grid.ranks) return;
+    share_ = {.whole = {size(grid.nz_all), size(grid.ny), size(grid.nx_all)},
+              .first = {size(grid.k_begin), 0, size(grid.i_begin)}};
   }
 
   void centred(const std::string& name, const Field& field, const std::string& units) {
@@ -152,10 +152,9 @@ void OutputFiles::describe_grains() const {
   write_atomically(path.replace_extension(".xdmf"), grains_xdmf("grains.h5", grain_frames()));
 }
 
-void OutputFiles::write_grid(Hdf5File& file, const Grid& grid, const GridPlace& place) {
-  const bool whole = place.nx == 0;
-  const double x0 = whole ? grid.x0 : place.x0, z0 = whole ? grid.z0 : place.z0;
-  const int nx = whole ? grid.nx : place.nx, nz = whole ? grid.nz : place.nz;
+void OutputFiles::write_grid(Hdf5File& file, const Grid& grid) {
+  const double x0 = grid.x0 - grid.i_begin * grid.dx, z0 = grid.z0 - grid.k_begin * grid.dz;
+  const int nx = grid.ranks ? grid.nx_all : grid.nx, nz = grid.ranks ? grid.nz_all : grid.nz;
   std::vector<double> x, y, z;
   for (int i = 0; i <= nx; ++i) x.push_back(x0 + i * grid.dx);
   for (int k = 0; k <= nz; ++k) z.push_back(z0 + k * grid.dz);
@@ -167,10 +166,10 @@ void OutputFiles::write_grid(Hdf5File& file, const Grid& grid, const GridPlace& 
 }
 
 void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
-                               std::span<const NamedField> more, const GridPlace& place) {
-  const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid, place); };
+                               std::span<const NamedField> more) {
+  const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
   fields_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
-    FieldWriter writer(file, group, fluid.grid, place);
+    FieldWriter writer(file, group, fluid.grid);
     writer.velocity(fluid.u);
     writer.centred("p", fluid.p, "Pa");
     writer.centred("alpha_f", fluid.alpha_f, "1");
@@ -184,9 +183,9 @@ void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
                                 std::span<const NamedField> fields,
                                 const std::map<std::string, double>& attributes) const {
   FrameFile file(folder_ / "flow_average.h5", provenance_, {}, communicator_);  // begins anew
-  const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid, {}); };
+  const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid); };
   file.append(t, step, preamble, [&](Hdf5File& h5, const std::string& group) {
-    FieldWriter writer(h5, group, grid, {});
+    FieldWriter writer(h5, group, grid);
     for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
     for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
   });

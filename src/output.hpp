@@ -30,13 +30,6 @@ struct NamedForce {
   Kokkos::View<const Vec3*> values;
 };
 
-/// This rank's cells within the whole grid. Default: the whole.
-struct GridPlace {
-  int nx = 0, nz = 0;            // of the whole grid; 0: this rank has all
-  int first_i = 0, first_k = 0;  // of this rank's first cell
-  double x0 = 0, z0 = 0;         // corner of the whole grid [m]
-};
-
 /// Appends frames. Each is complete on the disk or not there at all; earlier frames survive a kill
 /// at any moment. Files are open only while a frame is written, so that viewers can look.
 /// Collective over the communicator. Members throw Hdf5Error or std::runtime_error with the reason.
@@ -50,7 +43,7 @@ class OutputFiles {
   /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
   /// Upper faces are read from the ghost layer, which must be valid.
   void write_fields(const FluidState& fluid, double t, std::int64_t step,
-                    std::span<const NamedField> more = {}, const GridPlace& place = {});
+                    std::span<const NamedField> more = {});
 
   /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
   void write_grains(const GrainState& grains, double t, std::int64_t step,
@@ -68,7 +61,7 @@ class OutputFiles {
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
-  static void write_grid(Hdf5File& file, const Grid& grid, const GridPlace& place);
+  static void write_grid(Hdf5File& file, const Grid& grid);
   void describe_fields() const;
   void describe_grains() const;
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "src/checkpoint.hpp"
+#include "src/communicator.hpp"
 #include "src/config_load.hpp"
 #include "src/config_resolved.hpp"
 #include "src/config_validate.hpp"
@@ -53,7 +54,8 @@ Outcome run_one(const Config& config, const RunOptions& options);
 fs::path final_state(const std::string& toml, const fs::path& beside) {
   const Config config = load_config(toml);
   const fs::path folder = beside / fs::path(toml).stem();
-  if (!is_finished(folder, config)) {
+  // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
+  if (!as_rank_0_says(is_finished(folder, config), MPI_COMM_WORLD)) {
     report::info("first the case it starts from: {} -> {}", config.title, folder.string());
     const auto restart = unfinished(folder, config);
     if (run_one(config, {.folder = folder, .restart = restart}) == Outcome::stopped) {
@@ -80,6 +82,11 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
 }
 
 Outcome run_one(const Config& config, const RunOptions& options) {
+  if (config.grains && rank_count(MPI_COMM_WORLD) > 1) {
+    throw ConfigError({"\"" + config.title +
+                       "\" has grains, which move on one rank in this version: start it with "
+                       "--ranks 1 (its threads use all cores)"});
+  }
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);

@@ -13,6 +13,7 @@
 
 #include "src/atomic_file.hpp"
 #include "src/checkpoint.hpp"
+#include "src/communicator.hpp"
 
 namespace barchan {
 
@@ -28,10 +29,9 @@ const std::string dune_header =
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
-  for (const char* name :
-       {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5", "fields.xdmf",
-        "grains.h5", "grains.xdmf", "tracks.h5", "statistics.csv", "flow_average.h5",
-        "flow_average.xdmf", "force_map.csv", "log.txt"}) {
+  for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
+                           "fields.xdmf", "grains.h5", "grains.xdmf", "tracks.h5", "statistics.csv",
+                           "flow_average.h5", "flow_average.xdmf", "force_map.csv", "log.txt"}) {
     std::filesystem::remove(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -73,14 +73,18 @@ void cut_table(const std::filesystem::path& file, const std::string& header, dou
   write_atomically(file, kept);
 }
 
-RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart_time, bool root)
-    : folder_(std::move(folder)), root_(root) {
-  if (!root_) return;
-  make_folder(folder_);
-  if (!restart_time) remove_results(folder_);
-  const double t = restart_time.value_or(0.0);
-  cut_table(file(history_name), history_header, t);
-  cut_table(file(dune_name), dune_header, t);
+RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart_time,
+                     MPI_Comm communicator)
+    : folder_(std::move(folder)), root_(rank_of(communicator) == 0) {
+  synchronise(communicator);  // others may still read what is about to go
+  if (root_) {
+    make_folder(folder_);
+    if (!restart_time) remove_results(folder_);
+    const double t = restart_time.value_or(0.0);
+    cut_table(file(history_name), history_header, t);
+    cut_table(file(dune_name), dune_header, t);
+  }
+  synchronise(communicator);
 }
 
 RunFolder::~RunFolder() {

@@ -2,6 +2,8 @@
 // docs/conventions.md).
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -62,7 +64,7 @@ struct RunSummary {
 /// The text of run.json.
 std::string to_json(const RunSummary& summary);
 
-/// Owns the folder's text files. On ranks other than 0 (`root` false) every member does nothing.
+/// Owns the folder's text files. On ranks other than 0 every member does nothing.
 /// Every member throws std::runtime_error naming the file and the reason.
 class RunFolder {
  public:
@@ -70,7 +72,9 @@ class RunFolder {
   /// of an earlier run in it, so read what the run starts from before.
   /// Going on from a restart: keeps them, and cuts the tables after the lines with t <=
   /// restart_time.
-  RunFolder(std::filesystem::path folder, std::optional<double> restart_time, bool root = true);
+  /// All ranks together; it is there when the call returns.
+  RunFolder(std::filesystem::path folder, std::optional<double> restart_time,
+            MPI_Comm communicator = MPI_COMM_SELF);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "src/communicator.hpp"
 #include "src/config_resolved.hpp"
 #include "src/derived.hpp"
 #include "src/domain.hpp"
@@ -16,12 +17,12 @@ namespace barchan {
 namespace {
 
 /// The state a run starts from; a restart brings its own number of grains.
-SystemState first_state(const Config& config, const RunOptions& options,
-                        const InitialFiles& files) {
-  if (!options.restart) return make_initial_state(config, files);
+SystemState first_state(const Config& config, const RunOptions& options, const InitialFiles& files,
+                        const Decomposition* ranks) {
+  if (!options.restart) return make_initial_state(config, files, ranks);
   const CheckpointReader file(*options.restart);
   SystemState state;
-  if (config.fluid) state.fluid = make_fluid_state(make_grid(config));
+  if (config.fluid) state.fluid = make_fluid_state(make_grid(config, ranks));
   if (config.grains) state.grains = grains_in_file(file, config.grains->density);
   return state;
 }
@@ -43,14 +44,15 @@ DuneDomain dune_domain(const Config& config) {
 
 Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
     : config_(config),
+      pencils_(make_decomposition(config, ranks_)),
       provenance_(make_provenance(config)),
-      state_(first_state(config, options, files)),
+      state_(first_state(config, options, files, pencils_.get())),
       coupled_step_(config, state_),
       restart_time_(time_of(options.restart)),
-      folder_(options.folder, restart_time_),
-      output_(options.folder, provenance_, restart_time_),
+      folder_(options.folder, restart_time_, ranks_),
+      output_(options.folder, provenance_, restart_time_, ranks_),
       tracker_(dune_domain(config)) {
-  report::log_to(folder_.file("log.txt"), restart_time_.has_value());
+  if (rank_of(ranks_) == 0) report::log_to(folder_.file("log.txt"), restart_time_.has_value());
   folder_.write_config(provenance_.config);
   end_step_ = fluid_steps(config.time);
   if (config.statistics) {
@@ -59,7 +61,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
     if (config.statistics->grain_forces) force_map_.emplace(dune_domain(config));
   }
   if (options.restart) {
-    const CheckpointReader file(*options.restart);
+    const CheckpointReader file(*options.restart, ranks_);
     load_state(file, state_, coupled_step_);
     step_ = file.integer("step");
     tracker_.set_state(file.array<double>("dunes"));
@@ -84,15 +86,14 @@ Outcome Simulation::run() {
   try {
     while (step_ < end_step_) {
       one_step();
+      agree();
       write_due(false);
       show_progress();
-      const double limit = config_.time.wall_clock_limit;
-      const bool out_of_time = limit > 0 && seconds_since(wall_start_) > limit;
-      if (stop_signal() == 0 && !out_of_time) continue;
+      if (!stop_requested_ && !out_of_time_) continue;
       progress_.finish();
       write_restart();
       const std::string why =
-          out_of_time ? "the wall-clock limit was reached" : "stopped on request";
+          out_of_time_ ? "the wall-clock limit was reached" : "stopped on request";
       write_summary("stopped", why);
       report::info("{}; go on with --restart {}", why, last_restart()->string());
       return Outcome::stopped;
@@ -147,11 +148,15 @@ bool Simulation::due(double interval) const {
   return step_ % every == 0;
 }
 
-bool Simulation::restart_due() const {
-  if (due(config_.restart.interval)) return true;
-  return config_.restart.wall_interval > 0 &&
-         seconds_since(last_restart_at_) > config_.restart.wall_interval;
+/// Clocks and signals, which may differ between ranks.
+void Simulation::agree() {
+  const double limit = config_.time.wall_clock_limit, wall = config_.restart.wall_interval;
+  out_of_time_ = limit > 0 && as_rank_0_says(seconds_since(wall_start_) > limit, ranks_);
+  restart_wanted_ = wall > 0 && as_rank_0_says(seconds_since(last_restart_at_) > wall, ranks_);
+  stop_requested_ = on_any_rank(stop_signal() != 0, ranks_);
 }
+
+bool Simulation::restart_due() const { return due(config_.restart.interval) || restart_wanted_; }
 
 void Simulation::write_due(bool first) {
   const OutputConfig& o = config_.output;
@@ -195,7 +200,7 @@ void Simulation::show_progress() {
   p.grain_steps_per_second = static_cast<double>(grain_steps_) / seconds;
   if (state_.fluid) {
     const Grid& g = state_.fluid->grid;
-    p.cell_steps_per_second = steps * g.nx * g.ny * g.nz / seconds;
+    p.cell_steps_per_second = steps * g.nx_all * g.ny * g.nz_all / seconds;
     p.cfl = coupled_step_.fluid_report().courant;
     p.pressure_iterations = coupled_step_.fluid_report().pressure_iterations;
   }

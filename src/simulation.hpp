@@ -1,10 +1,12 @@
 // One run: the time loop, and what is written when.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "src/config.hpp"
 #include "src/coupled_step.hpp"
+#include "src/decomposition.hpp"
 #include "src/dune_analytics.hpp"
 #include "src/flow_average.hpp"
 #include "src/flow_statistics.hpp"
@@ -24,8 +26,8 @@ struct RunOptions {
 /// How a run ended.
 enum class Outcome { done, stopped };
 
-/// Owns the state and the run folder. Members throw std::runtime_error with a sentence for the user;
-/// the summary then says "failed" and names the last good restart.
+/// Owns the state and the run folder. Members throw std::runtime_error with a sentence for the
+/// user; the summary then says "failed" and names the last good restart.
 class Simulation {
  public:
   Simulation(const Config& config, const RunOptions& options, const InitialFiles& files);
@@ -55,6 +57,7 @@ class Simulation {
   double time() const { return static_cast<double>(step_) * config_.time.fluid_step; }
   bool due(double interval) const;
   bool restart_due() const;
+  void agree();
   RunSummary summary(const std::string& status, const std::string& message) const;
 
   /// Sums and extremes since the last line of history.csv.
@@ -63,7 +66,9 @@ class Simulation {
     double continuity_residual = 0, courant = 0;
   };
 
+  MPI_Comm ranks_ = MPI_COMM_WORLD;
   Config config_;
+  std::unique_ptr<const Decomposition> pencils_;  // none: one rank has all of the grid
   Provenance provenance_;
   SystemState state_;
   CoupledStep coupled_step_;
@@ -84,6 +89,7 @@ class Simulation {
   std::int64_t grain_steps_ = 0;
   std::int64_t iterations_sum_ = 0, iterations_max_ = 0;
   double max_courant_ = 0, max_overlap_ = 0, max_residual_ = 0;
+  bool out_of_time_ = false, stop_requested_ = false, restart_wanted_ = false;  // on all ranks
 };
 
 }  // namespace barchan

@@ -1,6 +1,7 @@
 // What a run writes: tables, frames, restarts, summary.
 #include <algorithm>
 
+#include "src/communicator.hpp"
 #include "src/run_identity.hpp"
 #include "src/simulation.hpp"
 #include "src/state_file.hpp"
@@ -111,7 +112,7 @@ void Simulation::write_grains() {
 }
 
 void Simulation::write_restart() {
-  CheckpointWriter file(folder_.path(), step_, provenance_);
+  CheckpointWriter file(folder_.path(), step_, provenance_, ranks_);
   save_state(file, state_);
   file.scalar("t", time());
   file.scalar("step", step_);
@@ -136,6 +137,7 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
   s.git_hash = provenance_.git_hash;
   s.backend = Kokkos::DefaultExecutionSpace::name();
   s.device = device_name();
+  s.ranks = rank_count(ranks_);
   s.threads = Kokkos::DefaultExecutionSpace().concurrency();
   s.steps = step_;
   s.simulated_seconds = time();
@@ -148,7 +150,8 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
   s.grain_steps_per_second = static_cast<double>(grain_steps_) / wall;
   if (state_.fluid) {
     const Grid& g = state_.fluid->grid;
-    s.cell_steps_per_second = static_cast<double>(step_ - start_step_) * g.nx * g.ny * g.nz / wall;
+    s.cell_steps_per_second =
+        static_cast<double>(step_ - start_step_) * g.nx_all * g.ny * g.nz_all / wall;
   }
   s.pressure_iterations_mean = static_cast<double>(iterations_sum_) / steps;
   s.pressure_iterations_max = iterations_max_;

@@ -3,26 +3,28 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "src/field_file.hpp"
+
 namespace barchan {
 
 namespace {
 
-/// Calls f(name, view) for every array of the flow that the next step reads.
+/// Calls f(name, field) for every field of the flow that the next step reads.
 template <class F>
-void for_each_fluid_array(const FluidState& s, const F& f) {
+void for_each_field(const FluidState& s, const F& f) {
   const auto faces = [&](const std::string& name, const FaceVector& v) {
-    f(name + "_x", v.x.storage);
-    f(name + "_y", v.y.storage);
-    f(name + "_z", v.z.storage);
+    f(name + "_x", v.x);
+    f(name + "_y", v.y);
+    f(name + "_z", v.z);
   };
   faces("fluid/u", s.u);
   faces("fluid/rate_previous", s.rate_previous);
   faces("fluid/du_dt", s.du_dt);
-  f("fluid/p", s.p.storage);
-  f("fluid/p_previous", s.p_previous.storage);
-  f("fluid/alpha_f", s.alpha_f.storage);
-  f("fluid/alpha_f_previous", s.alpha_f_previous.storage);
-  f("fluid/nu_t", s.nu_t.storage);
+  f("fluid/p", s.p);
+  f("fluid/p_previous", s.p_previous);
+  f("fluid/alpha_f", s.alpha_f);
+  f("fluid/alpha_f_previous", s.alpha_f_previous);
+  f("fluid/nu_t", s.nu_t);
 }
 
 /// The first n rows of a per-grain array, as a contiguous copy or window.
@@ -77,7 +79,8 @@ void save_state(CheckpointWriter& file, const SystemState& state) {
   const auto write = [&file](const std::string& name, const auto& view) { file.array(name, view); };
   if (state.fluid) {
     const FluidState& s = *state.fluid;
-    for_each_fluid_array(s, write);
+    for_each_field(
+        s, [&](const std::string& name, const Field& f) { save_field(file, name, s.grid, f); });
     file.scalar("fluid/drive", s.drive);
     file.scalar("fluid/has_history", std::int64_t{s.has_history});
     file.scalar("fluid/dt_previous", s.dt_previous);
@@ -102,7 +105,8 @@ GrainState grains_in_file(const CheckpointReader& file, Real density) {
   InitialGrains rows;
   rows.id = file.array<std::int64_t>("grains/id");
   const std::size_t n = rows.id.size();
-  const auto numbers = file.array<double>("grains/kin", {n, sizeof(GrainKinematics) / sizeof(double)});
+  const auto numbers =
+      file.array<double>("grains/kin", {n, sizeof(GrainKinematics) / sizeof(double)});
   rows.diameter.resize(n);
   rows.x.resize(n);
   rows.u.resize(n);
@@ -120,8 +124,9 @@ GrainState grains_in_file(const CheckpointReader& file, Real density) {
 }
 
 void load_flow(const CheckpointReader& file, FluidState& fluid) {
-  for_each_fluid_array(
-      fluid, [&file](const std::string& name, const auto& view) { file.array(name, view); });
+  for_each_field(fluid, [&](const std::string& name, const Field& f) {
+    load_field(file, name, fluid.grid, f);
+  });
   fluid.drive = file.real("fluid/drive");
   fluid.has_history = file.integer("fluid/has_history") != 0;
   fluid.dt_previous = file.real("fluid/dt_previous");

@@ -81,9 +81,9 @@ struct HostGrid {
 
 /// Stretched unless `first` is zero.
 inline Grid stretched_grid(std::array<int, 3> n, std::array<double, 3> size, double first,
-                           std::shared_ptr<const Decomposition> ranks = nullptr) {
+                           const Decomposition* ranks = nullptr) {
   return make_grid(n[0], n[2], size[0], size[2], stretched_faces(size[1], n[1], first),
-                   std::move(ranks));
+                   ranks);
 }
 
 inline Config flow_config(std::array<int, 3> n, std::array<double, 3> size, double first) {

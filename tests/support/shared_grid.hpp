@@ -15,9 +15,9 @@ namespace barchan::test {
 /// Every rank has all of the grid, and its pencil of it.
 struct SharedGrid {
   SharedGrid(std::array<int, 3> n, std::array<double, 3> size, double first)
-      : ranks(std::make_shared<const Decomposition>(MPI_COMM_WORLD, n[0], n[2])),
+      : ranks(std::make_unique<const Decomposition>(MPI_COMM_WORLD, n[0], n[2])),
         whole(stretched_grid(n, size, first)),
-        mine(stretched_grid(n, size, first, ranks)) {}
+        mine(stretched_grid(n, size, first, ranks.get())) {}
 
   /// Sets both to value(i, j, k) with the cells counted over all ranks.
   template <class Value>
@@ -43,7 +43,7 @@ struct SharedGrid {
     return numbers[0] / numbers[1];
   }
 
-  std::shared_ptr<const Decomposition> ranks;
+  std::unique_ptr<const Decomposition> ranks;
   Grid whole, mine;
 };
 

@@ -6,6 +6,7 @@
 
 #include "src/checkpoint.hpp"
 #include "src/communicator.hpp"
+#include "src/decomposition.hpp"
 #include "src/fluid_state.hpp"
 #include "src/grain_state.hpp"
 #include "src/output.hpp"
@@ -40,13 +41,17 @@ class SharedFolder {
 
 constexpr int nx = 3, ny = 2, nz = 2;  // of each rank; the ranks follow each other along x
 
-FluidState flow_of(int rank) {
+FluidState flow_of(int rank, const Decomposition* ranks) {
   FluidState flow;
   Grid& grid = flow.grid;
   grid.nx = nx;
   grid.ny = ny;
   grid.nz = nz;
   grid.dx = grid.dz = 1;
+  grid.ranks = ranks;
+  grid.nx_all = nx * rank_count(world);
+  grid.nz_all = nz;
+  grid.i_begin = nx * rank;
   grid.x0 = nx * rank;
   grid.y_face_ = Kokkos::View<Real*>("y faces", ny + 3);
   flow.u = {.x = Field("u", grid), .y = Field("v", grid), .z = Field("w", grid)};
@@ -70,17 +75,17 @@ GrainState grains_of(int rank) {
 TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   const int ranks = rank_count(world), rank = rank_of(world);
   const SharedFolder folder;
-  const GridPlace place{.nx = nx * ranks, .nz = nz, .first_i = nx * rank};
+  const Decomposition pencils(world, nx * ranks, nz);
   {
     OutputFiles output(folder.path(), {.title = "parallel"}, {}, world);
     for (int k = 0; k < 3; ++k) {
-      output.write_fields(flow_of(rank), k, k, {}, place);
+      output.write_fields(flow_of(rank, &pencils), k, k);
       output.write_grains(grains_of(rank), k, k);
     }
   }
   OutputFiles output(folder.path(), {.title = "parallel"}, 1.0, world);
   EXPECT_EQ(output.field_frames().size(), 2u);
-  output.write_fields(flow_of(rank), 2, 2, {}, place);
+  output.write_fields(flow_of(rank, &pencils), 2, 2);
 
   const Hdf5File fields(folder.path() / "fields.h5", Hdf5File::Mode::read, world);
   const auto wide = static_cast<std::uint64_t>(nx * ranks);

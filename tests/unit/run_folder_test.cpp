@@ -144,15 +144,6 @@ TEST(RunFolder, ARestartKeepsResults) {
   EXPECT_TRUE(std::filesystem::exists(folder / "restart_0000000100.h5"));
 }
 
-TEST(RunFolder, OtherRanksTouchNothing) {
-  const TemporaryFolder folder;
-  RunFolder run(folder / "x", {}, false);
-  run.append(history_row(0));
-  run.write_config("");
-  run.write_summary({});
-  EXPECT_FALSE(std::filesystem::exists(folder / "x"));
-}
-
 TEST(RunFolder, ProblemsNameTheFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
+# of a rank, and what is refused.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+options=(--quiet --bind-to none --oversubscribe)
+[ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
+
+fail() { echo "FAILED: $*"; exit 1; }
+run() {  # run RANKS ARGUMENT...
+  local ranks=$1
+  shift
+  if [ "$ranks" -eq 1 ]; then
+    "$BARCHAN_PROGRAM" run flow.toml --quiet "$@"
+  else
+    mpirun "${options[@]}" -np "$ranks" "$BARCHAN_PROGRAM" run flow.toml --quiet "$@"
+  fi
+}
+
+cat > flow.toml <<'TOML'
+[case]
+title = "Small channel"
+[time]
+end = 0.03
+fluid_step = 1e-3
+[domain]
+size = [0.05, 0.025, 0.02]
+[fluid]
+cells = [31, 16, 21]
+first_cell_height = 5e-4
+mean_velocity = 0.24
+[initial]
+fluid = "turbulent"
+[output]
+fields_interval = 0.01
+history_interval = 0.005
+[statistics]
+start = 0.005
+interval = 0.005
+fields = true
+TOML
+
+run 1 --out one
+run 6 --out six
+grep -q '"ranks": 6' six/run.json || fail "run.json does not say how many ranks ran"
+"$here/../support/same_results.py" one six || fail "six ranks and one differ"
+
+run 2 --out parts --set time.end=0.01
+run 3 --out parts --set time.end=0.02 --restart parts/restart_0000000010.h5
+run 1 --out parts --restart parts/restart_0000000020.h5
+"$here/../support/same_results.py" one parts || fail "2, then 3, then 1 ranks and one differ"
+
+says() {  # says STATUS WORDS RANKS ARGUMENT...: refused with this exit code, the words once
+  local status=0 expected=$1 words=$2
+  shift 2
+  run "$@" > out 2>&1 || status=$?
+  [ "$status" -eq "$expected" ] || { cat out; fail "exit code $status, expected $expected: $*"; }
+  [ "$(grep -c "$words" out)" -eq 1 ] || { cat out; fail "'$words' not said once: $*"; }
+}
+says 2 "4 ranks cannot share 5 x 3 columns" 4 --out thin --set 'fluid.cells=[5, 16, 3]'
+[ ! -e thin ] || fail "a refused run left a folder"
+says 2 "unknown key" 2 --out wrong --set fluid.cels=3
+printf 'id,d,x,y,z\n1,2e-4,0.02,1e-4,0.01\n' > x.csv
+says 2 "has grains, which move on one rank" 2 --out grains --set grains.density=2500 \
+  --set 'initial.grains="x.csv"' --set time.grain_step=1e-5
+says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
+
+long() {  # starts a long run on two ranks; its ranks' process numbers in $ranks
+  mpirun "${options[@]}" -np 2 "$BARCHAN_PROGRAM" run flow.toml --quiet --out "$1" --set time.end=1000 \
+    --set statistics.fields=false --set output.fields_interval=0 > "$1.out" 2>&1 < /dev/null &
+  job=$!
+  for _ in $(seq 100); do
+    if [ -e "$1/history.csv" ] && [ "$(wc -l < "$1/history.csv")" -ge 3 ]; then break; fi
+    sleep 0.1
+  done
+  ranks="$(cat "/proc/$job/task/$job/children")"
+  [ "$(wc -w <<< "$ranks")" -eq 2 ] || { cat "$1.out"; fail "the long run is not there"; }
+}
+long stopped
+kill -TERM "${ranks%% *}"  # one rank hears it, both stop
+status=0
+wait "$job" || status=$?
+[ "$status" -eq 3 ] || { cat stopped.out; fail "exit code $status after SIGTERM, expected 3"; }
+grep -q '"status": "stopped"' stopped/run.json || fail "run.json does not say that the run was stopped"
+compgen -G "stopped/restart_*.h5" > /dev/null || fail "no restart file after SIGTERM"
+
+long killed
+kill -KILL "${ranks%% *}"
+SECONDS=0
+status=0
+wait "$job" || status=$?
+[ "$status" -ne 0 ] && [ "$SECONDS" -lt 20 ] || fail "a killed rank: exit code $status after $SECONDS s"
+echo "ok"
