@@ -12,21 +12,35 @@ bool is_thick_enough(int n, int parts) {
   return parts == 1 || n / parts >= Decomposition::kThinnest;
 }
 
-/// Columns along the two cuts across a direction that is cut into `parts`; they are as long as the
-/// other direction's part.
-int rims(int parts, int n_other, int parts_other) {
-  return parts == 1 ? 0 : 2 * Split{.n = n_other, .parts = parts_other}.count(0);
-}
+/// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
+/// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
+/// or written six times on its way; some 40 fields whose rims are exchanged; and what a message
+/// costs however short it is, about 400 numbers a row. Measured: docs/performance.md.
+struct Cost {
+  int nx, nz;
+  double of(int along_x, int along_z) const {
+    const double cells = double(nx) * nz / (double(along_x) * along_z);
+    return transposes(along_x, 3, 4, cells) + transposes(along_z, 2, 2, cells) +
+           40 * (rims(along_x, nz, along_z) + rims(along_z, nx, along_x));
+  }
+  static double transposes(int parts, int numbers, int times, double cells) {
+    return parts == 1 ? 0 : 6 * numbers * cells + 400 * times * (parts - 1);
+  }
+  static double rims(int parts, int n_other, int parts_other) {
+    return parts == 1 ? 0 : 2.0 * Split{.n = n_other, .parts = parts_other}.count(0);
+  }
+};
 
 /// Ranks along x, or 0 if `count` of them do not fit.
 int best_count_along_x(int count, int nx, int nz) {
-  int best = 0, least = std::numeric_limits<int>::max();
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (int along_x = 1; along_x <= count; ++along_x) {
     const int along_z = count / along_x;
     if (along_x * along_z != count) continue;
     if (!is_thick_enough(nx, along_x) || !is_thick_enough(nz, along_z)) continue;
-    const int sent = rims(along_x, nz, along_z) + rims(along_z, nx, along_x);
-    if (sent < least) least = sent, best = along_x;
+    const double cost = Cost{nx, nz}.of(along_x, along_z);
+    if (cost < least) least = cost, best = along_x;
   }
   return best;
 }
@@ -51,11 +65,11 @@ RankLine line_of(MPI_Comm all, int colour, int key) {
 
 }  // namespace
 
-Decomposition::Decomposition(MPI_Comm all, int nx, int nz) {
+Decomposition::Decomposition(MPI_Comm all, int nx, int nz, int along_x) {
   int count = 1, rank = 0;
   MPI_Comm_size(all, &count);
   MPI_Comm_rank(all, &rank);
-  const int count_x = best_count_along_x(count, nx, nz);
+  const int count_x = along_x > 0 ? along_x : best_count_along_x(count, nx, nz);
   if (count_x == 0) refuse(count, nx, nz);
   MPI_Comm_dup(all, &all_);
   x_ = {.n = nx, .parts = count_x};

@@ -34,8 +34,9 @@ class Decomposition {
   static constexpr int kThinnest = 2;
 
   /// Among all ranks of `all`, which call this together. Throws std::runtime_error if there are too
-  /// many of them for pencils of kThinnest cells; it says how many there may be.
-  Decomposition(MPI_Comm all, int nx, int nz);
+  /// many of them for pencils of kThinnest cells; it says how many there may be. `along_x`: so many
+  /// ranks along x, a divisor of their number; 0: as many as cost least.
+  Decomposition(MPI_Comm all, int nx, int nz, int along_x = 0);
   ~Decomposition();
   Decomposition(const Decomposition&) = delete;
   Decomposition& operator=(const Decomposition&) = delete;

@@ -1,8 +1,6 @@
 // Real Fourier transforms over x and z of every row of a grid field, whichever ranks own it.
 #pragma once
 
-#include <memory>
-
 #include "kernels/grid.hpp"
 #include "src/line_fft.hpp"
 #include "src/transpose.hpp"
@@ -23,7 +21,8 @@ class PlaneFft {
   explicit PlaneFft(const Grid& grid);
 
   Spectrum make_spectrum(const char* label) const {
-    return Spectrum(label, modes_x_, ny_, modes_z_);
+    const auto extents = columns_.joined_extents();
+    return Spectrum(label, extents[0], extents[1], extents[2]);
   }
   /// Room for one spectrum, for whoever transforms there and back at once.
   const Spectrum& spectrum() const { return spectrum_; }
@@ -35,13 +34,18 @@ class PlaneFft {
   void backward(const Spectrum& in, const Field& out) const;
 
  private:
-  /// What more than one rank needs.
-  struct Shared;
+  /// The spectra on the way; where a transpose has nothing to do, two of them are one.
+  struct Way {
+    Spectrum rows, planes;  // (all kx, y', z), (kx', y', all z)
+  };
+  Way way_to(const Spectrum& modes) const;
 
-  int ny_ = 0, modes_x_ = 0, modes_z_ = 0, first_x_ = 0, first_z_ = 0;
+  Transpose rows_, planes_, columns_;  // that make the lines of x, the lines of z, the rows whole
+  LineFft lines_;
+  Kokkos::View<Real*> lines_of_x_;
+  Spectrum modes_of_rows_, modes_of_planes_;  // empty where not needed
+  int first_x_ = 0, first_z_ = 0;
   Spectrum spectrum_;
-  std::shared_ptr<Shared> shared_;
-  std::shared_ptr<LineFft> lines_;
 };
 
 }  // namespace barchan

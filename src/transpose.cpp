@@ -42,6 +42,7 @@ Transpose::Transpose(const RankLine& line, std::array<int, 3> whole, int shared,
   const Split of_split{.n = whole[joined_axis], .parts = line.count};
   cut_[cut_axis] = of_shared.count(line.place);
   joined_[joined_axis] = of_split.count(line.place);
+  if (is_trivial()) return;
   cut_side_ = make_side(cut_, split, of_split, "transpose: cut");
   joined_side_ = make_side(joined_, shared, of_shared, "transpose: joined");
 }

@@ -23,6 +23,8 @@ class Transpose {
   /// `whole`: extents with both axes whole.
   Transpose(const RankLine& line, std::array<int, 3> whole, int shared, int split, int width);
 
+  /// With one rank in the line both arrays are the same, and nobody has to move anything.
+  bool is_trivial() const { return line_.count == 1; }
   std::array<int, 3> cut_extents() const { return cut_; }
   std::array<int, 3> joined_extents() const { return joined_; }
   void join(const StridedArray& cut, const StridedArray& joined) const;

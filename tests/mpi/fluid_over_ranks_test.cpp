@@ -1,4 +1,5 @@
-// The flow on pencils against the same flow on one rank.
+// The flow on pencils against the same flow on one rank, in all shapes that the ranks can be put
+// in.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,46 +19,55 @@ using test::SharedGrid;
 // Odd numbers, no common divisors: pencils of unequal size.
 const std::array<int, 3> kCells{21, 7, 15};
 const std::array<double, 3> kSize{0.05, 0.025, 0.036};
-SharedGrid awkward() { return {kCells, kSize, 1e-3}; }
+SharedGrid awkward(int along_x) { return {kCells, kSize, 1e-3, along_x}; }
 
 TEST(HaloOverRanks, GhostsAreTheCellsAcross) {
-  const SharedGrid grid = awkward();
-  const Field f("f", grid.mine), whole("f", grid.whole);
-  grid.set(whole, f, [](int i, int j, int k) { return noise(i, j, k); });
-  Halo(grid.mine).fill(f);
-  const auto got = test::to_host(f);
-  const int nx = kCells[0], nz = kCells[2];
-  for (int k = -1; k <= grid.mine.nz; ++k)
-    for (int j = 0; j < grid.mine.ny; ++j)
-      for (int i = -1; i <= grid.mine.nx; ++i) {
-        ASSERT_EQ(got(i, j, k),
-                  noise((i + grid.mine.i_begin + nx) % nx, j, (k + grid.mine.k_begin + nz) % nz));
-      }
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid = awkward(along_x);
+    const Field f("f", grid.mine), whole("f", grid.whole);
+    grid.set(whole, f, [](int i, int j, int k) { return noise(i, j, k); });
+    Halo(grid.mine).fill(f);
+    const auto got = test::to_host(f);
+    const int nx = kCells[0], nz = kCells[2];
+    for (int k = -1; k <= grid.mine.nz; ++k)
+      for (int j = 0; j < grid.mine.ny; ++j)
+        for (int i = -1; i <= grid.mine.nx; ++i) {
+          ASSERT_EQ(got(i, j, k),
+                    noise((i + grid.mine.i_begin + nx) % nx, j, (k + grid.mine.k_begin + nz) % nz));
+        }
+  }
 }
 
 TEST(HaloOverRanks, OneMessageToEachSide) {
-  const SharedGrid grid = awkward();
-  const Halo halo(grid.mine);
-  const Field f("f", grid.mine);
-  const MessageCounts before = message_counts();
-  halo.fill(f);
-  const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
-  EXPECT_EQ(message_counts().messages - before.messages, 2 * cut_x + 2 * cut_z);
-  const int rims = 2 * cut_x * (grid.mine.ny + 2) * grid.mine.nz +
-                   2 * cut_z * (grid.mine.ny + 2) * (grid.mine.nx + 2);
-  EXPECT_EQ(message_counts().bytes - before.bytes, 8 * rims);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid = awkward(along_x);
+    const Halo halo(grid.mine);
+    const Field f("f", grid.mine);
+    const MessageCounts before = message_counts();
+    halo.fill(f);
+    const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
+    EXPECT_EQ(message_counts().messages - before.messages, 2 * cut_x + 2 * cut_z);
+    const int rims = 2 * cut_x * (grid.mine.ny + 2) * grid.mine.nz +
+                     2 * cut_z * (grid.mine.ny + 2) * (grid.mine.nx + 2);
+    EXPECT_EQ(message_counts().bytes - before.bytes, 8 * rims);
+  }
 }
 
 TEST(PoissonOverRanks, AsOnOneRank) {
-  const SharedGrid grid = awkward();
-  for (const double mass : {0.0, 1.0}) {
-    const Field f("f", grid.mine), f_whole("f", grid.whole);
-    const Field phi("phi", grid.mine), phi_whole("phi", grid.whole);
-    grid.set(f_whole, f, [](int i, int j, int k) { return noise(i, j, k, 2); });
-    PoissonFft(grid.whole, std::make_shared<const PlaneFft>(grid.whole), mass, 1e-5)
-        .solve(f_whole, phi_whole);
-    PoissonFft(grid.mine, std::make_shared<const PlaneFft>(grid.mine), mass, 1e-5).solve(f, phi);
-    EXPECT_LT(grid.difference(phi_whole, phi), 1e-14 * 10);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid = awkward(along_x);
+    for (const double mass : {0.0, 1.0}) {
+      const Field f("f", grid.mine), f_whole("f", grid.whole);
+      const Field phi("phi", grid.mine), phi_whole("phi", grid.whole);
+      grid.set(f_whole, f, [](int i, int j, int k) { return noise(i, j, k, 2); });
+      PoissonFft(grid.whole, std::make_shared<const PlaneFft>(grid.whole), mass, 1e-5)
+          .solve(f_whole, phi_whole);
+      PoissonFft(grid.mine, std::make_shared<const PlaneFft>(grid.mine), mass, 1e-5).solve(f, phi);
+      EXPECT_LT(grid.difference(phi_whole, phi), 1e-14 * 10);
+    }
   }
 }
 
@@ -73,38 +83,44 @@ void set_heap(const SharedGrid& grid, const Set& set) {
 }
 
 TEST(LocalCorrectionOverRanks, AsOnOneRank) {
-  const SharedGrid grid = awkward();
-  const Boundary here(grid.mine, WallFlow::no_slip, WallFlow::free_slip);
-  const Boundary there(grid.whole, WallFlow::no_slip, WallFlow::free_slip);
-  const FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
-  set_heap(grid, [&](auto share) {
-    grid.set(c_whole.x, c.x, share);
-    grid.set(c_whole.z, c.z, share);
-    grid.set(c_whole.y, c.y, [&](int i, int j, int k) { return j > 0 ? share(i, j, k) : 0; });
-  });
-  here.fill_periodic(c);
-  there.fill_periodic(c_whole);
-  const Field r("r", grid.mine), z("z", grid.mine), r_whole("r", grid.whole),
-      z_whole("z", grid.whole);
-  grid.set(r_whole, r, [](int i, int j, int k) { return noise(i, j, k, 3); });
-  LocalCorrection local(grid.mine, here.halo()), local_whole(grid.whole, there.halo());
-  const PoissonFft poisson(grid.mine, std::make_shared<const PlaneFft>(grid.mine), 0, 1);
-  const PoissonFft poisson_whole(grid.whole, std::make_shared<const PlaneFft>(grid.whole), 0, 1);
-  for (int twice = 0; twice < 2; ++twice) {  // the second time with what the first left behind
-    local.update(c);
-    local.apply(poisson, r, z);
-    local_whole.update(c_whole);
-    local_whole.apply(poisson_whole, r_whole, z_whole);
-    EXPECT_LT(grid.difference(z_whole, z), 1e-13);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid = awkward(along_x);
+    const Boundary here(grid.mine, WallFlow::no_slip, WallFlow::free_slip);
+    const Boundary there(grid.whole, WallFlow::no_slip, WallFlow::free_slip);
+    const FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
+    set_heap(grid, [&](auto share) {
+      grid.set(c_whole.x, c.x, share);
+      grid.set(c_whole.z, c.z, share);
+      grid.set(c_whole.y, c.y, [&](int i, int j, int k) { return j > 0 ? share(i, j, k) : 0; });
+    });
+    here.fill_periodic(c);
+    there.fill_periodic(c_whole);
+    const Field r("r", grid.mine), z("z", grid.mine), r_whole("r", grid.whole),
+        z_whole("z", grid.whole);
+    grid.set(r_whole, r, [](int i, int j, int k) { return noise(i, j, k, 3); });
+    LocalCorrection local(grid.mine, here.halo()), local_whole(grid.whole, there.halo());
+    const PoissonFft poisson(grid.mine, std::make_shared<const PlaneFft>(grid.mine), 0, 1);
+    const PoissonFft poisson_whole(grid.whole, std::make_shared<const PlaneFft>(grid.whole), 0, 1);
+    for (int twice = 0; twice < 2; ++twice) {  // the second time with what the first left behind
+      local.update(c);
+      local.apply(poisson, r, z);
+      local_whole.update(c_whole);
+      local_whole.apply(poisson_whole, r_whole, z_whole);
+      EXPECT_LT(grid.difference(z_whole, z), 1e-13);
+    }
   }
 }
 
 /// Both flows: a sheared start with noise, walls, WALE.
 struct TwoFlows {
-  SharedGrid grid = awkward();
+  SharedGrid grid;
   Config config = test::flow_config(kCells, kSize, 1e-3);
   FluidState here, there;
-  TwoFlows() : here(make_fluid_state(grid.mine)), there(make_fluid_state(grid.whole)) {
+  explicit TwoFlows(int along_x)
+      : grid(awkward(along_x)),
+        here(make_fluid_state(grid.mine)),
+        there(make_fluid_state(grid.whole)) {
     config.fluid->mean_velocity = 0.25;
     const test::HostGrid h(grid.whole);
     const auto start = [&](double mean, unsigned seed) {
@@ -131,44 +147,51 @@ struct TwoFlows {
 };
 
 TEST(FluidOverRanks, ChannelAsOnOneRank) {
-  TwoFlows flows;
-  FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-  here.fill_ghosts(flows.here);
-  there.fill_ghosts(flows.there);
-  FluidStepReport report, report_there;
-  for (int step = 0; step < 20; ++step) {
-    report = here.advance(flows.here, nullptr, 1e-3);
-    report_there = there.advance(flows.there, nullptr, 1e-3);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    TwoFlows flows(along_x);
+    FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
+    here.fill_ghosts(flows.here);
+    there.fill_ghosts(flows.there);
+    FluidStepReport report, report_there;
+    for (int step = 0; step < 20; ++step) {
+      report = here.advance(flows.here, nullptr, 1e-3);
+      report_there = there.advance(flows.there, nullptr, 1e-3);
+    }
+    flows.expect_same(1e-11);
+    EXPECT_NEAR(report.courant, report_there.courant, 1e-11);
+    EXPECT_NEAR(report.drive, report_there.drive, 1e-13 * 0.25 / 1e-3);  // what is left of U / dt
+    EXPECT_NEAR(here.friction_velocity(flows.here), there.friction_velocity(flows.there), 1e-12);
+    EXPECT_LT(report.continuity_residual, 1e-12);
   }
-  flows.expect_same(1e-11);
-  EXPECT_NEAR(report.courant, report_there.courant, 1e-11);
-  EXPECT_NEAR(report.drive, report_there.drive, 1e-13 * 0.25 / 1e-3);  // what is left of U / dt
-  EXPECT_NEAR(here.friction_velocity(flows.here), there.friction_velocity(flows.there), 1e-12);
-  EXPECT_LT(report.continuity_residual, 1e-12);
 }
 
 TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
-  TwoFlows flows;
-  flows.config.grains.emplace();
-  flows.config.solver.pressure_tolerance = 1e-12;
-  FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-  ExchangeOnFaces on_here{test::make_faces(flows.grid.mine), test::make_faces(flows.grid.mine)};
-  ExchangeOnFaces on_there{test::make_faces(flows.grid.whole), test::make_faces(flows.grid.whole)};
-  set_heap(flows.grid, [&](auto share) {
-    flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
-    flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);
-    const auto drag = [&](int i, int j, int k) { return 2e4 * (1 - share(i, j, k)); };
-    flows.grid.set(on_there.implicit.x, on_here.implicit.x, drag);
-    flows.grid.set(on_there.implicit.z, on_here.implicit.z, drag);
-  });
-  here.fill_ghosts(flows.here);
-  there.fill_ghosts(flows.there);
-  for (int step = 0; step < 5; ++step) {
-    const FluidStepReport report = here.advance(flows.here, &on_here, 1e-3);
-    const FluidStepReport report_there = there.advance(flows.there, &on_there, 1e-3);
-    EXPECT_EQ(report.pressure_iterations, report_there.pressure_iterations);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    TwoFlows flows(along_x);
+    flows.config.grains.emplace();
+    flows.config.solver.pressure_tolerance = 1e-12;
+    FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
+    ExchangeOnFaces on_here{test::make_faces(flows.grid.mine), test::make_faces(flows.grid.mine)};
+    ExchangeOnFaces on_there{test::make_faces(flows.grid.whole),
+                             test::make_faces(flows.grid.whole)};
+    set_heap(flows.grid, [&](auto share) {
+      flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
+      flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);
+      const auto drag = [&](int i, int j, int k) { return 2e4 * (1 - share(i, j, k)); };
+      flows.grid.set(on_there.implicit.x, on_here.implicit.x, drag);
+      flows.grid.set(on_there.implicit.z, on_here.implicit.z, drag);
+    });
+    here.fill_ghosts(flows.here);
+    there.fill_ghosts(flows.there);
+    for (int step = 0; step < 5; ++step) {
+      const FluidStepReport report = here.advance(flows.here, &on_here, 1e-3);
+      const FluidStepReport report_there = there.advance(flows.there, &on_there, 1e-3);
+      EXPECT_EQ(report.pressure_iterations, report_there.pressure_iterations);
+    }
+    flows.expect_same(1e-9);
   }
-  flows.expect_same(1e-9);
 }
 
 }  // namespace

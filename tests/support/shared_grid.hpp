@@ -14,8 +14,8 @@ namespace barchan::test {
 
 /// Every rank has all of the grid, and its pencil of it.
 struct SharedGrid {
-  SharedGrid(std::array<int, 3> n, std::array<double, 3> size, double first)
-      : ranks(std::make_unique<const Decomposition>(MPI_COMM_WORLD, n[0], n[2])),
+  SharedGrid(std::array<int, 3> n, std::array<double, 3> size, double first, int along_x = 0)
+      : ranks(std::make_unique<const Decomposition>(MPI_COMM_WORLD, n[0], n[2], along_x)),
         whole(stretched_grid(n, size, first)),
         mine(stretched_grid(n, size, first, ranks.get())) {}
 
@@ -46,6 +46,20 @@ struct SharedGrid {
   std::unique_ptr<const Decomposition> ranks;
   Grid whole, mine;
 };
+
+/// Numbers of ranks along x that pencils of n cells allow: all shapes of as many ranks as there
+/// are.
+inline std::vector<int> shapes(std::array<int, 3> n) {
+  const int count = rank_count(MPI_COMM_WORLD);
+  const auto fits = [](int cells, int parts) {
+    return parts == 1 || cells / parts >= Decomposition::kThinnest;
+  };
+  std::vector<int> found;
+  for (int x = 1; x <= count; ++x) {
+    if (count % x == 0 && fits(n[0], x) && fits(n[2], count / x)) found.push_back(x);
+  }
+  return found;
+}
 
 /// A number in [-1, 1] for each cell, the same on every rank.
 inline double noise(int i, int j, int k, unsigned seed = 1) {
