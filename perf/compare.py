@@ -11,7 +11,8 @@ Ratios are A's time over B's: above 1, B is faster. The range is from the least 
 favourable pair of repeats. Devices and thread counts must agree, unless --across.
 
 --peers runs our cases and the peers' scripts of DIR (run_liggghts.sh, ...) in turn, so that both meet
-the same machine, and prints ratios of the medians: above 1, Barchan is faster.
+the same machine, and prints the median of the rounds' ratios, which a machine whose speed drifts between
+rounds does not change: above 1, Barchan is faster.
 """
 
 import argparse
@@ -233,8 +234,8 @@ def print_peers(pairs, options):
     for (label, case), rounds in pairs.items():
         theirs = [pair[0] for pair in rounds]
         ours = [pair[1] for pair in rounds]
-        ratio = statistics.median(theirs) / statistics.median(ours)
         each = [peer / own for peer, own in rounds]
+        ratio = statistics.median(each)
         rows.append((label, f"{1e3 * statistics.median(theirs):.4g}", case,
                      f"{1e3 * statistics.median(ours):.4g}", f"{ratio:.2f}",
                      f"{min(each):.2f} .. {max(each):.2f}"))
