@@ -1,7 +1,8 @@
 """morphology of a study: W, L, C_x, C_z of the main dune against time, a curve per value of one key.
 
 As Figs. 7 (sliding friction), 8 (restitution) and 9 (rolling friction) of Lima et al. (2022). C_x is
-drawn from its first value, C_z from the middle of the channel.
+drawn from its first value, C_z from the middle of the channel. A study that varies no single key has
+two panels more: the height, and how many grains the dune holds.
 """
 
 import matplotlib
@@ -11,10 +12,11 @@ import numpy as np
 import style
 from morphology import widen
 from run_folder import NotInRun
-from study_folder import shown, symbol
+from study_folder import BY_NAME
 
 PANELS = (("W", "width $W$ (mm)"), ("L", "length $L$ (mm)"),
           ("Cx", "centroid $C_x - C_x(0)$ (mm)"), ("Cz", "centroid $C_z - L_z/2$ (mm)"))
+MORE_PANELS = (("H", "height $H$ (mm)"), ("n_grains", "grains of the dune"))
 MARKERS = "osD^v<>ph"
 MARKS = 10  # on the longest curve
 
@@ -39,18 +41,21 @@ def draw(study, key):
     if not cases:
         raise NotInRun("needs a case with dune.csv")
     dunes = [main_dune(case.run) for case in cases]
-    figure, grid = plt.subplots(2, 2, sharex=True, figsize=(style.FULL_WIDTH, 4.9))
+    panels = PANELS + MORE_PANELS * (key == BY_NAME)
+    figure, grid = plt.subplots(len(panels) // 2, 2, sharex=True,
+                                figsize=(style.FULL_WIDTH, 1.0 + 1.95 * (len(panels) // 2)))
     step = max(dune["t"][-1] - dune["t"][0] for dune in dunes) / MARKS
-    for index, (axes, (name, label)) in enumerate(zip(grid.ravel(), PANELS)):
+    for index, (axes, (name, label)) in enumerate(zip(grid.ravel(), panels)):
         for order, (dune, (colour, marker)) in enumerate(zip(dunes, looks(len(cases)))):
-            axes.plot(dune["t"], 1e3 * dune[name], color=colour, marker=marker, ms=4, lw=0.9,
+            scale = 1 if name == "n_grains" else 1e3
+            axes.plot(dune["t"], scale * dune[name], color=colour, marker=marker, ms=4, lw=0.9,
                       mec=colour, mfc="white", mew=0.9, markevery=marks(dune["t"], step, order / len(cases)),
-                      label=f"{symbol(key)} = {shown(cases[order].values[key])}")
+                      label=cases[order].label_in(key))
         axes.set_ylabel(label)
         axes.margins(x=0.02)
         style.panel_label(axes, index)
         widen(axes, 0.4 if name == "Cz" else 0.0)
-    for axes in grid[1]:
+    for axes in grid[-1]:
         axes.set_xlabel("$t$ (s)")
     handles, _ = grid[0, 0].get_legend_handles_labels()
     columns = min(5, len(handles))
@@ -70,6 +75,6 @@ def marks(t, step, share):
 def write(study, key, cases, dunes):
     columns = {key: [[case.values[key]] * len(dune["t"]) for case, dune in zip(cases, dunes)]}
     for name, column in (("t", "t_s"), ("W", "W_m"), ("L", "L_m"), ("Cx", "Cx_from_start_m"),
-                         ("Cz", "Cz_from_middle_m")):
+                         ("Cz", "Cz_from_middle_m"), ("H", "H_m"), ("n_grains", "n_grains")):
         columns[column] = [dune[name] for dune in dunes]
     study.write_rows(f"morphology_{study.short(key)}", columns)

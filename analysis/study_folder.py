@@ -15,6 +15,7 @@ from run_folder import NotInRun, PlotError, RunFolder, thin
 NAME = "study.json"
 SYMBOLS = {"grains.sliding_friction": "$\\mu$", "grains.restitution": "$e$",
            "grains.rolling_friction": "$\\mu_r$"}
+BY_NAME = "case"  # what differs between the cases of a study that varies no single key
 
 
 @dataclass
@@ -30,9 +31,11 @@ class Case:
     @property
     def label(self):
         """What distinguishes it, for a legend."""
-        if self.varied is None:
-            return self.name
-        return f"{symbol(self.varied)} = {shown(self.values.get(self.varied))}"
+        return self.name if self.varied is None else self.label_in(self.varied)
+
+    def label_in(self, key):
+        """The same in the series of a key."""
+        return self.name if key == BY_NAME else f"{symbol(key)} = {shown(self.values.get(key))}"
 
 
 def symbol(key):
@@ -73,8 +76,8 @@ class StudyFolder:
     def _case(self, entry):
         path = self.path / entry["folder"]
         run = RunFolder(path) if path.is_dir() else None
-        return Case(str(entry["name"]), entry.get("varied"), dict(entry.get("values", {})), run,
-                    gap_of(path))
+        values = {**entry.get("values", {}), BY_NAME: str(entry["name"])}
+        return Case(str(entry["name"]), entry.get("varied"), values, run, gap_of(path))
 
     @property
     def gaps(self):
@@ -83,8 +86,9 @@ class StudyFolder:
 
     @cached_property
     def keys(self):
-        """The keys that are varied, in order of appearance."""
-        return list(dict.fromkeys(case.varied for case in self.cases if case.varied))
+        """The keys that are varied one at a time, in order of appearance; else BY_NAME."""
+        varied = list(dict.fromkeys(case.varied for case in self.cases if case.varied))
+        return varied or [BY_NAME] * bool(self.cases)
 
     def short(self, key):
         """The last part of a key, for the names of files; all of it where two keys end alike."""

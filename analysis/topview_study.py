@@ -12,7 +12,6 @@ import style
 from dune_regions import Bed, find_dunes
 from grain_image import top_view
 from run_folder import NotInRun
-from study_folder import shown, symbol
 from topview import FINER
 
 END, STEP = 20.0, 2.0  # [s], of the paper
@@ -78,7 +77,7 @@ def draw(study, key):
     times, grid = times_shown(times, grid)
     domain = next((case.run.domain for case in cases if case.run.domain), None)
     figure = draw_grid(grid, common_window(frames, domain), times,
-                       [f"{symbol(key)} = {shown(case.values[key])}" for case in cases])
+                       [case.label_in(key) for case in cases])
     write(study, key, cases, times, grid)
     return figure
 

@@ -64,6 +64,15 @@ numbers morphology "$dir/study"
 numbers topviews "$dir/study"
 [ "$(grep -c '^base,' "$dir/study/figures_data/channel.csv")" = 30 ] || fail "no curves of the channel"
 
+# A study of named cases: compared by their names, with the height and the grains of their dunes.
+sed -E 's/"varied": "[^"]*"/"varied": null/g' "$dir/study/study.json" > "$dir/study/cases.json"
+mv "$dir/study/cases.json" "$dir/study/study.json"
+plot 0 "$dir/study" topviews morphology
+for figure in topviews_case morphology_case; do
+  [ -s "$dir/study/$figure.png" ] && [ -s "$dir/study/figures_data/$figure.csv" ] || fail "no $figure"
+done
+numbers cases "$dir/study"
+
 # What bad input says.
 echo '{"title": "gone", "cases": []}' > "$dir/run/study.json"
 plot 2 "$dir/run" fig9

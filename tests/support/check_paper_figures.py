@@ -87,6 +87,22 @@ def check_topviews(folder):
     near(table["z_mean_m"], 0.5 * SIZE[2], 2 * D, "z of the grains")
 
 
+def check_cases(folder):
+    """The curves of each case under its name: those of check_morphology, height and grains as in dune.csv."""
+    with open(folder / "figures_data" / "morphology_case.csv", encoding="utf-8") as file:
+        rows = [line.rstrip("\n").split(",") for line in file]
+    header, rows = rows[0], rows[1:]
+    for name, _, _, wider, _ in STUDY:
+        if not wider:
+            continue
+        mine = np.array([row[1:] for row in rows if row[0] == name], float)
+        dune = np.genfromtxt(folder / name / "dune.csv", delimiter=",", names=True)
+        dune = dune[dune["dune"] == 0]
+        for column, known in (("H_m", dune["H"]), ("n_grains", dune["n_grains"])):
+            near(mine[:, header.index(column) - 1], known, 1e-8 * known.max(), f"{column} of {name}")
+        near(mine[:, header.index("W_m") - 1], wider * known_width(dune["t"]), 6e-4, f"W of {name}")
+
+
 def check_movie(folder):
     table = read(folder, "movie")
     near(table["t_s"], np.linspace(0, END, 4), 1e-6, "times of the movie")
@@ -111,4 +127,5 @@ def check_tracks(folder):
 
 if __name__ == "__main__":
     {"profiles": check_profiles, "topviews": check_topviews, "morphology": check_morphology,
-     "movie": check_movie, "tracks": check_tracks, "add_tracks": add_tracks}[sys.argv[1]](Path(sys.argv[2]))
+     "cases": check_cases, "movie": check_movie, "tracks": check_tracks,
+     "add_tracks": add_tracks}[sys.argv[1]](Path(sys.argv[2]))
