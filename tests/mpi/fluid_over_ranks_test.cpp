@@ -158,7 +158,7 @@ TEST(FluidOverRanks, ChannelAsOnOneRank) {
       report = here.advance(flows.here, nullptr, 1e-3);
       report_there = there.advance(flows.there, nullptr, 1e-3);
     }
-    flows.expect_same(1e-11);
+    flows.expect_same(1e-12);
     EXPECT_NEAR(report.courant, report_there.courant, 1e-11);
     EXPECT_NEAR(report.drive, report_there.drive, 1e-13 * 0.25 / 1e-3);  // what is left of U / dt
     EXPECT_NEAR(here.friction_velocity(flows.here), there.friction_velocity(flows.there), 1e-12);
@@ -190,7 +190,7 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
       const FluidStepReport report_there = there.advance(flows.there, &on_there, 1e-3);
       EXPECT_EQ(report.pressure_iterations, report_there.pressure_iterations);
     }
-    flows.expect_same(1e-9);
+    flows.expect_same(1e-11);
   }
 }
 
