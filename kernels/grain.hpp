@@ -91,7 +91,10 @@ struct Chunks {
   int n = 0, rows = 1;
 
   KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + rows - 1) / rows; }
-  KOKKOS_FORCEINLINE_FUNCTION int of(int g) const { return g / rows; }
+  /// Two rows of one chunk; rows from n on are in none.
+  KOKKOS_FORCEINLINE_FUNCTION bool together(int a, int b) const {
+    return a < n && b < n && a / rows == b / rows;
+  }
   KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * rows; }
   KOKKOS_FORCEINLINE_FUNCTION int end(int chunk) const {
     return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
@@ -123,7 +126,7 @@ struct alignas(64) PairLine {
 };
 
 /// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains
-/// are of two chunks, the others those inside a chunk. Grain g is the first one of its pairs in the
+/// are not of one chunk (ghosts are of none), the others those inside a chunk. Grain g is the first one of its pairs in the
 /// slots [first(g), first(g+1)), crossing, and [inner_first(g), inner_first(g+1)), inner; it is the
 /// second one in the crossing slots other_slot[other_first(g) .. other_first(g+1)).
 struct PairList {

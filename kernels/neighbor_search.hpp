@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "kernels/grain.hpp"
+#include "kernels/kept_contacts.hpp"
 
 namespace barchan {
 
@@ -27,20 +28,25 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t gather_bits(std::uint32_t a)
 /// Columns along one direction, at most.
 inline constexpr int kMaxColumns = 65535;
 
-/// The x-z columns of the domain, each at least one cutoff wide.
+/// The x-z columns of the domain, each at least one cutoff wide. Their numbers begin with that of the
+/// column at `origin`, those before it follow at the end: the columns of a rank, a piece of the
+/// Morton curve from `origin` on, come before those of others.
 struct Columns {
   int nx = 1, nz = 1;
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
+  std::uint32_t origin = 0;  // place on the Morton curve
 
   KOKKOS_FUNCTION static int clamp(int a, int n) { return a < 0 ? 0 : (a >= n ? n - 1 : a); }
 
-  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const {
+  /// Place of a position on the Morton curve.
+  KOKKOS_FUNCTION std::uint32_t place_of(const Vec3& x) const {
     const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
     const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);
     return code_of(ix, iz);
   }
+  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const { return place_of(x) - origin; }
   KOKKOS_FUNCTION static std::uint32_t code_of(int ix, int iz) {
     return (spread_bits(static_cast<std::uint32_t>(ix)) << 1) |
            spread_bits(static_cast<std::uint32_t>(iz));
@@ -54,12 +60,13 @@ struct Columns {
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
-    int ix = static_cast<int>(gather_bits(column >> 1)) + dx;
-    int iz = static_cast<int>(gather_bits(column)) + dz;
+    const std::uint32_t place = column + origin;
+    int ix = static_cast<int>(gather_bits(place >> 1)) + dx;
+    int iz = static_cast<int>(gather_bits(place)) + dz;
     if (periodic_x) ix = (ix + nx) % nx;
     if (periodic_z) iz = (iz + nz) % nz;
     if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
-    result = code_of(ix, iz);
+    result = code_of(ix, iz) - origin;
     return true;
   }
 };
@@ -166,8 +173,9 @@ struct PairSearch {
   OccupiedColumns occupied;
   Windows window;
   PeriodicBox box;
-  Real skin = 0;   // [m]
-  Real r_max = 0;  // largest radius [m]
+  Real skin = 0;    // [m]
+  Real r_max = 0;   // largest radius [m]
+  int n_owned = 0;  // rows from here on are ghosts; two of them are no pair of this rank
 
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
@@ -178,7 +186,7 @@ struct PairSearch {
       if (b.x.y > highest) break;  // sorted by height
       const Vec3 s = box.nearest_image(a.x - b.x);
       const Real cutoff = a.r + b.r + skin;
-      if (dot(s, s) < cutoff * cutoff) action(j);
+      if (dot(s, s) < cutoff * cutoff && (i < n_owned || j < n_owned)) action(j);
     }
   }
   template <class Action>
@@ -207,81 +215,29 @@ struct CountPairs {
     search.for_each_partner(i, [&](int j) {
       if (n < kNoted) noted(i, n) = j;
       ++n;
-      n_inner += chunks.of(i) == chunks.of(j) ? 1 : 0;
+      n_inner += chunks.together(i, j) ? 1 : 0;
     });
     crossing(i) = n - n_inner;
     inner(i) = n_inner;
   }
 };
 
-/// Contacts of a list that is about to be replaced, under their first grains (rows of that list).
-struct KeptContacts {
-  Kokkos::View<int*> first;            // (n + 1)
-  Kokkos::View<int*> partner;          // (contacts) row of the second grain
-  Kokkos::View<Vec3*> xi_t;            // (contacts) [m]
-  Kokkos::View<Vec3*> rolling, force;  // [N m], [N]; empty where the list has none
-
-  /// Place of the contact (a, b) listed under a, or -1.
-  KOKKOS_FUNCTION int find(int a, int b) const {
-    for (int k = first(a); k < first(a + 1); ++k) {
-      if (partner(k) == b) return k;
-    }
-    return -1;
-  }
-};
-
-/// Calls f(slot) for the contacts listed under grain g.
-template <class Action>
-KOKKOS_FORCEINLINE_FUNCTION void for_each_contact(const PairList& list, int g,
-                                                  const Action& action) {
-  for (int p = list.first(g); p < list.first(g + 1); ++p) {
-    if (list.touching(p)) action(p);
-  }
-  for (int p = list.inner_first(g); p < list.inner_first(g + 1); ++p) {
-    if (list.touching(p)) action(p);
-  }
-}
-
-struct CountContacts {
-  PairList list;
-  Kokkos::View<int*> count;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    int n = 0;
-    for_each_contact(list, g, [&](int) { ++n; });
-    count(g) = n;
-  }
-};
-
-struct KeepContacts {
-  PairList list;
-  KeptContacts kept;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    int k = kept.first(g);
-    for_each_contact(list, g, [&](int p) {
-      kept.partner(k) = list.j(p);
-      kept.xi_t(k) = list.xi_t(p);
-      if (list.has_rolling()) kept.rolling(k) = list.rolling(p);
-      if (list.has_force()) kept.force(k) = list.force(p);
-      ++k;
-    });
-  }
-};
-
-/// Writes the pairs of each grain and what they remember. `old_row` is the row of each grain in the
-/// list that `kept` comes from.
+/// Writes the pairs of each grain and what they remember. `old_row` is the row under which `kept`
+/// has each owned grain.
 struct FillPairs {
   PairSearch search;
   NotedPartners noted;
   PairList list;
   KeptContacts kept;
   Kokkos::View<const int*> old_row;
+  Kokkos::View<const std::int64_t*> id;
   bool has_kept = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
     int crossing = list.first(i), inner = list.inner_first(i);
     const int n = list.first(i + 1) - crossing + list.inner_first(i + 1) - inner;
     const auto place = [&](int j) {
-      const int slot = list.chunks.of(i) == list.chunks.of(j) ? inner++ : crossing++;
+      const int slot = list.chunks.together(i, j) ? inner++ : crossing++;
       list.i(slot) = i;
       list.j(slot) = j;
       remember(slot, i, j);
@@ -296,9 +252,10 @@ struct FillPairs {
     int k = -1;
     Real sign = 1;
     if (has_kept) {
-      k = kept.find(old_row(i), old_row(j));
-      if (k < 0) {
-        k = kept.find(old_row(j), old_row(i));
+      const int n_owned = list.chunks.n;
+      if (i < n_owned) k = kept.find(old_row(i), id(j));
+      if (k < 0 && j < n_owned) {
+        k = kept.find(old_row(j), id(i));
         sign = -1;  // forces and displacements are those of the first grain
       }
     }

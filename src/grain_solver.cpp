@@ -8,6 +8,7 @@
 #include "kernels/grain_motion.hpp"
 #include "kernels/pair_forces.hpp"
 #include "src/launch.hpp"
+#include "src/records.hpp"
 
 namespace barchan {
 
@@ -51,7 +52,8 @@ Friction friction_of(const Material& m, CoulombLimit limit) {
 }  // namespace
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains)
-    : list_(config, grains.r_max),
+    : ranks_(grains.ranks),
+      list_(config, grains.r_max, grains.ranks),
       pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
       wall_law_(make_law(*config.grains, config.grains->material, config.grains->wall)),
       rolling_(make_rolling(*config.grains)),
@@ -71,7 +73,7 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
   if (config.grains->boundary_x == GrainBoundaryX::wall) add_walls({1, 0, 0}, config.size[0]);
   if (config.grains->boundary_z == GrainBoundaryZ::wall) add_walls({0, 0, 1}, config.size[2]);
   using WallHistory = decltype(grains.wall_xi_t);
-  const auto n = static_cast<std::size_t>(grains.n);
+  const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
   const auto n_opposite = static_cast<std::size_t>(n_walls_ / 2);
   grains.wall_xi_t = WallHistory("wall xi_t", n, n_opposite);
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
@@ -113,25 +115,49 @@ void GrainSolver::sub_step(const Stiffness& law, const Rolling& rolling, const G
                           items(grains.list.chunks.count()), sum, largest_way(s + 1));
 }
 
+/// Over ranks, before each sub-step: ghosts where their grains are, or a new list as soon as a grain
+/// of any rank has moved too far for it.
+void GrainSolver::bring_together(GrainState& grains, int s) {
+  const auto at = Kokkos::subview(moved_, place(s));
+  Real moved = 0;
+  Kokkos::deep_copy(moved, at);
+  if (max_over(ranks_, moved) <= list_.limit()) {
+    list_.update_ghosts(grains);
+  } else {
+    list_.rebuild(grains, false);
+    Kokkos::deep_copy(at, Real(0));
+  }
+}
+
 template <class Stiffness, class Rolling>
 void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n,
                             Real dt) {
-  const KickAndDrift motion{.dt = dt,
-                            .grains = grains.kin,
-                            .contact_force = grains.contact_force,
-                            .contact_torque = grains.contact_torque,
-                            .x_reference = grains.x_reference,
-                            .fluid = grains.fluid};
+  const auto motion = [&] {  // a rebuild may move the arrays
+    return KickAndDrift{.dt = dt,
+                        .grains = grains.kin,
+                        .contact_force = grains.contact_force,
+                        .contact_torque = grains.contact_torque,
+                        .x_reference = grains.x_reference,
+                        .fluid = grains.fluid};
+  };
   if (moved_.extent_int(0) != ahead_ + 1) {
     moved_ = Kokkos::View<Real*>("way of the grains", static_cast<std::size_t>(ahead_ + 1));
   }
-  const auto moved = Kokkos::create_mirror_view(moved_);
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion, largest_way(0));
+  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(),
+                          largest_way(0));
+  if (list_.partition()) {
+    for (int s = 0; s < n; ++s) {
+      bring_together(grains, s);
+      sub_step(law, rolling, grains, motion(), s, s + 1 == n);
+    }
+    return;
+  }
+  const auto moved = Kokkos::create_mirror_view(moved_);
   for (int s = 0; s < n;) {
     const int end = std::min(s + ahead_, n);
     for (int next = s; next < end; ++next)
-      sub_step(law, rolling, grains, motion, next, next + 1 == n);
+      sub_step(law, rolling, grains, motion(), next, next + 1 == n);
     Kokkos::deep_copy(moved, moved_);
     const auto is_stale = [&](int step) { return !(moved(place(step)) <= list_.limit()); };
     while (s < end && !is_stale(s)) ++s;
@@ -143,7 +169,7 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
 }
 
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
-  if (grains.n == 0 || n == 0) return;
+  if (n == 0 || (grains.n == 0 && !list_.partition())) return;
   std::visit([&](const auto& law, const auto& rolling) { sub_steps(law, rolling, grains, n, dt); },
              pair_law_, rolling_);
 }
@@ -157,7 +183,7 @@ void GrainSolver::remove_left(GrainState& grains) {
       "grains: count beyond the outlet", grains.n,
       KOKKOS_LAMBDA(int g, int& count) { count += kin(g).x.x >= 0 && kin(g).x.x <= lx ? 0 : 1; },
       n_outside);
-  if (n_outside > 0) list_.rebuild(grains, true);
+  if (sum_over(ranks_, std::int64_t{n_outside}) > 0) list_.rebuild(grains, true);
 }
 
 void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
@@ -182,10 +208,11 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   const PairList list = grains.list;
   const auto kin = grains.kin;
   const PeriodicBox box = list_.box();
+  const int n_owned = grains.n;
   Kokkos::parallel_reduce(
       "grains: contact summary", list.n_pairs,
       KOKKOS_LAMBDA(int p, std::int64_t& count, Real& overlap) {
-        if (!list.touching(p)) return;
+        if (!list.touching(p) || list.i(p) >= n_owned) return;  // counted where the first one is
         ++count;
         const GrainKinematics &a = kin(list.i(p)), &b = kin(list.j(p));
         const Real relative = 1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r);
@@ -194,7 +221,8 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
   if (summary.n_contacts == 0)
     summary.max_overlap = 0;  // the maximum over nothing is minus infinity
-  return summary;
+  return {.n_contacts = sum_over(ranks_, summary.n_contacts),
+          .max_overlap = max_over(ranks_, summary.max_overlap)};
 }
 
 }  // namespace barchan

@@ -22,7 +22,8 @@ struct ContactSummary {
   Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
 };
 
-/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet.
+/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
+/// that share the grains every member is called together, and what is counted is that of all.
 class GrainSolver {
  public:
   /// Sets up laws, walls and their history. Then call start() or, for rows read from a restart,
@@ -34,7 +35,7 @@ class GrainSolver {
   /// n sub-steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
   /// sub-step, bit for bit.
   void advance(GrainState& grains, int n, Real dt);
-  /// Drops the grains that have passed the outlet (counted in n_left).
+  /// Drops the grains that have passed the outlet (counted in n_left of their rank).
   void remove_left(GrainState& grains);
   /// Contacts and largest overlap from the last sub-step.
   ContactSummary contacts(const GrainState& grains) const;
@@ -45,6 +46,7 @@ class GrainSolver {
   /// The list as the last rebuild left it, from the x_reference of a restart; the history of its
   /// slots is then to be read.
   void restore_list(GrainState& grains) { list_.restore(grains); }
+  NeighborList& list() { return list_; }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.
@@ -63,7 +65,9 @@ class GrainSolver {
                 const KickAndDrift& motion, int s, bool last);
   template <class Stiffness, class Rolling>
   void sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n, Real dt);
+  void bring_together(GrainState& grains, int s);
 
+  MPI_Comm ranks_;
   NeighborList list_;
   StiffnessLaw pair_law_, wall_law_;
   RollingLaw rolling_;

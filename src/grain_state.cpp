@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "src/communicator.hpp"
+#include "src/decomposition.hpp"
+#include "src/grain_columns.hpp"
 #include "src/launch.hpp"
 
 namespace barchan {
@@ -10,7 +13,7 @@ namespace {
 
 template <class View>
 View rows(const char* label, int n) {
-  return View(label, static_cast<std::size_t>(n));
+  return View(label, static_cast<std::size_t>(std::max(n, 1)));  // it exists even without grains
 }
 
 /// Reorders the n first of a column of values; any column fits the room.
@@ -27,37 +30,16 @@ void take_rows(const Column& column, const Kokkos::View<int*>& row, int n,
       "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { column(g) = copy(g); });
 }
 
-/// The columns that the state has, one after the other.
-template <class Action>
-void for_each_column(const GrainState& s, const Action& action) {
-  using Parts = Kokkos::View<Quad* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
-  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Quad));
-  const Parts kin(reinterpret_cast<Quad*>(s.kin.data()), s.kin.extent(0));
-  for (int part = 0; part < 3; ++part) action(Kokkos::subview(kin, Kokkos::ALL(), part));
-  action(s.id);
-  for (const Kokkos::View<Vec3*>& array :
-       {s.contact_force, s.contact_torque, s.x_reference, s.fluid.u_f, s.fluid.steady_force,
-        s.fluid.drag_impulse, s.fluid.u_start, s.exchange.added_mass_force, s.exchange.fluid_force,
-        s.exchange.carried_impulse}) {
-    if (array.extent(0) > 0) action(array);
-  }
-  for (const Kokkos::View<Real*>& array : {s.fluid.beta, s.fluid.added_mass}) {
-    if (array.extent(0) > 0) action(array);
-  }
-  for (const auto& history : {s.wall_xi_t, s.wall_torque}) {
-    for (std::size_t w = 0; w < history.extent(1); ++w)
-      action(Kokkos::subview(history, Kokkos::ALL(), w));
-  }
-  action(s.wall_touching);
-}
-
 }  // namespace
 
-GrainState make_grain_state(const InitialGrains& initial, Real density) {
+GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm ranks) {
   GrainState s;
-  const int n = static_cast<int>(initial.id.size());
+  s.ranks = ranks;
+  const int n_all = static_cast<int>(initial.size());
+  const Split shares{.n = n_all, .parts = rank_count(ranks)};
+  const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
   s.n = n;
-  s.n_initial = n;
+  s.n_initial = n_all;
   s.kin = rows<decltype(s.kin)>("grain kinematics", n);
   s.id = rows<decltype(s.id)>("grain id", n);
   for (Kokkos::View<Vec3*>* array :
@@ -68,10 +50,8 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
 
   const auto kin = Kokkos::create_mirror_view(s.kin);
   const auto id = Kokkos::create_mirror_view(s.id);
-  s.r_min = n > 0 ? initial.diameter[0] / 2 : 0;
-  Real d3 = 0, d2 = 0;
   for (int g = 0; g < n; ++g) {
-    const auto q = static_cast<std::size_t>(g);
+    const auto q = static_cast<std::size_t>(first + g);
     const Real r = initial.diameter[q] / 2;
     kin(g) = GrainKinematics{.x = initial.x[q],
                              .r = r,
@@ -79,15 +59,23 @@ GrainState make_grain_state(const InitialGrains& initial, Real density) {
                              .m = density * sphere_volume(r),
                              .omega = initial.omega[q]};
     id(g) = initial.id[q];
-    s.r_max = std::max(s.r_max, r);
-    s.r_min = std::min(s.r_min, r);
-    d2 += 4 * r * r;
-    d3 += 8 * r * r * r;
   }
-  s.sauter_diameter = n > 0 ? d3 / d2 : 1;
+  s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
+  Real d3 = 0, d2 = 0;
+  for (const Real d : initial.diameter) {
+    s.r_max = std::max(s.r_max, d / 2);
+    s.r_min = std::min(s.r_min, d / 2);
+    d2 += d * d;
+    d3 += d * d * d;
+  }
+  s.sauter_diameter = n_all > 0 ? d3 / d2 : 1;
   Kokkos::deep_copy(s.kin, kin);
   Kokkos::deep_copy(s.id, id);
   return s;
+}
+
+void reserve_rows(GrainState& s, int n) {
+  for_each_array(s, [n](auto& array) { reserve_rows(array, n); });
 }
 
 void add_fluid(GrainState& s) {

@@ -17,11 +17,6 @@ namespace {
 
 MessageCounts counts;
 
-void count_message(std::size_t numbers) {
-  ++counts.messages;
-  counts.bytes += static_cast<std::int64_t>(numbers * sizeof(Real));
-}
-
 std::vector<int> starts_of(const std::vector<int>& sizes) {
   std::vector<int> starts(sizes.size());
   std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
@@ -40,6 +35,12 @@ Real reduce(const Grid& grid, Real mine, MPI_Op operation) {
 
 const MessageCounts& message_counts() { return counts; }
 
+void message_detail::count_message(std::size_t words) {
+  ++counts.messages;
+  counts.bytes += static_cast<std::int64_t>(words * sizeof(Real));
+}
+void message_detail::count_reduction() { ++counts.reductions; }
+
 bool mpi_reaches_device() {
   if (runs_on_host) return true;
 #if defined(MPIX_CUDA_AWARE_SUPPORT)
@@ -49,9 +50,14 @@ bool mpi_reaches_device() {
 #endif
 }
 
-MessageBuffer::MessageBuffer(const char* label, std::size_t n) : numbers_(label, n) {
+MessageBuffer::MessageBuffer(const char* label, std::size_t n) : label_(label) { reserve(n); }
+
+void MessageBuffer::reserve(std::size_t n) {
+  if (n <= size()) return;
+  const std::size_t room = size() == 0 ? n : n + n / 8;
+  numbers_ = Kokkos::View<Real*>(label_, room);
   if (!mpi_reaches_device())
-    staged_ = Kokkos::View<Real*, Kokkos::HostSpace>(std::string(label) + ", staged", n);
+    staged_ = Kokkos::View<Real*, Kokkos::HostSpace>(label_ + ", staged", room);
 }
 
 const Real* MessageBuffer::to_send() const {
@@ -86,8 +92,8 @@ void exchange(const RankLine& line, const Rims& rims) {
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   rims.from_before.received();
   rims.from_after.received();
-  count_message(rims.to_after.size());
-  count_message(rims.to_before.size());
+  message_detail::count_message(rims.to_after.size());
+  message_detail::count_message(rims.to_before.size());
 }
 
 void exchange_all(const RankLine& line, const MessageBuffer& send,
@@ -99,7 +105,7 @@ void exchange_all(const RankLine& line, const MessageBuffer& send,
   receive.received();
   for (int place = 0; place < line.count; ++place) {
     const int n = send_counts[static_cast<std::size_t>(place)];
-    if (place != line.place && n > 0) count_message(static_cast<std::size_t>(n));
+    if (place != line.place && n > 0) message_detail::count_message(static_cast<std::size_t>(n));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kernels/grid.hpp"
@@ -17,6 +18,12 @@ struct MessageCounts {
 };
 const MessageCounts& message_counts();
 
+namespace message_detail {
+/// One more message of so many words, or one more reduction, of this rank.
+void count_message(std::size_t words);
+void count_reduction();
+}  // namespace message_detail
+
 /// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
 /// MPI library says so. Otherwise messages pass through the host.
 bool mpi_reaches_device();
@@ -29,6 +36,8 @@ class MessageBuffer {
   /// For kernels.
   Real* data() const { return numbers_.data(); }
   std::size_t size() const { return numbers_.extent(0); }
+  /// Room for n numbers, or some more if it grows; then what it held is lost.
+  void reserve(std::size_t n);
 
   /// For MPI: what kernels wrote, complete; and where to put what kernels will read.
   const Real* to_send() const;
@@ -37,6 +46,7 @@ class MessageBuffer {
   void received() const;
 
  private:
+  std::string label_;
   Kokkos::View<Real*> numbers_;
   Kokkos::View<Real*, Kokkos::HostSpace> staged_;  // empty where MPI reaches the numbers
 };

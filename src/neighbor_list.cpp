@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "src/communicator.hpp"
+#include "src/grain_columns.hpp"
+
 namespace barchan {
 
 namespace {
@@ -47,7 +50,7 @@ int counts_to_starts(const Kokkos::View<int*>& a, int n, int begin = 0) {
 
 }  // namespace
 
-NeighborList::NeighborList(const Config& config, Real r_max)
+NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
     : skin_(config.grains->skin),
       r_max_(r_max),
       lx_(config.size[0]),
@@ -64,6 +67,7 @@ NeighborList::NeighborList(const Config& config, Real r_max)
   columns_.height = ly_;
   box_.lx = columns_.periodic_x ? lx_ : 0;
   box_.lz = columns_.periodic_z ? lz_ : 0;
+  if (rank_count(ranks) > 1) ranks_ = std::make_unique<Ranks>(ranks);
 }
 
 void NeighborList::check_positions(const GrainState& grains) const {
@@ -95,15 +99,11 @@ void NeighborList::wrap(GrainState& grains) const {
       });
 }
 
-void NeighborList::make_room(int n) {
-  reserve(row_, "old row", n + 1);
-  reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", n);
-}
-
 void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
-  make_room(n);
+  reserve(row_, "row in the contacts kept", n + 1);
+  reserve(room_, "room of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", n);
   const Kokkos::View<std::uint64_t*, Kokkos::MemoryUnmanaged> key(key_room_.data(),
                                                                   static_cast<std::size_t>(n));
   const auto row = Kokkos::subview(row_, std::pair<int, int>(0, n));
@@ -149,16 +149,32 @@ Windows NeighborList::find_windows(const Kokkos::View<const GrainKinematics*>& k
 
 void NeighborList::keep_contacts(const GrainState& grains) {
   const PairList& list = grains.list;
-  reserve(kept_.first, "contacts kept: first", grains.n + 1);
-  Kokkos::parallel_for("neighbors: count contacts", grains.n,
-                       CountContacts{.list = list, .count = kept_.first});
-  const int n = counts_to_starts(kept_.first, grains.n);
-  reserve(kept_.partner, "contacts kept: partner", n);
-  reserve(kept_.xi_t, "contacts kept: xi_t", n);
-  if (list.has_rolling()) reserve(kept_.rolling, "contacts kept: rolling", n);
-  if (list.has_force()) reserve(kept_.force, "contacts kept: force", n);
-  Kokkos::parallel_for("neighbors: keep contacts", grains.n,
-                       KeepContacts{.list = list, .kept = kept_});
+  const int n = grains.n;
+  const KeepingGrains keeping{.list = list, .id = grains.id, .both = ranks_ != nullptr};
+  reserve(kept_.first, "contacts kept: first", n + 1);
+  reserve(row_, "row in the contacts kept", n + 1);
+  Kokkos::deep_copy(kept_.first, 0);
+  Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
+                       CountContacts{.keeping = keeping, .count = kept_.first});
+  const int n_contacts = counts_to_starts(kept_.first, n);
+  reserve(kept_.partner, "contacts kept: partner", n_contacts);
+  reserve(kept_.xi_t, "contacts kept: xi_t", n_contacts);
+  if (list.has_rolling()) reserve(kept_.rolling, "contacts kept: rolling", n_contacts);
+  if (list.has_force()) reserve(kept_.force, "contacts kept: force", n_contacts);
+  const auto rows = std::pair<int, int>(0, n);
+  Kokkos::deep_copy(Kokkos::subview(row_, rows), Kokkos::subview(kept_.first, rows));
+  Kokkos::parallel_for("neighbors: keep contacts", list.n_pairs,
+                       KeepContacts{.keeping = keeping, .kept = kept_, .cursor = row_});
+  has_kept_ = true;
+}
+
+/// Grains to the ranks that own their columns, after new cuts where the work asks for them.
+void NeighborList::share_out(GrainState& grains) {
+  if (!has_kept_) kept_.first = Kokkos::View<int*>("contacts kept: first", grains.n + 1);
+  ranks_->partition.balance(grains, columns_, kept_.first);
+  columns_.origin = ranks_->partition.origin();
+  reserve(room_, "room of a rebuild", grains.n);
+  ranks_->migrate(grains, kept_, columns_, ranks_->partition.owners(), room_);
 }
 
 void NeighborList::reserve_pairs(PairList& list) const {
@@ -184,23 +200,25 @@ void NeighborList::register_others(const PairList& list, int n) {
       "neighbors: count others", list.n_crossing,
       KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.other_first(list.j(slot))); });
   counts_to_starts(list.other_first, n);
-  const auto span = std::pair<int, int>(0, n + 1);
-  Kokkos::deep_copy(Kokkos::subview(row_, span), Kokkos::subview(list.other_first, span));
+  const Kokkos::View<int*> cursor(reinterpret_cast<int*>(key_room_.data()),
+                                  static_cast<std::size_t>(n));
+  Kokkos::deep_copy(cursor, Kokkos::subview(list.other_first, std::pair<int, int>(0, n)));
   Kokkos::parallel_for("neighbors: register others", list.n_crossing,
-                       RegisterOthers{.list = list, .cursor = row_});
+                       RegisterOthers{.list = list, .cursor = cursor});
   Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
 }
 
-void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin,
-                          bool has_kept) {
-  const int n = grains.n;
+void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin) {
+  const int n = grains.n + grains.n_ghosts;
+  reserve(room_, "room of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", n);
   const Windows window = find_windows(kin, n);
   PairList& list = grains.list;
-  list.chunks = make_chunks(n);
+  list.chunks = make_chunks(grains.n);
   reserve(list.first, "pairs: first", n + 1);
   reserve(list.inner_first, "pairs: inner first", n + 1);
   reserve(list.other_first, "pairs: other first", n + 1);
-  reserve(list.near_wall, "near a wall", n);
+  reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Quad));
   const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
   const PairSearch pair_search{.grains = kin,
@@ -208,7 +226,8 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
                                .window = window,
                                .box = box_,
                                .skin = skin_,
-                               .r_max = r_max_};
+                               .r_max = r_max_,
+                               .n_owned = grains.n};
   Kokkos::parallel_for("neighbors: count", n,
                        CountPairs{.search = pair_search,
                                   .chunks = list.chunks,
@@ -224,38 +243,61 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
                                  .list = list,
                                  .kept = kept_,
                                  .old_row = row_,
-                                 .has_kept = has_kept});
+                                 .id = grains.id,
+                                 .has_kept = has_kept_});
+  has_kept_ = false;
   register_others(list, n);
 }
 
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
-  const bool has_contacts = rebuilds_ > 0;
   check_positions(grains);
   wrap(grains);
-  if (has_contacts) keep_contacts(grains);
+  if (rebuilds_ > 0) keep_contacts(grains);
+  if (ranks_) share_out(grains);
   sort(grains, drop);
   const auto kin = grains.kin;
   const auto reference = grains.x_reference;
   Kokkos::parallel_for(
       "neighbors: reference positions", grains.n,
       KOKKOS_LAMBDA(int g) { reference(g) = kin(g).x; });
-  search(grains, grains.kin, has_contacts);
+  if (ranks_) find_ghosts(grains, grains.kin);
+  search(grains, grains.kin);
   ++rebuilds_;
 }
 
+void NeighborList::find_ghosts(GrainState& grains, Kokkos::View<GrainKinematics*>& kin) {
+  const GrainPartition& partition = ranks_->partition;
+  ranks_->ghosts.find(grains, kin, columns_, partition.owners(), partition.ranks());
+}
+
+void NeighborList::update_ghosts(const GrainState& grains) const {
+  if (ranks_) ranks_->ghosts.update(grains.kin);
+}
+
 void NeighborList::restore(GrainState& grains) {
-  const Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
-                                                    static_cast<std::size_t>(grains.n));
-  const auto kin = grains.kin;
+  const int n = grains.n;
+  Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
+                                              static_cast<std::size_t>(std::max(n, 1)));
+  reserve(row_, "row in the contacts kept", n + 1);
+  const auto kin = grains.kin, moved = at_reference;
   const auto reference = grains.x_reference;
+  const auto row = row_;
   Kokkos::parallel_for(
-      "neighbors: restore reference", grains.n, KOKKOS_LAMBDA(int g) {
-        at_reference(g) = kin(g);
-        at_reference(g).x = reference(g);
+      "neighbors: restore reference", n, KOKKOS_LAMBDA(int g) {
+        moved(g) = kin(g);
+        moved(g).x = reference(g);
+        row(g) = g;
       });
-  make_room(grains.n);
-  search(grains, at_reference, false);
+  if (ranks_) {
+    columns_.origin = ranks_->partition.origin();
+    find_ghosts(grains, at_reference);
+    reserve_rows(grains.kin, n + grains.n_ghosts);
+    const std::pair<int, int> ghosts(n, n + grains.n_ghosts);
+    Kokkos::deep_copy(Kokkos::subview(grains.kin, ghosts), Kokkos::subview(at_reference, ghosts));
+    update_ghosts(grains);
+  }
+  search(grains, at_reference);
   ++rebuilds_;
 }
 

@@ -1,0 +1,244 @@
+#include "src/grain_migration.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "kernels/words.hpp"
+#include "src/grain_columns.hpp"
+#include "src/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+using Rows = Kokkos::View<int*>;
+
+Rows make_rows(const char* label, int n) { return {label, static_cast<std::size_t>(n)}; }
+
+Rows to_device(const char* label, const std::vector<int>& values) {
+  const Rows rows = make_rows(label, static_cast<int>(values.size()));
+  const auto host = Kokkos::create_mirror_view(rows);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(rows, host);
+  return rows;
+}
+
+/// A contact as a record: id of the partner, xi_t, then rolling and force where there are any.
+struct ContactRecord {
+  KeptContacts kept;
+  int width;
+  KOKKOS_FUNCTION void put(Real* to, int k) const {
+    put_words(to, kept.partner(k));
+    put_words(to + 1, kept.xi_t(k));
+    int at = 4;
+    if (kept.rolling.extent(0) > 0) put_words(to + at, kept.rolling(k)), at += 3;
+    if (kept.force.extent(0) > 0) put_words(to + at, kept.force(k));
+  }
+  KOKKOS_FUNCTION void take(const Real* from, int k) const {
+    take_words(from, kept.partner(k));
+    take_words(from + 1, kept.xi_t(k));
+    int at = 4;
+    if (kept.rolling.extent(0) > 0) take_words(from + at, kept.rolling(k)), at += 3;
+    if (kept.force.extent(0) > 0) take_words(from + at, kept.force(k));
+  }
+};
+
+/// The last word of a grain's record: how many contacts follow it.
+struct PackContactCounts {
+  Kokkos::View<const int*> first, row;
+  Real* records;
+  int width;
+  KOKKOS_FUNCTION void operator()(int p) const {
+    records[(p + 1) * width - 1] = first(row(p) + 1) - first(row(p));
+  }
+};
+
+template <class View>
+View of_size(const char* label, const View& like, int n) {
+  return like.extent(0) > 0 ? View(label, static_cast<std::size_t>(std::max(n, 1))) : View();
+}
+
+}  // namespace
+
+int GrainMigration::width(GrainState& grains) const {
+  int words = 1;
+  for_each_column(grains, [&](const auto& column) {
+    words += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
+  });
+  return words;
+}
+
+int GrainMigration::width(const KeptContacts& kept) {
+  return 4 + (kept.rolling.extent(0) > 0 ? 3 : 0) + (kept.force.extent(0) > 0 ? 3 : 0);
+}
+
+/// Fills row_, leaving_ and the numbers of grains to each rank.
+void GrainMigration::choose(const GrainState& grains, const Columns& columns,
+                            const GrainOwners& owners) {
+  const int n = grains.n;
+  const Rows stay = make_rows("migration: rows that stay", n);
+  const Rows leave = make_rows("migration: rows that leave", n);
+  const Rows owner = make_rows("migration: owner", n);
+  const auto kin = grains.kin;
+  n_stay_ = 0;
+  Kokkos::parallel_scan(
+      "migration: who stays", items(n),
+      KOKKOS_LAMBDA(int g, int& sum, bool final) {
+        const int to = owners.of_place(columns.place_of(kin(g).x));
+        if (final) {
+          (to == owners.me ? stay(sum) : leave(g - sum)) = g;
+          owner(g) = to;
+        }
+        sum += to == owners.me ? 1 : 0;
+      },
+      n_stay_);
+  const std::pair<int, int> leavers(0, n - n_stay_);
+  const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{},
+                                                       Kokkos::subview(leave, leavers));
+  std::vector<std::vector<int>> rows_for(owners.start.extent(0));
+  if (n > n_stay_) {
+    const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, owner);
+    for (int p = 0; p < n - n_stay_; ++p)
+      rows_for[static_cast<std::size_t>(to(row(p)))].push_back(row(p));
+  }
+  std::vector<int> sorted;
+  grains_.to.clear();
+  for (const auto& rows : rows_for) {
+    grains_.to.push_back(static_cast<int>(rows.size()));
+    sorted.insert(sorted.end(), rows.begin(), rows.end());
+  }
+  row_ = stay;
+  leaving_ = to_device("migration: leaving", sorted);
+  n_sent_ += n - n_stay_;
+}
+
+/// Tells the ranks how many grains and contacts they will get.
+void GrainMigration::count(const GrainState& grains, const KeptContacts& kept,
+                           const GrainOwners& owners) {
+  const int n = static_cast<int>(leaving_.extent(0));
+  const Rows contacts = make_rows("migration: contacts", n);
+  const auto row = leaving_;
+  const auto first = kept.first;
+  Kokkos::parallel_for(
+      "migration: count contacts", items(n),
+      KOKKOS_LAMBDA(int p) { contacts(p) = first(row(p) + 1) - first(row(p)); });
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, contacts);
+  std::vector<int> starts, to;
+  int p = 0, total = 0;
+  for (std::size_t rank = 0; rank < owners.start.extent(0); ++rank) {
+    const int before = total;
+    for (const int end = p + grains_.to[rank]; p < end; ++p) {
+      starts.push_back(total);
+      total += host(p);
+    }
+    to.push_back(total - before);
+  }
+  first_ = to_device("migration: first contact", starts);
+  grains_ = announce(grains.ranks, std::move(grains_.to));
+  contacts_ = announce(grains.ranks, std::move(to));
+}
+
+void GrainMigration::send_grains(GrainState& grains) {
+  const int words = width(grains), n = grains_.n_to();
+  send_.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(words));
+  int offset = 0;
+  for_each_column(grains, [&](const auto& column) {
+    using Column = std::decay_t<decltype(column)>;
+    Kokkos::parallel_for("migration: pack", items(n),
+                         PackColumn<Column>{.column = column,
+                                            .row = leaving_,
+                                            .records = send_.data(),
+                                            .width = words,
+                                            .offset = offset});
+    offset += words_of<typename Column::non_const_value_type>;
+  });
+}
+
+void GrainMigration::send_contacts(const KeptContacts& kept) {
+  const ContactRecord record{.kept = kept, .width = width(kept)};
+  send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to() * record.width));
+  Real* const to = send_contacts_.data();
+  const auto row = leaving_, first = first_;
+  Kokkos::parallel_for(
+      "migration: pack contacts", items(grains_.n_to()), KOKKOS_LAMBDA(int p) {
+        int at = first(p);
+        for (int k = kept.first(row(p)); k < kept.first(row(p) + 1); ++k)
+          record.put(to + record.width * at++, k);
+      });
+  exchange(contacts_, record.width, send_contacts_, receive_contacts_);
+}
+
+/// New contacts: of the rows that stayed, then what was received.
+void GrainMigration::take_contacts(KeptContacts& kept, int words) const {
+  const int n_stay = n_stay_, n = n_stay + grains_.n_from();
+  const Rows first = make_rows("contacts kept: first", n + 1);
+  const KeptContacts old = kept;
+  const Rows row = row_;
+  const Real* const grain_records = receive_.data();
+  int total = 0;
+  Kokkos::parallel_scan(
+      "migration: starts of contacts", items(n),
+      KOKKOS_LAMBDA(int g, int& sum, bool final) {
+        if (final) first(g) = sum;
+        sum += g < n_stay ? old.first(row(g) + 1) - old.first(row(g))
+                          : static_cast<int>(grain_records[(g - n_stay + 1) * words - 1]);
+        if (final) first(g + 1) = sum;
+      },
+      total);
+  kept = {.first = first,
+          .partner = of_size("contacts kept: partner", old.partner, total),
+          .xi_t = of_size("contacts kept: xi_t", old.xi_t, total),
+          .rolling = of_size("contacts kept: rolling", old.rolling, total),
+          .force = of_size("contacts kept: force", old.force, total)};
+  const KeptContacts now = kept;
+  const ContactRecord record{.kept = now, .width = width(now)};
+  const Real* const contact_records = receive_contacts_.data();
+  Kokkos::parallel_for(
+      "migration: take contacts", items(n), KOKKOS_LAMBDA(int g) {
+        for (int k = now.first(g); k < now.first(g + 1); ++k) {
+          if (g >= n_stay) {
+            record.take(contact_records + record.width * (k - now.first(n_stay)), k);
+            continue;
+          }
+          const int from = old.first(row(g)) + k - now.first(g);
+          now.partner(k) = old.partner(from);
+          now.xi_t(k) = old.xi_t(from);
+          if (now.rolling.extent(0) > 0) now.rolling(k) = old.rolling(from);
+          if (now.force.extent(0) > 0) now.force(k) = old.force(from);
+        }
+      });
+}
+
+void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Columns& columns,
+                                const GrainOwners& owners, const Kokkos::View<Quad*>& room) {
+  choose(grains, columns, owners);
+  count(grains, kept, owners);
+  const int n_to = grains_.n_to(), n_from = grains_.n_from();
+  if (n_to == 0 && n_from == 0) return;
+  const int words = width(grains);
+  send_grains(grains);
+  Kokkos::parallel_for("migration: pack counts", items(n_to),
+                       PackContactCounts{kept.first, leaving_, send_.data(), words});
+  exchange(grains_, words, send_, receive_);
+  send_contacts(kept);
+  take_contacts(kept, words);
+
+  permute(grains, row_, n_stay_, room);
+  reserve_rows(grains, n_stay_ + n_from);
+  int offset = 0;
+  for_each_column(grains, [&](const auto& column) {
+    using Column = std::decay_t<decltype(column)>;
+    Kokkos::parallel_for("migration: unpack", items(n_from),
+                         UnpackColumn<Column>{.column = column,
+                                              .first_row = n_stay_,
+                                              .records = receive_.data(),
+                                              .width = words,
+                                              .offset = offset});
+    offset += words_of<typename Column::non_const_value_type>;
+  });
+  grains.n = n_stay_ + n_from;
+}
+
+}  // namespace barchan
