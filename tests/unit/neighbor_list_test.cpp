@@ -5,11 +5,14 @@
 #include <set>
 
 #include "tests/support/grain_cases.hpp"
+#include "tests/support/pair_marks.hpp"
 
 namespace barchan {
 namespace {
 
+using testing::drift;
 using testing::grain_config;
+using testing::handle_marks;
 using testing::random_grains;
 using PairSet = std::set<std::pair<std::int64_t, std::int64_t>>;
 
@@ -39,40 +42,6 @@ PairSet all_pairs(const GrainState& s, Real reach, Real lx, Real lz) {
     }
   }
   return pairs;
-}
-
-void drift(const GrainState& s, Real distance) {
-  const auto kin = s.kin;
-  Kokkos::parallel_for(
-      "test: drift", s.n, KOKKOS_LAMBDA(int g) {
-        kin(g).x += (distance / norm(kin(g).u)) * kin(g).u;
-      });
-}
-
-/// Marks each pair with its ids, seen from the grain of lower id; or counts the touching pairs whose
-/// marks are wrong.
-int handle_marks(const GrainState& s, bool write) {
-  const PairList l = s.list;
-  const auto id = s.id;
-  int wrong = 0;
-  Kokkos::parallel_reduce(
-      "test: marks", l.n_pairs,
-      KOKKOS_LAMBDA(int p, int& errors) {
-        const auto a = static_cast<Real>(id(l.i(p))), b = static_cast<Real>(id(l.j(p)));
-        const Real sign = a < b ? 1 : -1;
-        const Vec3 expected = sign * Vec3{Kokkos::min(a, b), Kokkos::max(a, b), 1};
-        if (write) {
-          l.xi_t(p) = expected;
-          l.rolling(p) = Real(2) * expected;
-          l.force(p) = Real(3) * expected;
-          l.touching(p) = 1;
-        } else if (l.touching(p)) {
-          errors += norm(l.xi_t(p) - expected) > 0 || norm(l.rolling(p) - Real(2) * expected) > 0 ||
-                    norm(l.force(p) - Real(3) * expected) > 0;
-        }
-      },
-      wrong);
-  return wrong;
 }
 
 /// Moves every tenth grain beyond the outlet.

@@ -1,0 +1,168 @@
+// Grains over ranks against the same grains on one rank.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/records.hpp"
+#include "tests/support/packing.hpp"
+#include "tests/support/pair_marks.hpp"
+#include "tests/support/shared_grains.hpp"
+
+namespace barchan {
+namespace {
+
+using testing::by_id;
+using testing::from_all_ranks;
+using testing::GrainSystem;
+using testing::numbers_of;
+using testing::on_host;
+using testing::SharedGrains;
+
+int n_ranks() { return rank_count(MPI_COMM_WORLD); }
+
+/// For one line of what was measured, however many ranks there are.
+bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
+
+Config box(std::array<double, 3> size) {
+  Config c = testing::grain_config();
+  c.size = size;
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  c.grains->boundary_z = GrainBoundaryZ::periodic;
+  c.grains->material.rolling_friction = 0.1;
+  c.grains->rolling_model = RollingModel::epsd2;
+  return c;
+}
+
+/// Pairs of a list by ids and how many of their grains are owned; or those in contact alone.
+std::vector<double> pairs_of(const GrainState& s, bool touching_only = false) {
+  const auto i = on_host(s.list.i), j = on_host(s.list.j);
+  const auto touching = on_host(s.list.touching);
+  const auto id = on_host(s.id);
+  std::vector<double> pairs;
+  for (int p = 0; p < s.list.n_pairs; ++p) {
+    if (touching_only && !touching(p)) continue;
+    const std::int64_t a = std::min(id(i(p)), id(j(p))), b = std::max(id(i(p)), id(j(p)));
+    pairs.push_back(static_cast<double>(a));
+    pairs.push_back(static_cast<double>(b));
+    pairs.push_back((i(p) < s.n) + (j(p) < s.n));
+  }
+  return pairs;
+}
+/// Grains that are owned where the pair is listed, over all lists: two for every pair.
+std::map<std::pair<double, double>, int> owned_in(const std::vector<double>& pairs) {
+  std::map<std::pair<double, double>, int> owned;
+  for (std::size_t p = 0; p < pairs.size(); p += 3)
+    owned[{pairs[p], pairs[p + 1]}] += static_cast<int>(pairs[p + 2]);
+  return owned;
+}
+
+TEST(GrainsOverRanks, PairsAreThoseOfOneRank) {
+  for (const std::array<double, 3> size :
+       {std::array<double, 3>{0.01, 0.003, 0.004}, {0.0011, 0.004, 0.02}}) {
+    const Config c = box(size);
+    const SharedGrains s(c, testing::random_grains(4000, size, 4));
+    const auto whole = owned_in(pairs_of(s.whole.state));
+    const auto shared = owned_in(from_all_ranks(pairs_of(s.shared.state)));
+    ASSERT_GT(whole.size(), 1000u);
+    EXPECT_EQ(whole, shared);
+    EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n), 4000);
+  }
+}
+
+TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
+  const Config c = box({0.008, 0.006, 0.005});
+  SharedGrains s(c, testing::lattice_packing(6000, c.size, 0.5));
+  s.advance(200, 1e-6);  // into contact, the history of which is then there
+  s.advance(1, 1e-6);
+  const auto off = s.off();
+  // Not the same bits: a grain's contacts are added in the order of its rank's rows.
+  for (const double difference : off) EXPECT_LT(difference, 1e-13);
+  const ContactSummary a = s.whole.solver.contacts(s.whole.state),
+                       b = s.shared.solver.contacts(s.shared.state);
+  EXPECT_GT(a.n_contacts, 500);
+  EXPECT_EQ(a.n_contacts, b.n_contacts);
+  EXPECT_NEAR(a.max_overlap / b.max_overlap, 1, 1e-10);
+  if (is_first())
+    std::printf("[ measured ] %d ranks: x %.1e, u %.1e, omega %.1e, force %.1e, torque %.1e\n",
+                n_ranks(), off[0], off[1], off[2], off[3], off[4]);
+}
+
+/// Grains that fly through each other and through the periodic sides, with marks for histories.
+TEST(GrainsOverRanks, TenThousandMigrationsLoseNothing) {
+  const Config c = box({0.006, 0.003, 0.005});
+  InitialGrains grains = testing::random_grains(3000, c.size, 5);
+  for (Vec3& u : grains.u) u.y = 0;  // there is no floor
+  GrainState whole = make_grain_state(grains, 2500);
+  GrainState shared = make_grain_state(grains, 2500, MPI_COMM_WORLD);
+  NeighborList whole_list(c, whole.r_max), shared_list(c, shared.r_max, MPI_COMM_WORLD);
+  for (NeighborList* list : {&whole_list, &shared_list})
+    list->with_rolling = list->with_force = true;
+  whole_list.rebuild(whole, false);
+  shared_list.rebuild(shared, false);
+  std::int64_t migrated = 0, contacts = 0;
+  int round = 0;
+  for (; round < 400 && (round < 20 || (n_ranks() > 1 && migrated < 10000)); ++round) {
+    testing::handle_marks(whole, true);
+    testing::handle_marks(shared, true);
+    testing::drift(whole, 6e-5);
+    testing::drift(shared, 6e-5);
+    whole_list.rebuild(whole, false);
+    shared_list.rebuild(shared, false);
+    ASSERT_EQ(testing::handle_marks(shared, false), 0)
+        << "history of another pair, round " << round;
+    const auto kept = owned_in(pairs_of(whole, true));
+    ASSERT_EQ(kept, owned_in(from_all_ranks(pairs_of(shared, true)))) << "round " << round;
+    contacts += static_cast<std::int64_t>(kept.size());
+    migrated = sum_over(MPI_COMM_WORLD, shared_list.n_migrated());
+  }
+  EXPECT_GT(contacts, 10000);
+  EXPECT_TRUE(n_ranks() == 1 || migrated >= 10000) << migrated;
+  // Every grain is there once, with the velocity and mass it began with, where one rank has it.
+  const auto a = by_id(numbers_of(whole)), b = by_id(from_all_ranks(numbers_of(shared)));
+  EXPECT_EQ(a, b);
+  if (is_first())
+    std::printf("[ measured ] %d ranks: %lld migrations in %d rebuilds, %lld histories carried\n",
+                n_ranks(), static_cast<long long>(migrated), round,
+                static_cast<long long>(contacts));
+}
+
+TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
+  Config c = box({0.004, 0.004, 0.005});
+  c.grains->boundary_x = GrainBoundaryX::exit;
+  SharedGrains s(c, testing::lattice_packing(2000, c.size, 0.8));
+  for (int step = 0; step < 20; ++step) s.advance(25, 4e-6);
+  EXPECT_LT(s.whole.state.n, 1900);
+  EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n), s.whole.state.n);
+  EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n_left), s.whole.state.n_left);
+  for (const double difference : s.off()) EXPECT_LT(difference, 1e-9);
+}
+
+/// A heap beside an empty floor.
+TEST(GrainsOverRanks, CutsGiveEqualWorkAndFollowTheGrains) {
+  Config c = box({0.02, 0.01, 0.004});
+  c.grains->boundary_x = GrainBoundaryX::exit;
+  InitialGrains grains = testing::lattice_packing(6000, {0.006, 0.01, 0.004}, 0.01);
+  GrainSystem s(c, grains, MPI_COMM_WORLD);
+  if (n_ranks() == 1) return;
+  const GrainPartition& cuts = *s.solver.list().partition();
+  EXPECT_LT(cuts.imbalance(), 1.15);
+  const Real mean = 6000.0 / n_ranks();
+  EXPECT_LT(max_over(MPI_COMM_WORLD, s.state.n), 1.15 * mean);
+  // All that lies left of the middle goes far to the right: one or two ranks have it all.
+  const auto kin = s.state.kin;
+  Kokkos::parallel_for(
+      "test: move", s.state.n, KOKKOS_LAMBDA(int g) {
+        if (kin(g).x.x < 0.003) kin(g).x.x += 0.012;
+      });
+  s.solver.list().rebuild(s.state, false);  // they go to the owners of the places ...
+  s.solver.list().rebuild(s.state, false);  // ... who then have too much to do
+  EXPECT_GT(cuts.imbalance_before(), 1.1);
+  EXPECT_LT(cuts.imbalance(), 1.15);
+  EXPECT_LT(max_over(MPI_COMM_WORLD, s.state.n), 1.2 * mean);
+  if (is_first())
+    std::printf("[ measured ] %d ranks: imbalance %.3f, cut again: %.3f\n", n_ranks(),
+                cuts.imbalance_before(), cuts.imbalance());
+}
+
+}  // namespace
+}  // namespace barchan

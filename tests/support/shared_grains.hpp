@@ -1,0 +1,103 @@
+// The same grains on one rank alone and among all ranks, side by side.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "src/communicator.hpp"
+#include "src/grain_solver.hpp"
+#include "tests/support/grain_cases.hpp"
+
+namespace barchan::testing {
+
+/// The numbers of all ranks, one rank after the other.
+inline std::vector<double> from_all_ranks(const std::vector<double>& mine) {
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(rank_count(MPI_COMM_WORLD))), starts;
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  int total = 0;
+  for (const int count : counts) starts.push_back(total), total += count;
+  std::vector<double> all(static_cast<std::size_t>(total));
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                 MPI_COMM_WORLD);
+  return all;
+}
+
+template <class View>
+auto on_host(const View& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+}
+
+/// Position, velocity, spin, contact force and torque of the owned grains by id.
+using GrainNumbers = std::map<std::int64_t, std::vector<double>>;
+inline std::vector<double> numbers_of(const GrainState& s) {
+  const auto kin = on_host(s.kin);
+  const auto id = on_host(s.id);
+  const auto force = on_host(s.contact_force), torque = on_host(s.contact_torque);
+  std::vector<double> numbers;
+  for (int g = 0; g < s.n; ++g) {
+    numbers.push_back(static_cast<double>(id(g)));
+    for (const Vec3& v : {kin(g).x, kin(g).u, kin(g).omega, force(g), torque(g)})
+      numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  }
+  return numbers;
+}
+/// Fails on an id that is there twice.
+inline GrainNumbers by_id(const std::vector<double>& numbers) {
+  constexpr std::size_t width = 16;
+  GrainNumbers grains;
+  for (auto at = numbers.begin(); at != numbers.end(); at += width) {
+    const bool is_new =
+        grains.emplace(static_cast<std::int64_t>(*at), std::vector<double>(at + 1, at + width))
+            .second;
+    EXPECT_TRUE(is_new) << "grain " << *at << " is on two ranks";
+  }
+  return grains;
+}
+
+/// Largest difference of each vector relative to its largest component among all grains; infinity
+/// if the grains are not the same.
+inline std::vector<double> differences(const GrainNumbers& a, const GrainNumbers& b) {
+  std::vector<double> off(5, 0), size(5, 1e-300);
+  for (const auto& [id, numbers] : a) {
+    const auto other = b.find(id);
+    if (other == b.end() || a.size() != b.size()) return std::vector<double>(5, INFINITY);
+    for (std::size_t q = 0; q < numbers.size(); ++q) {
+      off[q / 3] = std::max(off[q / 3], std::abs(numbers[q] - other->second[q]));
+      size[q / 3] = std::max(size[q / 3], std::abs(numbers[q]));
+    }
+  }
+  for (std::size_t q = 0; q < off.size(); ++q) off[q] /= size[q];
+  return off;
+}
+
+/// Grains with a solver; the rows of a state without neighbours yet.
+struct GrainSystem {
+  GrainSystem(const Config& c, const InitialGrains& grains, MPI_Comm ranks)
+      : state(make_grain_state(grains, c.grains->density, ranks)), solver(c, state) {
+    solver.start(state);
+  }
+  GrainState state;
+  GrainSolver solver;
+};
+
+/// The same case twice.
+struct SharedGrains {
+  SharedGrains(const Config& c, const InitialGrains& grains)
+      : whole(c, grains, MPI_COMM_SELF), shared(c, grains, MPI_COMM_WORLD) {}
+  void advance(int n, Real dt) {
+    for (GrainSystem* s : {&whole, &shared}) {
+      s->solver.advance(s->state, n, dt);
+      s->solver.remove_left(s->state);
+    }
+  }
+  std::vector<double> off() const {
+    return differences(by_id(numbers_of(whole.state)),
+                       by_id(from_all_ranks(numbers_of(shared.state))));
+  }
+  GrainSystem whole, shared;
+};
+
+}  // namespace barchan::testing
