@@ -16,7 +16,7 @@ const std::string prefix = "restart_";
 const std::string ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
 constexpr std::int64_t format_version =
-    4;  // of restart files; 4: opposite walls share their history
+    5;  // of restart files; 5: contacts by the ids of their grains
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");
@@ -190,10 +190,15 @@ template std::vector<double> CheckpointReader::array(const std::string&, const E
 template std::vector<std::int64_t> CheckpointReader::array(const std::string&,
                                                            const Extents&) const;
 
-std::vector<double> CheckpointReader::part(const std::string& name, const Extents& whole,
-                                           const Extents& first, const Extents& size) const {
-  expect(name, whole, ElementType::float64);
-  return file_.read_block(name, whole, first, size);
+template <class T>
+std::vector<T> CheckpointReader::part(const std::string& name, const Extents& whole,
+                                      const Extents& first, const Extents& size) const {
+  expect(name, whole, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
+  return file_.read_block<T>(name, whole, first, size);
 }
+template std::vector<double> CheckpointReader::part(const std::string&, const Extents&,
+                                                    const Extents&, const Extents&) const;
+template std::vector<std::int64_t> CheckpointReader::part(const std::string&, const Extents&,
+                                                          const Extents&, const Extents&) const;
 
 }  // namespace barchan

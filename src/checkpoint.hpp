@@ -161,9 +161,10 @@ class CheckpointReader {
   template <class T>
   std::vector<T> array(const std::string& name, const Extents& expected = {}) const;
 
-  /// The block of an array of real numbers that begins at `first`; extents slowest first.
-  std::vector<double> part(const std::string& name, const Extents& whole, const Extents& first,
-                           const Extents& size) const;
+  /// The block of an array that begins at `first`; extents slowest first. T as above.
+  template <class T>
+  std::vector<T> part(const std::string& name, const Extents& whole, const Extents& first,
+                      const Extents& size) const;
 
   /// Into a host or device view of the extents it was written with.
   template <class View>

@@ -32,14 +32,10 @@ void take_rows(const Column& column, const Kokkos::View<int*>& row, int n,
 
 }  // namespace
 
-GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm ranks) {
+GrainState make_grain_rows(int n, MPI_Comm ranks) {
   GrainState s;
-  s.ranks = ranks;
-  const int n_all = static_cast<int>(initial.size());
-  const Split shares{.n = n_all, .parts = rank_count(ranks)};
-  const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
   s.n = n;
-  s.n_initial = n_all;
+  s.ranks = ranks;
   s.kin = rows<decltype(s.kin)>("grain kinematics", n);
   s.id = rows<decltype(s.id)>("grain id", n);
   for (Kokkos::View<Vec3*>* array :
@@ -47,6 +43,15 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
     *array = rows<Kokkos::View<Vec3*>>("grain vector", n);
   }
   s.wall_touching = rows<Kokkos::View<std::uint8_t*>>("wall touching", n);
+  return s;
+}
+
+GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm ranks) {
+  const int n_all = static_cast<int>(initial.size());
+  const Split shares{.n = n_all, .parts = rank_count(ranks)};
+  const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
+  GrainState s = make_grain_rows(n, ranks);
+  s.n_initial = n_all;
 
   const auto kin = Kokkos::create_mirror_view(s.kin);
   const auto id = Kokkos::create_mirror_view(s.id);

@@ -34,6 +34,8 @@ struct GrainState {
   std::int64_t n_left = 0;                               // left through the outlet, on this rank
 };
 
+/// Rows for n grains of this rank, to be filled.
+GrainState make_grain_rows(int n, MPI_Comm ranks);
 /// Grains at rest in the list's eyes: no history, no fluid. density [kg/m^3]. Each rank takes an
 /// equal share of the rows; the first neighbour list then gives them to those who own the place.
 GrainState make_grain_state(const InitialGrains& initial, Real density,

@@ -69,7 +69,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
                                       creation.get(), H5P_DEFAULT),
                            name),
                      H5Dclose);
-  if (values.empty()) {
+  if (values.empty() || (share.whole.empty() && !is_root_)) {
     check(H5Sselect_none(memory.get()), name);
     check(H5Sselect_none(file.get()), name);
   } else if (!share.whole.empty()) {
@@ -130,8 +130,9 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
   return values;
 }
 
-std::vector<double> Hdf5File::read_block(const std::string& name, const Extents& whole,
-                                         const Extents& first, const Extents& size) const {
+template <class T>
+std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whole,
+                                    const Extents& first, const Extents& size) const {
   const ArrayInfo found = info(name);
   if (found.extents != whole) {
     fail("it is " + to_string(found.extents) + ", expected was " + to_string(whole), name);
@@ -139,15 +140,16 @@ std::vector<double> Hdf5File::read_block(const std::string& name, const Extents&
   const auto [base, rest] = place_of(name);
   const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
   const Handle file(check(H5Dget_space(array.get()), name), H5Sclose);
+  std::uint64_t n = 0;
+  count_elements(size, n);
+  std::vector<T> values(n);
+  if (n == 0) return values;
   const std::vector<hsize_t> begin(first.begin(), first.end()), count(size.begin(), size.end());
   check(
       H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr),
       name);
   const Handle memory = dataspace(size);
-  std::uint64_t n = 0;
-  count_elements(size, n);
-  std::vector<double> values(n);
-  check(H5Dread(array.get(), memory_type<double>(), memory.get(), file.get(), H5P_DEFAULT,
+  check(H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT,
                 values.data()),
         name);
   return values;
@@ -166,7 +168,9 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) 
   template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&, \
                                 std::string_view, const Share&);                        \
   template std::vector<T> Hdf5File::read(const std::string&) const;                     \
-  template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;
+  template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;       \
+  template std::vector<T> Hdf5File::read_block(const std::string&, const Extents&,        \
+                                               const Extents&, const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
 BARCHAN_HDF5_ARRAYS(double)
 BARCHAN_HDF5_ARRAYS(std::int64_t)

@@ -83,6 +83,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
     : path_(path), mode_(mode), system_error_(std::make_unique<int>(0)) {
   hdf5::start_library();
   parallel_ = rank_count(communicator) > 1;
+  is_root_ = rank_of(communicator) == 0;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("it is a folder", {});
   const Handle access = access_list(parallel_, communicator, system_error_.get());

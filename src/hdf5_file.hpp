@@ -70,15 +70,17 @@ class Hdf5File {
   void begin_hidden_group(const std::string& as);
   void publish_group();
 
-  /// T is float, double or std::int64_t. `extents` are those of `values`.
+  /// T is float, double or std::int64_t. `extents` are those of `values`. Without a share, what
+  /// rank 0 has is written.
   template <class T>
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});
 
-  /// The block of an array of real numbers that begins at `first`; the array must have the extents
-  /// `whole`. Each rank reads its own.
-  std::vector<double> read_block(const std::string& name, const Extents& whole,
-                                 const Extents& first, const Extents& size) const;
+  /// The block of an array that begins at `first`; the array must have the extents `whole`. Each
+  /// rank reads its own, which may be empty.
+  template <class T>
+  std::vector<T> read_block(const std::string& name, const Extents& whole, const Extents& first,
+                            const Extents& size) const;
 
   /// Type and extents of an array; extents are checked against the file's size before they are
   /// believed.
@@ -124,7 +126,7 @@ class Hdf5File {
 
   std::filesystem::path path_;
   Mode mode_;
-  bool parallel_ = false;
+  bool parallel_ = false, is_root_ = true;
   std::unique_ptr<int> system_error_;  // errno noted by the serial driver; 0: none
   Id file_ = -1;
   Id hidden_ = -1;

@@ -13,10 +13,10 @@ namespace barchan {
 namespace {
 
 FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
-                         const Decomposition* ranks) {
-  FluidState fluid = make_fluid_state(make_grid(config, ranks));
+                         const Decomposition* pencils) {
+  FluidState fluid = make_fluid_state(make_grid(config, pencils));
   if (!file.empty()) {
-    load_flow(CheckpointReader(file, ranks ? ranks->all() : MPI_COMM_SELF), fluid);
+    load_flow(CheckpointReader(file, pencils ? pencils->all() : MPI_COMM_SELF), fluid);
     fluid.time = 0;
     // The precursor's fluid step may be another one, and grains now push the water aside.
     fluid.has_history = false;
@@ -57,9 +57,9 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
 }  // namespace
 
 SystemState make_initial_state(const Config& config, const InitialFiles& files,
-                               const Decomposition* ranks) {
+                               MPI_Comm ranks, const Decomposition* pencils) {
   SystemState state;
-  if (config.fluid) state.fluid = initial_fluid(config, files.fluid, ranks);
+  if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
   if (config.grains) {
     const bool poured = config.initial.pour.has_value();
     InitialGrains grains =
@@ -67,7 +67,7 @@ SystemState make_initial_state(const Config& config, const InitialFiles& files,
                : read_grains(files.grains);
     wrap(grains, config);
     check_inside(grains, config, poured ? "initial.grains.pour" : files.grains.string());
-    state.grains = make_grain_state(grains, config.grains->density);
+    state.grains = make_grain_state(grains, config.grains->density, ranks);
   }
   return state;
 }

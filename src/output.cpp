@@ -5,6 +5,7 @@
 #include "kernels/frame_values.hpp"
 #include "src/atomic_file.hpp"
 #include "src/communicator.hpp"
+#include "src/row_share.hpp"
 #include "src/xdmf.hpp"
 
 namespace barchan {
@@ -71,28 +72,11 @@ class FieldWriter {
   Share share_;
 };
 
-/// The rows of all ranks one after the other.
-Share share_of_rows(std::uint64_t n, MPI_Comm communicator) {
-  if (rank_count(communicator) == 1) return {};
-  std::uint64_t before = 0, all = 0;
-  MPI_Exscan(&n, &before, 1, MPI_UINT64_T, MPI_SUM, communicator);
-  MPI_Allreduce(&n, &all, 1, MPI_UINT64_T, MPI_SUM, communicator);
-  return {.whole = {all}, .first = {rank_of(communicator) == 0 ? 0 : before}};
-}
-
-Share with_components(Share share) {
-  if (!share.whole.empty()) {
-    share.whole.push_back(3);
-    share.first.push_back(0);
-  }
-  return share;
-}
-
 void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainState& grains,
                         std::span<const NamedForce> forces, const Share& rows) {
   const auto n = static_cast<std::size_t>(grains.n);
   const Rows range(0, grains.n);
-  const Share vectors = with_components(rows);
+  const Share vectors = share_of(rows, {n, 3}, 0);
   const auto write = [&](const std::string& name, const auto& view, const char* units) {
     const auto host = on_host(view);
     const bool scalar = host.size() == n && decltype(host)::rank() == 1;
@@ -206,7 +190,7 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
     const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
     const auto positions = on_host(x);
     file.write(group + "/id", values_of(id), {n}, "1", rows);
-    file.write(group + "/x", values_of(positions), {n, 3}, "m", with_components(rows));
+    file.write(group + "/x", values_of(positions), {n, 3}, "m", share_of(rows, {n, 3}, 0));
   });
 }
 

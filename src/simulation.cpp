@@ -8,6 +8,7 @@
 #include "src/config_resolved.hpp"
 #include "src/derived.hpp"
 #include "src/domain.hpp"
+#include "src/grain_state_file.hpp"
 #include "src/run_identity.hpp"
 #include "src/state_file.hpp"
 #include "src/stop_request.hpp"
@@ -18,12 +19,12 @@ namespace {
 
 /// The state a run starts from; a restart brings its own number of grains.
 SystemState first_state(const Config& config, const RunOptions& options, const InitialFiles& files,
-                        const Decomposition* ranks) {
-  if (!options.restart) return make_initial_state(config, files, ranks);
+                        MPI_Comm ranks, const Decomposition* pencils) {
+  if (!options.restart) return make_initial_state(config, files, ranks, pencils);
   const CheckpointReader file(*options.restart);
   SystemState state;
-  if (config.fluid) state.fluid = make_fluid_state(make_grid(config, ranks));
-  if (config.grains) state.grains = grains_in_file(file, config.grains->density);
+  if (config.fluid) state.fluid = make_fluid_state(make_grid(config, pencils));
+  if (config.grains) state.grains = grains_in_file(file, ranks);
   return state;
 }
 
@@ -46,7 +47,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
     : config_(config),
       pencils_(make_decomposition(config, ranks_)),
       provenance_(make_provenance(config)),
-      state_(first_state(config, options, files, pencils_.get())),
+      state_(first_state(config, options, files, ranks_, pencils_.get())),
       coupled_step_(config, state_),
       restart_time_(time_of(options.restart)),
       folder_(options.folder, restart_time_, ranks_),

@@ -113,7 +113,7 @@ void Simulation::write_grains() {
 
 void Simulation::write_restart() {
   CheckpointWriter file(folder_.path(), step_, provenance_, ranks_);
-  save_state(file, state_);
+  save_state(file, state_, coupled_step_);
   file.scalar("t", time());
   file.scalar("step", step_);
   const std::vector<double> dunes = tracker_.state();

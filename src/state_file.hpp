@@ -9,14 +9,11 @@
 namespace barchan {
 
 /// Writes all of `state` that the next step depends on.
-void save_state(CheckpointWriter& file, const SystemState& state);
+void save_state(CheckpointWriter& file, const SystemState& state, CoupledStep& step);
 
-/// Fills `state`, which has the grid and the grains' number of the file (grains_in_file), and
+/// Fills `state`, which has the grid and the rows of the file (grains_in_file), and
 /// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.
 void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step);
-
-/// Grain rows of a restart file without contacts: enough to size the state.
-GrainState grains_in_file(const CheckpointReader& file, Real density);
 
 /// Only the flow, as the start of another run on the same mesh.
 void load_flow(const CheckpointReader& file, FluidState& fluid);

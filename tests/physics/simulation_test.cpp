@@ -19,7 +19,7 @@ const std::vector<std::string> kArrays = {
     "fluid/u_x", "fluid/u_y", "fluid/u_z", "fluid/p", "fluid/alpha_f", "fluid/nu_t",
     "fluid/rate_previous_x",
     "grains/kin", "grains/contact_force", "grains/carried_impulse", "grains/wall_xi_t",
-    "pairs/xi_t", "pairs/rolling", "dunes"
+    "contacts/xi_t", "contacts/rolling", "dunes"
     // clang-format on
 };
 
