@@ -18,6 +18,8 @@ struct BasicGrid {
   Real dx = 0, dz = 0;          // spacing [m]
   Real x0 = 0, z0 = 0;          // corner of the owned part [m]
   Real lx = 0, ly = 0, lz = 0;  // extent of the owned part [m]
+  int i_begin = 0, k_begin = 0;   // the first owned cell among those of all ranks
+  Real lx_all = 0, lz_all = 0;  // extent of the domain [m]
   Rows y_face_{};               // [ny + 3], faces -1 .. ny + 1
   Rows y_centre_{};             // [ny + 2], cells -1 .. ny
 
@@ -27,6 +29,9 @@ struct BasicGrid {
   KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
   KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
   KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
+  /// Corner of the domain, bit for bit the same on all ranks [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real x_first() const { return x0 - i_begin * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_first() const { return z0 - k_begin * dz; }
   /// Height of row j [m].
   KOKKOS_FORCEINLINE_FUNCTION Real dy(int j) const { return y_face_[j + 2] - y_face_[j + 1]; }
   /// Distance between the centres on either side of y-face j [m].
@@ -65,13 +70,13 @@ class Decomposition;  // src/decomposition.hpp
 /// The grid with its memory: the part that one rank owns.
 struct Grid : BasicGrid<Kokkos::View<Real*>> {
   int nx_all = 0, nz_all = 0;            // cells of all ranks together
-  int i_begin = 0, k_begin = 0;          // the first owned cell among them
   const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
 
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
-    return {nx, ny, nz, dx, dz, x0, z0, lx, ly, lz, y_face_.data(), y_centre_.data()};
+    return {nx, ny,      nz,      dx,     dz,     x0,            z0,             lx,
+            ly, lz, i_begin, k_begin, lx_all, lz_all, y_face_.data(), y_centre_.data()};
   }
 };
 

@@ -11,22 +11,23 @@ struct LinearStencil {
   Real t = 0;
 };
 
-/// Interpolation weights of one point for each staggering. The point is brought into the domain
-/// first: wrapped along z, and along x either wrapped or held at the ends. Near a wall the ghost row
+/// Interpolation weights of one point in a column of this rank for each staggering. The point is
+/// brought into the domain first: wrapped along z, and along x either wrapped or held at the ends. Near a wall the ghost row
 /// takes part, so the boundary condition decides the value (a no-slip velocity vanishes there).
 struct PointStencil {
   LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
 
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const Vec3& point, bool wrap_x) {
-    Real x = point.x - g.x0;
-    if (wrap_x) x -= g.lx * Kokkos::floor(x / g.lx);
-    x = x < 0 ? 0 : (x > g.lx ? g.lx : x);
-    const Real z = point.z - g.z0 - g.lz * Kokkos::floor((point.z - g.z0) / g.lz);
+    Real x = point.x - g.x_first();
+    if (wrap_x) x -= g.lx_all * Kokkos::floor(x / g.lx_all);
+    x = x < 0 ? 0 : (x > g.lx_all ? g.lx_all : x);
+    const Real from_first = point.z - g.z_first();
+    const Real z = from_first - g.lz_all * Kokkos::floor(from_first / g.lz_all);
     const Real y = point.y < 0 ? 0 : (point.y > g.ly ? g.ly : point.y);
-    x_face = uniform(x / g.dx, 0, g.nx - 1);
-    x_centre = uniform(x / g.dx - Real(0.5), -1, g.nx - 1);
-    z_face = uniform(z / g.dz, 0, g.nz - 1);
-    z_centre = uniform(z / g.dz - Real(0.5), -1, g.nz - 1);
+    x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
+    x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
+    z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
+    z_centre = uniform(z / g.dz - Real(0.5), g.k_begin, -1, g.nz - 1);
     const int row = g.row_of(y);
     y_face = {row, (y - g.y_face(row)) / g.dy(row)};
     const int below = y < g.y_centre(row) ? row - 1 : row;
@@ -34,10 +35,11 @@ struct PointStencil {
   }
 
  private:
-  KOKKOS_INLINE_FUNCTION static LinearStencil uniform(Real s, int low, int high) {
-    int i = static_cast<int>(Kokkos::floor(s));
+  /// The weight is counted over the whole domain: the same bits on any number of ranks.
+  KOKKOS_INLINE_FUNCTION static LinearStencil uniform(Real s, int begin, int low, int high) {
+    int i = static_cast<int>(Kokkos::floor(s)) - begin;
     i = i < low ? low : (i > high ? high : i);
-    return {i, s - i};
+    return {i, s - (i + begin)};
   }
 };
 

@@ -47,12 +47,16 @@ KOKKOS_INLINE_FUNCTION constexpr PointsAtHeight divided_height(int q) {
   return {q % 2 == 1 ? height : -height, at_end ? 1 : 4};
 }
 
-/// An owned cell by its place.
+/// A cell by its place, owned or a ghost beside an owned one.
 struct CellIndex {
   int i = 0, j = 0, k = 0;
-  /// i + nx (j + ny k).
+  /// Its place among the owned cells and the ghosts around them in x and z.
   KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
-    return i + std::int64_t{grid.nx} * (j + std::int64_t{grid.ny} * k);
+    return i + 1 + std::int64_t{grid.nx + 2} * (j + std::int64_t{grid.ny} * (k + 1));
+  }
+  static std::size_t count(const GridRef& grid) {
+    return static_cast<std::size_t>(grid.nx + 2) * static_cast<std::size_t>(grid.ny) *
+           static_cast<std::size_t>(grid.nz + 2);
   }
   KOKKOS_INLINE_FUNCTION bool operator==(const CellIndex& b) const {
     return i == b.i && j == b.j && k == b.k;
@@ -84,11 +88,14 @@ struct GrainCells {
 enum class PointSet { divided, centre, cfdem };
 
 /// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
-/// beyond the outlet goes to the last cell, periodic directions wrap.
+/// beyond the outlet goes to the last cell, periodic directions wrap. Where the grid is cut among
+/// ranks, points of a grain inside may lie in the ghosts of the neighbours' cells.
 struct Locate {
   GridRef grid;
   PointSet points = PointSet::divided;
-  bool wrap_x = false;
+  bool wrap_x = false, wrap_z = true;        // periodic, and not cut
+  int i_low = 0, i_high = 0;                 // a point beyond belongs to these
+  int k_low = 0, k_high = 0;
 
   /// Index from 0 to n - 1 along a periodic direction, of one that is rarely a period off.
   KOKKOS_INLINE_FUNCTION static int wrap(int i, int n) {
@@ -96,54 +103,77 @@ struct Locate {
     if (i >= -n && i < 2 * n) return i < 0 ? i + n : i - n;
     return ((i % n) + n) % n;
   }
+  /// Counted over the whole domain first: the same cell on any number of ranks.
   KOKKOS_INLINE_FUNCTION int column_x(Real x) const {
-    return static_cast<int>(Kokkos::floor((x - grid.x0) * (1 / grid.dx)));
+    return static_cast<int>(Kokkos::floor((x - grid.x_first()) * (1 / grid.dx))) - grid.i_begin;
   }
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
-    return static_cast<int>(Kokkos::floor((z - grid.z0) * (1 / grid.dz)));
+    return static_cast<int>(Kokkos::floor((z - grid.z_first()) * (1 / grid.dz))) - grid.k_begin;
   }
   /// Row of a height near a row; what is beyond a wall is mirrored back.
   KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
     y = y < 0 ? -y : y;
     return grid.row_near(y > grid.ly ? 2 * grid.ly - y : y, row_nearby);
   }
-  /// The owned cell that holds a point not far from a row.
+  /// The cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
     int i = column_x(p.x);
     if (wrap_x) i = wrap(i, grid.nx);
-    i = i < 0 ? 0 : (i >= grid.nx ? grid.nx - 1 : i);
-    return {i, row_of(p.y, row_nearby), wrap(column_z(p.z), grid.nz)};
+    i = i < i_low ? i_low : (i > i_high ? i_high : i);
+    int k = column_z(p.z);
+    if (wrap_z) k = wrap(k, grid.nz);
+    k = k < k_low ? k_low : (k > k_high ? k_high : k);
+    return {i, row_of(p.y, row_nearby), k};
   }
   /// All points lie between those at -reach and +reach: true when over and under each other.
   KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {
     return column_x(x.x - reach) == column_x(x.x + reach) &&
            column_z(x.z - reach) == column_z(x.z + reach);
   }
+  /// Into the domain along periodic directions, as grains are that visit another rank.
+  KOKKOS_INLINE_FUNCTION Vec3 into_domain(Vec3 x) const {
+    if (wrap_x) x.x -= grid.lx_all * Kokkos::floor((x.x - grid.x_first()) / grid.lx_all);
+    if (wrap_z) x.z -= grid.lz_all * Kokkos::floor((x.z - grid.z_first()) / grid.lz_all);
+    return x;
+  }
   KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
 
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
     GrainCells cells;
-    const int row = grid.row_of(g.x.y);
-    const CellIndex own = cell_of(g.x, row);
+    const Vec3 x = into_domain(g.x);
+    const int row = grid.row_of(x.y);
+    const CellIndex own = cell_of(x, row);
     const bool keeps_outside = points == PointSet::cfdem;
     if (points == PointSet::centre) {
       cells.add(own);
-    } else if (in_one_column(g.x, kOuterShell * g.r)) {
+    } else if (in_one_column(x, kOuterShell * g.r)) {
       for (int q = 0; q < kDividedHeights; ++q) {
         const PointsAtHeight at = divided_height(q);
-        const Real y = g.x.y + g.r * at.offset;
+        const Real y = x.y + g.r * at.offset;
         const int j = is_outside(y) && keeps_outside ? own.j : row_of(y, row);
         cells.add({own.i, j, own.k}, at.points);
       }
     } else {
       for (int p = 0; p < kDividedPoints; ++p) {
-        const Vec3 point = g.x + g.r * divided_point(p);
+        const Vec3 point = x + g.r * divided_point(p);
         cells.add(is_outside(point.y) && keeps_outside ? own : cell_of(point, row));
       }
     }
     return cells;
   }
 };
+
+/// On a grid that is not cut.
+inline Locate locate_in(const GridRef& grid, PointSet points, bool wrap_x) {
+  return {.grid = grid,
+          .points = points,
+          .wrap_x = wrap_x,
+          .wrap_z = true,
+          .i_low = 0,
+          .i_high = grid.nx - 1,
+          .k_low = 0,
+          .k_high = grid.nz - 1};
+}
 
 /// Fixed-point numbers: integer sums do not depend on the order of threads or ranks.
 struct FixedPoint {

@@ -41,21 +41,25 @@ KOKKOS_FORCEINLINE_FUNCTION void take_words(const Real* from, Quad& a) {
 template <class Column>
 struct PackColumn {
   Column column;
-  Kokkos::View<const int*> row;  // of each record
+  Kokkos::View<const int*> row;  // of each record; none: its own number
   Real* records;
   int width, offset;  // words of a record; the first one of this column
   KOKKOS_FUNCTION void operator()(int p) const {
-    put_words(records + static_cast<std::size_t>(p) * width + offset, column(row(p)));
+    put_words(records + static_cast<std::size_t>(p) * width + offset,
+              column(row.extent(0) > 0 ? row(p) : p));
   }
 };
+/// The way back, to `first_row` and the rows after it where there is no list of rows.
 template <class Column>
 struct UnpackColumn {
   Column column;
-  int first_row;  // of record 0; the others follow
+  Kokkos::View<const int*> row;
+  int first_row;
   const Real* records;
   int width, offset;
   KOKKOS_FUNCTION void operator()(int p) const {
-    take_words(records + static_cast<std::size_t>(p) * width + offset, column(first_row + p));
+    take_words(records + static_cast<std::size_t>(p) * width + offset,
+               column(row.extent(0) > 0 ? row(p) : first_row + p));
   }
 };
 

@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include <vector>
+
 namespace barchan {
 
 inline bool mpi_runs() {
@@ -35,6 +37,15 @@ inline bool as_rank_0_says(bool answer, MPI_Comm communicator) {
   int said = answer ? 1 : 0;
   if (mpi_runs()) MPI_Bcast(&said, 1, MPI_INT, 0, communicator);
   return said != 0;
+}
+
+inline std::vector<double> as_rank_0_says(std::vector<double> numbers, MPI_Comm communicator) {
+  if (!mpi_runs()) return numbers;
+  int n = static_cast<int>(numbers.size());
+  MPI_Bcast(&n, 1, MPI_INT, 0, communicator);
+  numbers.resize(static_cast<std::size_t>(n));
+  MPI_Bcast(numbers.data(), n, MPI_DOUBLE, 0, communicator);
+  return numbers;
 }
 
 /// True on all ranks if it is true on any.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
+
+#include "src/records.hpp"
 
 namespace barchan {
 
@@ -21,9 +24,11 @@ void put(std::map<std::string, double>& entries, const std::string& name, const 
 }  // namespace
 
 void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
-  if (grains.n + grains.n_left != grains.n_initial) {
+  std::vector<std::int64_t> counts{grains.n, grains.n_left};
+  sum_over(grains.ranks, counts);
+  if (counts[0] + counts[1] != grains.n_initial) {
     throw std::runtime_error("grains inside and left do not add up to those at the start: " +
-                             std::to_string(grains.n) + " + " + std::to_string(grains.n_left) +
+                             std::to_string(counts[0]) + " + " + std::to_string(counts[1]) +
                              " is not " + std::to_string(grains.n_initial));
   }
   given_ += step.given_to_grains;

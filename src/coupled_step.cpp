@@ -4,6 +4,49 @@
 
 namespace barchan {
 
+namespace {
+
+/// What the two sides of the exchange need of a grain, and what they leave with it.
+struct GatherNeeds {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    action(s.kin);
+    for (auto* v : {&s.fluid.u_f, &s.exchange.fluid_force, &s.exchange.carried_impulse}) action(*v);
+  }
+};
+struct GatherGives {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    for (auto* v : {&s.fluid.u_f, &s.fluid.steady_force, &s.fluid.drag_impulse, &s.fluid.u_start,
+                    &s.exchange.added_mass_force, &s.exchange.fluid_force,
+                    &s.exchange.carried_impulse}) {
+      action(*v);
+    }
+    action(s.fluid.beta);
+    action(s.fluid.added_mass);
+  }
+};
+struct DepositNeeds {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    action(s.kin);
+    for (auto* v : {&s.fluid.drag_impulse, &s.fluid.u_start, &s.exchange.added_mass_force,
+                    &s.exchange.carried_impulse}) {
+      action(*v);
+    }
+    action(s.fluid.beta);
+    action(s.fluid.added_mass);
+  }
+};
+struct CarryGives {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    action(s.exchange.carried_impulse);
+  }
+};
+
+}  // namespace
+
 CoupledStep::CoupledStep(const Config& config, SystemState& state)
     : dt_(config.time.fluid_step), n_substeps_(grain_substeps(config.time)) {
   if (state.fluid) fluid_ = std::make_unique<FluidSolver>(config, state.fluid->grid);
@@ -15,6 +58,7 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
   if (state.fluid) {
     add_fluid(*state.grains);
     add_exchange(*state.grains);
+    visits_ = GrainVisits(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
   } else if (config.grains->ambient) {
     add_fluid(*state.grains);
@@ -33,7 +77,7 @@ void CoupledStep::start(SystemState& state) {
         });
   }
   if (grains_) grains_->start(*state.grains);
-  if (coupling_) coupling_->start(*state.grains, *state.fluid);
+  if (coupling_) coupling_->start(visits_.bring(*state.grains, DepositNeeds{}), *state.fluid);
   if (fluid_) fluid_->fill_ghosts(*state.fluid);
 }
 
@@ -54,22 +98,26 @@ void CoupledStep::advance(SystemState& state) {
 void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
   {
     const PhaseTimer timer(phases_, "exchange");
-    coupling_->gather(fluid, grains, dt_);  // u_f, drag coefficient, steady forces at the grains
+    GrainState& there = visits_.bring(grains, GatherNeeds{});
+    coupling_->gather(fluid, there, dt_);  // u_f, drag coefficient, steady forces at the grains
+    visits_.take_home(grains, GatherGives{});
   }
   {
     const PhaseTimer timer(phases_, "grains");
     move_grains(grains);  // sub-steps; the drag follows the grain at fixed u_f
   }
+  GrainState& there = visits_.bring(grains, DepositNeeds{});
   {
     const PhaseTimer timer(phases_, "deposit");
-    coupling_->deposit(grains, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
+    coupling_->deposit(there, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
   }
   {
     const PhaseTimer timer(phases_, "fluid");
     fluid_report_ = fluid_->advance(fluid, &coupling_->on_faces(), dt_);  // WALE, u*, p, u
   }
   const PhaseTimer timer(phases_, "exchange");
-  coupling_->carry(fluid, grains, dt_);  // what the implicit drag moved goes to the grains next
+  coupling_->carry(fluid, there, dt_);  // what the implicit drag moved goes to the grains next
+  visits_.take_home(grains, CarryGives{});
   ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);
 }

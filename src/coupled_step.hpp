@@ -10,6 +10,7 @@
 #include "src/coupling.hpp"
 #include "src/fluid_solver.hpp"
 #include "src/grain_solver.hpp"
+#include "src/grain_visits.hpp"
 #include "src/output.hpp"
 #include "src/stopwatch.hpp"
 
@@ -34,7 +35,7 @@ class CoupledStep {
   /// Forces on the grains over the last step by name [N], rows as in the state: drag, pressure
   /// gradient, stress, added mass (with the impulse carried from the implicit exchange), contact
   /// normal and tangential, and total, the resultant with weight and buoyancy.
-  std::vector<NamedForce> grain_forces(const SystemState& state);
+  std::vector<NamedForce> grain_forces(SystemState& state);
   /// The last of them alone.
   Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
   /// Its mean over the last step, what changed the grains' momentum in water; without, the same as
@@ -53,6 +54,8 @@ class CoupledStep {
   void advance_coupled(FluidState& fluid, GrainState& grains);
   void advance_grains(GrainState& grains);
   void move_grains(GrainState& grains);
+  Kokkos::View<Vec3*> fluid_force_now(const char* name, const FluidForces& which,
+                                      SystemState& state);
 
   double dt_ = 0;
   int n_substeps_ = 1;
@@ -61,6 +64,7 @@ class CoupledStep {
   std::unique_ptr<FluidSolver> fluid_;
   std::unique_ptr<GrainSolver> grains_;
   std::unique_ptr<Coupling> coupling_;
+  GrainVisits visits_;
   FluidStepReport fluid_report_;
   Ledger ledger_;
   Phases phases_;

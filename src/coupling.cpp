@@ -1,7 +1,12 @@
 #include "src/coupling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "src/config_load.hpp"
+#include "src/records.hpp"
 
 namespace barchan {
 
@@ -43,6 +48,31 @@ FaceVector face_vector(const char* label, const Grid& grid) {
   return {Field(label, grid), Field(label, grid), Field(label, grid)};
 }
 
+/// Where the grid is cut, points of a grain may lie in ghosts; a grain then must not reach beyond.
+Locate make_locate(const Config& config, const Grid& grid, Real r_max) {
+  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  Locate locate = locate_in(grid, point_set(config.coupling.void_fraction), periodic_x);
+  if (!grid.ranks) return locate;
+  const Real reach = kOuterShell * r_max;
+  if (reach > std::min(grid.dx, grid.dz)) {
+    throw ConfigError({fmt::format(
+        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
+        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
+        grid.dx, grid.dz, r_max)});
+  }
+  const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
+  if (along_x.count > 1) {
+    locate.wrap_x = false;
+    if (periodic_x || along_x.place > 0) locate.i_low = -1;
+    if (periodic_x || along_x.place + 1 < along_x.count) locate.i_high = grid.nx;
+  }
+  if (along_z.count > 1) {
+    locate.wrap_z = false;
+    locate.k_low = -1, locate.k_high = grid.nz;
+  }
+  return locate;
+}
+
 constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
 
 }  // namespace
@@ -63,9 +93,9 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       smooths_(config.coupling.smoothing_length > 0),
       follows_at_once_(config.grains->frozen || !config.coupling.relaxation),
       at_once_(follows_at_once_),
-      locate_{.grid = grid,
-              .points = point_set(config.coupling.void_fraction),
-              .wrap_x = config.grains->boundary_x == GrainBoundaryX::periodic},
+      periodic_x_(config.grains->boundary_x == GrainBoundaryX::periodic),
+      locate_(make_locate(config, grid, grains.r_max)),
+      rims_(grid),
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
@@ -78,9 +108,9 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
   for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
   cell_[0] = Field("coupling: cell density", grid);
   std::copy_n(solver.idle().cells.begin(), 3, cell_ + 1);
-  deposits_.sum = decltype(deposits_.sum)("deposits", static_cast<std::size_t>(grid.nx) *
-                                                          static_cast<std::size_t>(grid.ny) *
-                                                          static_cast<std::size_t>(grid.nz));
+  deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
+  deposits_.volume = fixed_point_for(static_cast<Real>(grains.n_initial) *
+                                     sphere_volume(grains.r_max));
 }
 
 ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
@@ -88,19 +118,28 @@ ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
 }
 
 CellRange Coupling::cells_around(const GrainState& grains) const {
-  CellRange cells = owned_cells(grid_);
-  if (grains.n == 0) return cells;
   Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
   Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
                           ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
                           Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
+  // Those of all ranks: a neighbour's grains read from the rim of this one's cells.
+  x0 = -max_over_ranks(grid_, -x0), x1 = max_over_ranks(grid_, x1);
+  z0 = -max_over_ranks(grid_, -z0), z1 = max_over_ranks(grid_, z1);
+  y1 = max_over_ranks(grid_, y1);
+  CellRange cells = owned_cells(grid_);
+  if (!(x0 <= x1)) return cells;  // no grains
   // One more on either side for the interpolation; everything where that reaches a periodic side.
-  const auto shrink = [](Real low, Real high, Real spacing, int n, int& first, int& last) {
+  const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
+                         int& last) {
     const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 2;
-    if (begin >= 0 && end <= n) first = static_cast<int>(begin), last = static_cast<int>(end);
+    if (!(begin >= 0 && end <= n_all)) return;
+    const int n = last;
+    first = std::clamp(static_cast<int>(begin) - mine, 0, n);
+    last = std::clamp(static_cast<int>(end) - mine, first, n);
   };
-  shrink(x0 - grid_.x0, x1 - grid_.x0, grid_.dx, grid_.nx, cells.i0, cells.i1);
-  shrink(z0 - grid_.z0, z1 - grid_.z0, grid_.dz, grid_.nz, cells.k0, cells.k1);
+  const Real x = grid_.x_first(), z = grid_.z_first();
+  shrink(x0 - x, x1 - x, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
+  shrink(z0 - z, z1 - z, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
   const auto above = std::upper_bound(y_face_.begin(), y_face_.end(), y1);
   cells.j1 = std::min(grid_.ny, static_cast<int>(above - y_face_.begin()) + 1);
   return cells;
@@ -145,7 +184,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .dt = dt,
                                          .weight = weight_,
                                          .forces = forces_,
-                                         .wrap_x = locate_.wrap_x,
+                                         .wrap_x = periodic_x_,
                                          .at_once = at_once_,
                                          .grains = grains.kin,
                                          .on_grains = grains.fluid,
@@ -161,7 +200,7 @@ void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
   const GridRef grid = grid_;
   const FaceRef density = force_;
   const auto kin = grains.kin;
-  const bool wrap_x = locate_.wrap_x;
+  const bool wrap_x = periodic_x_;
   Kokkos::parallel_for(
       "output: one fluid force", grains.n, KOKKOS_LAMBDA(int g) {
         const PointStencil at(grid, kin(g).x, wrap_x);
@@ -171,16 +210,15 @@ void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
 
 void Coupling::choose_scales(const GrainState& grains, Real dt) {
   // Bounds of what one cell can receive: everything.
-  Real volume = 0, implicit = 0, impulse = 0;
-  Vec3 given;
+  std::vector<Real> sum(6);
   Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
-                          volume, implicit, impulse, given.x, given.y, given.z);
-  deposits_.volume = fixed_point_for(volume);
-  deposits_.implicit = fixed_point_for(implicit);
-  deposits_.impulse = fixed_point_for(impulse);
+                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
+  if (grid_.ranks) sum_over(grid_.ranks->all(), sum);
+  deposits_.implicit = fixed_point_for(sum[1]);
+  deposits_.impulse = fixed_point_for(sum[2]);
   ledger_ = ExchangeLedger{};
-  ledger_.grain_volume = volume;
-  ledger_.given_to_grains = given;
+  ledger_.grain_volume = sum[0];
+  ledger_.given_to_grains = {sum[3], sum[4], sum[5]};
 }
 
 void Coupling::decode(int quantity, const FixedPoint& point, const Field& density) const {
@@ -198,6 +236,7 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   Kokkos::parallel_for(
       "coupling: deposit", items(grains.n),
       DepositGrain{.locate = locate_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
+  rims_.add(deposits_);
 
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   const Field alpha = fluid.alpha_f;
@@ -268,7 +307,10 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
   if (smooths_) {
     for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
   }
-  Vec3& total = ledger_.carried_to_grains;
+  if (grid_.ranks) {  // grains read beyond the pencil's edge
+    for (int q = 1; q < 4; ++q) boundary_.fill(cell_[q], FieldKind::scalar);
+  }
+  std::vector<Real> total(3);
   Kokkos::parallel_reduce("coupling: carry to grains", items(grains.n),
                           CarryToGrain{.locate = locate_,
                                        .of_grain = of_grain(grains, dt),
@@ -276,7 +318,9 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                        .y = cell_[2],
                                        .z = cell_[3],
                                        .carried_impulse = grains.exchange.carried_impulse},
-                          total.x, total.y, total.z);
+                          total[0], total[1], total[2]);
+  if (grid_.ranks) sum_over(grid_.ranks->all(), total);
+  ledger_.carried_to_grains = {total[0], total[1], total[2]};
   sum_faces(dt, fluid);
 }
 

@@ -8,6 +8,7 @@
 #include "kernels/interphase.hpp"
 #include "src/boundary.hpp"
 #include "src/config.hpp"
+#include "src/deposit_rims.hpp"
 #include "src/fluid_solver.hpp"
 #include "src/grain_state.hpp"
 #include "src/launch.hpp"
@@ -28,7 +29,8 @@ struct ExchangeLedger {
 };
 
 /// Unresolved coupling, model A: gather before the sub-steps, deposit after them, return after the
-/// fluid step.
+/// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil
+/// (GrainVisits), and all ranks call every member together.
 class Coupling {
  public:
   Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
@@ -69,7 +71,9 @@ class Coupling {
   bool smooths_ = false;
   bool follows_at_once_ = false;  // grains take the flow as it is, unrelaxed
   bool at_once_ = false;          // the same for this step: the first has nothing to start from
+  bool periodic_x_ = false;
   Locate locate_;
+  DepositRims rims_;
   Real rho_f_ = 0, nu_ = 0;
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // valid around the grains; room of the flow solver

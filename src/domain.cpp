@@ -13,9 +13,9 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   grid.nx = grid.nx_all = nx;
   grid.ny = static_cast<int>(y_faces.size()) - 1;
   grid.nz = grid.nz_all = nz;
-  grid.lx = lx;
+  grid.lx = grid.lx_all = lx;
   grid.ly = y_faces.back() - y_faces.front();
-  grid.lz = lz;
+  grid.lz = grid.lz_all = lz;
   grid.dx = lx / nx;
   grid.dz = lz / nz;
   if (ranks) {

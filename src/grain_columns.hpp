@@ -1,7 +1,11 @@
 // All that belongs to a grain, column by column: for what reorders, moves or copies grains.
 #pragma once
 
+#include <type_traits>
+
+#include "kernels/words.hpp"
 #include "src/grain_state.hpp"
+#include "src/launch.hpp"
 
 namespace barchan {
 
@@ -47,6 +51,13 @@ void for_each_column_of(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history,
 
 }  // namespace grain_columns_detail
 
+struct AllArrays {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    for_each_array(s, action);
+  }
+};
+
 /// Calls action(column) for every column of them; none is wider than a Quad.
 template <class Action>
 void for_each_column(GrainState& s, const Action& action) {
@@ -54,6 +65,56 @@ void for_each_column(GrainState& s, const Action& action) {
     grain_columns_detail::for_each_column_of(array, action);
   });
 }
+
+/// The columns of some arrays as the words of records: what travels together. `Arrays` calls an
+/// action for each array of a state.
+template <class Arrays>
+class GrainRecords {
+ public:
+  /// `spare`: words at the end of each record for the caller's use.
+  GrainRecords(GrainState& state, const Arrays& arrays, int spare = 0)
+      : state_(state), arrays_(arrays), width_(spare) {
+    each([this](const auto& column, int) {
+      width_ += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
+    });
+  }
+  int width() const { return width_; }
+
+  /// The given rows into n records; rows 0 .. n-1 without a list.
+  void pack(const char* label, int n, const Kokkos::View<const int*>& row, Real* records) const {
+    each([&](const auto& column, int offset) {
+      using Column = std::decay_t<decltype(column)>;
+      Kokkos::parallel_for(label, items(n),
+                           PackColumn<Column>{column, row, records, width_, offset});
+    });
+  }
+  /// n records to the given rows, or to those from `first_row` on.
+  void unpack(const char* label, int n, const Kokkos::View<const int*>& row, int first_row,
+              const Real* records) const {
+    each([&](const auto& column, int offset) {
+      using Column = std::decay_t<decltype(column)>;
+      Kokkos::parallel_for(label, items(n),
+                           UnpackColumn<Column>{column, row, first_row, records, width_, offset});
+    });
+  }
+
+ private:
+  /// action(column, first word of it in a record)
+  template <class Action>
+  void each(const Action& action) const {
+    int offset = 0;
+    arrays_(state_, [&](auto& array) {
+      grain_columns_detail::for_each_column_of(array, [&](const auto& column) {
+        action(column, offset);
+        offset += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
+      });
+    });
+  }
+
+  GrainState& state_;
+  const Arrays& arrays_;
+  int width_;
+};
 
 /// Room for n rows of one array, an eighth more where it grows; what it holds stays.
 template <class View>

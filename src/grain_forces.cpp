@@ -9,9 +9,27 @@ Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
   return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
 }
 
+struct PlacesAlone {
+  template <class Action>
+  void operator()(GrainState& s, const Action& action) const {
+    action(s.kin);
+  }
+};
+
 }  // namespace
 
-std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
+/// Evaluated where the flow is.
+Kokkos::View<Vec3*> CoupledStep::fluid_force_now(const char* name, const FluidForces& which,
+                                                 SystemState& state) {
+  const Kokkos::View<Vec3*> force = grain_vector(name, state.grains->n);
+  const GrainState& there = visits_.bring(*state.grains, PlacesAlone{});
+  const auto force_there = visits_.is_cut() ? grain_vector(name, there.n) : force;
+  coupling_->single_force(which, *state.fluid, there, force_there);
+  if (visits_.is_cut()) visits_.take_home(force_there, force);
+  return force;
+}
+
+std::vector<NamedForce> CoupledStep::grain_forces(SystemState& state) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
@@ -35,12 +53,9 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
     forces.push_back({"force_added_mass", added});
   }
   if (coupling_) {
-    const FluidForces pressure{0, 1, 0, 0, 0}, stress{0, 0, 1, 0, 0};
-    const auto p = grain_vector("pressure gradient", n), s = grain_vector("stress", n);
-    coupling_->single_force(pressure, *state.fluid, grains, p);
-    coupling_->single_force(stress, *state.fluid, grains, s);
-    forces.push_back({"force_pressure_gradient", p});
-    forces.push_back({"force_stress", s});
+    forces.push_back({"force_pressure_gradient",
+                      fluid_force_now("pressure gradient", {0, 1, 0, 0, 0}, state)});
+    forces.push_back({"force_stress", fluid_force_now("stress", {0, 0, 1, 0, 0}, state)});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   grains_->split_contacts(grains, normal, tangential);

@@ -62,14 +62,6 @@ View of_size(const char* label, const View& like, int n) {
 
 }  // namespace
 
-int GrainMigration::width(GrainState& grains) const {
-  int words = 1;
-  for_each_column(grains, [&](const auto& column) {
-    words += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
-  });
-  return words;
-}
-
 int GrainMigration::width(const KeptContacts& kept) {
   return 4 + (kept.rolling.extent(0) > 0 ? 3 : 0) + (kept.force.extent(0) > 0 ? 3 : 0);
 }
@@ -140,22 +132,6 @@ void GrainMigration::count(const GrainState& grains, const KeptContacts& kept,
   contacts_ = announce(grains.ranks, std::move(to));
 }
 
-void GrainMigration::send_grains(GrainState& grains) {
-  const int words = width(grains), n = grains_.n_to();
-  send_.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(words));
-  int offset = 0;
-  for_each_column(grains, [&](const auto& column) {
-    using Column = std::decay_t<decltype(column)>;
-    Kokkos::parallel_for("migration: pack", items(n),
-                         PackColumn<Column>{.column = column,
-                                            .row = leaving_,
-                                            .records = send_.data(),
-                                            .width = words,
-                                            .offset = offset});
-    offset += words_of<typename Column::non_const_value_type>;
-  });
-}
-
 void GrainMigration::send_contacts(const KeptContacts& kept) {
   const ContactRecord record{.kept = kept, .width = width(kept)};
   send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to() * record.width));
@@ -217,27 +193,19 @@ void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Co
   count(grains, kept, owners);
   const int n_to = grains_.n_to(), n_from = grains_.n_from();
   if (n_to == 0 && n_from == 0) return;
-  const int words = width(grains);
-  send_grains(grains);
+  const GrainRecords records(grains, AllArrays{}, 1);  // and the number of contacts
+  const int width = records.width();
+  send_.reserve(static_cast<std::size_t>(n_to) * static_cast<std::size_t>(width));
+  records.pack("migration: pack", n_to, leaving_, send_.data());
   Kokkos::parallel_for("migration: pack counts", items(n_to),
-                       PackContactCounts{kept.first, leaving_, send_.data(), words});
-  exchange(grains_, words, send_, receive_);
+                       PackContactCounts{kept.first, leaving_, send_.data(), width});
+  exchange(grains_, width, send_, receive_);
   send_contacts(kept);
-  take_contacts(kept, words);
+  take_contacts(kept, width);
 
   permute(grains, row_, n_stay_, room);
   reserve_rows(grains, n_stay_ + n_from);
-  int offset = 0;
-  for_each_column(grains, [&](const auto& column) {
-    using Column = std::decay_t<decltype(column)>;
-    Kokkos::parallel_for("migration: unpack", items(n_from),
-                         UnpackColumn<Column>{.column = column,
-                                              .first_row = n_stay_,
-                                              .records = receive_.data(),
-                                              .width = words,
-                                              .offset = offset});
-    offset += words_of<typename Column::non_const_value_type>;
-  });
+  records.unpack("migration: unpack", n_from, {}, n_stay_, receive_.data());
   grains.n = n_stay_ + n_from;
 }
 

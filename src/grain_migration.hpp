@@ -23,12 +23,10 @@ class GrainMigration {
   // Public only because nvcc takes no device lambda from a private function.
   void choose(const GrainState& grains, const Columns& columns, const GrainOwners& owners);
   void count(const GrainState& grains, const KeptContacts& kept, const GrainOwners& owners);
-  void send_grains(GrainState& grains);
   void send_contacts(const KeptContacts& kept);
   void take_contacts(KeptContacts& kept, int words) const;
 
  private:
-  int width(GrainState& grains) const;
   static int width(const KeptContacts& kept);
 
   int n_stay_ = 0;

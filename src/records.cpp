@@ -76,6 +76,19 @@ std::int64_t sum_over(MPI_Comm ranks, std::int64_t number) {
   return numbers[0];
 }
 
+void sum_over(MPI_Comm ranks, std::vector<Real>& numbers) {
+  if (rank_count(ranks) == 1) return;
+  message_detail::count_reduction();
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE,
+                MPI_SUM, ranks);
+}
+
+Real sum_over(MPI_Comm ranks, Real number) {
+  std::vector<Real> numbers{number};
+  sum_over(ranks, numbers);
+  return numbers[0];
+}
+
 Real max_over(MPI_Comm ranks, Real number) {
   if (rank_count(ranks) == 1) return number;
   message_detail::count_reduction();

@@ -82,11 +82,6 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
 }
 
 Outcome run_one(const Config& config, const RunOptions& options) {
-  if (config.grains && rank_count(MPI_COMM_WORLD) > 1) {
-    throw ConfigError({"\"" + config.title +
-                       "\" has grains, which move on one rank in this version: start it with "
-                       "--ranks 1 (its threads use all cores)"});
-  }
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);

@@ -9,6 +9,7 @@
 #include "src/derived.hpp"
 #include "src/domain.hpp"
 #include "src/grain_state_file.hpp"
+#include "src/records.hpp"
 #include "src/run_identity.hpp"
 #include "src/state_file.hpp"
 #include "src/stop_request.hpp"
@@ -71,6 +72,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
   } else {
     coupled_step_.start(state_);
   }
+  count_grains();
   start_step_ = step_;
   start_time_ = time();
 }
@@ -111,11 +113,15 @@ Outcome Simulation::run() {
 }
 
 void Simulation::one_step() {
-  const std::int64_t n_grains = state_.grains ? state_.grains->n : 0;
+  grain_steps_ += n_grains_ * coupled_step_.substeps();
   coupled_step_.advance(state_);
   ++step_;
-  grain_steps_ += n_grains * coupled_step_.substeps();
+  count_grains();
   watch();
+}
+
+void Simulation::count_grains() {
+  if (state_.grains) n_grains_ = sum_over(ranks_, state_.grains->n);
 }
 
 /// Keeps the extremes and stops a run that has gone wrong.
@@ -205,7 +211,7 @@ void Simulation::show_progress() {
     p.cfl = coupled_step_.fluid_report().courant;
     p.pressure_iterations = coupled_step_.fluid_report().pressure_iterations;
   }
-  if (state_.grains) p.n_grains = state_.grains->n;
+  if (state_.grains) p.n_grains = n_grains_;
   if (largest_dune_) p.dune_width = largest_dune_->w, p.dune_length = largest_dune_->l;
   progress_.update(p);
 }

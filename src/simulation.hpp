@@ -53,6 +53,7 @@ class Simulation {
   void write_statistics();
   void write_summary(const std::string& status, const std::string& message);
   void watch();
+  void count_grains();
   void show_progress();
   double time() const { return static_cast<double>(step_) * config_.time.fluid_step; }
   bool due(double interval) const;
@@ -87,6 +88,7 @@ class Simulation {
   double start_time_ = 0;
   std::int64_t step_ = 0, start_step_ = 0, end_step_ = 0;
   std::int64_t grain_steps_ = 0;
+  std::int64_t n_grains_ = 0;  // inside, of all ranks
   std::int64_t iterations_sum_ = 0, iterations_max_ = 0;
   double max_courant_ = 0, max_overlap_ = 0, max_residual_ = 0;
   bool out_of_time_ = false, stop_requested_ = false, restart_wanted_ = false;  // on all ranks

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "src/communicator.hpp"
+#include "src/gathered_grains.hpp"
+#include "src/records.hpp"
 #include "src/run_identity.hpp"
 #include "src/simulation.hpp"
 #include "src/state_file.hpp"
@@ -20,26 +22,8 @@ double kinetic_energy(const GrainState& grains) {
         sum += (k.m * dot(k.u, k.u) + sphere_inertia(k.m, k.r) * dot(k.omega, k.omega)) / 2;
       },
       energy);
-  return energy;
+  return sum_over(grains.ranks, energy);
 }
-
-/// Positions, diameters and velocities as the dune analytics take them.
-class HostGrains {
- public:
-  explicit HostGrains(const GrainState& grains) {
-    const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
-    for (int g = 0; g < grains.n; ++g) {
-      const Vec3& x = kin(g).x;
-      centres_.insert(centres_.end(), {x.x, x.y, x.z});
-      diameters_.push_back(2 * kin(g).r);
-      u_x_.push_back(kin(g).u.x);
-    }
-  }
-  GrainCloud cloud() const { return {centres_, diameters_, u_x_}; }
-
- private:
-  std::vector<double> centres_, diameters_, u_x_;
-};
 
 }  // namespace
 
@@ -62,7 +46,7 @@ void Simulation::write_history() {
   if (state_.grains) {
     const ContactSummary contacts = coupled_step_.grain_solver()->contacts(*state_.grains);
     row.grain_kinetic_energy = kinetic_energy(*state_.grains);
-    row.n_grains = state_.grains->n;
+    row.n_grains = n_grains_;
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
     max_overlap_ = std::max(max_overlap_, contacts.max_overlap);
@@ -71,9 +55,11 @@ void Simulation::write_history() {
   interval_ = Interval{};
 }
 
+/// Rank 0 looks at the dunes of all.
 void Simulation::write_dunes() {
-  const HostGrains grains(*state_.grains);
+  const GatheredGrains grains(*state_.grains);
   largest_dune_.reset();
+  if (rank_of(ranks_) != 0) return;
   for (const DuneRow& dune : tracker_.update(time(), grains.cloud())) {
     folder_.append(dune);
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
@@ -81,10 +67,10 @@ void Simulation::write_dunes() {
 }
 
 void Simulation::sample_forces() {
-  const HostGrains grains(*state_.grains);
-  const auto force = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{}, coupled_step_.mean_resultant_force(*state_.grains));
-  force_map_->sample(time(), grains.cloud(), {force.data(), force.size()});
+  const GatheredGrains grains(*state_.grains);
+  const std::vector<Vec3> force =
+      gathered(*state_.grains, coupled_step_.mean_resultant_force(*state_.grains));
+  if (rank_of(ranks_) == 0) force_map_->sample(time(), grains.cloud(), force);
 }
 
 void Simulation::save_statistics(CheckpointWriter& file) const {
@@ -102,7 +88,7 @@ void Simulation::load_statistics(const CheckpointReader& file) {
 void Simulation::write_statistics() {
   if (statistics_) statistics_->write(folder_.file("statistics.csv"));
   if (flow_average_) flow_average_->write(output_, time(), step_);
-  if (force_map_) force_map_->write(folder_.file("force_map.csv"));
+  if (force_map_ && rank_of(ranks_) == 0) force_map_->write(folder_.file("force_map.csv"));
 }
 
 void Simulation::write_grains() {
@@ -116,7 +102,7 @@ void Simulation::write_restart() {
   save_state(file, state_, coupled_step_);
   file.scalar("t", time());
   file.scalar("step", step_);
-  const std::vector<double> dunes = tracker_.state();
+  const std::vector<double> dunes = as_rank_0_says(tracker_.state(), ranks_);
   file.array("dunes", std::span<const double>(dunes));
   save_statistics(file);
   write_statistics();
@@ -161,8 +147,8 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
   s.ledger = coupled_step_.ledger().entries();
   if (state_.grains) {
     s.grains_initial = state_.grains->n_initial;
-    s.grains_inside = state_.grains->n;
-    s.grains_left = state_.grains->n_left;
+    s.grains_inside = n_grains_;
+    s.grains_left = s.grains_initial - n_grains_;
   }
   return s;
 }

@@ -21,7 +21,7 @@ constexpr int kCells = 6;  // cubic cells of edge one in each direction
 struct Cells {
   test::HostGrid grid{
       make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0))};
-  Locate locate{.grid = grid.ref(), .points = PointSet::divided, .wrap_x = true};
+  Locate locate = locate_in(grid.ref(), PointSet::divided, true);
 
   /// Shares by the code.
   Shares deposited(const Vec3& x, double r) const {

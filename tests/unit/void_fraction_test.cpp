@@ -39,7 +39,7 @@ TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
 TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
   const test::HostGrid host = awkward_grid();
   const GridRef grid = host.ref();
-  const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
+  const Locate locate = locate_in(grid, PointSet::divided, false);
   std::mt19937_64 generator(4);
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
   int n_short_cuts = 0;
@@ -75,11 +75,11 @@ TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
 TEST(Locate, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
   const test::HostGrid host = awkward_grid();
   const GridRef grid = host.ref();
-  const Locate locate{.grid = grid, .points = PointSet::divided, .wrap_x = false};
+  const Locate locate = locate_in(grid, PointSet::divided, false);
   EXPECT_EQ(locate.cell_of({0.001, -1e-5, 0.001}, 0), locate.cell_of({0.001, 1e-5, 0.001}, 0));
   EXPECT_EQ(locate.cell_of({0.001, 1e-5, -1e-5}, 0), locate.cell_of({0.001, 1e-5, 0.00799}, 0));
   EXPECT_EQ(locate.cell_of({0.01125, 1e-5, 0.001}, 0), locate.cell_of({0.0111, 1e-5, 0.001}, 0));
-  const Locate periodic{.grid = grid, .points = PointSet::divided, .wrap_x = true};
+  const Locate periodic = locate_in(grid, PointSet::divided, true);
   EXPECT_EQ(periodic.cell_of({0.01125, 1e-5, 0.001}, 0), periodic.cell_of({1e-5, 1e-5, 0.001}, 0));
 }
 

@@ -1,0 +1,79 @@
+#include "src/grain_visits.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "src/communicator.hpp"
+#include "src/decomposition.hpp"
+
+namespace barchan {
+
+GrainVisits::GrainVisits(const Grid& grid, bool periodic_x) {
+  if (!grid.ranks) return;
+  is_cut_ = true;
+  const Decomposition& pencils = *grid.ranks;
+  ranks_ = pencils.all();
+  owners_ = {.x = {pencils.x().n, pencils.x().parts},
+             .z = {pencils.z().n, pencils.z().parts},
+             .dx = grid.dx,
+             .dz = grid.dz,
+             .lx = grid.lx_all,
+             .lz = grid.lz_all,
+             .periodic_x = periodic_x};
+  visitors_ = make_grain_rows(0, ranks_);
+  add_fluid(visitors_);
+  add_exchange(visitors_);
+  count_ = Kokkos::View<int*>("visits: count", static_cast<std::size_t>(rank_count(ranks_)));
+}
+
+/// Fills row_, in the order of the owners, and counts_.
+void GrainVisits::find_owners(const GrainState& home) {
+  const int n = home.n;
+  reserve_rows(owner_, n);
+  reserve_rows(row_, n);
+  Kokkos::deep_copy(count_, 0);
+  const auto kin = home.kin;
+  const auto owner = owner_, row = row_, count = count_;
+  const PencilOwners owner_of = owners_;
+  Kokkos::parallel_for(
+      "visits: owners", items(n), KOKKOS_LAMBDA(int g) {
+        owner(g) = owner_of(kin(g).x);
+        Kokkos::atomic_inc(&count(owner(g)));
+      });
+  const auto counts = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count_);
+  std::vector<int> to(counts.data(), counts.data() + counts.extent(0));
+  int begin = 0;
+  for (std::size_t rank = 0; rank < to.size(); begin += to[rank++]) {
+    if (to[rank] == 0) continue;
+    const int wanted = static_cast<int>(rank), first = begin;
+    Kokkos::parallel_scan(
+        "visits: rows of an owner", items(n), KOKKOS_LAMBDA(int g, int& sum, bool final) {
+          if (owner(g) != wanted) return;
+          if (final) row(first + sum) = g;
+          ++sum;
+        });
+  }
+  counts_ = announce(ranks_, std::move(to));
+}
+
+void GrainVisits::wrap_visitors() const {
+  const auto kin = visitors_.kin;
+  const PencilOwners owners = owners_;
+  Kokkos::parallel_for(
+      "visits: wrap", items(visitors_.n),
+      KOKKOS_LAMBDA(int g) { kin(g).x = owners.into_domain(kin(g).x); });
+}
+
+void GrainVisits::take_home(const Kokkos::View<Vec3*>& of_visitors,
+                            const Kokkos::View<Vec3*>& home) {
+  using Column = Kokkos::View<Vec3*>;
+  constexpr int width = 3;
+  send_.reserve(words(visitors_.n, width));
+  Kokkos::parallel_for("visits: pack", items(visitors_.n),
+                       PackColumn<Column>{of_visitors, {}, send_.data(), width, 0});
+  exchange(counts_.back(), width, send_, receive_);
+  Kokkos::parallel_for("visits: take home", items(counts_.n_to()),
+                       UnpackColumn<Column>{home, row_, 0, receive_.data(), width, 0});
+}
+
+}  // namespace barchan

@@ -1,0 +1,73 @@
+// Grains where the flow around them is: copies on the ranks that own the cells.
+#pragma once
+
+#include "kernels/pencil_owners.hpp"
+#include "src/grain_columns.hpp"
+#include "src/grain_state.hpp"
+#include "src/records.hpp"
+
+namespace barchan {
+
+/// Grains live on ranks of their own, chosen for equal contact work. Once in a while copies of them
+/// visit the pencils of the flow, and what happens to them there is sent home. Where one rank has
+/// everything they are at home already, and nothing is copied.
+class GrainVisits {
+ public:
+  GrainVisits() = default;
+  /// `periodic_x`: grains beyond one end come in at the other.
+  GrainVisits(const Grid& grid, bool periodic_x);
+
+  /// The grains whose centres lie in this rank's pencil; of their arrays those that `needs` names are
+  /// filled. Positions are inside the domain. Valid until the next call. All ranks together.
+  template <class Needs>
+  GrainState& bring(GrainState& home, const Needs& needs) {
+    if (!is_cut_) return home;
+    find_owners(home);
+    const GrainRecords records(home, needs);
+    send_.reserve(words(counts_.n_to(), records.width()));
+    records.pack("visits: pack", counts_.n_to(), row_, send_.data());
+    exchange(counts_, records.width(), send_, receive_);
+    visitors_.n = counts_.n_from();
+    reserve_rows(visitors_, visitors_.n);
+    GrainRecords(visitors_, needs).unpack("visits: unpack", visitors_.n, {}, 0, receive_.data());
+    wrap_visitors();
+    return visitors_;
+  }
+
+  /// Brings what `gives` names back to the grains that were brought last; no grain may have moved
+  /// to another row since. All ranks together.
+  template <class Gives>
+  void take_home(GrainState& home, const Gives& gives) {
+    if (!is_cut_) return;
+    const GrainRecords records(visitors_, gives);
+    send_.reserve(words(visitors_.n, records.width()));
+    records.pack("visits: pack", visitors_.n, {}, send_.data());
+    exchange(counts_.back(), records.width(), send_, receive_);
+    GrainRecords(home, gives).unpack("visits: take home", counts_.n_to(), row_, 0,
+                                     receive_.data());
+  }
+  /// The same for one vector of each visitor.
+  void take_home(const Kokkos::View<Vec3*>& of_visitors, const Kokkos::View<Vec3*>& home);
+
+  bool is_cut() const { return is_cut_; }
+
+  // Public only because nvcc takes no device lambda from a private function.
+  void find_owners(const GrainState& home);
+  void wrap_visitors() const;
+
+ private:
+  static std::size_t words(int n, int width) {
+    return static_cast<std::size_t>(n) * static_cast<std::size_t>(width);
+  }
+
+  bool is_cut_ = false;
+  MPI_Comm ranks_ = MPI_COMM_SELF;
+  PencilOwners owners_;
+  GrainState visitors_;
+  RecordCounts counts_;
+  Kokkos::View<int*> owner_, row_;  // of each grain at home; rows in the order of the owners
+  Kokkos::View<int*> count_;        // grains of each owner
+  MessageBuffer send_{"visits: send", 0}, receive_{"visits: receive", 0};
+};
+
+}  // namespace barchan
