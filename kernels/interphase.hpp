@@ -93,6 +93,16 @@ KOKKOS_INLINE_FUNCTION Real exchange_relaxation(Real inertia, Real displaced_mas
   return inertia / (inertia + squeezed + beta * dt / (alpha_f * alpha_f));
 }
 
+/// What a grain keeps account of within a fluid step begins anew.
+struct BeginFluidStep {
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    on_grains.drag_impulse(g) = Vec3{};
+    on_grains.u_start(g) = grains(g).u;
+  }
+};
+
 /// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step.
 /// The drag coefficient is that of the slip at the start; the drag itself follows the grain.
 template <class DragLaw>
@@ -138,8 +148,7 @@ struct GatherFluid {
     on_grains.beta(g) = beta;
     on_grains.added_mass(g) = added_mass;
     on_grains.steady_force(g) = weight(grain) + exchange.fluid_force(g) + added + (1 / dt) * paid;
-    on_grains.drag_impulse(g) = Vec3{};
-    on_grains.u_start(g) = grain.u;
+    BeginFluidStep{grains, on_grains}(g);
     exchange.added_mass_force(g) = added;
   }
 };
@@ -161,8 +170,7 @@ struct GatherStillFluid {
     on_grains.u_f(g) = Vec3{};
     on_grains.beta(g) = SchillerNaumann{}(flow);
     on_grains.added_mass(g) = kAddedMassCoefficient * rho_f * sphere_volume(grain.r);
-    on_grains.drag_impulse(g) = Vec3{};
-    on_grains.u_start(g) = grain.u;
+    BeginFluidStep{grains, on_grains}(g);
   }
 };
 

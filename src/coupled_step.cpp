@@ -1,6 +1,7 @@
 #include "src/coupled_step.hpp"
 
 #include "src/derived.hpp"
+#include "src/launch.hpp"
 
 namespace barchan {
 
@@ -17,9 +18,8 @@ struct GatherNeeds {
 struct GatherGives {
   template <class Action>
   void operator()(GrainState& s, const Action& action) const {
-    for (auto* v : {&s.fluid.u_f, &s.fluid.steady_force, &s.fluid.drag_impulse, &s.fluid.u_start,
-                    &s.exchange.added_mass_force, &s.exchange.fluid_force,
-                    &s.exchange.carried_impulse}) {
+    for (auto* v : {&s.fluid.u_f, &s.fluid.steady_force, &s.exchange.added_mass_force,
+                    &s.exchange.fluid_force, &s.exchange.carried_impulse}) {
       action(*v);
     }
     action(s.fluid.beta);
@@ -101,22 +101,26 @@ void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
     GrainState& there = visits_.bring(grains, GatherNeeds{});
     coupling_->gather(fluid, there, dt_);  // u_f, drag coefficient, steady forces at the grains
     visits_.take_home(grains, GatherGives{});
+    if (visits_.is_cut())
+      Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
+                           BeginFluidStep{grains.kin, grains.fluid});
   }
   {
     const PhaseTimer timer(phases_, "grains");
     move_grains(grains);  // sub-steps; the drag follows the grain at fixed u_f
   }
-  GrainState& there = visits_.bring(grains, DepositNeeds{});
+  GrainState* there = nullptr;
   {
     const PhaseTimer timer(phases_, "deposit");
-    coupling_->deposit(there, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
+    there = &visits_.bring(grains, DepositNeeds{});
+    coupling_->deposit(*there, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
   }
   {
     const PhaseTimer timer(phases_, "fluid");
     fluid_report_ = fluid_->advance(fluid, &coupling_->on_faces(), dt_);  // WALE, u*, p, u
   }
   const PhaseTimer timer(phases_, "exchange");
-  coupling_->carry(fluid, there, dt_);  // what the implicit drag moved goes to the grains next
+  coupling_->carry(fluid, *there, dt_);  // what the implicit drag moved goes to the grains next
   visits_.take_home(grains, CarryGives{});
   ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);

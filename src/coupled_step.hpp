@@ -46,7 +46,7 @@ class CoupledStep {
   const Ledger& ledger() const { return ledger_; }
   const Phases& phases() const { return phases_; }
   FluidSolver* fluid_solver() { return fluid_.get(); }
-  GrainSolver* grain_solver() { return grains_.get(); }
+  GrainSolver* grain_solver() const { return grains_.get(); }
   Coupling* coupling() { return coupling_.get(); }
   int substeps() const { return n_substeps_; }
 

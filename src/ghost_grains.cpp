@@ -29,19 +29,34 @@ View room(const char* label, int n) {
 void GhostGrains::choose(const GrainState& grains, const Kinematics& kin, const Columns& columns,
                          const GrainOwners& owners, MPI_Comm ranks) {
   const int n = grains.n, n_ranks = static_cast<int>(owners.start.extent(0));
-  const auto first = room<Kokkos::View<int*>>("ghosts: first record", n + 1);
+  const auto first = room<Kokkos::View<int*>>("ghosts: first record", n);
+  Kokkos::parallel_for(
+      "ghosts: count records", items(n),
+      KOKKOS_LAMBDA(int g) { first(g) = Onlookers(columns, owners, kin(g).x).n; });
+  const auto border = room<Kokkos::View<int*>>("ghosts: border", n);
+  int n_border = 0;
+  Kokkos::parallel_scan(
+      "ghosts: grains at the border", items(n),
+      KOKKOS_LAMBDA(int g, int& sum, bool final) {
+        if (first(g) == 0) return;
+        if (final) border(sum) = g;
+        ++sum;
+      },
+      n_border);
   int total = 0;
   Kokkos::parallel_scan(
-      "ghosts: count records", items(n),
-      KOKKOS_LAMBDA(int g, int& sum, bool final) {
-        if (final) first(g) = sum;
-        sum += Onlookers(columns, owners, kin(g).x).n;
+      "ghosts: first records", items(n_border),
+      KOKKOS_LAMBDA(int b, int& sum, bool final) {
+        const int count = first(border(b));
+        if (final) first(border(b)) = sum;
+        sum += count;
       },
       total);
   const auto rank = room<Kokkos::View<int*>>("ghosts: rank", total);
   const auto row = room<Kokkos::View<int*>>("ghosts: row", total);
   Kokkos::parallel_for(
-      "ghosts: list records", items(n), KOKKOS_LAMBDA(int g) {
+      "ghosts: list records", items(n_border), KOKKOS_LAMBDA(int b) {
+        const int g = border(b);
         const Onlookers onlookers(columns, owners, kin(g).x);
         for (int q = 0; q < onlookers.n; ++q) {
           rank(first(g) + q) = onlookers.rank[q];

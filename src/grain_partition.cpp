@@ -96,8 +96,8 @@ bool GrainPartition::balance(const GrainState& grains, const Columns& columns,
   if (contacts.extent(0) > 0) Kokkos::deep_copy(sides, Kokkos::subview(contacts, grains.n));
   const std::int64_t mine = 2 * std::int64_t{grains.n} + sides;
   const std::int64_t total = sum_over(ranks_, mine);
-  before_ = largest_over_mean(ranks_, mine, total, count_);
-  const Real tolerable = std::max(kWorstImbalance, 1 + 2 * (after_ - 1));
+  before_ = now_ = largest_over_mean(ranks_, mine, total, count_);
+  const Real tolerable = std::max(kWorstImbalance, 1 + 2 * (at_cut_ - 1));
   if (has_cut_ && before_ <= tolerable) return false;
   const WorkAlongCurve work(grains, columns, contacts);
   set_starts(equal_pieces(ranks_, work, total, count_));
@@ -108,7 +108,7 @@ bool GrainPartition::balance(const GrainState& grains, const Columns& columns,
   }
   sum_over(ranks_, piece);
   const auto largest = static_cast<Real>(*std::max_element(piece.begin(), piece.end()));
-  after_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
+  now_ = at_cut_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
   return true;
 }
 

@@ -37,14 +37,15 @@ class GrainPartition {
   std::uint32_t origin() const { return on_host_(me_); }
   /// Work of the busiest rank over the mean at the last balance(), before its cut and after it.
   Real imbalance_before() const { return before_; }
-  Real imbalance() const { return after_; }
+  Real imbalance() const { return now_; }
 
  private:
   MPI_Comm ranks_;
   int me_ = 0, count_ = 1;
   Kokkos::View<std::uint32_t*> start_;
   Kokkos::View<std::uint32_t*>::host_mirror_type on_host_;
-  Real before_ = 1, after_ = 1;
+  Real before_ = 1, now_ = 1;
+  Real at_cut_ = 1;  // what the last cut left
   bool has_cut_ = false;
 };
 

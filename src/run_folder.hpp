@@ -58,6 +58,7 @@ struct RunSummary {
   double max_overlap = 0;                // over the mean diameter of the pair
   double max_continuity_residual = 0;    // [1/s]
   std::map<std::string, double> ledger;  // mass [kg] and momentum [N s] terms by name
+  std::map<std::string, double> communication;  // of rank 0, where there are more; see summary()
   std::int64_t grains_initial = 0, grains_inside = 0, grains_left = 0;
 };
 

@@ -27,6 +27,7 @@ std::string to_json(const RunSummary& s) {
   json["max_cfl"] = s.max_cfl;
   json["max_overlap"] = s.max_overlap;
   json["max_continuity_residual"] = s.max_continuity_residual;
+  if (!s.communication.empty()) json["communication"] = s.communication;
   json["ledger"] = s.ledger;
   json["grains_initial"] = s.grains_initial;
   json["grains_inside"] = s.grains_inside;

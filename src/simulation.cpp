@@ -80,6 +80,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
 void Simulation::begin() {
   catch_stop_signals();
   wall_start_ = last_restart_at_ = WallClock::now();
+  messages_at_start_ = message_counts();
   write_summary("running", "");
   if (!restart_time_) write_due(true);
 }

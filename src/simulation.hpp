@@ -12,6 +12,7 @@
 #include "src/flow_statistics.hpp"
 #include "src/force_map.hpp"
 #include "src/initial_state.hpp"
+#include "src/messages.hpp"
 #include "src/output.hpp"
 #include "src/report.hpp"
 #include "src/run_folder.hpp"
@@ -59,6 +60,7 @@ class Simulation {
   bool due(double interval) const;
   bool restart_due() const;
   void agree();
+  std::map<std::string, double> communication() const;
   RunSummary summary(const std::string& status, const std::string& message) const;
 
   /// Sums and extremes since the last line of history.csv.
@@ -88,6 +90,7 @@ class Simulation {
   double start_time_ = 0;
   std::int64_t step_ = 0, start_step_ = 0, end_step_ = 0;
   std::int64_t grain_steps_ = 0;
+  MessageCounts messages_at_start_;
   std::int64_t n_grains_ = 0;  // inside, of all ranks
   std::int64_t iterations_sum_ = 0, iterations_max_ = 0;
   double max_courant_ = 0, max_overlap_ = 0, max_residual_ = 0;

@@ -114,6 +114,23 @@ std::optional<std::filesystem::path> Simulation::last_restart() const {
   return latest_checkpoint(folder_.path());
 }
 
+/// Per fluid step, of this rank; the imbalance is that of all.
+std::map<std::string, double> Simulation::communication() const {
+  const double steps = std::max<double>(1, static_cast<double>(step_ - start_step_));
+  const MessageCounts& now = message_counts();
+  std::map<std::string, double> c;
+  c["messages"] = static_cast<double>(now.messages - messages_at_start_.messages) / steps;
+  c["megabytes"] = 1e-6 * static_cast<double>(now.bytes - messages_at_start_.bytes) / steps;
+  c["reductions"] = static_cast<double>(now.reductions - messages_at_start_.reductions) / steps;
+  if (!state_.grains) return c;
+  const NeighborList& list = coupled_step_.grain_solver()->list();
+  c["grains"] = state_.grains->n;
+  c["ghost_grains"] = state_.grains->n_ghosts;
+  c["grain_imbalance"] = list.partition()->imbalance();
+  c["list_rebuilds"] = static_cast<double>(list.rebuilds()) / steps;
+  return c;
+}
+
 RunSummary Simulation::summary(const std::string& status, const std::string& message) const {
   RunSummary s;
   s.status = status;
@@ -144,6 +161,7 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
   s.max_cfl = max_courant_;
   s.max_overlap = max_overlap_;
   s.max_continuity_residual = max_residual_;
+  if (s.ranks > 1) s.communication = communication();
   s.ledger = coupled_step_.ledger().entries();
   if (state_.grains) {
     s.grains_initial = state_.grains->n_initial;
