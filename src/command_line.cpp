@@ -26,6 +26,11 @@ CLI::App* add_run(CLI::App& app, CommandLine& line) {
   run->add_option("--threads", line.threads, "threads per rank (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
+  run->add_option("--patience", line.patience,
+                  "wall time without progress after which several ranks give up (default: 600, "
+                  "0: never)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0, 1'000'000));
   run->add_flag("--dry-run", line.dry_run, "check the case and show its numbers; nothing is run or written");
   run->add_flag("--starts-only", line.starts_only,
                 "run the cases this one starts from where their results are missing, then stop");

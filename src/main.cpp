@@ -19,9 +19,13 @@
 
 namespace {
 
-/// MPI for the life of main.
+/// MPI for the life of main. Threads are there (OpenMP's, the watchdog's) but leave MPI to the main
+/// thread; calls from several at once would cost locks.
 struct MpiScope {
-  MpiScope(int* argc, char*** argv) { MPI_Init(argc, argv); }
+  MpiScope(int* argc, char*** argv) {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+  }
   ~MpiScope() { MPI_Finalize(); }
   MpiScope(const MpiScope&) = delete;
   MpiScope& operator=(const MpiScope&) = delete;

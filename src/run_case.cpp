@@ -11,6 +11,7 @@
 #include "src/derived.hpp"
 #include "src/report.hpp"
 #include "src/simulation.hpp"
+#include "src/watchdog.hpp"
 
 namespace barchan {
 
@@ -85,6 +86,8 @@ Outcome run_one(const Config& config, const RunOptions& options) {
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);
+  Watchdog::beat("setting up");
+  Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation(config, options, files);
   const auto sizes = known_sizes(config);
   report::info("{}", to_text(derive(config, sizes)));
@@ -105,6 +108,7 @@ fs::path default_run_folder(const fs::path& config_file) {
 }
 
 int run_command(const CommandLine& line) {
+  const Watchdog watchdog(line.patience, MPI_COMM_WORLD);
   const Config config = load_config(line.file, line.overrides);
   if (line.dry_run) {
     const auto sizes = known_sizes(config);

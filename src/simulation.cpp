@@ -13,6 +13,7 @@
 #include "src/run_identity.hpp"
 #include "src/state_file.hpp"
 #include "src/stop_request.hpp"
+#include "src/watchdog.hpp"
 
 namespace barchan {
 
@@ -115,6 +116,7 @@ Outcome Simulation::run() {
 
 void Simulation::one_step() {
   grain_steps_ += n_grains_ * coupled_step_.substeps();
+  Watchdog::beat("computing", step_ + 1, time());
   coupled_step_.advance(state_);
   ++step_;
   count_grains();
@@ -167,6 +169,7 @@ void Simulation::agree() {
 bool Simulation::restart_due() const { return due(config_.restart.interval) || restart_wanted_; }
 
 void Simulation::write_due(bool first) {
+  Watchdog::beat("writing results", step_, time());
   const OutputConfig& o = config_.output;
   if (state_.grains && o.dune_interval > 0 && (first || due(o.dune_interval))) {
     const PhaseTimer timer(phases_, "analytics");

@@ -7,6 +7,7 @@
 #include "src/run_identity.hpp"
 #include "src/simulation.hpp"
 #include "src/state_file.hpp"
+#include "src/watchdog.hpp"
 
 namespace barchan {
 
@@ -98,6 +99,7 @@ void Simulation::write_grains() {
 }
 
 void Simulation::write_restart() {
+  Watchdog::beat("writing a restart file", step_, time());
   CheckpointWriter file(folder_.path(), step_, provenance_, ranks_);
   save_state(file, state_, coupled_step_);
   file.scalar("t", time());
@@ -106,7 +108,7 @@ void Simulation::write_restart() {
   file.array("dunes", std::span<const double>(dunes));
   save_statistics(file);
   write_statistics();
-  file.commit(config_.restart.keep);
+  Watchdog::last_good_restart(file.commit(config_.restart.keep));
   last_restart_at_ = WallClock::now();
 }
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
-# of a rank, and what is refused.
+# of a rank, one that hangs, and what is refused.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
 work="$(mktemp -d)"
-trap 'rm -rf "$work"' EXIT
+ranks=""
+trap 'kill -KILL $ranks 2> /dev/null || true; rm -rf "$work"' EXIT
 cd "$work"
 export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
 options=(--quiet --bind-to none --oversubscribe)
@@ -70,9 +71,10 @@ says 2 "has grains, which move on one rank" 2 --out grains --set grains.density=
   --set 'initial.grains="x.csv"' --set time.grain_step=1e-5
 says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
 
-long() {  # starts a long run on two ranks; its ranks' process numbers in $ranks
-  mpirun "${options[@]}" -np 2 "$BARCHAN_PROGRAM" run flow.toml --quiet --out "$1" --set time.end=1000 \
-    --set statistics.fields=false --set output.fields_interval=0 > "$1.out" 2>&1 < /dev/null &
+long() {  # long FOLDER ARGUMENT...: starts a long run on two ranks; their process numbers in $ranks
+  mpirun "${options[@]}" -np 2 "$BARCHAN_PROGRAM" run flow.toml --quiet \
+    --set time.end=1000 --set statistics.fields=false --set output.fields_interval=0 --out "$@" \
+    > "$1.out" 2>&1 < /dev/null &
   job=$!
   for _ in $(seq 100); do
     if [ -e "$1/history.csv" ] && [ "$(wc -l < "$1/history.csv")" -ge 3 ]; then break; fi
@@ -80,6 +82,14 @@ long() {  # starts a long run on two ranks; its ranks' process numbers in $ranks
   done
   ranks="$(cat "/proc/$job/task/$job/children")"
   [ "$(wc -w <<< "$ranks")" -eq 2 ] || { cat "$1.out"; fail "the long run is not there"; }
+}
+breaks() {  # breaks FOLDER WORDS: that run ends by itself, soon, with one line, which has these words
+  local status=0
+  SECONDS=0
+  timeout 30 tail --pid="$job" -f /dev/null || kill -KILL $ranks
+  wait "$job" || status=$?
+  [ "$status" -eq 1 ] && [ "$SECONDS" -lt 20 ] && [ "$(grep -c "error: " "$1.out")" -eq 1 ] &&
+    grep -q "$2" "$1.out" || { cat "$1.out"; fail "$1: exit code $status after $SECONDS s"; }
 }
 long stopped
 kill -TERM "${ranks%% *}"  # one rank hears it, both stop
@@ -95,4 +105,14 @@ SECONDS=0
 status=0
 wait "$job" || status=$?
 [ "$status" -ne 0 ] && [ "$SECONDS" -lt 20 ] || fail "a killed rank: exit code $status after $SECONDS s"
+
+long suspended --patience 3
+kill -STOP $ranks  # all of them: nobody waits for anybody
+sleep 5
+kill -CONT $ranks
+sleep 1
+kill -STOP "${ranks%% *}"  # rank 0 alone: MPI sees nothing
+breaks suspended "rank 1 on .* has waited .* s while .* (fluid step .* t = .*)"
+
+ranks=""
 echo "ok"

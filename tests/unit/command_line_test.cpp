@@ -25,6 +25,7 @@ TEST(CommandLine, RunWithNothingElse) {
   EXPECT_FALSE(line.out.has_value());
   EXPECT_FALSE(line.restart.has_value());
   EXPECT_EQ(line.threads, 0);
+  EXPECT_EQ(line.patience, 600);
   EXPECT_FALSE(line.dry_run);
   EXPECT_FALSE(line.quiet);
 }
@@ -32,7 +33,7 @@ TEST(CommandLine, RunWithNothingElse) {
 TEST(CommandLine, RunWithAll) {
   const CommandLine line = parse({"run", "--set", "fluid.cells=[8,9,10]", "case.toml", "--out",
                                   "a dir", "--restart=r.h5", "--threads", "3", "--set",
-                                  "case.title=a b", "--dry-run", "--quiet", "--set=time.end=-1"});
+                                  "case.title=a b", "--patience", "20", "--dry-run", "--quiet", "--set=time.end=-1"});
   EXPECT_EQ(line.command, Command::run);
   EXPECT_EQ(line.file, "case.toml");
   EXPECT_EQ(line.overrides,
@@ -40,6 +41,7 @@ TEST(CommandLine, RunWithAll) {
   EXPECT_EQ(line.out, "a dir");
   EXPECT_EQ(line.restart, "r.h5");
   EXPECT_EQ(line.threads, 3);
+  EXPECT_EQ(line.patience, 20);
   EXPECT_TRUE(line.dry_run);
   EXPECT_TRUE(line.quiet);
 }
@@ -74,6 +76,8 @@ TEST(CommandLine, BadUsageEndsWithTwo) {
   expect_bad({"run", "a.toml", "--sett", "a=1"}, "--sett");
   expect_bad({"run", "a.toml", "--threads", "many"}, "--threads");
   expect_bad({"run", "a.toml", "--threads", "0"}, "--threads");
+  expect_bad({"run", "a.toml", "--patience", "-1"}, "--patience");
+  expect_bad({"run", "a.toml", "--patience", "soon"}, "--patience");
   expect_bad({"run", "a.toml", "--set"}, "--set");
   expect_bad({"check", "a.toml", "--out", "d"}, "--out");
   expect_bad({"info"}, "FILE is required");
