@@ -1,6 +1,7 @@
 #include "src/hdf5_file.hpp"
 
 #include <cstring>
+#include <exception>
 #include <utility>
 
 #include "src/communicator.hpp"
@@ -99,6 +100,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
 }
 
 Hdf5File::~Hdf5File() {
+  if (parallel_ && std::uncaught_exceptions() > 0) return;
   if (hidden_ >= 0) H5Gclose(hidden_);
   if (file_ >= 0) H5Fclose(file_);
 }

@@ -49,7 +49,9 @@ class Hdf5File {
   Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator = MPI_COMM_SELF);
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
-  /// Closes without a complaint: call close() where a full disk must be noticed.
+  /// Closes without a complaint: call close() where a full disk must be noticed. While an exception
+  /// is on its way a file of several ranks stays open: the others, if they go on, would never come
+  /// to close it with this one, and nobody would hear of the exception.
   ~Hdf5File();
 
   void close();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
-# of a rank, one that hangs, and what is refused.
+# of a rank, one that hangs, one that fails alone, and what is refused.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
@@ -72,7 +72,7 @@ says 2 "has grains, which move on one rank" 2 --out grains --set grains.density=
 says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
 
 long() {  # long FOLDER ARGUMENT...: starts a long run on two ranks; their process numbers in $ranks
-  mpirun "${options[@]}" -np 2 "$BARCHAN_PROGRAM" run flow.toml --quiet \
+  mpirun "${options[@]}" -np 2 bash -c "trap '' XFSZ; exec \"\$@\"" - "$BARCHAN_PROGRAM" run flow.toml --quiet \
     --set time.end=1000 --set statistics.fields=false --set output.fields_interval=0 --out "$@" \
     > "$1.out" 2>&1 < /dev/null &
   job=$!
@@ -114,5 +114,10 @@ sleep 1
 kill -STOP "${ranks%% *}"  # rank 0 alone: MPI sees nothing
 breaks suspended "rank 1 on .* has waited .* s while .* (fluid step .* t = .*)"
 
+long full --set restart.interval=0.05
+while kill -0 "$job" && ! compgen -G "full/restart_*.h5" > /dev/null; do sleep 0.1; done
+read -r -a each <<< "$ranks"
+prlimit --pid "${each[1]}" --fsize=50000  # as if its disk were full
+breaks full "rank 1: cannot write full/restart_.*the last good restart is full/restart_"
 ranks=""
 echo "ok"
