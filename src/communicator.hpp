@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace barchan {
@@ -29,6 +31,20 @@ inline int rank_of(MPI_Comm communicator) {
 /// Waits for all ranks.
 inline void synchronise(MPI_Comm communicator) {
   if (mpi_runs()) MPI_Barrier(communicator);
+}
+
+/// False if some rank has not come here after this time: it is elsewhere, and the program must end.
+inline bool all_come(MPI_Comm communicator, std::chrono::milliseconds patience) {
+  if (!mpi_runs()) return true;
+  constexpr std::chrono::milliseconds pause{1};
+  MPI_Request arrival = MPI_REQUEST_NULL;
+  MPI_Ibarrier(communicator, &arrival);
+  int here = 0;
+  for (std::chrono::milliseconds waited{0}; here == 0 && waited < patience; waited += pause) {
+    MPI_Test(&arrival, &here, MPI_STATUS_IGNORE);
+    if (here == 0) std::this_thread::sleep_for(pause);
+  }
+  return here != 0;
 }
 
 /// What rank 0 says, on all ranks: for questions to the clock or the disk that they might answer

@@ -25,10 +25,16 @@ struct MpiScope {
   MpiScope(int* argc, char*** argv) {
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm_dup(MPI_COMM_WORLD, &refusals);
   }
-  ~MpiScope() { MPI_Finalize(); }
+  ~MpiScope() {
+    MPI_Comm_free(&refusals);
+    MPI_Finalize();
+  }
   MpiScope(const MpiScope&) = delete;
   MpiScope& operator=(const MpiScope&) = delete;
+
+  MPI_Comm refusals = MPI_COMM_NULL;  // ranks may meet here while others are busy in the world
 };
 
 int execute(const barchan::CommandLine& line) {
@@ -49,7 +55,9 @@ int execute(const barchan::CommandLine& line) {
     case Command::none:
       break;
   }
-  (line.exit_code == 0 ? std::cout : std::cerr) << line.text;
+  if (barchan::rank_of(MPI_COMM_WORLD) == 0) {
+    (line.exit_code == 0 ? std::cout : std::cerr) << line.text;
+  }
   return line.exit_code;
 }
 
@@ -67,6 +75,14 @@ int fail(const std::string& message, int exit_code) {
   return exit_code;
 }
 
+/// Bad input is a quiet end where all ranks read the same; a file may also be missing on one node.
+int refuse(const MpiScope& mpi, const std::string& message) {
+  constexpr int bad_input = 2;
+  if (!barchan::all_come(mpi.refusals, std::chrono::seconds(2))) return fail(message, bad_input);
+  if (barchan::rank_of(MPI_COMM_WORLD) == 0) std::cerr << message << '\n';
+  return bad_input;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,9 +92,8 @@ int main(int argc, char** argv) {
         argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
     barchan::report::start(line.quiet, barchan::rank_of(MPI_COMM_WORLD));
     return execute(line);
-  } catch (const barchan::ConfigError& problem) {  // all ranks read the same
-    if (barchan::rank_of(MPI_COMM_WORLD) == 0) std::cerr << problem.what() << '\n';
-    return 2;
+  } catch (const barchan::ConfigError& problem) {
+    return refuse(mpi, problem.what());
   } catch (const std::exception& problem) {
     return fail(problem.what(), 1);
   }

@@ -71,6 +71,12 @@ says 2 "has grains, which move on one rank" 2 --out grains --set grains.density=
   --set 'initial.grains="x.csv"' --set time.grain_step=1e-5
 says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
 
+status=0  # a case that only one node has
+mpirun "${options[@]}" -np 1 "$BARCHAN_PROGRAM" run flow.toml --quiet --out node \
+  : -np 1 "$BARCHAN_PROGRAM" run absent.toml --quiet --out node > out 2>&1 || status=$?
+[ "$status" -eq 2 ] && [ "$(grep -c "error: rank 1: absent.toml" out)" -eq 1 ] ||
+  { cat out; fail "a case that is missing on one rank: exit code $status"; }
+
 long() {  # long FOLDER ARGUMENT...: starts a long run on two ranks; their process numbers in $ranks
   mpirun "${options[@]}" -np 2 bash -c "trap '' XFSZ; exec \"\$@\"" - "$BARCHAN_PROGRAM" run flow.toml --quiet \
     --set time.end=1000 --set statistics.fields=false --set output.fields_interval=0 --out "$@" \
