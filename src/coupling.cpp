@@ -48,7 +48,10 @@ FaceVector face_vector(const char* label, const Grid& grid) {
   return {Field(label, grid), Field(label, grid), Field(label, grid)};
 }
 
-/// Where the grid is cut, points of a grain may lie in ghosts; a grain then must not reach beyond.
+constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
+
+}  // namespace
+
 Locate make_locate(const Config& config, const Grid& grid, Real r_max) {
   const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
   Locate locate = locate_in(grid, point_set(config.coupling.void_fraction), periodic_x);
@@ -72,10 +75,6 @@ Locate make_locate(const Config& config, const Grid& grid, Real r_max) {
   }
   return locate;
 }
-
-constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
-
-}  // namespace
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)

@@ -28,6 +28,10 @@ struct ExchangeLedger {
   Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
 };
 
+/// How grains up to a radius of r_max [m] find their cells. Where the grid is cut, points of a grain
+/// may lie in ghosts; throws ConfigError if it could reach beyond.
+Locate make_locate(const Config& config, const Grid& grid, Real r_max);
+
 /// Unresolved coupling, model A: gather before the sub-steps, deposit after them, return after the
 /// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil
 /// (GrainVisits), and all ranks call every member together.

@@ -1,0 +1,223 @@
+// Grains in a flow, both cut among ranks in ways of their own, against one rank.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/deposit_rims.hpp"
+#include "src/domain.hpp"
+#include "src/grain_visits.hpp"
+#include "src/initial_state.hpp"
+#include "tests/support/coupled_case.hpp"
+#include "tests/support/shared_grains.hpp"
+#include "tests/support/shared_grid.hpp"
+
+namespace barchan {
+namespace {
+
+using testing::by_id;
+using testing::differences;
+using testing::from_all_ranks;
+using testing::numbers_of;
+
+bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
+
+struct Coupled {
+  explicit Coupled(const Config& c, MPI_Comm ranks = MPI_COMM_SELF,
+                   const InitialFiles& files = {}, int along_x = 0)
+      : pencils(make_pencils(c, ranks, along_x)),
+        state(make_initial_state(c, files, ranks, pencils.get())),
+        step(c, state) {
+    step.start(state);
+  }
+  static std::unique_ptr<const Decomposition> make_pencils(const Config& c, MPI_Comm ranks,
+                                                           int along_x) {
+    if (rank_count(ranks) == 1) return {};
+    return std::make_unique<const Decomposition>(ranks, c.fluid->cells[0], c.fluid->cells[2],
+                                                 along_x);
+  }
+  std::unique_ptr<const Decomposition> pencils;
+  SystemState state;
+  CoupledStep step;
+};
+
+std::vector<int> shapes(const Config& c) { return test::shapes(c.fluid->cells); }
+
+/// Largest difference of a field in the owned cells, absolute.
+double difference(const Field& whole, const Field& mine, const Grid& grid) {
+  const auto a = test::to_host(whole), b = test::to_host(mine);
+  double largest = 0;
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const double off = std::abs(a(i + grid.i_begin, j, k + grid.k_begin) - b(i, j, k));
+        largest = off <= largest ? largest : off;
+      }
+  return max_over(MPI_COMM_WORLD, largest);
+}
+
+Config heap_at_the_seam(VoidFraction points, GrainBoundaryX x) {
+  Config c = testing::coupled_config();
+  c.coupling.void_fraction = points;
+  c.grains->boundary_x = x;
+  c.initial.fluid = "still";
+  c.initial.pour->centre = {0.0062, 0.0031};  // across the middle, where pencils meet
+  return c;
+}
+
+TEST(CoupledOverRanks, FluidFractionHasTheBitsOfOneRank) {
+  for (const VoidFraction points :
+       {VoidFraction::divided, VoidFraction::centre, VoidFraction::cfdem_faithful}) {
+    for (const GrainBoundaryX x : {GrainBoundaryX::exit, GrainBoundaryX::periodic}) {
+      const Config c = heap_at_the_seam(points, x);
+      const Coupled whole(c);
+      for (const int along_x : shapes(c)) {
+        SCOPED_TRACE(along_x);
+        const Coupled shared(c, MPI_COMM_WORLD, {}, along_x);
+        const Grid& grid = shared.state.fluid->grid;
+        const Field& alpha = shared.state.fluid->alpha_f;
+        EXPECT_EQ(difference(whole.state.fluid->alpha_f, alpha, grid), 0);
+        const auto here = test::to_host(alpha);
+        double least = 1;
+        for (int k = 0; k < grid.nz; ++k)
+          for (int i = 0; i < grid.nx; ++i) least = std::min(least, here(i, 0, k));
+        EXPECT_LT(-max_over(MPI_COMM_WORLD, -least), 0.95) << "there is no heap";
+      }
+    }
+  }
+}
+
+/// Grains near all edges of the pencils and of the domain.
+InitialGrains scattered_grains(const Config& c, int n) {
+  InitialGrains grains = testing::random_grains(n, c.size, 8);
+  for (std::size_t g = 0; g < grains.size(); g += 3) {
+    grains.x[g].x = std::round(grains.x[g].x / 0.0012) * 0.0012 + 3e-5 * (grains.x[g].y / 0.006);
+    grains.x[g].z = std::round(grains.x[g].z / 0.001) * 0.001 - 3e-5 * (grains.x[g].y / 0.006);
+  }
+  return grains;
+}
+
+/// sum over cells of f times what the grains deposit = sum over grains of what they give times the
+/// f they find: scattering is the adjoint of gathering, over any cuts.
+TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
+  const Config c = testing::coupled_config();
+  for (const int along_x : shapes(c)) {
+    SCOPED_TRACE(along_x);
+    const auto pencils = Coupled::make_pencils(c, MPI_COMM_WORLD, along_x);
+    const Grid grid = make_grid(c, pencils.get());
+    GrainState grains = make_grain_state(scattered_grains(c, 900), 2500, MPI_COMM_WORLD);
+    add_fluid(grains);
+    add_exchange(grains);
+    const auto beta = grains.fluid.beta;
+    const auto id = grains.id;
+    Kokkos::parallel_for(
+        "test: what grains give", grains.n,
+        KOKKOS_LAMBDA(int g) { beta(g) = 1 + Kokkos::sin(static_cast<Real>(id(g))); });
+    GrainVisits visits(grid, false);
+    const auto needs = [](GrainState& s, const auto& action) {
+      action(s.kin);
+      action(s.fluid.beta);
+    };
+    GrainState& there = visits.bring(grains, needs);
+    EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
+    Kokkos::deep_copy(there.fluid.added_mass, 0.0);
+    Kokkos::deep_copy(there.exchange.carried_impulse, Vec3{});
+    const ExchangeOfGrain of_grain{.dt = 1,
+                                   .grains = there.kin,
+                                   .on_grains = there.fluid,
+                                   .exchange = there.exchange};
+    const Locate locate = make_locate(c, grid, there.r_max);
+    Deposits deposits;
+    deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
+    deposits.implicit = fixed_point_for(1e4);
+    Kokkos::parallel_for("test: scatter", there.n,
+                         DepositGrain{.locate = locate, .of_grain = of_grain, .deposits = deposits});
+    DepositRims(grid).add(deposits);
+    const Field f("f", grid);
+    test::set_field(f, grid, [&](int i, int j, int k) {
+      return test::noise(i + grid.i_begin, j, k + grid.k_begin);
+    });
+    Halo(grid).fill(f);
+    const GridRef at = grid;
+    const FieldRef values = f;
+    const Real in_cells = sum_each_cell(
+        "test: cells", grid, KOKKOS_LAMBDA(int i, int j, int k) {
+          return values(i, j, k) *
+                 deposits.implicit.decode(deposits.sum(CellIndex{i, j, k}.linear(at), 1));
+        });
+    std::vector<Real> at_grains(3);
+    Kokkos::parallel_reduce("test: gather", there.n,
+                            CarryToGrain{.locate = locate,
+                                         .of_grain = of_grain,
+                                         .x = f,
+                                         .y = f,
+                                         .z = f,
+                                         .carried_impulse = there.exchange.carried_impulse},
+                            at_grains[0], at_grains[1], at_grains[2]);
+    sum_over(MPI_COMM_WORLD, at_grains);
+    EXPECT_GT(std::abs(at_grains[0]), 1e-3);
+    EXPECT_NEAR(in_cells / at_grains[0], 1, 1e-11);
+    visits.take_home(grains, [](GrainState& s, const auto& action) {
+      action(s.exchange.carried_impulse);
+    });
+    Real home = 0;
+    const auto carried = grains.exchange.carried_impulse;
+    Kokkos::parallel_reduce(
+        "test: at home", grains.n, KOKKOS_LAMBDA(int g, Real& sum) { sum += carried(g).x; }, home);
+    EXPECT_NEAR(sum_over(MPI_COMM_WORLD, home) / at_grains[0], 1, 1e-12);
+  }
+}
+
+TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
+  const Config c = testing::coupled_config();
+  Coupled whole(c);
+  for (int s = 0; s < 20; ++s) whole.step.advance(whole.state);
+  for (const int along_x : shapes(c)) {
+    SCOPED_TRACE(along_x);
+    Coupled shared(c, MPI_COMM_WORLD, {}, along_x);
+    for (int s = 0; s < 20; ++s) shared.step.advance(shared.state);
+    const auto off = differences(by_id(numbers_of(*whole.state.grains)),
+                                 by_id(from_all_ranks(numbers_of(*shared.state.grains))));
+    const Grid& grid = shared.state.fluid->grid;
+    const double u = difference(whole.state.fluid->u.x, shared.state.fluid->u.x, grid);
+    const double alpha = difference(whole.state.fluid->alpha_f, shared.state.fluid->alpha_f, grid);
+    EXPECT_LT(off[0], 1e-12);
+    EXPECT_LT(off[1], 1e-10);
+    EXPECT_LT(u, 1e-11);
+    EXPECT_LT(alpha, 1e-10);
+    EXPECT_LT(shared.step.ledger().volume_mismatch(), 1e-12);
+    EXPECT_LT(shared.step.ledger().exchange_mismatch(), 1e-10);
+    EXPECT_LT(shared.step.ledger().carried_mismatch(), 1e-10);
+    if (is_first())
+      std::printf("[ measured ] %d ranks, %d along x: x %.1e, u %.1e of grains; u %.1e m/s, alpha "
+                  "%.1e\n",
+                  rank_count(MPI_COMM_WORLD), along_x, off[0], off[1], u, alpha);
+  }
+}
+
+/// Round-off grows in a heap of grains as any other disturbance does. Until it has grown, ranks
+/// agree to 1e-9; from then on they differ no more than one rank does from itself after a grain
+/// has been moved by the last bit of its position.
+TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
+  const Config c = testing::coupled_config();
+  Coupled whole(c), moved(c), shared(c, MPI_COMM_WORLD);
+  const auto kin = moved.state.grains->kin;
+  Kokkos::parallel_for(
+      "test: last bit", 1, KOKKOS_LAMBDA(int) { kin(100).x.x *= 1 + 4e-16; });
+  double worst_share = 0;
+  for (int s = 1; s <= 200; ++s) {
+    for (Coupled* one : {&whole, &moved, &shared}) one->step.advance(one->state);
+    if (s % 20 != 0) continue;
+    const auto exact = by_id(numbers_of(*whole.state.grains));
+    const double chaos = differences(exact, by_id(numbers_of(*moved.state.grains)))[0];
+    const double off =
+        differences(exact, by_id(from_all_ranks(numbers_of(*shared.state.grains))))[0];
+    EXPECT_LT(off, std::max(1e-9, 300 * chaos)) << "step " << s;
+    worst_share = std::max(worst_share, off / std::max(1e-9, chaos));
+    if (is_first())
+      std::printf("[ measured ] %d ranks, step %d: x %.1e; one grain moved by a bit: %.1e\n",
+                  rank_count(MPI_COMM_WORLD), s, off, chaos);
+  }
+}
+
+}  // namespace
+}  // namespace barchan
