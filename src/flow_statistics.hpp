@@ -41,13 +41,15 @@ class FlowStatistics {
   void load(const CheckpointReader& file);
 
  private:
-  /// Of all ranks, on the host.
   using HostSums = Kokkos::View<PlaneSums*, Kokkos::HostSpace>;
-  HostSums sums_of_ranks() const;
+  /// Of all ranks and samples.
+  HostSums sums() const;
+  void add_ranks();
 
   Grid grid_;
   double viscosity_;
-  Kokkos::View<PlaneSums*> sums_;
+  Kokkos::View<PlaneSums*> sums_;  // of all samples; where the grid is cut, of the present one
+  HostSums all_;                   // there, of all samples
   std::int64_t n_samples_ = 0;
 };
 

@@ -66,9 +66,6 @@ says() {  # says STATUS WORDS RANKS ARGUMENT...: refused with this exit code, th
 says 2 "4 ranks cannot share 5 x 3 columns" 4 --out thin --set 'fluid.cells=[5, 16, 3]'
 [ ! -e thin ] || fail "a refused run left a folder"
 says 2 "unknown key" 2 --out wrong --set fluid.cels=3
-printf 'id,d,x,y,z\n1,2e-4,0.02,1e-4,0.01\n' > x.csv
-says 2 "has grains, which move on one rank" 2 --out grains --set grains.density=2500 \
-  --set 'initial.grains="x.csv"' --set time.grain_step=1e-5
 says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
 
 status=0  # a case that only one node has
