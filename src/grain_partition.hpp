@@ -12,7 +12,7 @@
 namespace barchan {
 
 /// How the work is shared: that of the busiest rank over the mean.
-inline constexpr Real kWorstImbalance = 1.1;
+inline constexpr Real kWorstImbalance = 1.03;
 
 /// Cuts the curve into pieces of equal work, a piece for each rank.
 class GrainPartition {
