@@ -46,8 +46,7 @@ struct CountContacts {
   Kokkos::View<int*> count;
   KOKKOS_FUNCTION void operator()(int slot) const {
     if (!keeping.list.touching(slot)) return;
-    keeping(slot,
-            [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
+    keeping(slot, [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
   }
 };
 

@@ -51,9 +51,7 @@ void add_across(const Grid& grid, const Deposits& deposits, const RankLine& line
                 const Rims& rims) {
   // Along z the ghosts in x are done with; along x those in z still travel.
   const int last = across_x ? grid.nx : grid.nz, n_a = across_x ? grid.nz + 2 : grid.nx;
-  const auto plane = [&](int at) {
-    return DepositPlane{grid, deposits, across_x, at, n_a};
-  };
+  const auto plane = [&](int at) { return DepositPlane{grid, deposits, across_x, at, n_a}; };
   const auto all = items(n_a * grid.ny);
   Kokkos::parallel_for("deposits: pack", all, PackPlane{plane(-1), rims.to_before.data()});
   Kokkos::parallel_for("deposits: pack", all, PackPlane{plane(last), rims.to_after.data()});

@@ -13,8 +13,8 @@ namespace barchan {
 
 namespace {
 
-constexpr int kWhole = 13;   // kinematics and id
-constexpr int kMotion = 9;   // position, velocity, spin
+constexpr int kWhole = 13;  // kinematics and id
+constexpr int kMotion = 9;  // position, velocity, spin
 using Kinematics = Kokkos::View<GrainKinematics*>;
 
 template <class View>

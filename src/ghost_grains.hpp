@@ -7,8 +7,8 @@
 
 namespace barchan {
 
-/// Ghosts stand in the rows after the owned grains, in the order of their columns and heights; which
-/// ones there are changes with the neighbour list, where they are in every sub-step.
+/// Ghosts stand in the rows after the owned grains, in the order of their columns and heights;
+/// which ones there are changes with the neighbour list, where they are in every sub-step.
 class GhostGrains {
  public:
   /// Copies every grain beside another rank's columns to that rank; `kin` and grains.id are given

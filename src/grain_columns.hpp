@@ -61,9 +61,8 @@ struct AllArrays {
 /// Calls action(column) for every column of them; none is wider than a Quad.
 template <class Action>
 void for_each_column(GrainState& s, const Action& action) {
-  for_each_array(s, [&](const auto& array) {
-    grain_columns_detail::for_each_column_of(array, action);
-  });
+  for_each_array(
+      s, [&](const auto& array) { grain_columns_detail::for_each_column_of(array, action); });
 }
 
 /// The columns of some arrays as the words of records: what travels together. `Arrays` calls an

@@ -87,8 +87,8 @@ void GrainMigration::choose(const GrainState& grains, const Columns& columns,
       },
       n_stay_);
   const std::pair<int, int> leavers(0, n - n_stay_);
-  const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{},
-                                                       Kokkos::subview(leave, leavers));
+  const auto row =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Kokkos::subview(leave, leavers));
   std::vector<std::vector<int>> rows_for(owners.start.extent(0));
   if (n > n_stay_) {
     const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, owner);

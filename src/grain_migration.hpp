@@ -9,11 +9,12 @@
 namespace barchan {
 
 /// Sends each grain to the rank that owns its place, with all its columns and the contacts kept
-/// under it. Grains that stay keep their order; those that come follow in the order of their senders.
+/// under it. Grains that stay keep their order; those that come follow in the order of their
+/// senders.
 class GrainMigration {
  public:
-  /// `kept` holds the contacts under both of their grains; afterwards those of the new rows. `room`:
-  /// as many as there are grains, overwritten. All ranks together.
+  /// `kept` holds the contacts under both of their grains; afterwards those of the new rows.
+  /// `room`: as many as there are grains, overwritten. All ranks together.
   void operator()(GrainState& grains, KeptContacts& kept, const Columns& columns,
                   const GrainOwners& owners, const Kokkos::View<Quad*>& room);
 

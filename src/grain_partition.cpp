@@ -7,14 +7,15 @@
 #include "src/communicator.hpp"
 #include "src/launch.hpp"
 #include "src/records.hpp"
+#include "src/report.hpp"
 
 namespace barchan {
 
 namespace {
 
 /// Place on the curve (upper half) and work (lower half) of each grain, sorted.
-auto work_by_place(const GrainState& grains, const Columns& columns,
-                   const Kokkos::View<const int*>& contacts) {
+Kokkos::View<std::uint64_t*, Kokkos::HostSpace> work_by_place(
+    const GrainState& grains, const Columns& columns, const Kokkos::View<const int*>& contacts) {
   const int n = grains.n;
   const Kokkos::View<std::uint64_t*> of_grain("partition: work", static_cast<std::size_t>(n));
   const auto kin = grains.kin;
@@ -25,9 +26,11 @@ auto work_by_place(const GrainState& grains, const Columns& columns,
         of_grain(g) = (std::uint64_t{columns.place_of(kin(g).x)} << 32) |
                       static_cast<std::uint64_t>(2 + sides);
       });
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, of_grain);
-  std::sort(host.data(), host.data() + n);
-  return host;
+  const Kokkos::View<std::uint64_t*, Kokkos::HostSpace> sorted("partition: sorted work",
+                                                               of_grain.extent(0));
+  Kokkos::deep_copy(sorted, of_grain);
+  std::sort(sorted.data(), sorted.data() + n);
+  return sorted;
 }
 
 /// Work by place on the curve, of the grains of one rank.
@@ -109,6 +112,10 @@ bool GrainPartition::balance(const GrainState& grains, const Columns& columns,
   sum_over(ranks_, piece);
   const auto largest = static_cast<Real>(*std::max_element(piece.begin(), piece.end()));
   now_ = at_cut_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
+  report::info(
+      "grains shared out anew among {} ranks: the busiest had {:.3f} of the mean work and has "
+      "{:.3f}",
+      count_, before_, now_);
   return true;
 }
 

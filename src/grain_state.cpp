@@ -93,14 +93,13 @@ void add_fluid(GrainState& s) {
 }
 
 void add_exchange(GrainState& s) {
-  for (Kokkos::View<Vec3*>* array : {&s.exchange.added_mass_force, &s.exchange.fluid_force,
-                                     &s.exchange.carried_impulse}) {
+  for (Kokkos::View<Vec3*>* array :
+       {&s.exchange.added_mass_force, &s.exchange.fluid_force, &s.exchange.carried_impulse}) {
     *array = rows<Kokkos::View<Vec3*>>("grain vector", s.n);
   }
 }
 
-void permute(GrainState& s, const Kokkos::View<int*>& row, int n,
-             const Kokkos::View<Quad*>& room) {
+void permute(GrainState& s, const Kokkos::View<int*>& row, int n, const Kokkos::View<Quad*>& room) {
   for_each_column(s, [&](const auto& column) { take_rows(column, row, n, room); });
   s.n = n;
 }

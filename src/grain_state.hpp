@@ -13,8 +13,8 @@
 namespace barchan {
 
 /// Grains [0, n) of this rank. Rows are in spatial order, which a list rebuild changes; `id` never
-/// changes. Arrays may have room for more rows. Behind the rows of `kin` and `id` stand ghosts, copies
-/// of grains of other ranks.
+/// changes. Arrays may have room for more rows. Behind the rows of `kin` and `id` stand ghosts,
+/// copies of grains of other ranks.
 struct GrainState {
   int n = 0, n_ghosts = 0;
   MPI_Comm ranks = MPI_COMM_SELF;                        // that share the grains

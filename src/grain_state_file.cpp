@@ -59,8 +59,8 @@ struct ContactTable {
 ContactTable contact_table(const GrainState& s) {
   const PairList& list = s.list;
   const auto here = [](const auto& view, int n) {
-    return Kokkos::create_mirror_view_and_copy(
-        Kokkos::HostSpace{}, Kokkos::subview(view, std::pair<int, int>(0, n)));
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{},
+                                               Kokkos::subview(view, std::pair<int, int>(0, n)));
   };
   const auto touching = here(list.touching, list.n_pairs);
   const auto i = here(list.i, list.n_pairs), j = here(list.j, list.n_pairs);
@@ -192,7 +192,8 @@ Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
   const Split split{.n = static_cast<int>(file.extents("grains/id")[0]),
                     .parts = rank_count(ranks)};
   const int me = rank_of(ranks);
-  return {static_cast<std::uint64_t>(split.begin(me)), static_cast<std::uint64_t>(split.begin(me + 1))};
+  return {static_cast<std::uint64_t>(split.begin(me)),
+          static_cast<std::uint64_t>(split.begin(me + 1))};
 }
 
 /// A number of every rank, on all of them.
@@ -261,8 +262,7 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
   for_each_grain_array(s, [&](const std::string& name, const auto& array) {
     const auto mine = first_rows(array, s.n);
     using View = decltype(mine);
-    using Number =
-        typename checkpoint_detail::Stored<typename View::non_const_value_type>::type;
+    using Number = typename checkpoint_detail::Stored<typename View::non_const_value_type>::type;
     const Extents extents = checkpoint_detail::file_extents(mine);
     Extents whole = extents, first(extents.size(), 0);
     whole[row_dimension<View>] = n_all;
@@ -272,8 +272,8 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
   NeighborList& list = solver.list();
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;
   const auto piece = my_piece(file, "contacts/of_rank", s.ranks);
-  const ContactTable contacts = piece ? read_contacts(file, piece->begin, piece->end, rolls)
-                                      : contacts_of(file, s, rolls);
+  const ContactTable contacts =
+      piece ? read_contacts(file, piece->begin, piece->end, rolls) : contacts_of(file, s, rolls);
   list.set_kept(under_rows(contacts, s, both, rolls));
   if (!piece) {
     list.rebuild(s, false);

@@ -17,8 +17,8 @@ class GrainVisits {
   /// `periodic_x`: grains beyond one end come in at the other.
   GrainVisits(const Grid& grid, bool periodic_x);
 
-  /// The grains whose centres lie in this rank's pencil; of their arrays those that `needs` names are
-  /// filled. Positions are inside the domain. Valid until the next call. All ranks together.
+  /// The grains whose centres lie in this rank's pencil; of their arrays those that `needs` names
+  /// are filled. Positions are inside the domain. Valid until the next call. All ranks together.
   template <class Needs>
   GrainState& bring(GrainState& home, const Needs& needs) {
     if (!is_cut_) return home;
@@ -43,8 +43,7 @@ class GrainVisits {
     send_.reserve(words(visitors_.n, records.width()));
     records.pack("visits: pack", visitors_.n, {}, send_.data());
     exchange(counts_.back(), records.width(), send_, receive_);
-    GrainRecords(home, gives).unpack("visits: take home", counts_.n_to(), row_, 0,
-                                     receive_.data());
+    GrainRecords(home, gives).unpack("visits: take home", counts_.n_to(), row_, 0, receive_.data());
   }
   /// The same for one vector of each visitor.
   void take_home(const Kokkos::View<Vec3*>& of_visitors, const Kokkos::View<Vec3*>& home);

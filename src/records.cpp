@@ -42,7 +42,8 @@ void exchange(const RecordCounts& counts, int width, const MessageBuffer& send,
   receive.reserve(from.back());
   std::vector<MPI_Request> requests;
   const auto add = [&]() -> MPI_Request* { return &requests.emplace_back(); };
-  const std::size_t n_ranks = counts.to.size(), me = static_cast<std::size_t>(rank_of(counts.ranks));
+  const std::size_t n_ranks = counts.to.size(),
+                    me = static_cast<std::size_t>(rank_of(counts.ranks));
   requests.reserve(2 * n_ranks);
   constexpr int tag = 3;
   Real* const incoming = receive.to_receive();
@@ -79,8 +80,8 @@ std::int64_t sum_over(MPI_Comm ranks, std::int64_t number) {
 void sum_over(MPI_Comm ranks, std::vector<Real>& numbers) {
   if (rank_count(ranks) == 1) return;
   message_detail::count_reduction();
-  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE,
-                MPI_SUM, ranks);
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
+                ranks);
 }
 
 Real sum_over(MPI_Comm ranks, Real number) {

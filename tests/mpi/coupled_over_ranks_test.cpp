@@ -22,8 +22,8 @@ using testing::numbers_of;
 bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
 
 struct Coupled {
-  explicit Coupled(const Config& c, MPI_Comm ranks = MPI_COMM_SELF,
-                   const InitialFiles& files = {}, int along_x = 0)
+  explicit Coupled(const Config& c, MPI_Comm ranks = MPI_COMM_SELF, const InitialFiles& files = {},
+                   int along_x = 0)
       : pencils(make_pencils(c, ranks, along_x)),
         state(make_initial_state(c, files, ranks, pencils.get())),
         step(c, state) {
@@ -121,16 +121,15 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
     Kokkos::deep_copy(there.fluid.added_mass, 0.0);
     Kokkos::deep_copy(there.exchange.carried_impulse, Vec3{});
-    const ExchangeOfGrain of_grain{.dt = 1,
-                                   .grains = there.kin,
-                                   .on_grains = there.fluid,
-                                   .exchange = there.exchange};
+    const ExchangeOfGrain of_grain{
+        .dt = 1, .grains = there.kin, .on_grains = there.fluid, .exchange = there.exchange};
     const Locate locate = make_locate(c, grid, there.r_max);
     Deposits deposits;
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.implicit = fixed_point_for(1e4);
-    Kokkos::parallel_for("test: scatter", there.n,
-                         DepositGrain{.locate = locate, .of_grain = of_grain, .deposits = deposits});
+    Kokkos::parallel_for(
+        "test: scatter", there.n,
+        DepositGrain{.locate = locate, .of_grain = of_grain, .deposits = deposits});
     DepositRims(grid).add(deposits);
     const Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
@@ -156,9 +155,8 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     sum_over(MPI_COMM_WORLD, at_grains);
     EXPECT_GT(std::abs(at_grains[0]), 1e-3);
     EXPECT_NEAR(in_cells / at_grains[0], 1, 1e-11);
-    visits.take_home(grains, [](GrainState& s, const auto& action) {
-      action(s.exchange.carried_impulse);
-    });
+    visits.take_home(grains,
+                     [](GrainState& s, const auto& action) { action(s.exchange.carried_impulse); });
     Real home = 0;
     const auto carried = grains.exchange.carried_impulse;
     Kokkos::parallel_reduce(
@@ -188,9 +186,10 @@ TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
     EXPECT_LT(shared.step.ledger().exchange_mismatch(), 1e-10);
     EXPECT_LT(shared.step.ledger().carried_mismatch(), 1e-10);
     if (is_first())
-      std::printf("[ measured ] %d ranks, %d along x: x %.1e, u %.1e of grains; u %.1e m/s, alpha "
-                  "%.1e\n",
-                  rank_count(MPI_COMM_WORLD), along_x, off[0], off[1], u, alpha);
+      std::printf(
+          "[ measured ] %d ranks, %d along x: x %.1e, u %.1e of grains; u %.1e m/s, alpha "
+          "%.1e\n",
+          rank_count(MPI_COMM_WORLD), along_x, off[0], off[1], u, alpha);
   }
 }
 

@@ -9,13 +9,12 @@ namespace barchan::testing {
 inline void drift(const GrainState& s, Real distance) {
   const auto kin = s.kin;
   Kokkos::parallel_for(
-      "test: drift", s.n, KOKKOS_LAMBDA(int g) {
-        kin(g).x += (distance / norm(kin(g).u)) * kin(g).u;
-      });
+      "test: drift", s.n,
+      KOKKOS_LAMBDA(int g) { kin(g).x += (distance / norm(kin(g).u)) * kin(g).u; });
 }
 
-/// Marks each pair with its ids, seen from the grain of lower id; or counts the touching pairs whose
-/// marks are wrong.
+/// Marks each pair with its ids, seen from the grain of lower id; or counts the touching pairs
+/// whose marks are wrong.
 inline int handle_marks(const GrainState& s, bool write) {
   const PairList l = s.list;
   const auto id = s.id;
