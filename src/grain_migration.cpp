@@ -15,7 +15,7 @@ namespace {
 
 using Rows = Kokkos::View<int*>;
 
-Rows make_rows(const char* label, int n) { return {label, static_cast<std::size_t>(n)}; }
+Rows make_rows(const char* label, int n) { return Rows(label, static_cast<std::size_t>(n)); }
 
 Rows to_device(const char* label, const std::vector<int>& values) {
   const Rows rows = make_rows(label, static_cast<int>(values.size()));
