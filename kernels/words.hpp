@@ -1,15 +1,13 @@
 // Values as the words of messages, bit for bit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "kernels/grain.hpp"
 
 namespace barchan {
-
-/// Words of Real that a value takes in a message.
-template <class T>
-inline constexpr int words_of = sizeof(T) < sizeof(Real) ? 1 : int(sizeof(T) / sizeof(Real));
 
 KOKKOS_FORCEINLINE_FUNCTION void put_words(Real* to, Real a) { to[0] = a; }
 KOKKOS_FORCEINLINE_FUNCTION void put_words(Real* to, std::uint8_t a) { to[0] = a; }
@@ -37,29 +35,68 @@ KOKKOS_FORCEINLINE_FUNCTION void take_words(const Real* from, Quad& a) {
   a = {from[0], from[1], from[2], from[3]};
 }
 
-/// Copies a column of some rows into the records of a message, from their word `offset` on.
-template <class Column>
-struct PackColumn {
-  Column column;
+/// Columns of numbers of the same rows, one entry of each making a record of a message.
+struct RecordLayout {
+  static constexpr int kMost = 24;
+  struct Column {
+    char* data;
+    std::int16_t stride;  // [bytes]
+    std::int16_t words;   // 0: a single byte, a word in the record
+  };
+  Column column[kMost];
+  int n = 0, width = 0;  // columns; words of a record
+
+  /// `words` of eight bytes at data and every `stride` bytes from there on; words = 0 for a byte.
+  void add(void* data, std::size_t stride, std::size_t words) {
+    column[n++] = {static_cast<char*>(data), static_cast<std::int16_t>(stride),
+                   static_cast<std::int16_t>(words)};
+    width += words > 0 ? static_cast<int>(words) : 1;
+  }
+};
+
+/// Writes the records of rows, one after the other.
+struct PackRecords {
+  RecordLayout layout;
   Kokkos::View<const int*> row;  // of each record; none: its own number
   Real* records;
-  int width, offset;  // words of a record; the first one of this column
+  int width;  // of a record, with words that others fill
+
   KOKKOS_FUNCTION void operator()(int p) const {
-    put_words(records + static_cast<std::size_t>(p) * width + offset,
-              column(row.extent(0) > 0 ? row(p) : p));
+    const std::ptrdiff_t r = row.extent(0) > 0 ? row(p) : p;
+    Real* to = records + std::ptrdiff_t{width} * p;
+    for (int c = 0; c < layout.n; ++c) {
+      const RecordLayout::Column& column = layout.column[c];
+      const char* from = column.data + r * column.stride;
+      if (column.words == 0) {
+        put_words(to++, *reinterpret_cast<const std::uint8_t*>(from));
+        continue;
+      }
+      std::memcpy(to, from, sizeof(Real) * static_cast<std::size_t>(column.words));
+      to += column.words;
+    }
   }
 };
 /// The way back, to `first_row` and the rows after it where there is no list of rows.
-template <class Column>
-struct UnpackColumn {
-  Column column;
+struct UnpackRecords {
+  RecordLayout layout;
   Kokkos::View<const int*> row;
   int first_row;
   const Real* records;
-  int width, offset;
+  int width;
+
   KOKKOS_FUNCTION void operator()(int p) const {
-    take_words(records + static_cast<std::size_t>(p) * width + offset,
-               column(row.extent(0) > 0 ? row(p) : first_row + p));
+    const std::ptrdiff_t r = row.extent(0) > 0 ? row(p) : first_row + p;
+    const Real* from = records + std::ptrdiff_t{width} * p;
+    for (int c = 0; c < layout.n; ++c) {
+      const RecordLayout::Column& column = layout.column[c];
+      char* to = column.data + r * column.stride;
+      if (column.words == 0) {
+        take_words(from++, *reinterpret_cast<std::uint8_t*>(to));
+        continue;
+      }
+      std::memcpy(to, from, sizeof(Real) * static_cast<std::size_t>(column.words));
+      from += column.words;
+    }
   }
 };
 

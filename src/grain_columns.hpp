@@ -65,55 +65,26 @@ void for_each_column(GrainState& s, const Action& action) {
       s, [&](const auto& array) { grain_columns_detail::for_each_column_of(array, action); });
 }
 
-/// The columns of some arrays as the words of records: what travels together. `Arrays` calls an
-/// action for each array of a state.
+namespace grain_columns_detail {
+
+template <class T>
+void add_to(RecordLayout& layout, const Kokkos::View<T*>& array) {
+  layout.add(array.data(), sizeof(T), sizeof(T) / sizeof(Real));
+}
+inline void add_to(RecordLayout& layout, const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history) {
+  for (std::size_t w = 0; w < history.extent(1); ++w)
+    layout.add(history.data() + w * history.stride(1), sizeof(Vec3), sizeof(Vec3) / sizeof(Real));
+}
+
+}  // namespace grain_columns_detail
+
+/// What of a grain travels together. `arrays` calls an action for each array of a state that does.
 template <class Arrays>
-class GrainRecords {
- public:
-  /// `spare`: words at the end of each record for the caller's use.
-  GrainRecords(GrainState& state, const Arrays& arrays, int spare = 0)
-      : state_(state), arrays_(arrays), width_(spare) {
-    each([this](const auto& column, int) {
-      width_ += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
-    });
-  }
-  int width() const { return width_; }
-
-  /// The given rows into n records; rows 0 .. n-1 without a list.
-  void pack(const char* label, int n, const Kokkos::View<const int*>& row, Real* records) const {
-    each([&](const auto& column, int offset) {
-      using Column = std::decay_t<decltype(column)>;
-      Kokkos::parallel_for(label, items(n),
-                           PackColumn<Column>{column, row, records, width_, offset});
-    });
-  }
-  /// n records to the given rows, or to those from `first_row` on.
-  void unpack(const char* label, int n, const Kokkos::View<const int*>& row, int first_row,
-              const Real* records) const {
-    each([&](const auto& column, int offset) {
-      using Column = std::decay_t<decltype(column)>;
-      Kokkos::parallel_for(label, items(n),
-                           UnpackColumn<Column>{column, row, first_row, records, width_, offset});
-    });
-  }
-
- private:
-  /// action(column, first word of it in a record)
-  template <class Action>
-  void each(const Action& action) const {
-    int offset = 0;
-    arrays_(state_, [&](auto& array) {
-      grain_columns_detail::for_each_column_of(array, [&](const auto& column) {
-        action(column, offset);
-        offset += words_of<typename std::decay_t<decltype(column)>::non_const_value_type>;
-      });
-    });
-  }
-
-  GrainState& state_;
-  const Arrays& arrays_;
-  int width_;
-};
+RecordLayout record_layout(GrainState& state, const Arrays& arrays) {
+  RecordLayout layout;
+  arrays(state, [&](auto& array) { grain_columns_detail::add_to(layout, array); });
+  return layout;
+}
 
 /// Room for n rows of one array, an eighth more where it grows; what it holds stays.
 template <class View>

@@ -193,10 +193,11 @@ void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Co
   count(grains, kept, owners);
   const int n_to = grains_.n_to(), n_from = grains_.n_from();
   if (n_to == 0 && n_from == 0) return;
-  const GrainRecords records(grains, AllArrays{}, 1);  // and the number of contacts
-  const int width = records.width();
+  const RecordLayout layout = record_layout(grains, AllArrays{});
+  const int width = layout.width + 1;  // and the number of contacts
   send_.reserve(static_cast<std::size_t>(n_to) * static_cast<std::size_t>(width));
-  records.pack("migration: pack", n_to, leaving_, send_.data());
+  Kokkos::parallel_for("migration: pack", items(n_to),
+                       PackRecords{layout, leaving_, send_.data(), width});
   Kokkos::parallel_for("migration: pack counts", items(n_to),
                        PackContactCounts{kept.first, leaving_, send_.data(), width});
   exchange(grains_, width, send_, receive_);
@@ -205,7 +206,9 @@ void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Co
 
   permute(grains, row_, n_stay_, room);
   reserve_rows(grains, n_stay_ + n_from);
-  records.unpack("migration: unpack", n_from, {}, n_stay_, receive_.data());
+  Kokkos::parallel_for(
+      "migration: unpack", items(n_from),
+      UnpackRecords{record_layout(grains, AllArrays{}), {}, n_stay_, receive_.data(), width});
   grains.n = n_stay_ + n_from;
 }
 

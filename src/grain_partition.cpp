@@ -102,6 +102,7 @@ bool GrainPartition::balance(const GrainState& grains, const Columns& columns,
   before_ = now_ = largest_over_mean(ranks_, mine, total, count_);
   const Real tolerable = std::max(kWorstImbalance, 1 + 2 * (at_cut_ - 1));
   if (has_cut_ && before_ <= tolerable) return false;
+  const bool first = !has_cut_;
   const WorkAlongCurve work(grains, columns, contacts);
   set_starts(equal_pieces(ranks_, work, total, count_));
   std::vector<std::int64_t> piece;  // what each rank will have, from here
@@ -112,6 +113,7 @@ bool GrainPartition::balance(const GrainState& grains, const Columns& columns,
   sum_over(ranks_, piece);
   const auto largest = static_cast<Real>(*std::max_element(piece.begin(), piece.end()));
   now_ = at_cut_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
+  if (first) return true;
   report::info(
       "grains shared out anew among {} ranks: the busiest had {:.3f} of the mean work and has "
       "{:.3f}",

@@ -64,16 +64,30 @@ void GrainVisits::wrap_visitors() const {
       KOKKOS_LAMBDA(int g) { kin(g).x = owners.into_domain(kin(g).x); });
 }
 
+void GrainVisits::send(const RecordLayout& layout, const RecordCounts& counts,
+                       const Kokkos::View<const int*>& row) {
+  const int n = counts.n_to();
+  send_.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(layout.width));
+  Kokkos::parallel_for("visits: pack", items(n),
+                       PackRecords{layout, row, send_.data(), layout.width});
+  exchange(counts, layout.width, send_, receive_);
+}
+
+void GrainVisits::take(const RecordLayout& layout, const RecordCounts& counts,
+                       const Kokkos::View<const int*>& row) const {
+  Kokkos::parallel_for("visits: unpack", items(counts.n_from()),
+                       UnpackRecords{layout, row, 0, receive_.data(), layout.width});
+}
+
 void GrainVisits::take_home(const Kokkos::View<Vec3*>& of_visitors,
                             const Kokkos::View<Vec3*>& home) {
-  using Column = Kokkos::View<Vec3*>;
-  constexpr int width = 3;
-  send_.reserve(words(visitors_.n, width));
-  Kokkos::parallel_for("visits: pack", items(visitors_.n),
-                       PackColumn<Column>{of_visitors, {}, send_.data(), width, 0});
-  exchange(counts_.back(), width, send_, receive_);
-  Kokkos::parallel_for("visits: take home", items(counts_.n_to()),
-                       UnpackColumn<Column>{home, row_, 0, receive_.data(), width, 0});
+  const auto layout_of = [](const Kokkos::View<Vec3*>& vectors) {
+    RecordLayout layout;
+    grain_columns_detail::add_to(layout, vectors);
+    return layout;
+  };
+  send(layout_of(of_visitors), counts_.back(), {});
+  take(layout_of(home), counts_.back(), row_);
 }
 
 }  // namespace barchan

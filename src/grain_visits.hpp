@@ -23,13 +23,10 @@ class GrainVisits {
   GrainState& bring(GrainState& home, const Needs& needs) {
     if (!is_cut_) return home;
     find_owners(home);
-    const GrainRecords records(home, needs);
-    send_.reserve(words(counts_.n_to(), records.width()));
-    records.pack("visits: pack", counts_.n_to(), row_, send_.data());
-    exchange(counts_, records.width(), send_, receive_);
+    send(record_layout(home, needs), counts_, row_);
     visitors_.n = counts_.n_from();
     reserve_rows(visitors_, visitors_.n);
-    GrainRecords(visitors_, needs).unpack("visits: unpack", visitors_.n, {}, 0, receive_.data());
+    take(record_layout(visitors_, needs), counts_, {});
     wrap_visitors();
     return visitors_;
   }
@@ -39,11 +36,8 @@ class GrainVisits {
   template <class Gives>
   void take_home(GrainState& home, const Gives& gives) {
     if (!is_cut_) return;
-    const GrainRecords records(visitors_, gives);
-    send_.reserve(words(visitors_.n, records.width()));
-    records.pack("visits: pack", visitors_.n, {}, send_.data());
-    exchange(counts_.back(), records.width(), send_, receive_);
-    GrainRecords(home, gives).unpack("visits: take home", counts_.n_to(), row_, 0, receive_.data());
+    send(record_layout(visitors_, gives), counts_.back(), {});
+    take(record_layout(home, gives), counts_.back(), row_);
   }
   /// The same for one vector of each visitor.
   void take_home(const Kokkos::View<Vec3*>& of_visitors, const Kokkos::View<Vec3*>& home);
@@ -55,9 +49,11 @@ class GrainVisits {
   void wrap_visitors() const;
 
  private:
-  static std::size_t words(int n, int width) {
-    return static_cast<std::size_t>(n) * static_cast<std::size_t>(width);
-  }
+  /// Sends the records of rows, and takes those received to rows; without a list in their order.
+  void send(const RecordLayout& layout, const RecordCounts& counts,
+            const Kokkos::View<const int*>& row);
+  void take(const RecordLayout& layout, const RecordCounts& counts,
+            const Kokkos::View<const int*>& row) const;
 
   bool is_cut_ = false;
   MPI_Comm ranks_ = MPI_COMM_SELF;

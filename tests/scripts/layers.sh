@@ -12,7 +12,7 @@ complain() {
 }
 
 # Standard headers that make sense on a device. No strings, streams, clocks, containers.
-device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdint|limits|numbers|tuple|type_traits|utility'
+device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdint|cstring|limits|numbers|tuple|type_traits|utility'
 
 mapfile -d '' sources < <(find kernels src tests perf \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
 includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[>"]' "${sources[@]}" |

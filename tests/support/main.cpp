@@ -4,6 +4,8 @@
 
 #include <Kokkos_Core.hpp>
 
+#include "src/report.hpp"
+
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   if (::testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // ctest only asks for the names
@@ -12,6 +14,9 @@ int main(int argc, char** argv) {
   int failed = 0;
   {
     Kokkos::ScopeGuard kokkos(argc, argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    barchan::report::start(rank != 0, rank);
     failed = RUN_ALL_TESTS();
   }
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
