@@ -2,26 +2,9 @@
 # A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
 # of a rank, one that hangs, one that fails alone, and what is refused.
 set -euo pipefail
-here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
-command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
-work="$(mktemp -d)"
+source "$(dirname "${BASH_SOURCE[0]}")/../support/over_ranks.sh"
 ranks=""
 trap 'kill -KILL $ranks 2> /dev/null || true; rm -rf "$work"' EXIT
-cd "$work"
-export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
-options=(--quiet --bind-to none --oversubscribe)
-[ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
-
-fail() { echo "FAILED: $*"; exit 1; }
-run() {  # run RANKS ARGUMENT...
-  local ranks=$1
-  shift
-  if [ "$ranks" -eq 1 ]; then
-    "$BARCHAN_PROGRAM" run flow.toml --quiet "$@"
-  else
-    mpirun "${options[@]}" -np "$ranks" "$BARCHAN_PROGRAM" run flow.toml --quiet "$@"
-  fi
-}
 
 cat > flow.toml <<'TOML'
 [case]
@@ -46,20 +29,20 @@ interval = 0.005
 fields = true
 TOML
 
-run 1 --out one
-run 6 --out six
+run 1 flow.toml --out one
+run 6 flow.toml --out six
 grep -q '"ranks": 6' six/run.json || fail "run.json does not say how many ranks ran"
-"$here/../support/same_results.py" one six || fail "six ranks and one differ"
+"$support/same_results.py" one six || fail "six ranks and one differ"
 
-run 2 --out parts --set time.end=0.01
-run 3 --out parts --set time.end=0.02 --restart parts/restart_0000000010.h5
-run 1 --out parts --restart parts/restart_0000000020.h5
-"$here/../support/same_results.py" one parts || fail "2, then 3, then 1 ranks and one differ"
+run 2 flow.toml --out parts --set time.end=0.01
+run 3 flow.toml --out parts --set time.end=0.02 --restart parts/restart_0000000010.h5
+run 1 flow.toml --out parts --restart parts/restart_0000000020.h5
+"$support/same_results.py" one parts || fail "2, then 3, then 1 ranks and one differ"
 
 says() {  # says STATUS WORDS RANKS ARGUMENT...: refused with this exit code, the words once
-  local status=0 expected=$1 words=$2
-  shift 2
-  run "$@" > out 2>&1 || status=$?
+  local status=0 expected=$1 words=$2 ranks=$3
+  shift 3
+  run "$ranks" flow.toml "$@" > out 2>&1 || status=$?
   [ "$status" -eq "$expected" ] || { cat out; fail "exit code $status, expected $expected: $*"; }
   [ "$(grep -c "$words" out)" -eq 1 ] || { cat out; fail "'$words' not said once: $*"; }
 }

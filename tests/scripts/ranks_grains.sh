@@ -1,26 +1,9 @@
 #!/usr/bin/env bash
 # Grains in a flow over several ranks: the same results, and restarts on the same and on another number.
 set -euo pipefail
-here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
-command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
-work="$(mktemp -d)"
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
-options=(--quiet --bind-to none --oversubscribe)
-[ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
+source "$(dirname "${BASH_SOURCE[0]}")/../support/over_ranks.sh"
 
-fail() { echo "FAILED: $*"; exit 1; }
-run() {  # run RANKS ARGUMENT...
-  local ranks=$1
-  shift
-  if [ "$ranks" -eq 1 ]; then
-    "$BARCHAN_PROGRAM" run heap.toml --quiet "$@"
-  else
-    mpirun "${options[@]}" -np "$ranks" "$BARCHAN_PROGRAM" run heap.toml --quiet "$@"
-  fi
-}
-same() { "$here/../support/same_grains.py" "$@" || fail "$* differ"; }
+same() { "$support/same_grains.py" "$@" || fail "$* differ"; }
 
 cat > heap.toml <<'TOML'
 [case]
@@ -58,26 +41,26 @@ interval = 0.001
 grain_forces = true
 TOML
 
-run 1 --out one
+run 1 heap.toml --out one
 for ranks in 2 6; do
-  run "$ranks" --out "on-$ranks"
+  run "$ranks" heap.toml --out "on-$ranks"
   same one "on-$ranks"
 done
 
 # On another number of ranks each time, and on the same one, there to the last bit.
-run 2 --out parts --set time.end=0.002
-run 3 --out parts --set time.end=0.004 --restart parts/restart_0000000008.h5
-run 1 --out parts --restart parts/restart_0000000016.h5
+run 2 heap.toml --out parts --set time.end=0.002
+run 3 heap.toml --out parts --set time.end=0.004 --restart parts/restart_0000000008.h5
+run 1 heap.toml --out parts --restart parts/restart_0000000016.h5
 same one parts
-run 3 --out whole
-run 3 --out halves --set time.end=0.003
-run 3 --out halves --restart halves/restart_0000000012.h5
+run 3 heap.toml --out whole
+run 3 heap.toml --out halves --set time.end=0.003
+run 3 heap.toml --out halves --restart halves/restart_0000000012.h5
 same whole halves bits
 
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 
 # Cells that grains reach across.
 status=0
-run 2 --out coarse --set 'fluid.cells=[24, 16, 120]' --set coupling.smoothing_length=3e-4 > out 2>&1 || status=$?
+run 2 heap.toml --out coarse --set 'fluid.cells=[24, 16, 120]' --set coupling.smoothing_length=3e-4 > out 2>&1 || status=$?
 [ "$status" -eq 2 ] && [ "$(grep -c "smaller than the radius" out)" -eq 1 ] || { cat out; fail "cells below a radius: $status"; }
 echo "ok"
