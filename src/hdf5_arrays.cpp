@@ -81,9 +81,14 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
   }
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (parallel_) check(H5Pset_dxpl_mpio(transfer.get(), H5FD_MPIO_COLLECTIVE), name);
-  check(H5Dwrite(array.get(), memory_type<T>(), memory.get(), file.get(), transfer.get(),
-                 values.data()),
-        name);
+  // An array without elements has no place in a file; the parallel driver stumbles over writing it.
+  std::uint64_t whole = 0;
+  count_elements(share.whole.empty() ? extents : share.whole, whole);
+  if (whole > 0) {
+    check(H5Dwrite(array.get(), memory_type<T>(), memory.get(), file.get(), transfer.get(),
+                   values.data()),
+          name);
+  }
   set_attribute(name, "units", units);
   check_writes();  // no need to go on with a full disk
 }
