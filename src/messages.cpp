@@ -24,7 +24,7 @@ std::vector<int> starts_of(const std::vector<int>& sizes) {
 }
 
 Real reduce(const Grid& grid, Real mine, MPI_Op operation) {
-  if (!grid.ranks) return mine;
+  if (!grid.ranks || rank_count(grid.ranks->all()) == 1) return mine;
   ++counts.reductions;
   Real all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, operation, grid.ranks->all());
@@ -40,6 +40,7 @@ void message_detail::count_message(std::size_t words) {
   counts.bytes += static_cast<std::int64_t>(words * sizeof(Real));
 }
 void message_detail::count_reduction() { ++counts.reductions; }
+void message_detail::count_all_to_all() { ++counts.all_to_alls; }
 
 bool mpi_reaches_device() {
   if (runs_on_host) return true;

@@ -12,16 +12,18 @@ namespace barchan {
 
 /// Of this rank since the program started.
 struct MessageCounts {
-  std::int64_t messages = 0;    // sent to another rank
-  std::int64_t bytes = 0;       // in them
-  std::int64_t reductions = 0;  // single numbers summed or compared over all ranks
+  std::int64_t messages = 0;     // sent to another rank
+  std::int64_t bytes = 0;        // in them
+  std::int64_t reductions = 0;   // a few numbers summed or compared over all ranks
+  std::int64_t all_to_alls = 0;  // a number told to every rank, and one by each; not in `messages`
 };
 const MessageCounts& message_counts();
 
 namespace message_detail {
-/// One more message of so many words, or one more reduction, of this rank.
+/// One more of this rank: a message of so many words, or what all ranks take part in.
 void count_message(std::size_t words);
 void count_reduction();
+void count_all_to_all();
 }  // namespace message_detail
 
 /// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the

@@ -30,9 +30,10 @@ int RecordCounts::n_from() const { return std::accumulate(from.begin(), from.end
 
 RecordCounts announce(MPI_Comm ranks, std::vector<int> to) {
   RecordCounts counts{.ranks = ranks, .to = std::move(to), .from = {}};
-  counts.from.resize(counts.to.size());
+  counts.from = counts.to;
+  if (rank_count(ranks) == 1) return counts;
   MPI_Alltoall(counts.to.data(), 1, MPI_INT, counts.from.data(), 1, MPI_INT, ranks);
-  message_detail::count_reduction();
+  message_detail::count_all_to_all();
   return counts;
 }
 

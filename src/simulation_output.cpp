@@ -124,6 +124,7 @@ std::map<std::string, double> Simulation::communication() const {
   c["messages"] = static_cast<double>(now.messages - messages_at_start_.messages) / steps;
   c["megabytes"] = 1e-6 * static_cast<double>(now.bytes - messages_at_start_.bytes) / steps;
   c["reductions"] = static_cast<double>(now.reductions - messages_at_start_.reductions) / steps;
+  c["all_to_alls"] = static_cast<double>(now.all_to_alls - messages_at_start_.all_to_alls) / steps;
   if (!state_.grains) return c;
   const NeighborList& list = coupled_step_.grain_solver()->list();
   c["grains"] = state_.grains->n;

@@ -1,0 +1,264 @@
+// What a rank sends in a step, counted and as the scaling model has it (perf/scaling_counts.py,
+// docs/performance.md).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "src/coupled_step.hpp"
+#include "src/messages.hpp"
+#include "tests/support/packing.hpp"
+#include "tests/support/shared_grains.hpp"
+#include "tests/support/shared_grid.hpp"
+
+namespace barchan {
+namespace {
+
+using test::SharedGrid;
+
+MessageCounts operator+(const MessageCounts& a, const MessageCounts& b) {
+  return {a.messages + b.messages, a.bytes + b.bytes, a.reductions + b.reductions,
+          a.all_to_alls + b.all_to_alls};
+}
+MessageCounts operator*(std::int64_t n, const MessageCounts& a) {
+  return {n * a.messages, n * a.bytes, n * a.reductions, n * a.all_to_alls};
+}
+MessageCounts since(const MessageCounts& before) { return message_counts() + (-1) * before; }
+
+void expect_equal(const MessageCounts& counted, const MessageCounts& expected) {
+  EXPECT_EQ(counted.messages, expected.messages);
+  EXPECT_EQ(counted.bytes, expected.bytes);
+  EXPECT_EQ(counted.reductions, expected.reductions);
+  EXPECT_EQ(counted.all_to_alls, expected.all_to_alls);
+}
+
+int n_ranks() { return rank_count(MPI_COMM_WORLD); }
+MessageCounts numbers_sent(std::int64_t messages, std::int64_t numbers) {
+  return {.messages = messages, .bytes = 8 * numbers};
+}
+MessageCounts reductions(std::int64_t n) { return {.reductions = n_ranks() > 1 ? n : 0}; }
+MessageCounts all_to_alls(std::int64_t n) { return {.all_to_alls = n_ranks() > 1 ? n : 0}; }
+
+// --- the flow ----------------------------------------------------------------------------------
+
+/// A rim to each side of every cut, z with the corners.
+MessageCounts fill(const Grid& grid, int ny) {
+  const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
+  return numbers_sent(2 * cut_x + 2 * cut_z,
+                      2 * cut_x * (ny + 2) * grid.nz + 2 * cut_z * (ny + 2) * (grid.nx + 2));
+}
+MessageCounts fill(const Grid& grid) { return fill(grid, grid.ny); }
+
+/// To the other ranks of a line their part of `split` of all `n_here` and `others` here.
+MessageCounts shares(int place, int n_here, const Split& split, int others, int width) {
+  MessageCounts sum;
+  for (int p = 0; p < split.parts; ++p) {
+    const std::int64_t numbers = std::int64_t{n_here} * split.count(p) * others * width;
+    if (p != place && numbers > 0) sum = sum + numbers_sent(1, numbers);
+  }
+  return sum;
+}
+
+/// The axis `shared` made whole at the cost of `split`, and cut again.
+MessageCounts there_and_back(const RankLine& line, const Split& shared, const Split& split,
+                             int others, int width) {
+  return shares(line.place, shared.count(line.place), split, others, width) +
+         shares(line.place, split.count(line.place), shared, others, width);
+}
+
+/// Lines of x, lines of z, rows.
+MessageCounts fft_solve(const Grid& grid) {
+  const RankLine &x = grid.ranks->along_x(), &z = grid.ranks->along_z();
+  const Split cells_x{grid.nx_all, x.count}, cells_z{grid.nz_all, z.count};
+  const Split rows{grid.ny, x.count}, planes{grid.nz_all, x.count};
+  const Split modes{grid.nx_all / 2 + 1, z.count};
+  return there_and_back(x, cells_x, rows, grid.nz, 1) +
+         there_and_back(z, cells_z, modes, rows.count(x.place), 2) +
+         there_and_back(x, rows, planes, modes.count(z.place), 2);
+}
+
+/// nu_t, u*_x, u*_z, p twice, u, du/dt; flow rate, Courant number, continuity.
+MessageCounts flow_step(const Grid& grid) {
+  return 11 * fill(grid) + fft_solve(grid) + reductions(3);
+}
+
+/// An iteration: the direction, the local part before the FFT solve, a fill for each colour in two
+/// sweeps there and back; three inner products.
+MessageCounts pressure_iteration(const Grid& grid) {
+  const int colours = grid.nx_all % 2 == 0 && grid.nz_all % 2 == 0 ? 2 : 3;
+  return (2 + 2 * 2 * colours) * fill(grid) + fft_solve(grid) + reductions(3);
+}
+/// Around the iterations: p before and after, heights of columns twice; two means, two norms.
+MessageCounts pressure_solve(const Grid& grid) {
+  return 2 * fill(grid) + 2 * fill(grid, 1) + reductions(4);
+}
+/// alpha_f twice, nu_t, alpha u, mobility, u*_x, u*_z, p, u, du/dt.
+MessageCounts flow_step_around_grains(const Grid& grid, int correctors, int iterations) {
+  return 18 * fill(grid) + correctors * pressure_solve(grid) +
+         iterations * pressure_iteration(grid) + reductions(6);
+}
+
+// --- the exchange ------------------------------------------------------------------------------
+
+/// Sums of five quantities in the ghosts, those in x with the corners.
+MessageCounts deposit_rims(const Grid& grid) {
+  const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
+  return numbers_sent(2 * cut_x + 2 * cut_z,
+                      5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
+}
+
+/// Forces on six components and the extent of the grains in five numbers; eight fields smoothed,
+/// all of them filled; totals three times, volume, six sums over faces.
+MessageCounts exchange(const Grid& grid) {
+  return 14 * fill(grid) + 8 * fft_solve(grid) + deposit_rims(grid) + reductions(5 + 1 + 1 + 1 + 6);
+}
+
+/// Grains of this rank in the pencil of each rank.
+std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& grains) {
+  std::vector<int> n(static_cast<std::size_t>(n_ranks()));
+  const auto kin = testing::on_host(grains.kin);
+  const auto part = [](const Split& split, Real at, Real spacing) {
+    int p = 0;
+    while (p + 1 < split.parts && at >= split.begin(p + 1) * spacing) ++p;
+    return p;
+  };
+  for (int g = 0; g < grains.n; ++g) {
+    const int x = part(grid.ranks->x(), kin(g).x.x, grid.whole.dx);
+    const int z = part(grid.ranks->z(), kin(g).x.z, grid.whole.dz);
+    ++n[static_cast<std::size_t>(x + grid.ranks->x().parts * z)];
+  }
+  return n;
+}
+/// A record of so many words to every other rank for each of its grains.
+MessageCounts records(const std::vector<int>& n, int words) {
+  MessageCounts sum;
+  for (int r = 0; r < n_ranks(); ++r) {
+    const int count = n[static_cast<std::size_t>(r)];
+    if (r != rank_of(MPI_COMM_WORLD) && count > 0) sum = sum + numbers_sent(1, count * words);
+  }
+  return sum;
+}
+/// Grains visit the flow with `needs` words and go home with `gives`.
+MessageCounts visit(const std::vector<int>& n, int needs, int gives) {
+  std::vector<int> visitors(n.size());
+  MPI_Alltoall(n.data(), 1, MPI_INT, visitors.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  return records(n, needs) + records(visitors, gives) + all_to_alls(1);
+}
+
+// --- the grains --------------------------------------------------------------------------------
+
+/// Position, velocity and spin of the ghosts, and the largest way.
+MessageCounts sub_step(const RecordCounts& ghosts) { return records(ghosts.to, 9) + reductions(1); }
+/// Ghosts whole; the balance; grains, contacts, ghosts announced.
+MessageCounts rebuild(const RecordCounts& ghosts) {
+  return records(ghosts.to, 13) + reductions(2) + all_to_alls(3);
+}
+
+/// Grains on the floor of a shallow channel, cut in one of all shapes.
+struct SmallCase {
+  static constexpr std::array<int, 3> cells{21, 7, 15};  // unequal pencils, three colours
+  static constexpr std::array<double, 3> size{0.0105, 0.004, 0.0075};
+
+  explicit SmallCase(int along_x, bool with_grains) : grid(cells, size, 3e-4, along_x) {
+    config.fluid->mean_velocity = 0.02;
+    config.time.fluid_step = 2.5e-4;
+    config.time.grain_step = 2.5e-5;
+    config.solver.pressure_tolerance = 1e-12;
+    config.solver.max_iterations = 3;  // too few for it: all are taken
+    config.solver.correctors = 2;
+    if (with_grains) {
+      config.grains.emplace();
+      config.grains->material.youngs_modulus = config.grains->wall.youngs_modulus = 5e4;
+    }
+    state.fluid = make_fluid_state(grid.mine);
+    grid.set(Field("whole", grid.whole), state.fluid->u.x,
+             [](int i, int j, int k) { return 0.02 + 0.005 * test::noise(i, j, k); });
+    for (const Field& f : {state.fluid->alpha_f, state.fluid->alpha_f_previous})
+      Kokkos::deep_copy(f.storage, Real(1));
+    if (with_grains) {
+      const InitialGrains grains = testing::lattice_packing(2500, size, 0);
+      state.grains = make_grain_state(grains, config.grains->density, MPI_COMM_WORLD);
+    }
+    step = std::make_unique<CoupledStep>(config, state);
+    step->start(state);
+    step->advance(state);  // the first one also measures the flow it starts from
+  }
+
+  SharedGrid grid;
+  Config config = test::flow_config(cells, size, 3e-4);
+  SystemState state;
+  std::unique_ptr<CoupledStep> step;
+};
+
+TEST(MessageCounts, AFlowStep) {
+  for (const int along_x : test::shapes(SmallCase::cells)) {
+    SCOPED_TRACE(along_x);
+    SmallCase c(along_x, false);
+    const MessageCounts before = message_counts();
+    c.step->advance(c.state);
+    expect_equal(since(before), flow_step(c.grid.mine));
+  }
+}
+
+TEST(MessageCounts, ACoupledStep) {
+  constexpr int sub_steps = 10, iterations = 6;
+  for (const int along_x : test::shapes(SmallCase::cells)) {
+    SCOPED_TRACE(along_x);
+    SmallCase c(along_x, true);
+    const NeighborList& list = c.step->grain_solver()->list();
+    const std::int64_t rebuilds = list.rebuilds();
+    const std::vector<int> visitors = grains_in_pencils(c.grid, *c.state.grains);
+    const RecordCounts ghosts = list.ghosts() ? list.ghosts()->counts() : RecordCounts{};
+    const MessageCounts before = message_counts();
+    c.step->advance(c.state);
+    const MessageCounts counted = since(before);
+    ASSERT_EQ(list.rebuilds(), rebuilds);
+    ASSERT_EQ(c.step->fluid_report().pressure_iterations, iterations);
+    ASSERT_EQ(c.step->substeps(), sub_steps);
+
+    MessageCounts expected =
+        flow_step_around_grains(c.grid.mine, c.config.solver.correctors, iterations) +
+        exchange(c.grid.mine) + visit(visitors, 21, 17) +
+        visit(grains_in_pencils(c.grid, *c.state.grains), 26, 3) +
+        reductions(2);  // the ledger's number of grains; whether one has passed the outlet
+    if (n_ranks() > 1) expected = expected + sub_steps * sub_step(ghosts);
+    expect_equal(counted, expected);
+  }
+}
+
+Config periodic_box() {
+  Config c = testing::grain_config();
+  c.size = {0.0108, 0.004, 0.0081};
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  return c;
+}
+
+TEST(MessageCounts, AListRebuild) {
+  const Config c = periodic_box();
+  testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  const MessageCounts before = message_counts();
+  s.solver.list().rebuild(s.state, false);
+  if (n_ranks() == 1) return expect_equal(since(before), {});
+  expect_equal(since(before), rebuild(s.solver.list().ghosts()->counts()));
+}
+
+/// Every grain goes on by one column, some to another rank: 30 words each, and no contacts.
+TEST(MessageCounts, AMigration) {
+  const Config c = periodic_box();
+  testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  if (n_ranks() == 1) return;
+  const NeighborList& list = s.solver.list();
+  const auto kin = s.state.kin;
+  Kokkos::parallel_for(
+      "test: move", s.state.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += 3e-4; });
+  const std::int64_t migrated = list.n_migrated();
+  const MessageCounts before = message_counts();
+  s.solver.list().rebuild(s.state, false);
+  const MessageCounts counted = since(before), still = rebuild(list.ghosts()->counts());
+  EXPECT_GT(sum_over(MPI_COMM_WORLD, list.n_migrated() - migrated), 0);
+  EXPECT_EQ(counted.bytes - still.bytes, 8 * 30 * (list.n_migrated() - migrated));
+  EXPECT_EQ(counted.messages > still.messages, list.n_migrated() > migrated);
+}
+
+}  // namespace
+}  // namespace barchan
