@@ -60,8 +60,10 @@ same whole halves bits
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 
 # Grains that are held in place have no contacts, and the files no histories.
-run 2 heap.toml --out frozen --set grains.frozen=true --set time.end=0.001
-run 3 heap.toml --out frozen --set grains.frozen=true --set time.end=0.002 --restart frozen/restart_0000000004.h5
+frozen=(--out frozen --set grains.frozen=true --set 'initial.grains="one/restart_0000000024.h5"'
+  --set statistics.start=0)
+run 2 heap.toml "${frozen[@]}" --set time.end=0.001
+run 3 heap.toml "${frozen[@]}" --set time.end=0.002 --restart frozen/restart_0000000004.h5
 
 # Cells that grains reach across.
 status=0
