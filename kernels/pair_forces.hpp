@@ -12,7 +12,6 @@ namespace barchan {
 
 /// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
 inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
-inline constexpr int kVector = kBlock < 8 ? kBlock : 8;  // pairs in the widest vectors
 
 /// Vectors of the pairs of a block, component by component: the law writes these in full vectors,
 /// in a pass of its own they become one Quad a pair.
@@ -33,7 +32,8 @@ struct BlockOfVectors {
 template <class Stiffness, class Rolling>
 struct PairForces {
   static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
-  static constexpr int kAhead = 16;  // pairs that are fetched before their turn
+  static constexpr int kVector = kBlock < 8 ? kBlock : 8;  // pairs in the widest vectors
+  static constexpr int kAhead = 16;                        // pairs that are fetched before their turn
 
   Stiffness law;
   Rolling rolling;

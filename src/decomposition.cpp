@@ -8,10 +8,6 @@ namespace barchan {
 
 namespace {
 
-bool is_thick_enough(int n, int parts) {
-  return parts == 1 || n / parts >= Decomposition::kThinnest;
-}
-
 /// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
 /// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
 /// or written six times on its way; some 40 fields whose rims are exchanged; and what a message
@@ -38,7 +34,8 @@ int best_count_along_x(int count, int nx, int nz) {
   for (int along_x = 1; along_x <= count; ++along_x) {
     const int along_z = count / along_x;
     if (along_x * along_z != count) continue;
-    if (!is_thick_enough(nx, along_x) || !is_thick_enough(nz, along_z)) continue;
+    if (!Decomposition::is_thick_enough(nx, along_x)) continue;
+    if (!Decomposition::is_thick_enough(nz, along_z)) continue;
     const double cost = Cost{nx, nz}.of(along_x, along_z);
     if (cost < least) least = cost, best = along_x;
   }

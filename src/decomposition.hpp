@@ -32,6 +32,10 @@ class Decomposition {
  public:
   /// Fewest cells across a pencil along a direction that is cut.
   static constexpr int kThinnest = 2;
+  /// True if so many cells can be cut into so many parts.
+  static bool is_thick_enough(int cells, int parts) {
+    return parts == 1 || cells / parts >= kThinnest;
+  }
 
   /// Among all ranks of `all`, which call this together. Throws std::runtime_error if there are too
   /// many of them for pencils of kThinnest cells; it says how many there may be. `along_x`: so many

@@ -65,6 +65,11 @@ frozen=(--out frozen --set grains.frozen=true --set 'initial.grains="one/restart
 run 2 heap.toml "${frozen[@]}" --set time.end=0.001
 run 3 heap.toml "${frozen[@]}" --set time.end=0.002 --restart frozen/restart_0000000004.h5
 
+# Fewer grains than ranks, and then none: the last one leaves through the outlet.
+printf 'id,diameter,x,y,z\n7,2e-4,0.0239,1e-4,0.006\n' > few.csv
+run 4 heap.toml --out few --set 'initial.grains="few.csv"' --set time.end=0.05 --set fluid.mean_velocity=0.3
+grep -q '"grains_left": 1' few/run.json || fail "the last grain has not left"
+
 # Cells that grains reach across.
 status=0
 run 2 heap.toml --out coarse --set 'fluid.cells=[24, 16, 120]' --set coupling.smoothing_length=3e-4 > out 2>&1 || status=$?

@@ -51,12 +51,12 @@ struct SharedGrid {
 /// are.
 inline std::vector<int> shapes(std::array<int, 3> n) {
   const int count = rank_count(MPI_COMM_WORLD);
-  const auto fits = [](int cells, int parts) {
-    return parts == 1 || cells / parts >= Decomposition::kThinnest;
-  };
   std::vector<int> found;
   for (int x = 1; x <= count; ++x) {
-    if (count % x == 0 && fits(n[0], x) && fits(n[2], count / x)) found.push_back(x);
+    if (count % x == 0 && Decomposition::is_thick_enough(n[0], x) &&
+        Decomposition::is_thick_enough(n[2], count / x)) {
+      found.push_back(x);
+    }
   }
   return found;
 }
