@@ -236,9 +236,9 @@ def shares(case, machine, network, ranks):
 
 
 def weak_cases(side):
-    """As many dunes for each rank, channels four times as long as wide; up to 6e7 grains."""
-    for ranks in (1, 4, 16, 64, 256):
-        if ranks * side**2 > 600:
+    """As many dunes for each rank, channels four times as long as wide; up to 1e8 grains."""
+    for ranks in (1, 4, 16, 64, 256, 1024):
+        if ranks * side**2 > 1100:
             return
         n = round(ranks**0.5)
         yield ranks, Case(f"{ranks}", (side * n, side * n))
