@@ -15,6 +15,9 @@ struct KeptContacts {
   Kokkos::View<Vec3*> xi_t;             // (contacts) of the grain relative to the partner [m]
   Kokkos::View<Vec3*> rolling, force;   // on the grain [N m], [N]; empty where the list has none
 
+  KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool has_force() const { return force.extent(0) > 0; }
+
   /// Place of the contact of a row with a grain, or -1.
   KOKKOS_FUNCTION int find(int row, std::int64_t id) const {
     for (int k = first(row); k < first(row + 1); ++k) {

@@ -264,7 +264,7 @@ struct FillPairs {
     list.xi_t(slot) = known ? sign * kept.xi_t(k) : Vec3{};
     if (list.has_rolling()) list.rolling(slot) = known ? sign * kept.rolling(k) : Vec3{};
     if (list.has_force()) {
-      const bool has = known && kept.force.extent(0) > 0;  // restart files do without
+      const bool has = known && kept.has_force();  // restart files do without
       list.force(slot) = has ? sign * kept.force(k) : Vec3{};
     }
     if (slot < list.n_crossing) list.line(slot) = PairLine{};

@@ -9,8 +9,8 @@ from dataclasses import dataclass, fields
 
 WORD = 8                    # bytes of a number
 GHOST, GHOST_MOTION = 13, 9  # words of a new ghost, and in a sub-step: src/ghost_grains.cpp
-GATHER = (21, 17)           # words a grain takes to the flow and home: GatherNeeds, GatherGives,
-DEPOSIT = (26, 3)           # DepositNeeds, CarryGives of src/coupled_step.cpp
+GATHER = (21, 17)           # words a grain takes to the flow and home: gather_needs, gather_gives,
+DEPOSIT = (26, 3)           # deposit_needs, carry_gives of src/coupled_step.cpp
 SWEEPS = 2                  # src/local_correction.cpp
 
 

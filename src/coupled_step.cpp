@@ -7,42 +7,25 @@ namespace barchan {
 
 namespace {
 
-/// What the two sides of the exchange need of a grain, and what they leave with it.
-struct GatherNeeds {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    action(s.kin);
-    for (auto* v : {&s.fluid.u_f, &s.exchange.fluid_force, &s.exchange.carried_impulse}) action(*v);
-  }
+template <class Action, class... Arrays>
+void for_each(const Action& action, Arrays&... arrays) {
+  (action(arrays), ...);
+}
+
+// What the two sides of the exchange need of a grain, and what they leave with it.
+constexpr auto gather_needs = [](GrainState& s, const auto& action) {
+  for_each(action, s.kin, s.fluid.u_f, s.exchange.fluid_force, s.exchange.carried_impulse);
 };
-struct GatherGives {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    for (auto* v : {&s.fluid.u_f, &s.fluid.steady_force, &s.exchange.added_mass_force,
-                    &s.exchange.fluid_force, &s.exchange.carried_impulse}) {
-      action(*v);
-    }
-    action(s.fluid.beta);
-    action(s.fluid.added_mass);
-  }
+constexpr auto gather_gives = [](GrainState& s, const auto& action) {
+  for_each(action, s.fluid.u_f, s.fluid.beta, s.fluid.steady_force, s.fluid.added_mass,
+           s.exchange.added_mass_force, s.exchange.fluid_force, s.exchange.carried_impulse);
 };
-struct DepositNeeds {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    action(s.kin);
-    for (auto* v : {&s.fluid.drag_impulse, &s.fluid.u_start, &s.exchange.added_mass_force,
-                    &s.exchange.carried_impulse}) {
-      action(*v);
-    }
-    action(s.fluid.beta);
-    action(s.fluid.added_mass);
-  }
+constexpr auto deposit_needs = [](GrainState& s, const auto& action) {
+  for_each(action, s.kin, s.fluid.beta, s.fluid.added_mass, s.fluid.drag_impulse, s.fluid.u_start,
+           s.exchange.added_mass_force, s.exchange.carried_impulse);
 };
-struct CarryGives {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    action(s.exchange.carried_impulse);
-  }
+constexpr auto carry_gives = [](GrainState& s, const auto& action) {
+  action(s.exchange.carried_impulse);
 };
 
 }  // namespace
@@ -77,7 +60,7 @@ void CoupledStep::start(SystemState& state) {
         });
   }
   if (grains_) grains_->start(*state.grains);
-  if (coupling_) coupling_->start(visits_.bring(*state.grains, DepositNeeds{}), *state.fluid);
+  if (coupling_) coupling_->start(visits_.bring(*state.grains, deposit_needs), *state.fluid);
   if (fluid_) fluid_->fill_ghosts(*state.fluid);
 }
 
@@ -98,9 +81,9 @@ void CoupledStep::advance(SystemState& state) {
 void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
   {
     const PhaseTimer timer(phases_, "exchange");
-    GrainState& there = visits_.bring(grains, GatherNeeds{});
+    GrainState& there = visits_.bring(grains, gather_needs);
     coupling_->gather(fluid, there, dt_);  // u_f, drag coefficient, steady forces at the grains
-    visits_.take_home(grains, GatherGives{});
+    visits_.take_home(grains, gather_gives);
     if (visits_.is_cut())
       Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
                            BeginFluidStep{grains.kin, grains.fluid});
@@ -112,7 +95,7 @@ void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
   GrainState* there = nullptr;
   {
     const PhaseTimer timer(phases_, "deposit");
-    there = &visits_.bring(grains, DepositNeeds{});
+    there = &visits_.bring(grains, deposit_needs);
     coupling_->deposit(*there, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
   }
   {
@@ -121,7 +104,7 @@ void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
   }
   const PhaseTimer timer(phases_, "exchange");
   coupling_->carry(fluid, *there, dt_);  // what the implicit drag moved goes to the grains next
-  visits_.take_home(grains, CarryGives{});
+  visits_.take_home(grains, carry_gives);
   ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);
 }

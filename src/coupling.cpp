@@ -212,7 +212,7 @@ void Coupling::choose_scales(const GrainState& grains, Real dt) {
   std::vector<Real> sum(6);
   Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
                           sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
-  if (grid_.ranks) sum_over(grid_.ranks->all(), sum);
+  sum_over_ranks(grid_, sum);
   deposits_.implicit = fixed_point_for(sum[1]);
   deposits_.impulse = fixed_point_for(sum[2]);
   ledger_ = ExchangeLedger{};
@@ -318,7 +318,7 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                        .z = cell_[3],
                                        .carried_impulse = grains.exchange.carried_impulse},
                           total[0], total[1], total[2]);
-  if (grid_.ranks) sum_over(grid_.ranks->all(), total);
+  sum_over_ranks(grid_, total);
   ledger_.carried_to_grains = {total[0], total[1], total[2]};
   sum_faces(dt, fluid);
 }

@@ -51,13 +51,6 @@ void for_each_column_of(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history,
 
 }  // namespace grain_columns_detail
 
-struct AllArrays {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    for_each_array(s, action);
-  }
-};
-
 /// Calls action(column) for every column of them; none is wider than a Quad.
 template <class Action>
 void for_each_column(GrainState& s, const Action& action) {

@@ -9,20 +9,14 @@ Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
   return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
 }
 
-struct PlacesAlone {
-  template <class Action>
-  void operator()(GrainState& s, const Action& action) const {
-    action(s.kin);
-  }
-};
-
 }  // namespace
 
 /// Evaluated where the flow is.
 Kokkos::View<Vec3*> CoupledStep::fluid_force_now(const char* name, const FluidForces& which,
                                                  SystemState& state) {
   const Kokkos::View<Vec3*> force = grain_vector(name, state.grains->n);
-  const GrainState& there = visits_.bring(*state.grains, PlacesAlone{});
+  const auto places = [](GrainState& s, const auto& action) { action(s.kin); };
+  const GrainState& there = visits_.bring(*state.grains, places);
   const auto force_there = visits_.is_cut() ? grain_vector(name, there.n) : force;
   coupling_->single_force(which, *state.fluid, there, force_there);
   if (visits_.is_cut()) visits_.take_home(force_there, force);
@@ -53,8 +47,8 @@ std::vector<NamedForce> CoupledStep::grain_forces(SystemState& state) {
     forces.push_back({"force_added_mass", added});
   }
   if (coupling_) {
-    forces.push_back({"force_pressure_gradient",
-                      fluid_force_now("pressure gradient", {0, 1, 0, 0, 0}, state)});
+    forces.push_back(
+        {"force_pressure_gradient", fluid_force_now("pressure gradient", {0, 1, 0, 0, 0}, state)});
     forces.push_back({"force_stress", fluid_force_now("stress", {0, 0, 1, 0, 0}, state)});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);

@@ -25,26 +25,15 @@ Rows to_device(const char* label, const std::vector<int>& values) {
   return rows;
 }
 
-/// A contact as a record: id of the partner, xi_t, then rolling and force where there are any.
-struct ContactRecord {
-  KeptContacts kept;
-  int width;
-  KOKKOS_FUNCTION void put(Real* to, int k) const {
-    put_words(to, kept.partner(k));
-    put_words(to + 1, kept.xi_t(k));
-    int at = 4;
-    if (kept.rolling.extent(0) > 0) put_words(to + at, kept.rolling(k)), at += 3;
-    if (kept.force.extent(0) > 0) put_words(to + at, kept.force(k));
-  }
-  KOKKOS_FUNCTION void take(const Real* from, int k) const {
-    take_words(from, kept.partner(k));
-    take_words(from + 1, kept.xi_t(k));
-    int at = 4;
-    if (kept.rolling.extent(0) > 0) take_words(from + at, kept.rolling(k)), at += 3;
-    if (kept.force.extent(0) > 0) take_words(from + at, kept.force(k));
-  }
-};
-
+/// What a contact remembers, as a record.
+RecordLayout layout_of(const KeptContacts& kept) {
+  RecordLayout layout;
+  const auto add = [&layout](const auto& column) {
+    if (column.extent(0) > 0) grain_columns_detail::add_to(layout, column);
+  };
+  add(kept.partner), add(kept.xi_t), add(kept.rolling), add(kept.force);
+  return layout;
+}
 /// The last word of a grain's record: how many contacts follow it.
 struct PackContactCounts {
   Kokkos::View<const int*> first, row;
@@ -61,10 +50,6 @@ View of_size(const char* label, const View& like, int n) {
 }
 
 }  // namespace
-
-int GrainMigration::width(const KeptContacts& kept) {
-  return 4 + (kept.rolling.extent(0) > 0 ? 3 : 0) + (kept.force.extent(0) > 0 ? 3 : 0);
-}
 
 /// Fills row_, leaving_ and the numbers of grains to each rank.
 void GrainMigration::choose(const GrainState& grains, const Columns& columns,
@@ -133,17 +118,19 @@ void GrainMigration::count(const GrainState& grains, const KeptContacts& kept,
 }
 
 void GrainMigration::send_contacts(const KeptContacts& kept) {
-  const ContactRecord record{.kept = kept, .width = width(kept)};
-  send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to() * record.width));
-  Real* const to = send_contacts_.data();
+  const RecordLayout layout = layout_of(kept);
+  const Rows contact = make_rows("migration: contacts that leave", contacts_.n_to());
   const auto row = leaving_, first = first_;
   Kokkos::parallel_for(
-      "migration: pack contacts", items(grains_.n_to()), KOKKOS_LAMBDA(int p) {
+      "migration: contacts that leave", items(grains_.n_to()), KOKKOS_LAMBDA(int p) {
         int at = first(p);
-        for (int k = kept.first(row(p)); k < kept.first(row(p) + 1); ++k)
-          record.put(to + record.width * at++, k);
+        for (int k = kept.first(row(p)); k < kept.first(row(p) + 1); ++k) contact(at++) = k;
       });
-  exchange(contacts_, record.width, send_contacts_, receive_contacts_);
+  send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to()) *
+                         static_cast<std::size_t>(layout.width));
+  Kokkos::parallel_for("migration: pack contacts", items(contacts_.n_to()),
+                       PackRecords{layout, contact, send_contacts_.data(), layout.width});
+  exchange(contacts_, layout.width, send_contacts_, receive_contacts_);
 }
 
 /// New contacts: of the rows that stayed, then what was received.
@@ -169,22 +156,21 @@ void GrainMigration::take_contacts(KeptContacts& kept, int words) const {
           .rolling = of_size("contacts kept: rolling", old.rolling, total),
           .force = of_size("contacts kept: force", old.force, total)};
   const KeptContacts now = kept;
-  const ContactRecord record{.kept = now, .width = width(now)};
-  const Real* const contact_records = receive_contacts_.data();
   Kokkos::parallel_for(
-      "migration: take contacts", items(n), KOKKOS_LAMBDA(int g) {
+      "migration: contacts that stay", items(n_stay), KOKKOS_LAMBDA(int g) {
         for (int k = now.first(g); k < now.first(g + 1); ++k) {
-          if (g >= n_stay) {
-            record.take(contact_records + record.width * (k - now.first(n_stay)), k);
-            continue;
-          }
           const int from = old.first(row(g)) + k - now.first(g);
           now.partner(k) = old.partner(from);
           now.xi_t(k) = old.xi_t(from);
-          if (now.rolling.extent(0) > 0) now.rolling(k) = old.rolling(from);
-          if (now.force.extent(0) > 0) now.force(k) = old.force(from);
+          if (now.has_rolling()) now.rolling(k) = old.rolling(from);
+          if (now.has_force()) now.force(k) = old.force(from);
         }
       });
+  const RecordLayout layout = layout_of(now);
+  const int n_come = contacts_.n_from();
+  Kokkos::parallel_for(
+      "migration: take contacts", items(n_come),
+      UnpackRecords{layout, {}, total - n_come, receive_contacts_.data(), layout.width});
 }
 
 void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Columns& columns,
@@ -193,7 +179,8 @@ void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Co
   count(grains, kept, owners);
   const int n_to = grains_.n_to(), n_from = grains_.n_from();
   if (n_to == 0 && n_from == 0) return;
-  const RecordLayout layout = record_layout(grains, AllArrays{});
+  const auto everything = [](GrainState& s, const auto& action) { for_each_array(s, action); };
+  const RecordLayout layout = record_layout(grains, everything);
   const int width = layout.width + 1;  // and the number of contacts
   send_.reserve(static_cast<std::size_t>(n_to) * static_cast<std::size_t>(width));
   Kokkos::parallel_for("migration: pack", items(n_to),
@@ -208,7 +195,7 @@ void GrainMigration::operator()(GrainState& grains, KeptContacts& kept, const Co
   reserve_rows(grains, n_stay_ + n_from);
   Kokkos::parallel_for(
       "migration: unpack", items(n_from),
-      UnpackRecords{record_layout(grains, AllArrays{}), {}, n_stay_, receive_.data(), width});
+      UnpackRecords{record_layout(grains, everything), {}, n_stay_, receive_.data(), width});
   grains.n = n_stay_ + n_from;
 }
 

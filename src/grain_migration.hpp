@@ -28,8 +28,6 @@ class GrainMigration {
   void take_contacts(KeptContacts& kept, int words) const;
 
  private:
-  static int width(const KeptContacts& kept);
-
   int n_stay_ = 0;
   Kokkos::View<int*> row_;      // old rows of the grains that stay
   Kokkos::View<int*> leaving_;  // and of those that leave, by rank

@@ -128,6 +128,11 @@ void GrainPartition::set_starts(const std::vector<std::int64_t>& starts) {
   has_cut_ = true;
 }
 
+void GrainPartition::restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut) {
+  set_starts(starts);
+  at_cut_ = imbalance_at_cut;
+}
+
 std::vector<std::int64_t> GrainPartition::starts() const {
   return {on_host_.data(), on_host_.data() + count_};
 }

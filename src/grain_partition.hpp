@@ -26,8 +26,8 @@ class GrainPartition {
   bool balance(const GrainState& grains, const Columns& columns,
                const Kokkos::View<const int*>& contacts);
 
-  /// Of a restart file: starts() of the ranks that wrote it.
-  void set_starts(const std::vector<std::int64_t>& starts);
+  /// Of a restart file: starts() and imbalance_at_cut() of the ranks that wrote it.
+  void restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut);
   std::vector<std::int64_t> starts() const;
 
   GrainOwners owners() const { return {me_, start_}; }
@@ -38,14 +38,18 @@ class GrainPartition {
   /// Work of the busiest rank over the mean at the last balance(), before its cut and after it.
   Real imbalance_before() const { return before_; }
   Real imbalance() const { return now_; }
+  /// What the last cut left: the next one waits for more.
+  Real imbalance_at_cut() const { return at_cut_; }
 
  private:
+  void set_starts(const std::vector<std::int64_t>& starts);
+
   MPI_Comm ranks_;
   int me_ = 0, count_ = 1;
   Kokkos::View<std::uint32_t*> start_;
   Kokkos::View<std::uint32_t*>::host_mirror_type on_host_;
   Real before_ = 1, now_ = 1;
-  Real at_cut_ = 1;  // what the last cut left
+  Real at_cut_ = 1;
   bool has_cut_ = false;
 };
 

@@ -237,6 +237,7 @@ void save_grains(CheckpointWriter& file, const GrainState& s, GrainSolver& solve
   if (const GrainPartition* partition = solver.list().partition()) {
     const auto starts = partition->starts();
     file.array("grains/columns_of_rank", std::span<const std::int64_t>(starts));
+    file.scalar("grains/imbalance_at_cut", partition->imbalance_at_cut());
   }
   file.scalar("grains/r_max", s.r_max);
   file.scalar("grains/r_min", s.r_min);
@@ -280,7 +281,8 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
     return;
   }
   if (list.partition())
-    list.partition()->set_starts(file.array<std::int64_t>("grains/columns_of_rank"));
+    list.partition()->restore(file.array<std::int64_t>("grains/columns_of_rank"),
+                              file.real("grains/imbalance_at_cut"));
   list.restore(s);
 }
 

@@ -23,13 +23,14 @@ std::vector<int> starts_of(const std::vector<int>& sizes) {
   return starts;
 }
 
-Real reduce(const Grid& grid, Real mine, MPI_Op operation) {
-  if (!grid.ranks || rank_count(grid.ranks->all()) == 1) return mine;
-  ++counts.reductions;
-  Real all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, operation, grid.ranks->all());
-  return all;
+template <class T>
+void reduce(MPI_Comm ranks, T* numbers, std::size_t n, MPI_Datatype type, MPI_Op operation) {
+  if (rank_count(ranks) == 1) return;
+  message_detail::count_reduction();
+  MPI_Allreduce(MPI_IN_PLACE, numbers, static_cast<int>(n), type, operation, ranks);
 }
+
+MPI_Comm ranks_of(const Grid& grid) { return grid.ranks ? grid.ranks->all() : MPI_COMM_SELF; }
 
 }  // namespace
 
@@ -110,7 +111,29 @@ void exchange_all(const RankLine& line, const MessageBuffer& send,
   }
 }
 
-Real sum_over_ranks(const Grid& grid, Real mine) { return reduce(grid, mine, MPI_SUM); }
-Real max_over_ranks(const Grid& grid, Real mine) { return reduce(grid, mine, MPI_MAX); }
+void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers) {
+  reduce(ranks, numbers.data(), numbers.size(), MPI_INT64_T, MPI_SUM);
+}
+void sum_over(MPI_Comm ranks, std::vector<Real>& numbers) {
+  reduce(ranks, numbers.data(), numbers.size(), MPI_DOUBLE, MPI_SUM);
+}
+std::int64_t sum_over(MPI_Comm ranks, std::int64_t number) {
+  reduce(ranks, &number, 1, MPI_INT64_T, MPI_SUM);
+  return number;
+}
+Real sum_over(MPI_Comm ranks, Real number) {
+  reduce(ranks, &number, 1, MPI_DOUBLE, MPI_SUM);
+  return number;
+}
+Real max_over(MPI_Comm ranks, Real number) {
+  reduce(ranks, &number, 1, MPI_DOUBLE, MPI_MAX);
+  return number;
+}
+
+Real sum_over_ranks(const Grid& grid, Real mine) { return sum_over(ranks_of(grid), mine); }
+Real max_over_ranks(const Grid& grid, Real mine) { return max_over(ranks_of(grid), mine); }
+void sum_over_ranks(const Grid& grid, std::vector<Real>& numbers) {
+  sum_over(ranks_of(grid), numbers);
+}
 
 }  // namespace barchan

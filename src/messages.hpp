@@ -65,8 +65,19 @@ void exchange_all(const RankLine& line, const MessageBuffer& send,
                   const std::vector<int>& send_counts, const MessageBuffer& receive,
                   const std::vector<int>& receive_counts);
 
+/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
+void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers);
+std::int64_t sum_over(MPI_Comm ranks, std::int64_t number);
+inline std::int64_t sum_over(MPI_Comm ranks, int number) {
+  return sum_over(ranks, std::int64_t{number});
+}
+Real sum_over(MPI_Comm ranks, Real number);
+void sum_over(MPI_Comm ranks, std::vector<Real>& numbers);
+Real max_over(MPI_Comm ranks, Real number);
+
 /// Over the ranks that share the grid, the same bits on all of them.
 Real sum_over_ranks(const Grid& grid, Real mine);
+void sum_over_ranks(const Grid& grid, std::vector<Real>& numbers);
 Real max_over_ranks(const Grid& grid, Real mine);
 
 }  // namespace barchan

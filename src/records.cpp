@@ -65,37 +65,4 @@ void exchange(const RecordCounts& counts, int width, const MessageBuffer& send,
   copy_own(send, to[me], receive, from[me], to[me + 1] - to[me]);
 }
 
-void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers) {
-  if (rank_count(ranks) == 1) return;
-  message_detail::count_reduction();
-  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_INT64_T,
-                MPI_SUM, ranks);
-}
-
-std::int64_t sum_over(MPI_Comm ranks, std::int64_t number) {
-  std::vector<std::int64_t> numbers{number};
-  sum_over(ranks, numbers);
-  return numbers[0];
-}
-
-void sum_over(MPI_Comm ranks, std::vector<Real>& numbers) {
-  if (rank_count(ranks) == 1) return;
-  message_detail::count_reduction();
-  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
-                ranks);
-}
-
-Real sum_over(MPI_Comm ranks, Real number) {
-  std::vector<Real> numbers{number};
-  sum_over(ranks, numbers);
-  return numbers[0];
-}
-
-Real max_over(MPI_Comm ranks, Real number) {
-  if (rank_count(ranks) == 1) return number;
-  message_detail::count_reduction();
-  MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_DOUBLE, MPI_MAX, ranks);
-  return number;
-}
-
 }  // namespace barchan

@@ -29,14 +29,4 @@ RecordCounts announce(MPI_Comm ranks, std::vector<int> to);
 void exchange(const RecordCounts& counts, int width, const MessageBuffer& send,
               MessageBuffer& receive);
 
-/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
-void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers);
-std::int64_t sum_over(MPI_Comm ranks, std::int64_t number);
-inline std::int64_t sum_over(MPI_Comm ranks, int number) {
-  return sum_over(ranks, std::int64_t{number});
-}
-Real sum_over(MPI_Comm ranks, Real number);
-void sum_over(MPI_Comm ranks, std::vector<Real>& numbers);
-Real max_over(MPI_Comm ranks, Real number);
-
 }  // namespace barchan
