@@ -283,7 +283,7 @@ def read_run(folder):
     if "all_to_alls" not in run.get("communication", {}):
         raise Problem(f"{folder}: nothing is counted: it ran on one rank, or an earlier version")
     x, z = (np.array([float(line[axis]) for line in lines]) for axis in "xz")
-    return run, config, x, z
+    return run, config, x, z % config["domain"]["size"][2]  # files may lie across a periodic side
 
 
 def model_of_run(run, config, x, z):
