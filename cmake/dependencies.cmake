@@ -41,6 +41,7 @@ find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(ZLIB REQUIRED)
 # toml++ is headers, and where it is packaged so also a library that spares compiling the parser.
 find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
 find_library(TOMLPLUSPLUS_LIBRARY tomlplusplus)
@@ -52,4 +53,4 @@ if(TOMLPLUSPLUS_LIBRARY)
 endif()
 
 set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft Eigen3::Eigen CLI11::CLI11
-    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json barchan_toml)
+    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)

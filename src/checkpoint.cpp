@@ -7,6 +7,8 @@
 
 #include "src/atomic_file.hpp"
 #include "src/communicator.hpp"
+#include "src/errors.hpp"
+#include "src/seal.hpp"
 
 namespace barchan {
 
@@ -15,8 +17,8 @@ namespace {
 const std::string prefix = "restart_";
 const std::string ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
-constexpr std::int64_t format_version =
-    5;  // of restart files; 5: contacts by the ids of their grains
+// 5: contacts by the ids of their grains; 6: sealed.
+constexpr std::int64_t format_version = 6, first_sealed_format = 6, oldest_format = 5;
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");
@@ -29,6 +31,23 @@ std::int64_t step_of(const std::string& name) {
   const char* end = name.data() + name.size() - ending.size();
   const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, step);
   return error == std::errc() && stop == end ? step : -1;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InputError("cannot restart from " + file.string() + ": " + what);
+}
+
+/// Rank 0 reads the file through before the HDF5 library looks at it: what is damaged can make the
+/// library itself fail. False without a seal, as in files of others and of earlier versions.
+bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
+  SealCheck found;
+  std::error_code unreadable;  // which the HDF5 layer puts into words
+  if (rank_of(communicator) == 0 && std::filesystem::is_regular_file(file, unreadable)) {
+    found = check_seal(file);
+  }
+  // Rank 0 tells why; the others end with it.
+  if (as_rank_0_says(found.seal == Seal::broken, communicator)) refuse(file, found.problem);
+  return as_rank_0_says(found.seal == Seal::whole, communicator);
 }
 
 CheckpointScalar split(const std::string& path) {
@@ -65,7 +84,7 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int
                                    const Provenance& provenance, MPI_Comm communicator)
     : step_(step),
       target_(folder / checkpoint_name(step)),
-      file_(temporary_of(target_), Hdf5File::Mode::create, communicator),
+      file_(temporary_of(target_), Hdf5File::Mode::create_sealable, communicator),
       communicator_(communicator) {
   write_provenance(file_, provenance);
   file_.set_attribute("/", "kind", "restart");
@@ -105,8 +124,8 @@ void CheckpointWriter::array(const std::string& name, std::span<const std::int64
 
 std::filesystem::path CheckpointWriter::commit(int keep) {
   file_.close();
-  committed_ = true;
   if (rank_of(communicator_) == 0) {
+    seal(temporary_of(target_));
     rename_durably(temporary_of(target_), target_);
     auto files = list_checkpoints(target_.parent_path());
     auto last = files.upper_bound(step_);
@@ -116,25 +135,25 @@ std::filesystem::path CheckpointWriter::commit(int keep) {
       std::filesystem::remove(old->second);
     }
   }
+  committed_ = true;
   if (mpi_runs()) MPI_Barrier(communicator_);  // the file is there for every rank that returns
   return target_;
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm communicator)
-    : file_(file, Hdf5File::Mode::read, communicator) {
+    : sealed_(is_sealed(file, communicator)), file_(file, Hdf5File::Mode::read, communicator) {
   if (!file_.has_attribute("/", "kind") || file_.text_attribute("/", "kind") != "restart") {
     fail("it is not a restart file");
   }
   const auto format = file_.integer_attribute("/", "format");
-  if (format != format_version) {
-    fail(fmt::format("it was written in format {} by version {}; this version reads format {}",
-                     format, provenance().version, format_version));
+  if (format < oldest_format || format > format_version) {
+    fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}", format,
+                     provenance().version, oldest_format, format_version));
   }
+  if (format >= first_sealed_format && !sealed_) fail("it is damaged: its seal is gone");
 }
 
-void CheckpointReader::fail(const std::string& what) const {
-  throw std::runtime_error("cannot restart from " + path().string() + ": " + what);
-}
+void CheckpointReader::fail(const std::string& what) const { refuse(path(), what); }
 
 std::int64_t CheckpointReader::step() const { return file_.integer_attribute("/", "step"); }
 

@@ -140,7 +140,8 @@ struct CheckpointScalar {
   std::string group, name;
 };
 
-/// Reads a restart file. Every member throws std::runtime_error with a sentence for the user.
+/// Reads a restart file, after its seal has been checked. Every member throws InputError or Hdf5Error
+/// with a sentence for the user. Files that others made without a seal are taken as they are.
 class CheckpointReader {
  public:
   explicit CheckpointReader(const std::filesystem::path& file,
@@ -183,6 +184,7 @@ class CheckpointReader {
   void expect(const std::string& name, const Extents& extents_here, ElementType type) const;
   [[noreturn]] void fail(const std::string& what) const;
 
+  bool sealed_ = false;
   Hdf5File file_;
 };
 

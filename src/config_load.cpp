@@ -311,7 +311,7 @@ Loaded load_file(const fs::path& file, const std::vector<std::string>& overrides
 }  // namespace
 
 ConfigError::ConfigError(std::vector<std::string> lines)
-    : std::runtime_error(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
+    : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
 
 Config load_config(const fs::path& file, const std::vector<std::string>& overrides) {
   return load_file(file, overrides).config;
@@ -320,6 +320,12 @@ Config load_config(const fs::path& file, const std::vector<std::string>& overrid
 Config load_config_text(std::string_view text, const fs::path& file,
                         const std::vector<std::string>& overrides) {
   return checked(load(text, file, overrides, {})).config;
+}
+
+Config config_as_written(std::string_view resolved, const fs::path& file) {
+  Reading reading(file.string());
+  const Node tree = parse_toml(resolved, reading.file(), reading.problems());
+  return read_tree(reading, tree, file);
 }
 
 std::vector<SizeClass> known_sizes(const Config& config) {

@@ -2,18 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "src/config.hpp"
+#include "src/errors.hpp"
 
 namespace barchan {
 
 /// All problems of a configuration. `lines`: one per problem, by line of the file, then
 /// "N problems; nothing was run."; what() is the same as one text. Leads to exit code 2.
-class ConfigError : public std::runtime_error {
+class ConfigError : public InputError {
  public:
   explicit ConfigError(std::vector<std::string> lines);
   const std::vector<std::string>& lines() const { return lines_; }
@@ -32,6 +32,10 @@ Config load_config(const std::filesystem::path& file,
 /// The same for a text, as if it stood in `file` (which need not exist).
 Config load_config_text(std::string_view text, const std::filesystem::path& file,
                         const std::vector<std::string>& overrides = {});
+
+/// The configuration that a result file carries, its keys read as far as they can be: neither checked
+/// nor followed to the files it names, which may be gone.
+Config config_as_written(std::string_view resolved, const std::filesystem::path& file);
 
 /// The size classes of the grains: grains.sizes or, when empty, those of the case that
 /// initial.grains names; empty when a .csv or .h5 decides. Throws ConfigError.

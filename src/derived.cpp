@@ -17,8 +17,9 @@ double ceil_tolerant(double x) { return std::ceil(x - 1e-9 * std::max(1.0, x)); 
 
 // Bytes of a cell: the state's 13 numbers, about 30 of work space and two complex transforms.
 constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
-// Bytes of a grain: state 400, walls 100, 16 listed neighbours of 52 with their history, twice.
-constexpr double bytes_per_grain = 2 * (500 + 16 * 52);
+// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
+// gathered in.
+constexpr double bytes_per_grain = 1000;
 
 double gravity_of(const GrainConfig& grains) {
   const auto& g = grains.gravity;

@@ -47,6 +47,9 @@ class GrainSolver {
   /// slots is then to be read.
   void restore_list(GrainState& grains) { list_.restore(grains); }
   NeighborList& list() { return list_; }
+  const PeriodicBox& box() const { return list_.box(); }
+  int n_walls() const { return n_walls_; }
+  const Plane& wall(int w) const { return plane_[w]; }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.

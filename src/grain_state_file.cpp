@@ -1,6 +1,10 @@
 #include "src/grain_state_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -9,6 +13,7 @@
 
 #include "src/communicator.hpp"
 #include "src/decomposition.hpp"
+#include "src/errors.hpp"
 #include "src/records.hpp"
 #include "src/row_share.hpp"
 
@@ -172,13 +177,24 @@ ContactTable contacts_of(const CheckpointReader& file, const GrainState& s, bool
   return all;
 }
 
-/// [begin, end) of this rank in an array whose shares were written by as many ranks, or nothing.
+[[noreturn]] void refuse(const CheckpointReader& file, const std::string& what) {
+  throw InputError(fmt::format("cannot restart from {}: {}", file.path().string(), what));
+}
+
+/// [begin, end) of this rank in an array of n rows whose shares were written by as many ranks, or
+/// nothing.
 struct Piece {
   std::uint64_t begin = 0, end = 0;
 };
 std::optional<Piece> my_piece(const CheckpointReader& file, const std::string& name,
-                              MPI_Comm ranks) {
+                              std::uint64_t n, MPI_Comm ranks) {
   const auto counts = file.array<std::int64_t>(name);
+  std::uint64_t sum = 0;
+  for (const std::int64_t count : counts) {
+    sum += static_cast<std::uint64_t>(count);
+    if (count < 0 || sum > n) refuse(file, name + " does not fit the rows it counts");
+  }
+  if (sum != n) refuse(file, name + " does not fit the rows it counts");
   const auto me = static_cast<std::size_t>(rank_of(ranks));
   if (counts.size() != static_cast<std::size_t>(rank_count(ranks))) return {};
   Piece piece;
@@ -187,9 +203,18 @@ std::optional<Piece> my_piece(const CheckpointReader& file, const std::string& n
   return piece;
 }
 
+std::uint64_t rows_of(const CheckpointReader& file, const std::string& name) {
+  const Extents extents = file.extents(name);
+  if (extents.empty()) refuse(file, name + " is not an array");
+  return extents[0];
+}
+
 Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
-  if (const auto piece = my_piece(file, "grains/of_rank", ranks)) return *piece;
-  const Split split{.n = static_cast<int>(file.extents("grains/id")[0]),
+  const std::uint64_t n = rows_of(file, "grains/id");
+  if (n > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+    refuse(file, fmt::format("it holds {} grains, more than this version can count", n));
+  if (const auto piece = my_piece(file, "grains/of_rank", n, ranks)) return *piece;
+  const Split split{.n = static_cast<int>(n),
                     .parts = rank_count(ranks)};
   const int me = rank_of(ranks);
   return {static_cast<std::uint64_t>(split.begin(me)),
@@ -254,12 +279,14 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
   s.sauter_diameter = file.real("grains/sauter_diameter");
   s.n_initial = file.integer("grains/n_initial");
   s.n_left = rank_of(ranks) == 0 ? file.integer("grains/n_left") : 0;
+  if (!(s.r_min > 0 && s.r_min <= s.r_max && std::isfinite(s.r_max) && s.sauter_diameter > 0))
+    refuse(file, "the radii of its grains make no sense");
   return s;
 }
 
 void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solver) {
   const Piece rows = my_rows(file, s.ranks);
-  const std::uint64_t n_all = file.extents("grains/id")[0];
+  const std::uint64_t n_all = rows_of(file, "grains/id");
   for_each_grain_array(s, [&](const std::string& name, const auto& array) {
     const auto mine = first_rows(array, s.n);
     using View = decltype(mine);
@@ -272,7 +299,8 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
   });
   NeighborList& list = solver.list();
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;
-  const auto piece = my_piece(file, "contacts/of_rank", s.ranks);
+  const auto piece =
+      my_piece(file, "contacts/of_rank", rows_of(file, "contacts/first"), s.ranks);
   const ContactTable contacts =
       piece ? read_contacts(file, piece->begin, piece->end, rolls) : contacts_of(file, s, rolls);
   list.set_kept(under_rows(contacts, s, both, rolls));

@@ -6,6 +6,7 @@
 
 #include "src/communicator.hpp"
 #include "src/hdf5_handle.hpp"
+#include "src/seal.hpp"
 
 namespace barchan {
 
@@ -43,8 +44,9 @@ Handle group_creation_list() {
   return list;
 }
 
-Handle creation_list() {
+Handle creation_list(bool sealable) {
   Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (sealable) H5Pset_userblock(list.get(), seal_bytes);
   H5Pset_sym_k(list.get(), 0, root_links / 2);
   H5Pset_local_heap_size_hint(list.get(), root_links * name_bytes);
   return list;
@@ -89,8 +91,8 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
   if (std::filesystem::is_directory(path, ignored)) fail("it is a folder", {});
   const Handle access = access_list(parallel_, communicator, system_error_.get());
   Id opened = -1;
-  if (mode == Mode::create) {
-    const Handle creation = creation_list();
+  if (mode == Mode::create || mode == Mode::create_sealable) {
+    const Handle creation = creation_list(mode == Mode::create_sealable);
     opened = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   } else {
     const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;

@@ -44,7 +44,8 @@ struct Share {
 /// Every member throws Hdf5Error naming the file and the reason.
 class Hdf5File {
  public:
-  enum class Mode { read, modify, create };  // create replaces what is there
+  /// create replaces what is there; create_sealable leaves room for a seal in front (src/seal.hpp).
+  enum class Mode { read, modify, create, create_sealable };
 
   Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator = MPI_COMM_SELF);
   Hdf5File(const Hdf5File&) = delete;

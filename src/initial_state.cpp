@@ -1,8 +1,11 @@
 #include "src/initial_state.hpp"
 
-#include <stdexcept>
+#include <fmt/format.h>
 
+#include "src/config_load.hpp"
+#include "src/config_validate.hpp"
 #include "src/domain.hpp"
+#include "src/errors.hpp"
 #include "src/grain_files.hpp"
 #include "src/initial_flow.hpp"
 #include "src/pour.hpp"
@@ -12,11 +15,22 @@ namespace barchan {
 
 namespace {
 
+/// A flow that was computed in another domain or on other rows would be taken for one in this.
+void check_flow_file(const Config& config, const CheckpointReader& file) {
+  const std::string resolved = file.provenance().config;
+  if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
+  for (const Finding& f : check_start(config, config_as_written(resolved, file.path()), true)) {
+    throw InputError(fmt::format("{}: as initial.fluid it {}", file.path().string(), f.message));
+  }
+}
+
 FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
                          const Decomposition* pencils) {
   FluidState fluid = make_fluid_state(make_grid(config, pencils));
   if (!file.empty()) {
-    load_flow(CheckpointReader(file, pencils ? pencils->all() : MPI_COMM_SELF), fluid);
+    const CheckpointReader flow(file, pencils ? pencils->all() : MPI_COMM_SELF);
+    check_flow_file(config, flow);
+    load_flow(flow, fluid);
     fluid.time = 0;
     // The precursor's fluid step may be another one, and grains now push the water aside.
     fluid.has_history = false;
@@ -47,9 +61,10 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
     const bool inside = x.x >= 0 && x.x <= config.size[0] && x.y >= -r && x.y <= config.size[1] &&
                         x.z >= 0 && x.z <= config.size[2];
     if (!inside) {
-      throw std::runtime_error(source + ": grain " + std::to_string(grains.id[g]) + " at (" +
-                               std::to_string(x.x) + ", " + std::to_string(x.y) + ", " +
-                               std::to_string(x.z) + ") m lies outside the domain");
+      throw InputError(fmt::format(
+          "{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to ({:.6g}, {:.6g}, "
+          "{:.6g}) m (domain.size)",
+          source, grains.id[g], x.x, x.y, x.z, config.size[0], config.size[1], config.size[2]));
     }
   }
 }

@@ -12,8 +12,8 @@
 #include "src/check.hpp"
 #include "src/command_line.hpp"
 #include "src/communicator.hpp"
-#include "src/config_load.hpp"
 #include "src/info.hpp"
+#include "src/errors.hpp"
 #include "src/report.hpp"
 #include "src/run_case.hpp"
 
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
         argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
     barchan::report::start(line.quiet, barchan::rank_of(MPI_COMM_WORLD));
     return execute(line);
-  } catch (const barchan::ConfigError& problem) {
+  } catch (const barchan::InputError& problem) {
     return refuse(mpi, problem.what());
   } catch (const std::exception& problem) {
     return fail(problem.what(), 1);

@@ -129,6 +129,9 @@ Real max_over(MPI_Comm ranks, Real number) {
   reduce(ranks, &number, 1, MPI_DOUBLE, MPI_MAX);
   return number;
 }
+void max_over(MPI_Comm ranks, std::vector<Real>& numbers) {
+  reduce(ranks, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX);
+}
 
 Real sum_over_ranks(const Grid& grid, Real mine) { return sum_over(ranks_of(grid), mine); }
 Real max_over_ranks(const Grid& grid, Real mine) { return max_over(ranks_of(grid), mine); }

@@ -74,6 +74,7 @@ inline std::int64_t sum_over(MPI_Comm ranks, int number) {
 Real sum_over(MPI_Comm ranks, Real number);
 void sum_over(MPI_Comm ranks, std::vector<Real>& numbers);
 Real max_over(MPI_Comm ranks, Real number);
+void max_over(MPI_Comm ranks, std::vector<Real>& numbers);
 
 /// Over the ranks that share the grid, the same bits on all of them.
 Real sum_over_ranks(const Grid& grid, Real mine);

@@ -1,5 +1,7 @@
 #include "src/neighbor_list.hpp"
 
+#include <fmt/format.h>
+
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <Kokkos_Sort.hpp>
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <string>
 
 #include "src/communicator.hpp"
+#include "src/errors.hpp"
 #include "src/grain_columns.hpp"
 
 namespace barchan {
@@ -83,9 +86,14 @@ void NeighborList::check_positions(const GrainState& grains) const {
   if (bad >= grains.n) return;
   std::int64_t id = 0;
   Kokkos::deep_copy(id, Kokkos::subview(grains.id, bad));
-  throw std::runtime_error("the position of grain " + std::to_string(id) +
-                           " is not finite: the grain step may be too long, or grains overlapped "
-                           "at the start");
+  Vec3 last;
+  Kokkos::deep_copy(last, Kokkos::subview(grains.x_reference, bad));
+  const std::string place = fmt::format("; it was near ({:.6g}, {:.6g}, {:.6g}) m: time.grain_step may "
+                                        "be too long, or grains overlapped at the start",
+                                        last.x, last.y, last.z);
+  throw StateError(
+      fmt::format("the position of grain {} is not finite{}", id, rebuilds_ > 0 ? place : ""),
+      ranks_ == nullptr);
 }
 
 void NeighborList::wrap(GrainState& grains) const {

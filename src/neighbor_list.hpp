@@ -14,8 +14,7 @@ namespace barchan {
 
 /// Half Verlet list with skin: valid until a grain has moved half the skin from where it was at the
 /// last rebuild. A rebuild sorts the grains in space, keeps the contact history and, when asked,
-/// drops grains beyond the outlet. Throws std::runtime_error naming the grain if a position is not
-/// finite or left the domain where it cannot.
+/// drops grains beyond the outlet. Throws StateError naming the grain if a position is not finite.
 ///
 /// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
 /// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it, with

@@ -72,6 +72,16 @@ class FieldWriter {
   Share share_;
 };
 
+void write_flow(Hdf5File& file, const std::string& group, const FluidState& fluid,
+                std::span<const NamedField> more) {
+  FieldWriter writer(file, group, fluid.grid);
+  writer.velocity(fluid.u);
+  writer.centred("p", fluid.p, "Pa");
+  writer.centred("alpha_f", fluid.alpha_f, "1");
+  writer.centred("nu_t", fluid.nu_t, "m^2/s");
+  for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
+}
+
 void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainState& grains,
                         std::span<const NamedForce> forces, const Share& rows) {
   const auto n = static_cast<std::size_t>(grains.n);
@@ -153,29 +163,56 @@ void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t s
                                std::span<const NamedField> more) {
   const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
   fields_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
-    FieldWriter writer(file, group, fluid.grid);
-    writer.velocity(fluid.u);
-    writer.centred("p", fluid.p, "Pa");
-    writer.centred("alpha_f", fluid.alpha_f, "1");
-    writer.centred("nu_t", fluid.nu_t, "m^2/s");
-    for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
+    write_flow(file, group, fluid, more);
   });
   describe_fields();
+}
+
+void OutputFiles::write_single(const std::string& name, double t, std::int64_t step,
+                               const FrameFile::Preamble& preamble,
+                               const FrameFile::Content& content, Describe describe) const {
+  FrameFile file(folder_ / (name + ".h5"), provenance_, {}, communicator_);  // begins anew
+  file.append(t, step, preamble, content);
+  if (rank_of(communicator_) == 0) {
+    write_atomically(folder_ / (name + ".xdmf"), describe(name + ".h5", file.frames()));
+  }
 }
 
 void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
                                 std::span<const NamedField> fields,
                                 const std::map<std::string, double>& attributes) const {
-  FrameFile file(folder_ / "flow_average.h5", provenance_, {}, communicator_);  // begins anew
   const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid); };
-  file.append(t, step, preamble, [&](Hdf5File& h5, const std::string& group) {
+  const auto content = [&](Hdf5File& h5, const std::string& group) {
     FieldWriter writer(h5, group, grid);
     for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
     for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
-  });
-  if (rank_of(communicator_) == 0) {
-    write_atomically(folder_ / "flow_average.xdmf", fields_xdmf("flow_average.h5", file.frames()));
+  };
+  write_single("flow_average", t, step, preamble, content, fields_xdmf);
+}
+
+std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
+                                                    const GrainState* grains, double t,
+                                                    std::int64_t step) const {
+  std::vector<std::string> names;
+  if (grains != nullptr) {
+    const Share rows = share_of_rows(static_cast<std::uint64_t>(grains->n), communicator_);
+    const NamedForce contacts{"force_contact", grains->contact_force};
+    const auto preamble = [](Hdf5File&) {};
+    const auto content = [&](Hdf5File& file, const std::string& group) {
+      write_grain_arrays(file, group, *grains, std::span(&contacts, 1), rows);
+    };
+    write_single("failure_grains", t, step, preamble, content, grains_xdmf);
+    names.emplace_back("failure_grains.xdmf");
   }
+  if (fluid != nullptr) {
+    const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid->grid); };
+    const auto content = [&](Hdf5File& file, const std::string& group) {
+      write_flow(file, group, *fluid, {});
+    };
+    write_single("failure_fields", t, step, preamble, content, fields_xdmf);
+    names.emplace_back("failure_fields.xdmf");
+  }
+  return names;
 }
 
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step) {

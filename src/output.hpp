@@ -57,11 +57,21 @@ class OutputFiles {
                      std::span<const NamedField> fields,
                      const std::map<std::string, double>& attributes) const;
 
+  /// failure_fields.h5 and failure_grains.h5, one frame each with its .xdmf: a state that has gone
+  /// wrong, to look at. Either part may be missing. Returns the names to open.
+  std::vector<std::string> write_failure(const FluidState* fluid, const GrainState* grains, double t,
+                                         std::int64_t step) const;
+
   const std::vector<FrameInfo>& field_frames() const { return fields_.frames(); }
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
   static void write_grid(Hdf5File& file, const Grid& grid);
+  using Describe = std::string (*)(const std::string&, const std::vector<FrameInfo>&);
+  /// A file of one frame, replaced as a whole, and its description.
+  void write_single(const std::string& name, double t, std::int64_t step,
+                    const FrameFile::Preamble& preamble, const FrameFile::Content& content,
+                    Describe describe) const;
   void describe_fields() const;
   void describe_grains() const;
 

@@ -1,5 +1,7 @@
 #include "src/run_case.hpp"
 
+#include <unistd.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -9,6 +11,7 @@
 #include "src/config_resolved.hpp"
 #include "src/config_validate.hpp"
 #include "src/derived.hpp"
+#include "src/errors.hpp"
 #include "src/report.hpp"
 #include "src/simulation.hpp"
 #include "src/watchdog.hpp"
@@ -82,13 +85,27 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
   return files;
 }
 
+/// Refuses what this machine cannot hold, before it is asked for the memory.
+void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
+  const double need = derive(config, sizes).memory / rank_count(MPI_COMM_WORLD);
+  const double have = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                      static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (need <= have) return;
+  throw InputError(fmt::format(
+      "{}: this case needs about {:.3g} GB a rank, and this machine has {:.3g} GB: take fewer "
+      "fluid.cells or grains, or more ranks on more machines",
+      config.file.string(), need / 1e9, have / 1e9));
+}
+
 Outcome run_one(const Config& config, const RunOptions& options) {
+  check_memory(config, known_sizes(config));
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);
   Watchdog::beat("setting up");
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation(config, options, files);
+  simulation.open_folder();
   const auto sizes = known_sizes(config);
   report::info("{}", to_text(derive(config, sizes)));
   show_warnings(config, sizes);

@@ -27,6 +27,14 @@ const std::string history_header =
 const std::string dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
+/// What is about a run that failed, and not about the one that comes now.
+void remove_failure(const std::filesystem::path& folder) {
+  for (const char* name : {"failure_grains.h5", "failure_grains.xdmf", "failure_fields.h5",
+                           "failure_fields.xdmf"}) {
+    std::filesystem::remove(folder / name);
+  }
+}
+
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
   for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
@@ -79,6 +87,7 @@ RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart
   synchronise(communicator);  // others may still read what is about to go
   if (root_) {
     make_folder(folder_);
+    remove_failure(folder_);
     if (!restart_time) remove_results(folder_);
     const double t = restart_time.value_or(0.0);
     cut_table(file(history_name), history_header, t);

@@ -1,14 +1,19 @@
 #include "src/simulation.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "src/communicator.hpp"
+#include "src/config_load.hpp"
 #include "src/config_resolved.hpp"
+#include "src/config_restart.hpp"
 #include "src/derived.hpp"
 #include "src/domain.hpp"
 #include "src/grain_state_file.hpp"
+#include "src/errors.hpp"
 #include "src/records.hpp"
 #include "src/run_identity.hpp"
 #include "src/state_file.hpp"
@@ -19,20 +24,50 @@ namespace barchan {
 
 namespace {
 
+/// What the user gave is wrong, whatever the layer that met it says: exit code 2.
+template <class Read>
+auto read_input(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& problem) {
+    throw InputError(problem.what());
+  }
+}
+
+std::unique_ptr<const CheckpointReader> open_restart(const RunOptions& options, MPI_Comm ranks) {
+  if (!options.restart) return {};
+  return read_input(
+      [&] { return std::make_unique<const CheckpointReader>(*options.restart, ranks); });
+}
+
+/// Refuses a restart file that does not fit the case.
+void check_restart(const Config& config, const CheckpointReader& file) {
+  const std::string resolved = file.provenance().config;
+  if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
+  const auto conflicts = restart_conflicts(config, config_as_written(resolved, file.path()));
+  if (conflicts.empty()) return;
+  throw InputError(fmt::format("cannot restart from {}: it does not fit this case\n  {}\nkeep these keys "
+                               "as they were, or start anew",
+                               file.path().string(), fmt::join(conflicts, "\n  ")));
+}
+
 /// The state a run starts from; a restart brings its own number of grains.
-SystemState first_state(const Config& config, const RunOptions& options, const InitialFiles& files,
-                        MPI_Comm ranks, const Decomposition* pencils) {
-  if (!options.restart) return make_initial_state(config, files, ranks, pencils);
-  const CheckpointReader file(*options.restart);
+SystemState first_state(const Config& config, const CheckpointReader* restart,
+                        const InitialFiles& files, MPI_Comm ranks, const Decomposition* pencils) {
+  if (restart == nullptr) return make_initial_state(config, files, ranks, pencils);
+  check_restart(config, *restart);
   SystemState state;
   if (config.fluid) state.fluid = make_fluid_state(make_grid(config, pencils));
-  if (config.grains) state.grains = grains_in_file(file, ranks);
+  if (config.grains) state.grains = grains_in_file(*restart, ranks);
   return state;
 }
 
-std::optional<double> time_of(const std::optional<std::filesystem::path>& restart) {
-  if (!restart) return {};
-  return CheckpointReader(*restart).real("t");
+/// Where the grains of a start come from, for messages.
+std::string source_of(const Config& config, const InitialFiles& files) {
+  if (!files.grains.empty()) return files.grains.string();
+  return config.grains ? "initial.grains.pour" : "initial.fluid";
 }
 
 DuneDomain dune_domain(const Config& config) {
@@ -46,40 +81,67 @@ DuneDomain dune_domain(const Config& config) {
 }  // namespace
 
 Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
+    : Simulation(config, options, files, open_restart(options, MPI_COMM_WORLD)) {}
+
+Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
+                       std::unique_ptr<const CheckpointReader> restart)
     : config_(config),
+      options_(options),
       pencils_(make_decomposition(config, ranks_)),
       provenance_(make_provenance(config)),
-      state_(first_state(config, options, files, ranks_, pencils_.get())),
-      coupled_step_(config, state_),
-      restart_time_(time_of(options.restart)),
-      folder_(options.folder, restart_time_, ranks_),
-      output_(options.folder, provenance_, restart_time_, ranks_),
+      state_(read_input(
+          [&] { return first_state(config, restart.get(), files, ranks_, pencils_.get()); })),
+      coupled_step_(read_input([&] { return CoupledStep(config, state_); })),
+      health_(config, ranks_),
       tracker_(dune_domain(config)) {
-  if (rank_of(ranks_) == 0) report::log_to(folder_.file("log.txt"), restart_time_.has_value());
-  folder_.write_config(provenance_.config);
   end_step_ = fluid_steps(config.time);
   if (config.statistics) {
     statistics_.emplace(*config.fluid, state_.fluid->grid);
     if (config.statistics->fields) flow_average_.emplace(state_.fluid->grid);
     if (config.statistics->grain_forces) force_map_.emplace(dune_domain(config));
   }
-  if (options.restart) {
-    const CheckpointReader file(*options.restart, ranks_);
-    load_state(file, state_, coupled_step_);
-    step_ = file.integer("step");
-    tracker_.set_state(file.array<double>("dunes"));
-    load_statistics(file);
-    report::info("going on from {} at t = {:.4f} s", options.restart->string(), time());
-  } else {
-    coupled_step_.start(state_);
-  }
+  read_input([&] {
+    if (restart) {
+      go_on_from(*restart);
+    } else {
+      coupled_step_.start(state_);
+    }
+    health_.check_start(state_, coupled_step_,
+                        restart ? options.restart->string() : source_of(config, files));
+    return true;
+  });
   count_grains();
   start_step_ = step_;
   start_time_ = time();
 }
 
+void Simulation::go_on_from(const CheckpointReader& file) {
+  load_state(file, state_, coupled_step_);
+  step_ = file.integer("step");
+  restart_time_ = file.real("t");
+  if (std::abs(*restart_time_ - time()) > 1e-6 * config_.time.fluid_step) {
+    throw InputError(fmt::format("cannot restart from {}: its time {:.6g} s is not that of step {}",
+                                 file.path().string(), *restart_time_, step_));
+  }
+  tracker_.set_state(file.array<double>("dunes"));
+  load_statistics(file);
+  const std::string resolved = file.provenance().config;
+  if (!resolved.empty()) changed_ = changed_keys(config_, config_as_written(resolved, file.path()));
+}
+
+void Simulation::open_folder() {
+  folder_.emplace(options_.folder, restart_time_, ranks_);
+  output_.emplace(options_.folder, provenance_, restart_time_, ranks_);
+  if (rank_of(ranks_) == 0) report::log_to(folder_->file("log.txt"), restart_time_.has_value());
+  folder_->write_config(provenance_.config);
+  if (!restart_time_) return;
+  report::info("going on from {} at t = {:.4f} s", options_.restart->string(), time());
+  if (!changed_.empty()) report::info("changed since: {}", fmt::join(changed_, ", "));
+}
+
 void Simulation::begin() {
   catch_stop_signals();
+  if (!folder_) open_folder();
   wall_start_ = last_restart_at_ = WallClock::now();
   messages_at_start_ = message_counts();
   write_summary("running", "");
@@ -107,10 +169,24 @@ Outcome Simulation::run() {
     write_restart();
     write_summary("done", "");
     return Outcome::done;
+  } catch (const StateError& problem) {
+    progress_.finish();
+    const std::string message = write_failure(problem);
+    say_failed(message);
+    throw std::runtime_error(message);
   } catch (const std::exception& problem) {
     progress_.finish();
-    write_summary("failed", problem.what());
+    say_failed(problem.what());
     throw;
+  }
+}
+
+/// In run.json, if the disk that may be the problem lets us.
+void Simulation::say_failed(const std::string& message) {
+  try {
+    write_summary("failed", message);
+  } catch (const std::exception&) {
+    report::warn("run.json could not be written: it still says \"running\"");
   }
 }
 
@@ -129,18 +205,12 @@ void Simulation::count_grains() {
 
 /// Keeps the extremes and stops a run that has gone wrong.
 void Simulation::watch() {
+  {
+    const PhaseTimer timer(phases_, "health");
+    health_.check(state_, coupled_step_);
+  }
   if (!state_.fluid) return;
   const FluidStepReport& r = coupled_step_.fluid_report();
-  if (!std::isfinite(r.courant) || !std::isfinite(r.continuity_residual)) {
-    throw std::runtime_error(fmt::format(
-        "the flow is no longer finite at t = {:.5f} s (step {}): try a shorter time.fluid_step",
-        time(), step_));
-  }
-  if (r.courant > 1) {
-    throw std::runtime_error(fmt::format(
-        "CFL = {:.2f} at t = {:.5f} s is beyond stability: take a time.fluid_step below {:.2e} s",
-        r.courant, time(), config_.time.fluid_step * 0.5 / r.courant));
-  }
   const double residual = r.continuity_residual / config_.time.fluid_step;
   ++interval_.steps;
   interval_.iterations += r.pressure_iterations;
@@ -180,10 +250,10 @@ void Simulation::write_due(bool first) {
   if (o.history_interval > 0 && (first || due(o.history_interval))) write_history();
   if (state_.grains && o.grains_interval > 0 && (first || due(o.grains_interval))) write_grains();
   if (state_.grains && o.tracks_interval > 0 && (first || due(o.tracks_interval))) {
-    output_.write_tracks(*state_.grains, time(), step_);
+    output_->write_tracks(*state_.grains, time(), step_);
   }
   if (state_.fluid && o.fields_interval > 0 && (first || due(o.fields_interval))) {
-    output_.write_fields(*state_.fluid, time(), step_);
+    output_->write_fields(*state_.fluid, time(), step_);
   }
   if (first) return;
   if (restart_due() && step_ < end_step_) write_restart();

@@ -8,9 +8,11 @@
 #include "src/coupled_step.hpp"
 #include "src/decomposition.hpp"
 #include "src/dune_analytics.hpp"
+#include "src/errors.hpp"
 #include "src/flow_average.hpp"
 #include "src/flow_statistics.hpp"
 #include "src/force_map.hpp"
+#include "src/health.hpp"
 #include "src/initial_state.hpp"
 #include "src/messages.hpp"
 #include "src/output.hpp"
@@ -28,18 +30,25 @@ struct RunOptions {
 enum class Outcome { done, stopped };
 
 /// Owns the state and the run folder. Members throw std::runtime_error with a sentence for the
-/// user; the summary then says "failed" and names the last good restart.
+/// user; the summary then says "failed".
 class Simulation {
  public:
+  /// Reads and checks all that the run starts from, and writes nothing. Throws InputError when that
+  /// cannot be used.
   Simulation(const Config& config, const RunOptions& options, const InitialFiles& files);
 
+  /// Makes the folder ready: removes the results of an earlier run, or those later than the restart.
+  void open_folder();
   /// To the end of the configured time, or until a signal or the wall-clock limit.
   Outcome run();
-  /// The last restart file written, if any.
+  /// The last restart file written, or the one the run went on from; if any.
   std::optional<std::filesystem::path> last_restart() const;
   const SystemState& state() const { return state_; }
 
  private:
+  Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
+             std::unique_ptr<const CheckpointReader> restart);
+  void go_on_from(const CheckpointReader& file);
   void begin();
   void one_step();
   void write_due(bool first);
@@ -53,6 +62,8 @@ class Simulation {
   void sample_forces();
   void write_statistics();
   void write_summary(const std::string& status, const std::string& message);
+  std::string write_failure(const StateError& problem);
+  void say_failed(const std::string& message);
   void watch();
   void count_grains();
   void show_progress();
@@ -71,13 +82,16 @@ class Simulation {
 
   MPI_Comm ranks_ = MPI_COMM_WORLD;
   Config config_;
+  RunOptions options_;
   std::unique_ptr<const Decomposition> pencils_;  // none: one rank has all of the grid
   Provenance provenance_;
   SystemState state_;
   CoupledStep coupled_step_;
+  Health health_;
   std::optional<double> restart_time_;
-  RunFolder folder_;
-  OutputFiles output_;
+  std::vector<std::string> changed_;  // keys, since the restart file was written
+  std::optional<RunFolder> folder_;  // both once open_folder() was called
+  std::optional<OutputFiles> output_;
   DuneTracker tracker_;
   std::optional<FlowStatistics> statistics_;
   std::optional<FlowAverage> flow_average_;

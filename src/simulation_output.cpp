@@ -1,4 +1,6 @@
 // What a run writes: tables, frames, restarts, summary.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "src/communicator.hpp"
@@ -52,7 +54,7 @@ void Simulation::write_history() {
     row.max_overlap = contacts.max_overlap;
     max_overlap_ = std::max(max_overlap_, contacts.max_overlap);
   }
-  folder_.append(row);
+  folder_->append(row);
   interval_ = Interval{};
 }
 
@@ -62,7 +64,7 @@ void Simulation::write_dunes() {
   largest_dune_.reset();
   if (rank_of(ranks_) != 0) return;
   for (const DuneRow& dune : tracker_.update(time(), grains.cloud())) {
-    folder_.append(dune);
+    folder_->append(dune);
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
 }
@@ -87,20 +89,20 @@ void Simulation::load_statistics(const CheckpointReader& file) {
 }
 
 void Simulation::write_statistics() {
-  if (statistics_) statistics_->write(folder_.file("statistics.csv"));
-  if (flow_average_) flow_average_->write(output_, time(), step_);
-  if (force_map_ && rank_of(ranks_) == 0) force_map_->write(folder_.file("force_map.csv"));
+  if (statistics_) statistics_->write(folder_->file("statistics.csv"));
+  if (flow_average_) flow_average_->write(*output_, time(), step_);
+  if (force_map_ && rank_of(ranks_) == 0) force_map_->write(folder_->file("force_map.csv"));
 }
 
 void Simulation::write_grains() {
   std::vector<NamedForce> forces;
   if (config_.output.grain_forces) forces = coupled_step_.grain_forces(state_);
-  output_.write_grains(*state_.grains, time(), step_, forces);
+  output_->write_grains(*state_.grains, time(), step_, forces);
 }
 
 void Simulation::write_restart() {
   Watchdog::beat("writing a restart file", step_, time());
-  CheckpointWriter file(folder_.path(), step_, provenance_, ranks_);
+  CheckpointWriter file(folder_->path(), step_, provenance_, ranks_);
   save_state(file, state_, coupled_step_);
   file.scalar("t", time());
   file.scalar("step", step_);
@@ -113,7 +115,23 @@ void Simulation::write_restart() {
 }
 
 std::optional<std::filesystem::path> Simulation::last_restart() const {
-  return latest_checkpoint(folder_.path());
+  if (auto written = latest_checkpoint(options_.folder)) return written;
+  return options_.restart;
+}
+
+/// Files to look at what went wrong in; returns the message with their names. They are a help: that
+/// they cannot be written must not hide why the run failed.
+std::string Simulation::write_failure(const StateError& problem) {
+  std::string message = fmt::format("{} (t = {:.6g} s, step {})", problem.what(), time(), step_);
+  if (!problem.on_all_ranks && rank_count(ranks_) > 1) return message;
+  try {
+    const auto names = output_->write_failure(state_.fluid ? &*state_.fluid : nullptr,
+                                              state_.grains ? &*state_.grains : nullptr, time(), step_);
+    return fmt::format("{}; look at it in {} ({})", message, options_.folder.string(),
+                       fmt::join(names, ", "));
+  } catch (const std::exception& second) {
+    return fmt::format("{}; the state could not be written: {}", message, second.what());
+  }
 }
 
 /// Per fluid step, of this rank; the imbalance is that of all.
@@ -175,7 +193,7 @@ RunSummary Simulation::summary(const std::string& status, const std::string& mes
 }
 
 void Simulation::write_summary(const std::string& status, const std::string& message) {
-  folder_.write_summary(summary(status, message));
+  folder_->write_summary(summary(status, message));
 }
 
 }  // namespace barchan

@@ -49,7 +49,7 @@ says() {  # says STATUS WORDS RANKS ARGUMENT...: refused with this exit code, th
 says 2 "4 ranks cannot share 5 x 3 columns" 4 --out thin --set 'fluid.cells=[5, 16, 3]'
 [ ! -e thin ] || fail "a refused run left a folder"
 says 2 "unknown key" 2 --out wrong --set fluid.cels=3
-says 1 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
+says 2 "restart_0000000099.h5" 2 --out none --restart restart_0000000099.h5
 
 status=0  # a case that only one node has
 mpirun "${options[@]}" -np 1 "$BARCHAN_PROGRAM" run flow.toml --quiet --out node \

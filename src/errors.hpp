@@ -1,0 +1,24 @@
+// Whose fault a problem is decides the exit code.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace barchan {
+
+/// What the user gave cannot be used: one sentence naming the file and the place in it. Leads to
+/// exit code 2; nothing has been written when it is thrown.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The state of a run can no longer be right: where, the likely cause and a remedy. Leads to exit
+/// code 1 after the state was written for a look at it.
+struct StateError : std::runtime_error {
+  /// `together`: all ranks throw it, so they can still do something together.
+  StateError(const std::string& message, bool together)
+      : std::runtime_error(message), on_all_ranks(together) {}
+  bool on_all_ranks;
+};
+
+}  // namespace barchan
