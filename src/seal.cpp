@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -54,7 +55,8 @@ bool parse(std::string_view text, Content& said) {
   const auto length = std::from_chars(text.data() + mark.size(), end, said.length);
   if (length.ec != std::errc() || length.ptr == end || *length.ptr != ' ') return false;
   const auto crc = std::from_chars(length.ptr + 1, end, said.crc, 16);
-  return crc.ec == std::errc() && crc.ptr != end && *crc.ptr == '\n';
+  if (crc.ec != std::errc() || crc.ptr == end || *crc.ptr != '\n') return false;
+  return std::all_of(crc.ptr + 1, end, [](char c) { return c == '\0'; });
 }
 
 }  // namespace

@@ -124,6 +124,13 @@ void Simulation::go_on_from(const CheckpointReader& file) {
                                  file.path().string(), *restart_time_, step_));
   }
   tracker_.set_state(file.array<double>("dunes"));
+  if (file.has("since_history_row")) {  // else written by an earlier version
+    const auto since_row = file.array<double>("since_history_row", {4});
+    interval_ = {.steps = static_cast<std::int64_t>(since_row[0]),
+                 .iterations = static_cast<std::int64_t>(since_row[1]),
+                 .continuity_residual = since_row[2],
+                 .courant = since_row[3]};
+  }
   load_statistics(file);
   const std::string resolved = file.provenance().config;
   if (!resolved.empty()) changed_ = changed_keys(config_, config_as_written(resolved, file.path()));

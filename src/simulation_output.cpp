@@ -108,6 +108,10 @@ void Simulation::write_restart() {
   file.scalar("step", step_);
   const std::vector<double> dunes = as_rank_0_says(tracker_.state(), ranks_);
   file.array("dunes", std::span<const double>(dunes));
+  const std::vector<double> since_row{
+      static_cast<double>(interval_.steps), static_cast<double>(interval_.iterations),
+      interval_.continuity_residual, interval_.courant};
+  file.array("since_history_row", std::span<const double>(since_row));
   save_statistics(file);
   write_statistics();
   Watchdog::last_good_restart(file.commit(config_.restart.keep));

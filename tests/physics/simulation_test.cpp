@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "src/checkpoint.hpp"
+#include "src/errors.hpp"
+#include "src/frame_file.hpp"
 #include "src/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 
@@ -107,6 +109,64 @@ TEST(Simulation, GrainsThatLeaveAreCounted) {
   EXPECT_LT(end.integer("grains/n_left"), 200);
   const std::string json = text_of(scratch / "run" / "run.json");
   EXPECT_NE(json.find("\"grains_initial\": 200"), std::string::npos);
+}
+
+TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
+  const ScratchFolder scratch("barchan-wrong");
+  Config config = coupled_config();
+  config.grains->material.youngs_modulus = config.grains->wall.youngs_modulus = 2e3;
+  config.grains->gravity = {0, -200, 0};
+  config.restart.interval = config.time.fluid_step;
+  std::string said;
+  try {
+    run(config, scratch / "run");
+  } catch (const std::runtime_error& problem) {
+    said = problem.what();
+  }
+  for (const char* words : {"grain ", "(at most 10 %)", "grains.youngs_modulus", "(t = ", "step ",
+                            "failure_grains.xdmf", "failure_fields.xdmf"}) {
+    EXPECT_NE(said.find(words), std::string::npos) << words << ": " << said;
+  }
+  for (const char* name : {"failure_grains.h5", "failure_fields.h5"}) {
+    const Hdf5File file(scratch / "run" / name, Hdf5File::Mode::read);
+    const auto frames = list_frames(file);
+    ASSERT_EQ(frames.size(), 1u) << name;
+    EXPECT_GT(frames[0].arrays.size(), 4u) << name;
+  }
+  const std::string json = text_of(scratch / "run" / "run.json");
+  EXPECT_NE(json.find("\"status\": \"failed\""), std::string::npos) << json;
+  EXPECT_TRUE(latest_checkpoint(scratch / "run")) << "the last good state must be kept";
+  // A new run in the folder is not about that failure.
+  run(coupled_config(), scratch / "run");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run" / "failure_grains.h5"));
+}
+
+TEST(Simulation, RestartOfAnotherCaseIsRefusedBeforeTheFolderIsTouched) {
+  const ScratchFolder scratch("barchan-other-case");
+  Config config = coupled_config();
+  config.time.end = 4 * config.time.fluid_step;
+  const auto restart = run(config, scratch / "run");
+  const std::string table = text_of(scratch / "run" / "history.csv");
+  std::vector<std::pair<const char*, Config>> others(5, {"", config});
+  others[0].first = "fluid.cells", others[0].second.fluid->cells[2] = 8;
+  others[1].first = "time.fluid_step", others[1].second.time.fluid_step *= 2;
+  others[2].first = "grains.density", others[2].second.grains->density = 2600;
+  others[3].first = "domain.size", others[3].second.size[1] *= 1.5;
+  others[4].first = "[grains]", others[4].second.grains.reset();
+  for (const auto& [key, other] : others) {
+    try {
+      run(other, scratch / "run", restart);
+      ADD_FAILURE() << key;
+    } catch (const InputError& problem) {
+      EXPECT_NE(std::string(problem.what()).find(key), std::string::npos) << problem.what();
+    }
+    EXPECT_EQ(text_of(scratch / "run" / "history.csv"), table) << key;
+  }
+  config.grains->material.sliding_friction = 0.4;  // this one may change
+  config.time.end *= 2;
+  EXPECT_NO_THROW(run(config, scratch / "run", restart));
+  EXPECT_NE(text_of(scratch / "run" / "log.txt").find("grains.sliding_friction 0.6 -> 0.4"),
+            std::string::npos);
 }
 
 TEST(Simulation, WritesEveryFileOfARun) {

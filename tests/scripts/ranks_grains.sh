@@ -70,6 +70,14 @@ printf 'id,diameter,x,y,z\n7,2e-4,0.0239,1e-4,0.006\n' > few.csv
 run 4 heap.toml --out few --set 'initial.grains="few.csv"' --set time.end=0.05 --set fluid.mean_velocity=0.3
 grep -q '"grains_left": 1' few/run.json || fail "the last grain has not left"
 
+# A state that goes wrong is told once, and written whole, whichever ranks have seen it.
+status=0
+run 3 heap.toml --out wrong --set grains.youngs_modulus=2e3 --set 'grains.gravity=[0, -300, 0]' > out 2>&1 || status=$?
+[ "$status" -eq 1 ] && [ "$(grep -c "error: grain [0-9]* at .*at most 10 %.*failure_grains.xdmf" out)" -eq 1 ] ||
+  { cat out; fail "grains that overlap too much: exit code $status"; }
+/usr/bin/python3 -c 'import h5py; assert len(h5py.File("wrong/failure_grains.h5")["frame_000000/id"]) == 800' ||
+  fail "the state that went wrong is not there whole"
+
 # Cells that grains reach across.
 status=0
 run 2 heap.toml --out coarse --set 'fluid.cells=[24, 16, 120]' --set coupling.smoothing_length=3e-4 > out 2>&1 || status=$?

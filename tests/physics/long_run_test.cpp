@@ -1,0 +1,138 @@
+// A million grain steps: no pair is missed, nothing leaks, nothing drifts.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "src/health.hpp"
+#include "src/initial_state.hpp"
+#include "tests/support/coupled_case.hpp"
+
+namespace barchan {
+namespace {
+
+/// Memory that this process holds [bytes].
+double resident() {
+  std::ifstream statm("/proc/self/statm");
+  double size = 0, pages = 0;
+  statm >> size >> pages;
+  return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+template <class View>
+auto on_host(const View& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+}
+
+struct Pairs {
+  std::size_t touching = 0, missed = 0;
+};
+
+/// Every pair of grains is looked at; those that touch must be in the list.
+Pairs against_all_pairs(const GrainState& s, const PeriodicBox& box) {
+  const auto kin = on_host(s.kin);
+  const auto i = on_host(s.list.i), j = on_host(s.list.j);
+  std::set<std::pair<int, int>> listed;
+  for (int p = 0; p < s.list.n_pairs; ++p) listed.insert(std::minmax(i(p), j(p)));
+  Pairs pairs;
+  for (int a = 0; a < s.n; ++a) {
+    for (int b = a + 1; b < s.n; ++b) {
+      if (norm(box.nearest_image(kin(a).x - kin(b).x)) >= kin(a).r + kin(b).r) continue;
+      ++pairs.touching;
+      pairs.missed += listed.count({a, b}) == 0;
+    }
+  }
+  return pairs;
+}
+
+/// A heap of 500 grains under a fast flow, around and around in a short channel: 100 grain steps a
+/// fluid step.
+Config moving_heap() {
+  Config c = testing::coupled_config();
+  c.size = {0.012, 0.006, 0.009};
+  c.fluid->cells = {10, 14, 9};
+  c.fluid->mean_velocity = 0.35;
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  c.grains->sizes = {{1.5e-4, 50}, {2e-4, 400}, {2.5e-4, 50}};
+  c.initial.pour->centre = {0.006, 0.0045};
+  c.initial.pour->radius = 0.0027;
+  c.time.grain_step = 2.5e-6;
+  return c;
+}
+
+struct Sums {
+  double ledger_error = 0, given = 0;  // [N s]
+  double way = 0;                      // of a grain along the flow, mean [m]
+  double largest_volume_mismatch = 0;
+};
+
+Real mean_speed(const GrainState& s) {
+  const auto kin = on_host(s.kin);
+  Real sum = 0;
+  for (int g = 0; g < s.n; ++g) sum += kin(g).u.x;
+  return sum / s.n;
+}
+
+void a_long_run(std::int64_t grain_steps) {
+  const Config config = moving_heap();
+  SystemState state = make_initial_state(config, {});
+  CoupledStep step(config, state);
+  step.start(state);
+  const Health health(config, MPI_COMM_SELF);
+  std::mt19937_64 random(7);
+  const std::int64_t steps = grain_steps / step.substeps();
+  Sums sums;
+  Pairs pairs;
+  double early = 0;
+  int looks = 0;
+  for (std::int64_t n = 1; n <= steps; ++n) {
+    step.advance(state);
+    ASSERT_NO_THROW(health.check(state, step)) << "step " << n;
+    const ExchangeLedger& l = step.coupling()->ledger();
+    sums.given += norm(l.given_to_grains);
+    sums.largest_volume_mismatch = std::max(
+        sums.largest_volume_mismatch, std::abs(l.deposited_volume / l.grain_volume - 1));
+    if (n == steps / 10) early = resident();
+    if (random() % 25 != 0) continue;
+    ++looks;
+    sums.way += 25 * config.time.fluid_step * mean_speed(*state.grains);
+    const Pairs now = against_all_pairs(*state.grains, step.grain_solver()->box());
+    pairs.touching += now.touching;
+    pairs.missed += now.missed;
+  }
+  const auto e = step.ledger().entries();
+  for (const char* axis : {"_x", "_y", "_z"}) {
+    sums.ledger_error +=
+        std::abs(e.at(std::string("impulse_taken_from_fluid") + axis) -
+                 e.at(std::string("impulse_given_to_grains") + axis)) +
+        std::abs(e.at(std::string("impulse_carried_to_grains") + axis) -
+                 e.at(std::string("impulse_implicit_on_fluid") + axis));
+  }
+  const double growth = resident() / early - 1;
+  std::printf(
+      "%lld grain steps, %lld list rebuilds; %d looks at all pairs: %zu touching, %zu missed; "
+      "memory %+.3f %% since a tenth of the way; ledger off by %.2g of what was exchanged; volume "
+      "%.2g; a grain went %.3g m\n",
+      static_cast<long long>(grain_steps),
+      static_cast<long long>(step.grain_solver()->rebuilds()), looks, pairs.touching, pairs.missed,
+      100 * growth, sums.ledger_error / sums.given, sums.largest_volume_mismatch, sums.way);
+  EXPECT_EQ(pairs.missed, 0u);
+  EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
+  EXPECT_LT(growth, 0.01);
+  // Each step rounds its sums to some 1e-15 of what it exchanges, and adds them to sums that grow.
+  EXPECT_LT(sums.ledger_error, 1e-13 * sums.given);
+  EXPECT_LT(sums.largest_volume_mismatch, 1e-13);
+  EXPECT_EQ(state.grains->n, 500);
+  EXPECT_GT(sums.way, 0.002 * static_cast<double>(steps) * config.time.fluid_step)
+      << "the heap is meant to move";
+}
+
+TEST(LongRun, AHundredThousandGrainSteps) { a_long_run(100'000); }
+TEST(LongRunNightly, AMillionGrainSteps) { a_long_run(1'000'000); }
+
+}  // namespace
+}  // namespace barchan

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""disk_full.py DISK WORK: runs whose disk, the small file system DISK, fills up: while results are written, while
+a restart file is, and before the first one. Each ends with exit code 1 and one message, keeps the last
+good restart file and no half of another, and goes on from it, once there is room, as if nothing had been."""
+import pathlib
+import re
+import shutil
+import sys
+
+import faults
+
+NO_SPACE = "No space left on device"
+
+
+def free(disk):
+    return shutil.disk_usage(disk).free
+
+
+def fill(disk, leave):
+    """A file that leaves so many bytes."""
+    filler = disk / "filler"
+    with open(filler, "wb") as file:
+        while free(disk) > leave + 65536:
+            file.write(bytes(32768))
+            file.flush()
+    return filler
+
+
+def whole_restarts(folder):
+    """Restart files that the program itself finds whole."""
+    for path in folder.glob("restart_*.h5"):
+        told = faults.subprocess.run([faults.PROGRAM, "info", path], capture_output=True, text=True)
+        if told.returncode != 0:
+            faults.fail(f"{path}: {told.stderr}")
+    return faults.last_restart(folder)
+
+
+def broken(disk, work, name, settings, leave, words):
+    """A run on a disk with so much room left; then, with more room, the same to its end."""
+    folder = disk / name
+    whole = work / f"whole_{name}"
+    faults.expect(faults.run(whole, settings), 0)
+    filler = fill(disk, leave)
+    done = faults.run(folder, settings)
+    faults.expect(done, 1, NO_SPACE, *words)
+    if done.stderr.count("error:") != 1:
+        faults.fail(f"{name}: more than one message:\n{done.stderr}")
+    left = list(folder.glob("*.tmp"))
+    if left:
+        faults.fail(f"{name}: half-written {left}")
+    last = whole_restarts(folder)
+    said = re.search(r"last good restart is (\S+)", done.stderr)
+    if (last is None) != (said is None) or (said and pathlib.Path(said[1]) != last):
+        faults.fail(f"{name}: {last} is there, it said:\n{done.stderr}")
+    filler.unlink()
+    if last:  # the results so far and those to come need more than the small disk: elsewhere
+        shutil.copytree(folder, work / name)
+        folder = work / name
+        faults.expect(faults.run(folder, settings, faults.last_restart(folder)), 0)
+        faults.same_run(whole, folder)
+    shutil.rmtree(disk / name)
+    print(f"{name}: {done.stderr.strip().splitlines()[-1]}")
+    return last
+
+
+def main(disk, work):
+    disk, work = pathlib.Path(disk), pathlib.Path(work)
+    case = {**faults.OFTEN, "time.end": 0.02}
+    # About 500 kB go into restart files, 20 kB into each frame.
+    results = {**case, "output.grains_interval": 2.5e-4, "output.grain_forces": "true", "restart.interval": 2.5e-3}
+    if not broken(disk, work, "while_results_are_written", results, 1_300_000, []):
+        faults.fail("no restart file came before the disk was full")
+    restarts = {**case, "restart.keep": 1000, "output.fields_interval": 0, "output.grains_interval": 0.02,
+                "output.tracks_interval": 0.02, "output.fields_interval": 0.02}
+    if not broken(disk, work, "while_a_restart_is_written", restarts, 1_500_000, ["restart_"]):
+        faults.fail("no restart file came before the disk was full")
+    broken(disk, work, "before_the_first_restart", case, 200_000, [])
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,84 @@
+"""What the scripts that break runs share: the small coupled case, its unbroken run, and what a run that was
+broken and resumed must have in common with it: every bit of the state, every line and every frame."""
+import os
+import pathlib
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+
+CASE = pathlib.Path(__file__).parent / "small_dune.toml"
+PROGRAM = os.environ["BARCHAN_PROGRAM"]
+# A restart file every second step, so that a good part of the time goes into writing them.
+OFTEN = {"time.end": 0.04, "restart.interval": 5e-4, "output.grains_interval": 1e-3,
+         "output.fields_interval": 2.5e-3, "output.history_interval": 7.5e-4, "output.tracks_interval": 1e-3}
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
+
+
+def command(folder, settings, restart=None):
+    words = [PROGRAM, "run", str(CASE), "--quiet", "--out", str(folder)]
+    for key, value in settings.items():
+        words += ["--set", f"{key}={value}"]
+    return words + (["--restart", str(restart)] if restart else [])
+
+
+def run(folder, settings, restart=None, **options):
+    return subprocess.run(command(folder, settings, restart), env=ENVIRONMENT, capture_output=True, text=True,
+                          timeout=300, **options)
+
+
+def start(folder, settings, restart=None, threads=1):
+    environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads)}
+    return subprocess.Popen(command(folder, settings, restart), env=environment, stdout=subprocess.DEVNULL,
+                            stderr=subprocess.PIPE, text=True)
+
+
+def last_restart(folder):
+    return max(pathlib.Path(folder).glob("restart_*.h5"), default=None)
+
+
+def fail(message):
+    sys.exit(f"FAILED: {message}")
+
+
+def expect(done, status, *words):
+    """The program ended with this status and said these words, in one message."""
+    if done.returncode != status or any(word not in done.stderr for word in words):
+        fail(f"exit code {done.returncode}, expected {status} and {words}; it said:\n{done.stderr}")
+
+
+def contents(path):
+    """Name -> bytes of every array of an HDF5 file, and its attributes but those of where it was made."""
+    found = {}
+
+    def take(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = (item.shape, str(item.dtype), item[...].tobytes())
+        for key, value in item.attrs.items():
+            found[f"{name}@{key}"] = np.asarray(value).tobytes()
+    with h5py.File(path) as file:
+        file.visititems(take)
+    return found
+
+
+def same_file(one, other):
+    a, b = contents(one), contents(other)
+    differing = sorted(name for name in a.keys() | b.keys() if a.get(name) != b.get(name))
+    if differing or not a:
+        fail(f"{one} and {other} differ in {differing[:5]} ({len(differing)} of {len(a)})")
+
+
+def same_run(one, other):
+    """The last restart files, all frames and all tables of two finished runs hold the same bits."""
+    one, other = pathlib.Path(one), pathlib.Path(other)
+    if last_restart(one).name != last_restart(other).name:
+        fail(f"{one} and {other} ended at other steps")
+    for name in (last_restart(one).name, "grains.h5", "fields.h5", "tracks.h5"):
+        same_file(one / name, other / name)
+    for name in ("history.csv", "dune.csv"):
+        if (one / name).read_bytes() != (other / name).read_bytes():
+            fail(f"{name} of {one} and {other} differ")
+    left = [path.name for path in other.glob("*.tmp")]
+    if left:
+        fail(f"{other} still has {left}")

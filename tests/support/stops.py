@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""stops.py FOLDER: a run that is asked to stop (SIGTERM, SIGINT, the wall-clock limit) writes a restart file,
+ends with exit code 3 and says how to go on; going on gives the bits of the run that nobody stopped."""
+import json
+import pathlib
+import signal
+import sys
+import time
+
+import faults
+
+LONG = {**faults.OFTEN, "time.end": 0.25, "restart.interval": 0}
+
+
+def wait_for_steps(folder, process):
+    """Until the run is under way."""
+    for _ in range(1000):
+        table = folder / "history.csv"
+        if table.exists() and table.read_text().count("\n") > 4:
+            return
+        if process.poll() is not None:
+            break
+        time.sleep(0.01)
+    process.kill()
+    faults.fail(f"{folder}: the run is not there: {process.stderr.read()}")
+
+
+def check_stopped(folder, status, said):
+    summary = json.loads((folder / "run.json").read_text())
+    last = faults.last_restart(folder)
+    if status != 3 or summary["status"] != "stopped" or not summary["message"] or last is None:
+        faults.fail(f"{folder}: exit code {status}, {summary['status']}, {last}: {said}")
+
+
+def main(work):
+    work = pathlib.Path(work)
+    begin = time.monotonic()
+    faults.expect(faults.run(work / "whole", LONG), 0)
+    duration = time.monotonic() - begin
+    for which in (signal.SIGTERM, signal.SIGINT):
+        folder = work / which.name
+        process = faults.start(folder, LONG)
+        wait_for_steps(folder, process)
+        process.send_signal(which)
+        said = process.communicate(timeout=60)[1]
+        check_stopped(folder, process.returncode, said)
+        faults.expect(faults.run(folder, LONG, faults.last_restart(folder)), 0)
+        faults.same_run(work / "whole", folder)
+    folder = work / "limit"
+    limit = {**LONG, "time.wall_clock_limit": duration / 5}
+    pieces = 0
+    done = faults.run(folder, limit)
+    while done.returncode == 3 and pieces < 50:
+        check_stopped(folder, done.returncode, done.stderr)
+        pieces += 1
+        done = faults.run(folder, limit, faults.last_restart(folder))
+    faults.expect(done, 0)
+    if pieces == 0:
+        faults.fail("the wall-clock limit stopped nothing")
+    # The limit is part of the configuration that files carry: only the numbers are the same.
+    arrays = [faults.contents(faults.last_restart(run)) for run in (work / "whole", folder)]
+    if arrays[0] != arrays[1]:
+        faults.fail("pieces by the wall-clock limit and the whole differ")
+    print(f"SIGTERM, SIGINT and {pieces} stops by the wall-clock limit: exit code 3, same bits in the end")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

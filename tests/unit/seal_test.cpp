@@ -1,0 +1,91 @@
+// One wrong bit of a sealed file is found, wherever it is.
+#include "src/seal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "src/checkpoint.hpp"
+#include "src/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+void write(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(Seal, KnowsTheChecksumOfTheStandard) {
+  const TemporaryFolder folder;
+  write(folder / "f", std::string(seal_bytes, ' ').append("123456789"));  // CRC-32 check value: cbf43926
+  seal(folder / "f");
+  EXPECT_NE(bytes_of(folder / "f").find(": 9 cbf43926\n"), std::string::npos);
+  EXPECT_EQ(check_seal(folder / "f").seal, Seal::whole);
+}
+
+TEST(Seal, AFileWithoutOneIsNotABrokenOne) {
+  const TemporaryFolder folder;
+  for (const std::string& text : {std::string(), std::string("abc"), std::string(2000, 'x')}) {
+    write(folder / "f", text);
+    EXPECT_EQ(check_seal(folder / "f").seal, Seal::absent);
+  }
+}
+
+class SealedRestart : public testing::Test {
+ protected:
+  void SetUp() override {
+    CheckpointWriter writer(folder_.path(), 7, {.config = "[case]\n"});
+    writer.array("a", std::span<const double>(numbers_));
+    file_ = writer.commit(1);
+    bytes_ = bytes_of(file_);
+  }
+  std::string refusal(const std::string& bytes) {
+    write(folder_ / "other.h5", bytes);
+    try {
+      const CheckpointReader reader(folder_ / "other.h5");
+    } catch (const std::exception& problem) {
+      return problem.what();
+    }
+    return "none";
+  }
+  TemporaryFolder folder_;
+  std::vector<double> numbers_ = std::vector<double>(300, 0.5);
+  std::filesystem::path file_;
+  std::string bytes_;
+};
+
+TEST_F(SealedRestart, IsReadWhole) {
+  EXPECT_EQ(refusal(bytes_), "none");
+  EXPECT_EQ(CheckpointReader(file_).array<double>("a"), numbers_);
+}
+
+TEST_F(SealedRestart, EveryFlippedBitIsFound) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 300; ++n) {
+    std::string damaged = bytes_;
+    const std::size_t at = seal_bytes + random() % (damaged.size() - seal_bytes);
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+    EXPECT_NE(refusal(damaged).find("damaged"), std::string::npos) << at;
+  }
+  for (std::size_t at = 0; at < seal_bytes; ++at) {  // the seal itself, and what fills it up
+    std::string damaged = bytes_;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    EXPECT_NE(refusal(damaged), "none") << at;
+  }
+}
+
+TEST_F(SealedRestart, EveryCutIsFound) {
+  for (std::size_t length = 0; length < bytes_.size(); length += 97) {
+    EXPECT_NE(refusal(bytes_.substr(0, length)), "none") << length;
+  }
+  EXPECT_NE(refusal(bytes_ + "more").find("damaged"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace barchan
