@@ -24,6 +24,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # False alarms of g++ 12 inside the headers of fmt and the standard library at -O3.
   target_compile_options(barchan_flags INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  # As g++ has it: "GCC ivdep" is known, -Wconversion does not look at signs, and what libstdc++ calls of
+  # its own is its own affair.
+  target_compile_options(barchan_flags INTERFACE -Wno-unknown-pragmas -Wno-sign-conversion
+    -Wno-deprecated-declarations)
+endif()
 if(BARCHAN_NATIVE)
   target_compile_options(barchan_flags INTERFACE -march=native)
 endif()

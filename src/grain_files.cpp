@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "src/atomic_file.hpp"
 #include "src/checkpoint.hpp"
@@ -176,6 +177,28 @@ std::vector<Vec3> to_vectors(const std::vector<double>& numbers) {
   return vectors;
 }
 
+/// What CsvReader demands of a row, of grains from a file that somebody else may have made.
+void check_grains(const InitialGrains& grains, const std::filesystem::path& file) {
+  const auto finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  std::unordered_set<std::int64_t> ids;
+  ids.reserve(grains.size());
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    std::string problem;
+    if (!(grains.diameter[g] > 0 && std::isfinite(grains.diameter[g]))) {
+      problem = fmt::format("has a diameter of {} m", grains.diameter[g]);
+    } else if (!finite(grains.x[g]) || !finite(grains.u[g]) || !finite(grains.omega[g])) {
+      problem = "has a position or velocity that is not finite";
+    } else if (!ids.insert(grains.id[g]).second) {
+      problem = "is in it twice";
+    } else {
+      continue;
+    }
+    throw std::runtime_error(fmt::format("{}: grain {} {}", file.string(), grains.id[g], problem));
+  }
+}
+
 InitialGrains read_last_frame(const Hdf5File& file) {
   const auto frames = list_frames(file);
   if (frames.empty()) throw std::runtime_error(file.path().string() + " holds no frames of grains");
@@ -221,7 +244,10 @@ InitialGrains read_grains(const std::filesystem::path& file) {
                              ": the name must end with .csv or .h5");
   }
   const Hdf5File opened(file, Hdf5File::Mode::read);
-  return opened.has_attribute("/", "kind") ? read_restart(file) : read_last_frame(opened);
+  InitialGrains grains =
+      opened.has_attribute("/", "kind") ? read_restart(file) : read_last_frame(opened);
+  check_grains(grains, file);
+  return grains;
 }
 
 }  // namespace barchan

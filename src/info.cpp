@@ -36,12 +36,24 @@ std::string describe_array(const Hdf5File& file, const std::string& path,
                      type_name(info.type), units);
 }
 
+// Deeper than any group of ours: links of a foreign file may lead in circles.
+constexpr int deepest_group = 4;
+// More than any of our files holds below "/" or "grid": the text stays readable, and within memory.
+constexpr std::size_t longest_listing = 100000;
+
 /// Arrays below a group, with the groups below it.
-std::string describe_group(const Hdf5File& file, const std::string& group) {
+std::string describe_group(const Hdf5File& file, const std::string& group, int depth = 0) {
   std::string text;
   for (const auto& name : file.children(group)) {
+    if (text.size() > longest_listing) return text + "  ...\n";
     const std::string path = group == "/" ? name : group + "/" + name;
-    text += file.is_group(path) ? describe_group(file, path) : describe_array(file, path, path);
+    if (!file.is_group(path)) {
+      text += describe_array(file, path, path);
+    } else if (depth < deepest_group) {
+      text += describe_group(file, path, depth + 1);
+    } else {
+      text += fmt::format("  {:<24} a group, not looked into\n", path);
+    }
   }
   return text;
 }

@@ -19,7 +19,7 @@ NodeTable convert_table(const toml::table& from, const Location& where) {
     // dotted header has no line of its own.
     Location here = where;
     if (here.line != 0) here.line = static_cast<int>(key.source().begin.line);
-    to.emplace_back(std::string(key.str()), convert(value, here));
+    to.push_back({std::string(key.str()), convert(value, here)});
   }
   return to;
 }
@@ -68,10 +68,10 @@ Node parse_value(std::string_view text, const Location& where) {
 
 Node& find_or_add(NodeTable& table, std::string_view key, const Location& where) {
   const auto at = std::find_if(table.begin(), table.end(),
-                               [&](const auto& entry) { return entry.first == key; });
-  if (at != table.end()) return at->second;
-  table.emplace_back(std::string(key), Node{NodeTable{}, where});
-  return table.back().second;
+                               [&](const Entry& entry) { return entry.key == key; });
+  if (at != table.end()) return at->node;
+  table.push_back({std::string(key), Node{NodeTable{}, where}});
+  return table.back().node;
 }
 
 }  // namespace

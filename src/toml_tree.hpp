@@ -21,8 +21,9 @@ struct Location {
 std::string to_string(const Location& where);
 
 struct Node;
+struct Entry;
 using NodeArray = std::vector<Node>;
-using NodeTable = std::vector<std::pair<std::string, Node>>;
+using NodeTable = std::vector<Entry>;
 struct DateOrTime {  // no key of ours takes one; kept to say so
   std::string text;
 };
@@ -35,6 +36,12 @@ struct Node {
   NodeTable* table() { return std::get_if<NodeTable>(&value); }
   /// The entry `key` of a table, or nullptr.
   const Node* find(std::string_view key) const;
+};
+
+/// Of a table. Not a std::pair: clang could not make one of a Node that holds such pairs.
+struct Entry {
+  std::string key;
+  Node node;
 };
 
 /// Something is wrong with what was typed, at `where`.

@@ -1,0 +1,347 @@
+#include "tests/fuzz/hdf5_edits.hpp"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "src/hdf5_handle.hpp"
+#include "tests/fuzz/hdf5_types.hpp"
+
+namespace barchan::fuzz {
+
+using hdf5::Handle;
+
+namespace {
+
+/// Names that mean something to the readers, and some that do not.
+constexpr std::array<const char*, 40> names{"/",
+                                            "grains",
+                                            "contacts",
+                                            "fluid",
+                                            "scalars",
+                                            "scalars/grains",
+                                            "scalars/fluid",
+                                            "grains/id",
+                                            "grains/kin",
+                                            "grains/x_reference",
+                                            "grains/wall_touching",
+                                            "grains/wall_xi_t",
+                                            "grains/of_rank",
+                                            "contacts/first",
+                                            "contacts/second",
+                                            "contacts/xi_t",
+                                            "dunes",
+                                            "fluid/u_x",
+                                            "fluid/p",
+                                            "grid",
+                                            "frame_000000",
+                                            "frame_000001",
+                                            "frame_000002",
+                                            "frame_999999",
+                                            "frame_000001/id",
+                                            "frame_000001/d",
+                                            "frame_000001/x",
+                                            "frame_000001/u",
+                                            "frame_000001/omega",
+                                            "frame_000000/id",
+                                            "grid/x",
+                                            "grid/y",
+                                            "new",
+                                            "new/new",
+                                            "grains/new",
+                                            "frame_000001/new",
+                                            "frame_1",
+                                            "frame_-1",
+                                            "frame_4294967296",
+                                            "."};
+constexpr std::array<const char*, 14> attribute_names{
+    "kind",     "format",  "step",  "time",  "title",     "config", "version",
+    "git_hash", "backend", "units", "r_max", "n_initial", "t",      "new"};
+
+class Editor {
+ public:
+  Editor(hid_t file, Tape& tape) : file_(file), tape_(tape) {}
+
+  void one_edit() {
+    switch (tape_.pick(14)) {
+      case 0:
+        remove();
+        break;
+      case 1:
+        rename();
+        break;
+      case 2:
+        put_array();
+        break;
+      case 3:
+        put_attribute();
+        break;
+      case 4:
+        change_value();
+        break;
+      case 5:
+        remove_attribute();
+        break;
+      case 6:
+        put_group();
+        break;
+      case 7:
+        put_soft_link();
+        break;
+      case 8:
+        put_external_link();
+        break;
+      case 9:
+        put_hard_link();
+        break;
+      case 10:
+        put_type();
+        break;
+      case 11:
+        resize();
+        break;
+      case 12:
+        nest();
+        break;
+      default:
+        crowd();
+        break;
+    }
+  }
+
+ private:
+  const char* name() { return tape_.one_of(names); }
+
+  void remove() { H5Ldelete(file_, name(), H5P_DEFAULT); }
+
+  void rename() {
+    const char* from = name();
+    const char* to = name();
+    H5Ldelete(file_, to, H5P_DEFAULT);
+    H5Lmove(file_, from, file_, to, links().get(), H5P_DEFAULT);
+  }
+
+  static Handle links() {
+    Handle list(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(list.get(), 1);
+    return list;
+  }
+
+  std::vector<hsize_t> extents() {
+    std::vector<hsize_t> of(tape_.pick(5));
+    for (auto& extent : of) extent = tape_.extent();
+    return of;
+  }
+
+  static Handle space_of(const std::vector<hsize_t>& extents, bool grows) {
+    const std::vector<hsize_t> most(extents.size(), H5S_UNLIMITED);
+    return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(),
+                             grows ? most.data() : nullptr),
+            H5Sclose};
+  }
+
+  /// Fill values only, so that an array of any extents takes little room.
+  void put_array() {
+    const char* at = name();
+    const Handle of_type = any_type(tape_);
+    const auto whole = extents();
+    const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    bool grows = false;
+    switch (tape_.pick(6)) {
+      case 0:
+        H5Pset_layout(list.get(), H5D_COMPACT);
+        break;
+      case 1:
+        H5Pset_layout(list.get(), H5D_CONTIGUOUS);
+        break;
+      case 2:
+        grows = true;
+        [[fallthrough]];
+      case 3: {
+        std::vector<hsize_t> chunk(whole.size());
+        for (auto& extent : chunk) extent = tape_.extent();
+        H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
+        if (tape_.pick(2) == 1) H5Pset_deflate(list.get(), 1);
+        break;
+      }
+      case 4:
+        H5Pset_external(list.get(), "other_file", 0, H5F_UNLIMITED);
+        break;
+      default: {
+        const Handle all = space_of(whole, false);
+        H5Pset_virtual(list.get(), all.get(), tape_.pick(2) == 0 ? "." : "other.h5", name(),
+                       all.get());
+        break;
+      }
+    }
+    const double fill = tape_.number();
+    H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &fill);
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    const bool nothing = whole.empty() && tape_.pick(2) == 1;
+    const Handle space = nothing ? Handle(H5Screate(H5S_NULL), H5Sclose) : space_of(whole, grows);
+    const Handle array(
+        H5Dcreate2(file_, at, of_type.get(), space.get(), links().get(), list.get(), H5P_DEFAULT),
+        H5Dclose);
+    write_first(array.get());
+  }
+
+  /// Writes one element into an array, where the tape says so.
+  void write_first(hid_t array) {
+    if (array < 0 || tape_.pick(2) == 0) return;
+    const Handle space(H5Dget_space(array), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space.get());
+    if (rank > 0) {
+      const std::vector<hsize_t> zero(static_cast<std::size_t>(rank), 0),
+          one(static_cast<std::size_t>(rank), 1);
+      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, zero.data(), nullptr, one.data(), nullptr);
+    }
+    const Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
+    // A chunk as large as the tape could make it would be written whole.
+    const Handle list(H5Dget_create_plist(array), H5Pclose);
+    std::array<hsize_t, 8> chunk{};
+    const int n = H5Pget_chunk(list.get(), 8, chunk.data());
+    double elements = 1;
+    for (int d = 0; d < n; ++d) elements *= static_cast<double>(chunk[static_cast<std::size_t>(d)]);
+    if (elements > 1e5) return;
+    const double value = tape_.number();
+    H5Dwrite(array, H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, &value);
+  }
+
+  void put_attribute() {
+    const char* at = name();
+    const char* called = tape_.one_of(attribute_names);
+    const Handle of_type = any_type(tape_);
+    const auto whole = extents();
+    if (whole.size() > 2) return;
+    const Handle space =
+        tape_.pick(8) == 7 ? Handle(H5Screate(H5S_NULL), H5Sclose) : space_of(whole, false);
+    H5Adelete_by_name(file_, at, called, H5P_DEFAULT);
+    const Handle attribute(H5Acreate_by_name(file_, at, called, of_type.get(), space.get(),
+                                             H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    if (attribute.get() < 0 || tape_.pick(4) == 0) return;
+    const auto n = H5Sget_simple_extent_npoints(space.get());
+    if (n < 1 || n > 1000) return;
+    if (H5Tis_variable_str(of_type.get()) > 0) {
+      const std::array<std::string, 4> words{"restart", "", std::string(3000, 'x'), "\xff\xfe\n"};
+      const std::string word = words[tape_.pick(4)];
+      const std::vector<const char*> all(static_cast<std::size_t>(n), word.c_str());
+      H5Awrite(attribute.get(), of_type.get(), all.data());
+    } else if (H5Tget_class(of_type.get()) == H5T_FLOAT) {
+      const std::vector<double> all(static_cast<std::size_t>(n), tape_.number());
+      H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, all.data());
+    } else if (H5Tget_class(of_type.get()) == H5T_INTEGER) {
+      const std::vector<std::int64_t> all(static_cast<std::size_t>(n), tape_.integer());
+      H5Awrite(attribute.get(), H5T_NATIVE_INT64, all.data());
+    }
+  }
+
+  void remove_attribute() {
+    const char* at = name();
+    H5Adelete_by_name(file_, at, tape_.one_of(attribute_names), H5P_DEFAULT);
+  }
+
+  void change_value() {
+    const char* at = name();
+    const auto where = static_cast<hsize_t>(tape_.byte());
+    const double real = tape_.number();
+    const std::int64_t whole = tape_.integer();
+    const Handle array(H5Dopen2(file_, at, H5P_DEFAULT), H5Dclose);
+    if (array.get() < 0) return;
+    const Handle space(H5Dget_space(array.get()), H5Sclose),
+        of_type(H5Dget_type(array.get()), H5Tclose);
+    std::array<hsize_t, H5S_MAX_RANK> extent{}, start{};
+    const int rank = H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+    if (rank < 1 || H5Sget_simple_extent_npoints(space.get()) > 1000) return;
+    auto rest = where;
+    for (auto d = static_cast<std::size_t>(rank); d-- > 0;) {
+      if (extent[d] == 0) return;
+      start[d] = rest % extent[d];
+      rest /= extent[d];
+    }
+    H5Sselect_elements(space.get(), H5S_SELECT_SET, 1, start.data());
+    const Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
+    const bool integers = H5Tget_class(of_type.get()) == H5T_INTEGER;
+    const void* value = integers ? static_cast<const void*>(&whole) : &real;
+    H5Dwrite(array.get(), integers ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, memory.get(),
+             space.get(), H5P_DEFAULT, value);
+  }
+
+  void put_group() {
+    const char* at = name();
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    const Handle group(H5Gcreate2(file_, at, links().get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  }
+
+  void put_soft_link() {
+    const char* at = name();
+    const char* to = name();
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    H5Lcreate_soft(to, file_, at, links().get(), H5P_DEFAULT);
+  }
+
+  void put_external_link() {
+    const char* at = name();
+    const char* to = name();
+    const std::array<const char*, 4> files{"input.h5", "missing.h5", "/dev/null", "."};
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    H5Lcreate_external(tape_.one_of(files), to, file_, at, links().get(), H5P_DEFAULT);
+  }
+
+  void put_hard_link() {
+    const char* at = name();
+    const char* to = name();
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    H5Lcreate_hard(file_, to, file_, at, links().get(), H5P_DEFAULT);
+  }
+
+  void put_type() {
+    const char* at = name();
+    const Handle of_type = any_type(tape_);
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    H5Tcommit2(file_, at, of_type.get(), links().get(), H5P_DEFAULT, H5P_DEFAULT);
+  }
+
+  void resize() {
+    const Handle array(H5Dopen2(file_, name(), H5P_DEFAULT), H5Dclose);
+    if (array.get() < 0) return;
+    std::array<hsize_t, H5S_MAX_RANK> extent{};
+    for (std::size_t d = 0; d < 4; ++d) extent[d] = tape_.extent();
+    H5Dset_extent(array.get(), extent.data());
+  }
+
+  /// Groups inside each other.
+  void nest() {
+    std::string path = name();
+    for (std::size_t n = std::size_t{1} << tape_.pick(10); n > 0; --n) path += "/a";
+    const Handle group(H5Gcreate2(file_, path.c_str(), links().get(), H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose);
+  }
+
+  /// Many groups beside each other.
+  void crowd() {
+    const std::string at = name();
+    for (std::size_t n = std::size_t{1} << tape_.pick(8); n > 0; --n) {
+      const Handle group(H5Gcreate2(file_, (at + "/frame_" + std::to_string(n)).c_str(),
+                                    links().get(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose);
+    }
+  }
+
+  hid_t file_;
+  Tape& tape_;
+};
+
+}  // namespace
+
+void edit(const std::filesystem::path& file, Tape tape) {
+  hdf5::start_library();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  const Handle open(H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
+  demand(open.get() >= 0, "the valid file opens");
+  Editor editor(open.get(), tape);
+  for (int n = 0; n < 40 && !tape.empty(); ++n) editor.one_edit();
+}
+
+}  // namespace barchan::fuzz

@@ -1,0 +1,128 @@
+#include "tests/fuzz/hdf5_readers.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "src/checkpoint.hpp"
+#include "src/frame_file.hpp"
+#include "src/grain_files.hpp"
+#include "src/hdf5_handle.hpp"
+#include "src/info.hpp"
+#include "tests/fuzz/sound_grains.hpp"
+
+namespace barchan::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The folder of this process's inputs; it goes at the end, also after a finding.
+struct InputFolder {
+  fs::path path;
+  InputFolder() {
+    const fs::path in_memory = "/dev/shm";
+    const fs::path base = fs::is_directory(in_memory) ? in_memory : fs::temp_directory_path();
+    path = base / ("barchan_fuzz_" + std::to_string(::getpid()));
+    fs::create_directory(path);
+  }
+  ~InputFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+herr_t mark_complaint(unsigned, const H5E_error2_t* entry, void*) {
+  mark(hash_of(entry->func_name) + 31 * entry->line);
+  return 0;
+}
+herr_t mark_complaints(hid_t stack, void*) {
+  H5Ewalk2(stack, H5E_WALK_DOWNWARD, mark_complaint, nullptr);
+  return 0;
+}
+
+/// Every array below a group, as the type it says it has; `depth` against links in circles.
+void read_arrays(const Hdf5File& file, const std::string& group, int depth) {
+  for (const auto& name : file.children(group)) {
+    const std::string path = group == "/" ? name : group + "/" + name;
+    accepts([&] {
+      if (!file.is_group(path)) {
+        accepts([&] { file.read<double>(path); });
+        accepts([&] { file.read<float>(path); });
+        accepts([&] { file.read<std::int64_t>(path); });
+        const Extents whole = file.info(path).extents;
+        accepts([&] { file.read_block<double>(path, whole, Extents(whole.size(), 0), whole); });
+      } else if (depth > 0) {
+        read_arrays(file, path, depth - 1);
+      }
+    });
+  }
+}
+
+void read_results(const fs::path& path) {
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  accepts([&] { list_frames(file); });
+  accepts([&] { read_provenance(file); });
+  read_arrays(file, "/", 2);
+}
+
+template <class T>
+void read_state_array(const CheckpointReader& file, const StateArray& array) {
+  Extents whole;
+  accepts([&] { whole = file.extents(array.name); });
+  accepts([&] { file.array<T>(array.name); });
+  Extents wanted = whole;
+  if (array.components > 0)
+    wanted = {whole.empty() ? 0 : whole.front(), std::uint64_t(array.components)};
+  accepts([&] { file.array<T>(array.name, wanted); });
+  accepts([&] { file.part<T>(array.name, wanted, Extents(wanted.size(), 0), wanted); });
+}
+
+void read_restart(const fs::path& path) {
+  const CheckpointReader file(path);
+  accepts([&] { file.step(); });
+  accepts([&] { file.provenance(); });
+  for (const auto* name : state_numbers) accepts([&] { file.real(name); });
+  for (const auto* name : state_integers) accepts([&] { file.integer(name); });
+  accepts([&] { file.text("title"); });
+  for (const auto& array : state_arrays) {
+    accepts([&] { file.has(array.name); });
+    if (array.integers) {
+      read_state_array<std::int64_t>(file, array);
+    } else {
+      read_state_array<double>(file, array);
+    }
+  }
+}
+
+}  // namespace
+
+fs::path input_file(const char* name) {
+  static const InputFolder folder;
+  return folder.path / name;
+}
+
+void write_input(const fs::path& file, const void* data, std::size_t size) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+  stream.close();
+  demand(stream.good(), "the input is on the disk");
+}
+
+void watch_library() {
+  static const bool watched = [] {
+    hdf5::start_library();
+    H5Eset_auto2(H5E_DEFAULT, mark_complaints, nullptr);
+    return true;
+  }();
+  static_cast<void>(watched);
+}
+
+void read_as_everything(const fs::path& file) {
+  accepts([&] { demand_sound(read_grains(file)); });
+  accepts([&] { describe_file(file); });
+  accepts([&] { read_results(file); });
+  accepts([&] { read_restart(file); });
+}
+
+}  // namespace barchan::fuzz

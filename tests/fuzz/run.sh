@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Builds and runs one fuzzer from the inputs kept in the repository:
+#   tests/fuzz/run.sh [TARGET] [SECONDS] [LIBFUZZER OPTIONS]   e.g. tests/fuzz/run.sh config 1800
+# What it finds goes to build/fuzz/found/TARGET: crash-*, oom-*, timeout-* are bugs, corpus/ is what reached
+# new places. Needs clang with its run-time library (Debian: clang libclang-rt-dev; Kokkos asks for libomp-dev).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+here=tests/fuzz
+targets="$(cd "$here" && ls -- *_fuzzer.cpp | sed 's/_fuzzer.cpp//')"
+target="${1:-config}"
+seconds="${2:-60}"
+shift $(($# < 2 ? $# : 2))
+if [ ! -e "$here/${target}_fuzzer.cpp" ]; then
+  echo "no target '$target'; there are:" $targets >&2
+  exit 2
+fi
+
+if [ ! -e build/fuzz/build.ninja ]; then
+  cmake --preset fuzz -DCMAKE_C_COMPILER="${CC:-clang}" -DCMAKE_CXX_COMPILER="${CXX:-clang++}"
+fi
+cmake --build build/fuzz --target "${target}_fuzzer"
+
+found="build/fuzz/found/$target"
+mkdir -p "$found/corpus"
+options=(-max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=64 -print_final_stats=1
+  -artifact_prefix="$found/")
+if [ -e "$here/$target.dict" ]; then options+=(-dict="$here/$target.dict"); fi
+case $target in
+  hdf5*)
+    # The library is not ours and leaks and crashes on some damaged files: one process after another.
+    export ASAN_OPTIONS="detect_leaks=0:${ASAN_OPTIONS:-}"
+    options+=(-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1 -max_len=16384)
+    ;;
+  *) options+=(-max_len=8192) ;;
+esac
+exec "build/fuzz/$here/${target}_fuzzer" "${options[@]}" "$@" "$found/corpus" "$here/corpus/$target"
