@@ -15,6 +15,7 @@
 #include "src/checkpoint.hpp"
 #include "src/frame_file.hpp"
 #include "src/grain_state.hpp"
+#include "src/seal.hpp"
 
 namespace barchan {
 
@@ -231,6 +232,12 @@ InitialGrains read_restart(const std::filesystem::path& path) {
   return grains;
 }
 
+InitialGrains read_hdf5(const std::filesystem::path& path) {
+  if (has_seal(path)) return read_restart(path);  // the seal is checked before anything is opened
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  return file.has_attribute("/", "kind") ? read_restart(path) : read_last_frame(file);
+}
+
 }  // namespace
 
 InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name) {
@@ -243,9 +250,7 @@ InitialGrains read_grains(const std::filesystem::path& file) {
     throw std::runtime_error("cannot read grains from " + file.string() +
                              ": the name must end with .csv or .h5");
   }
-  const Hdf5File opened(file, Hdf5File::Mode::read);
-  InitialGrains grains =
-      opened.has_attribute("/", "kind") ? read_restart(file) : read_last_frame(opened);
+  InitialGrains grains = read_hdf5(file);
   check_grains(grains, file);
   return grains;
 }

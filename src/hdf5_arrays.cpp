@@ -1,4 +1,5 @@
 // Arrays of an Hdf5File.
+#include <algorithm>
 #include <type_traits>
 
 #include "src/hdf5_file.hpp"
@@ -105,14 +106,14 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
 
   ArrayInfo result{element_type(type.get()), Extents(dims.begin(), dims.end())};
   if (mode_ != Mode::read) return result;  // our own words, perhaps not on the disk yet
-  // A damaged file must not make us ask for absurd amounts of memory. Compression (files that
-  // others made) gets a factor of 1000.
+  // A damaged file must not make us ask for absurd amounts of memory: of what an array claims to
+  // hold, this much must be there. Deflate (in files that others made) packs up to 1032 times.
   const Handle creation(check(H5Dget_create_plist(array.get()), name), H5Pclose);
-  const std::uint64_t packed = H5Pget_layout(creation.get()) == H5D_CONTIGUOUS ? 1 : 1000;
-  const auto file_size = std::filesystem::file_size(path_);
+  const std::uint64_t packed = H5Pget_nfilters(creation.get()) > 0 ? 1100 : 1;
+  const std::uint64_t stored =
+      std::min<std::uint64_t>(H5Dget_storage_size(array.get()), std::filesystem::file_size(path_));
   std::uint64_t count = 0;
-  if (!count_elements(result.extents, count) ||
-      count / packed > file_size / H5Tget_size(type.get())) {
+  if (!count_elements(result.extents, count) || count / packed > stored / H5Tget_size(type.get())) {
     fail("it claims " + to_string(result.extents) + " elements, more than the file can hold", name);
   }
   return result;
@@ -154,9 +155,9 @@ std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whol
       H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr),
       name);
   const Handle memory = dataspace(size);
-  check(H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT,
-                values.data()),
-        name);
+  check(
+      H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
+      name);
   return values;
 }
 
@@ -169,13 +170,13 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) 
   return read<T>(name);
 }
 
-#define BARCHAN_HDF5_ARRAYS(T)                                                          \
-  template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&, \
-                                std::string_view, const Share&);                        \
-  template std::vector<T> Hdf5File::read(const std::string&) const;                     \
-  template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;       \
-  template std::vector<T> Hdf5File::read_block(const std::string&, const Extents&,        \
-                                               const Extents&, const Extents&) const;
+#define BARCHAN_HDF5_ARRAYS(T)                                                                     \
+  template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&,            \
+                                std::string_view, const Share&);                                   \
+  template std::vector<T> Hdf5File::read(const std::string&) const;                                \
+  template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;                \
+  template std::vector<T> Hdf5File::read_block(const std::string&, const Extents&, const Extents&, \
+                                               const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
 BARCHAN_HDF5_ARRAYS(double)
 BARCHAN_HDF5_ARRAYS(std::int64_t)

@@ -4,10 +4,12 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 
 #include "src/checkpoint.hpp"
 #include "src/frame_file.hpp"
+#include "src/seal.hpp"
 
 namespace barchan {
 
@@ -81,6 +83,8 @@ std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& 
 }  // namespace
 
 std::string describe_file(const std::filesystem::path& path) {
+  std::optional<CheckpointReader> restart;
+  if (has_seal(path)) restart.emplace(path);  // the seal is checked before anything else is opened
   const Hdf5File file(path, Hdf5File::Mode::read);
   if (!file.has_attribute("/", "git_hash") || !file.has_attribute("/", "config")) {
     throw std::runtime_error(path.string() + " is an HDF5 file, but not one that barchan wrote");
@@ -88,10 +92,10 @@ std::string describe_file(const std::filesystem::path& path) {
   std::string text = fmt::format("{}\n", path.string());
   const Provenance origin = read_provenance(file);
   if (file.has_attribute("/", "kind")) {
-    const CheckpointReader restart(path);
-    text += fmt::format("kind     restart file of step {}\n", restart.step());
+    if (!restart) restart.emplace(path);
+    text += fmt::format("kind     restart file of step {}\n", restart->step());
     text += describe_origin(origin);
-    if (restart.has("t")) text += fmt::format("time     {:.10g} s\n", restart.real("t"));
+    if (restart->has("t")) text += fmt::format("time     {:.10g} s\n", restart->real("t"));
     text += "arrays:\n" + describe_group(file, "/");
   } else {
     text += fmt::format("kind     results ({})\n", file.exists("grid") ? "flow" : "grains");

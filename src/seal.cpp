@@ -73,6 +73,13 @@ void seal(const std::filesystem::path& file) {
   if (!out) fail("write", file);
 }
 
+bool has_seal(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text(mark.size(), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text == mark;
+}
+
 SealCheck check_seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("read", file);

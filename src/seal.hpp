@@ -12,6 +12,10 @@ namespace barchan {
 /// a line of text with the length and the CRC-32 (IEEE 802.3) of all that follows them.
 inline constexpr std::size_t seal_bytes = 512;
 
+/// True if the file begins as a sealed one, whole or not: only a look at its start. False if it
+/// cannot be read.
+bool has_seal(const std::filesystem::path& file);
+
 enum class Seal { whole, absent, broken };
 
 /// Writes the seal of a file that is complete but for it. Throws std::runtime_error naming the

@@ -6,6 +6,7 @@
 
 #include "src/config_load.hpp"
 #include "src/config_resolved.hpp"
+#include "src/config_restart.hpp"
 #include "src/config_validate.hpp"
 #include "src/derived.hpp"
 #include "tests/fuzz/fuzzed.hpp"
@@ -79,5 +80,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Input input = split(fuzz::as_text({data, size}));
   fuzz::accepts<ConfigError>(
       [&] { use(load_config_text(input.text, folder() / "case.toml", input.overrides)); });
+  // As the text that a restart file carries, which may be anything.
+  fuzz::accepts([&] {
+    const Config written = config_as_written(input.text, folder() / "restart.h5");
+    restart_conflicts(Config{}, written);
+    changed_keys(Config{}, written);
+  });
   return 0;
 }

@@ -174,6 +174,7 @@ class Editor {
         break;
       }
     }
+    H5Pset_alloc_time(list.get(), H5D_ALLOC_TIME_LATE);
     const double fill = tape_.number();
     H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &fill);
     H5Ldelete(file_, at, H5P_DEFAULT);
@@ -196,13 +197,14 @@ class Editor {
       H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, zero.data(), nullptr, one.data(), nullptr);
     }
     const Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
-    // A chunk as large as the tape could make it would be written whole.
-    const Handle list(H5Dget_create_plist(array), H5Pclose);
-    std::array<hsize_t, 8> chunk{};
-    const int n = H5Pget_chunk(list.get(), 8, chunk.data());
-    double elements = 1;
-    for (int d = 0; d < n; ++d) elements *= static_cast<double>(chunk[static_cast<std::size_t>(d)]);
-    if (elements > 1e5) return;
+    // Not what the tape could make so large that the file is as large.
+    const Handle list(H5Dget_create_plist(array), H5Pclose), of_type(H5Dget_type(array), H5Tclose);
+    std::array<hsize_t, H5S_MAX_RANK> piece{};
+    int n = H5Pget_chunk(list.get(), H5S_MAX_RANK, piece.data());
+    if (n < 0) n = H5Sget_simple_extent_dims(space.get(), piece.data(), nullptr);
+    auto bytes = static_cast<double>(H5Tget_size(of_type.get()));
+    for (int d = 0; d < n; ++d) bytes *= static_cast<double>(piece[static_cast<std::size_t>(d)]);
+    if (bytes > 1e6) return;
     const double value = tape_.number();
     H5Dwrite(array, H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, &value);
   }
