@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
 # of a rank, one that hangs, one that fails alone, and what is refused.
+# shellcheck disable=SC2086  # $ranks: one word a rank
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../support/over_ranks.sh"
 ranks=""

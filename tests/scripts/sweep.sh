@@ -130,9 +130,9 @@ grep -q '^broken,.*failed' runs/mixed/study.csv || fail "table: $(cat runs/mixed
 grep -q '^good,.*done' runs/mixed/study.csv || fail "the good case was not run: $(cat mixed)"
 
 # --- the studies that ship name cases that load
-for study in $(grep -l '^\[study\]' -r "$root/configs"); do
+while IFS= read -r -d '' study; do
   sweep "$study" --list > list 2>&1 || fail "$study: $(cat list)"
-done
+done < <(grep -lZ '^\[study\]' -r "$root/configs")
 
 [ "$failures" -eq 0 ] || exit 1
 echo "sweep: fine"

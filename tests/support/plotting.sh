@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by script tests that draw: $root, $python with the plotting modules (else skipped), a folder
 # $dir that goes away with the test, a count of failures.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
