@@ -8,6 +8,9 @@ target_include_directories(barchan_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 # inlined, and N steps in one call would no longer equal N calls of one step bit for bit.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -fno-math-errno -fno-trapping-math -ffp-contract=off")
 set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+# Which lines the tests reach (tests/hygiene/coverage.sh).
+set(CMAKE_CXX_FLAGS_COVERAGE "-O1 -ffp-contract=off --coverage -fprofile-abs-path")
+set(CMAKE_EXE_LINKER_FLAGS_COVERAGE "--coverage")
 
 target_compile_options(barchan_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wconversion)
