@@ -213,7 +213,7 @@ struct Loaded {
 };
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
-            std::vector<fs::path> chain);
+            const std::vector<fs::path>& chain);
 
 std::optional<std::string> read_text(const fs::path& file, std::vector<Problem>& problems) {
   std::ifstream stream(file, std::ios::binary);
@@ -259,7 +259,7 @@ void sort_by_line(std::vector<Problem>& problems) {
 }
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
-            std::vector<fs::path> chain) {
+            const std::vector<fs::path>& chain) {
   Reading reading(file.string());
   Node tree = parse_toml(text, reading.file(), reading.problems());
   const bool parsed = reading.problems().empty();

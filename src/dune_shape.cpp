@@ -52,7 +52,7 @@ class DuneMeasurement {
     find_crests();
     collect_outlines();
     std::vector<DuneRow> rows;
-    for (Region& region : regions_) {
+    for (const Region& region : regions_) {
       if (is_dune(region)) rows.push_back(finish(region));
     }
     return rows;

@@ -122,7 +122,7 @@ void write_axis(Hdf5File& file, const std::string& name, const std::vector<doubl
 
 }  // namespace
 
-OutputFiles::OutputFiles(const std::filesystem::path& folder, Provenance provenance,
+OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
                          std::optional<double> restart_time, MPI_Comm communicator)
     : folder_(folder),
       provenance_(provenance),

@@ -37,7 +37,7 @@ class OutputFiles {
  public:
   /// `restart_time` empty: a new run, files of an earlier one are replaced at the first frame.
   /// Otherwise frames later than it are dropped and numbering goes on.
-  OutputFiles(const std::filesystem::path& folder, Provenance provenance,
+  OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
               std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF);
 
   /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
