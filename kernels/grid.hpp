@@ -74,6 +74,7 @@ struct Grid : BasicGrid<Kokkos::View<Real*>> {
 
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
+  // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
     return {nx, ny,      nz,      dx,     dz,     x0,            z0,             lx,
             ly, lz, i_begin, k_begin, lx_all, lz_all, y_face_.data(), y_centre_.data()};
@@ -112,6 +113,7 @@ struct Field {
     return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
                       static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
+  // NOLINTNEXTLINE(google-explicit-constructor): a Field is one
   KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() const { return {origin, stride_y, stride_z}; }
 };
 
@@ -123,6 +125,7 @@ struct FaceRef {
 /// A vector on the faces: x component on x-faces, y on y-faces, z on z-faces.
 struct FaceVector {
   Field x, y, z;
+  // NOLINTNEXTLINE(google-explicit-constructor): they are
   KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() const { return {x, y, z}; }
 };
 

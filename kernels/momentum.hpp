@@ -122,6 +122,7 @@ struct ExchangeOnFaces {
   FaceVector impulse;   // momentum per volume given to the fluid at its old velocity [N s/m^3]
   FaceVector implicit;  // dt K, with the added mass where it is on: how much of it follows the
                         // change of the fluid velocity within the step [kg/m^3]
+  // NOLINTNEXTLINE(google-explicit-constructor): they are
   operator ExchangeRef() const { return {impulse, implicit}; }
 };
 

@@ -82,7 +82,7 @@ void run_case(benchmark::State& run, const CaseSpec& spec) {
     Kokkos::fence("end of a timed step");
     iterations += c.step->fluid_report().pressure_iterations;
   }
-  const EventCounts counted = events.counts();
+  const EventCounts& counted = events.counts();
   double rebuilds = 0;
   if (grains != nullptr) {
     rebuilds = static_cast<double>(grains->rebuilds() - rebuilds_before);

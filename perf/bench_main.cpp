@@ -1,8 +1,8 @@
 // Entry of the performance suite: MPI and Kokkos live for the whole run.
+#include <fmt/core.h>
 #include <mpi.h>
 
 #include <Kokkos_Core.hpp>
-#include <cstdio>
 #include <exception>
 #include <string_view>
 
@@ -52,7 +52,7 @@ int run_suite_or_say_why(int argc, char** argv) {
   try {
     return run_suite(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "barchan_bench: %s\n", error.what());
+    fmt::print(stderr, "barchan_bench: {}\n", error.what());
     return 1;
   }
 }
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   int status = 0;
   {
-    Kokkos::ScopeGuard kokkos(argc, argv);
+    const Kokkos::ScopeGuard kokkos(argc, argv);
     barchan::watch_arrays();
     status = barchan::run_suite_or_say_why(argc, argv);
     barchan::drop_running_case();

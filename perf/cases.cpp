@@ -92,8 +92,6 @@ void flow_around_held_grains(Config config, SystemState& state) {
   for (int n = 0; n < n_steps; ++n) step.advance(state);
 }
 
-}  // namespace
-
 /// Copies of the grains, one box of length `lx` after the other.
 void repeat_along_x(InitialGrains& grains, int copies, double lx) {
   const std::size_t n = grains.size();
@@ -107,6 +105,8 @@ void repeat_along_x(InitialGrains& grains, int copies, double lx) {
     }
   }
 }
+
+}  // namespace
 
 RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
   Config& config = spec.config;

@@ -45,7 +45,7 @@ inline Work pair_forces(double pairs, double contacts, bool rolling) {
 /// history there and back. History of walls left out; flops do not matter.
 inline Work list_build(double pairs, double contacts) {
   const double grain = 4.0 * sizeof(GrainKinematics) + 22.0 * sizeof(Vec3) + 6.0 * sizeof(Real) +
-                       2 * (8 + 4) + 2 * (4 + 8) * sizeof(int);
+                       2 * (8 + 4) + 2.0 * (4 + 8) * sizeof(int);
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }

@@ -1,13 +1,15 @@
 #include "perf/heaps.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <map>
-#include <stdexcept>
 
 #include "perf/cases.hpp"
 #include "perf/options.hpp"
+#include "src/atomic_file.hpp"
 #include "src/grain_files.hpp"
 #include "src/initial_state.hpp"
 
@@ -53,7 +55,7 @@ InitialGrains settle(const std::string& name) {
   config.size = {0.4, 0.025, 0.1};
   pour(config, grain_count(name));
   const int n_steps = options().tiny ? 40 : 200;  // of 2.5e-4 s
-  if (!options().tiny) std::fprintf(stderr, "settling %s, once\n", name.c_str());
+  if (!options().tiny) fmt::print(stderr, "settling {}, once\n", name);
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);
   step.start(state);
@@ -63,17 +65,13 @@ InitialGrains settle(const std::string& name) {
 
 void write_csv(const InitialGrains& grains, const std::filesystem::path& file) {
   std::filesystem::create_directories(file.parent_path());
-  const std::filesystem::path beside = file.string() + ".part";
-  std::FILE* out = std::fopen(beside.c_str(), "w");
-  if (out == nullptr) throw std::runtime_error("cannot write " + beside.string());
-  std::fprintf(out, "id,diameter,x,y,z\n");
+  std::string text = "id,diameter,x,y,z\n";
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3& x = grains.x[g];
-    std::fprintf(out, "%lld,%.6g,%.10g,%.10g,%.10g\n", static_cast<long long>(grains.id[g]),
-                 grains.diameter[g], x.x, x.y, x.z);
+    fmt::format_to(std::back_inserter(text), "{},{:.6g},{:.10g},{:.10g},{:.10g}\n", grains.id[g],
+                   grains.diameter[g], x.x, x.y, x.z);
   }
-  std::fclose(out);
-  std::filesystem::rename(beside, file);
+  write_atomically(file, text);
 }
 
 /// Rows of grains with a gap of a diameter between them, off the floor.
@@ -84,8 +82,8 @@ InitialGrains spread_out(int n) {
   for (int g = 0; g < n; ++g) {
     grains.id.push_back(g + 1);
     grains.diameter.push_back(d);
-    grains.x.push_back({0.01 + pitch * (g % side), pitch * (1 + g / side / side),
-                        0.005 + pitch * (g / side % side)});
+    const int row = g / side % side, layer = g / side / side;
+    grains.x.push_back({0.01 + pitch * (g % side), pitch * (1 + layer), 0.005 + pitch * row});
     grains.u.push_back({});
     grains.omega.push_back({});
   }

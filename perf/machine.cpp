@@ -1,4 +1,6 @@
 // Where and with what a record was made.
+#include <fmt/chrono.h>
+
 #include <Kokkos_Core.hpp>
 #include <ctime>
 #include <fstream>
@@ -31,10 +33,7 @@ std::string device_of_backend() {
 }
 
 std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 std::string compiler() {

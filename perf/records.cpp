@@ -1,5 +1,6 @@
 #include "perf/records.hpp"
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -93,7 +94,7 @@ void print_line(const json& record) {
     std::printf("  %s %.4g", name.c_str(), value.get<double>());
   }
   std::printf("\n");
-  std::fflush(stdout);
+  static_cast<void>(std::fflush(stdout));  // for whoever watches; the records are in a file
 }
 
 }  // namespace
@@ -111,14 +112,13 @@ bool RecordReporter::ReportContext(const Context&) {
               machine_["build"].get<std::string>().c_str(),
               machine_["git_hash"].get<std::string>().c_str(), measured_bandwidth() / 1e9);
   std::printf("time of a step: median (min .. max) of the repeats\n");
-  std::fflush(stdout);
+  static_cast<void>(std::fflush(stdout));  // for whoever watches; the records are in a file
   return true;
 }
 
 void RecordReporter::ReportRuns(const std::vector<Run>& runs) {
   if (!facts().problem.empty()) {
-    std::fprintf(stderr, "%s: %s\n", runs.front().run_name.function_name.c_str(),
-                 facts().problem.c_str());
+    fmt::print(stderr, "{}: {}\n", runs.front().run_name.function_name, facts().problem);
     facts().problem.clear();
     failed_ = true;
     return;
@@ -145,7 +145,12 @@ void RecordReporter::ReportRuns(const std::vector<Run>& runs) {
   add_counts(record, good);
   print_line(record);
   if (options().records.empty()) return;
-  std::ofstream(options().records, std::ios::app) << record.dump() << '\n';
+  std::ofstream file(options().records, std::ios::app);
+  file << record.dump() << '\n' << std::flush;
+  if (!file) {
+    fmt::print(stderr, "cannot add to {}\n", options().records.string());
+    failed_ = true;
+  }
 }
 
 }  // namespace barchan

@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 namespace barchan {
 
@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void fail(const char* verb, const std::filesystem::path& path, int error) {
   throw std::runtime_error(std::string("cannot ") + verb + " " + path.string() + ": " +
-                           std::strerror(error));
+                           std::generic_category().message(error));
 }
 
 class Descriptor {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
 
 #include "src/atomic_file.hpp"
 #include "src/communicator.hpp"
@@ -14,8 +15,8 @@ namespace barchan {
 
 namespace {
 
-const std::string prefix = "restart_";
-const std::string ending = ".h5";
+constexpr std::string_view prefix = "restart_";
+constexpr std::string_view ending = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
 // 5: contacts by the ids of their grains; 6: sealed.
 constexpr std::int64_t format_version = 6, first_sealed_format = 6, oldest_format = 5;

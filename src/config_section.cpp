@@ -72,7 +72,7 @@ void Reading::contradict(const std::string& dotted_key, const std::string& messa
   const auto at = written_.find(dotted_key);
   const Node* node = at == written_.end() ? nullptr : at->second;
   const std::size_t dot = dotted_key.rfind('.');
-  if (dot == dotted_key.npos) {  // a section as a whole
+  if (dot == std::string::npos) {  // a section as a whole
     problems_.push_back({node != nullptr ? node->where : Location{file_, 0},
                          fmt::format("[{}]: {}", dotted_key, message)});
     return;
@@ -89,9 +89,9 @@ void Reading::contradict(const std::string& dotted_key, const std::string& messa
 }
 
 bool Reading::is_bad(const std::string& dotted_key) const {
-  for (std::size_t end = dotted_key.size(); end != dotted_key.npos;
-       end = end == 0 ? dotted_key.npos : dotted_key.rfind('.', end - 1)) {
-    if (bad_.count(dotted_key.substr(0, end)) != 0) return true;
+  for (std::size_t end = dotted_key.size(); end != std::string::npos;
+       end = end == 0 ? std::string::npos : dotted_key.rfind('.', end - 1)) {
+    if (bad_.contains(dotted_key.substr(0, end))) return true;
   }
   return false;
 }
@@ -139,8 +139,8 @@ Section::Section(Reading& reading, const Node* node, std::string name)
     : reading_(reading), node_(node), name_(std::move(name)) {
   if (node_ != nullptr && node_->table() == nullptr) {
     const std::size_t dot = name_.rfind('.');
-    const std::string key = dot == name_.npos ? name_ : name_.substr(dot + 1);
-    reading_.complain(node_->where, dot == name_.npos ? "" : name_.substr(0, dot), key, node_,
+    const std::string key = dot == std::string::npos ? name_ : name_.substr(dot + 1);
+    reading_.complain(node_->where, dot == std::string::npos ? "" : name_.substr(0, dot), key, node_,
                       fmt::format("must be a section, [{}]", name_));
     node_ = nullptr;
   }
@@ -149,7 +149,7 @@ Section::Section(Reading& reading, const Node* node, std::string name)
 Section::~Section() {
   if (node_ == nullptr) return;
   for (const auto& [key, node] : *node_->table()) {
-    if (asked_.count(key) == 0) reading_.unknown(name_, key, node);
+    if (!asked_.contains(key)) reading_.unknown(name_, key, node);
   }
 }
 
@@ -212,7 +212,7 @@ Mismatch convert(const Node& node, std::string& value) {
 }
 
 Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
-  const std::string expected = "an array of [diameter in m above 0, count above 0]";
+  std::string expected = "an array of [diameter in m above 0, count above 0]";
   const auto* classes = std::get_if<NodeArray>(&node.value);
   if (classes == nullptr) return expected;
   std::vector<SizeClass> read;
@@ -247,7 +247,7 @@ Mismatch convert(const Node& node, ForceSwitches& value) {
 }
 
 Mismatch convert_name(const Node& node, std::span<const std::string_view> names, std::size_t& at) {
-  const std::string allowed = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
+  std::string allowed = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
   const auto* text = std::get_if<std::string>(&node.value);
   if (text == nullptr) return allowed;
   const auto found = std::find(names.begin(), names.end(), *text);

@@ -26,7 +26,7 @@ struct PackPlane {
   Real* words;
   KOKKOS_FUNCTION void operator()(int index) const {
     for (int q = 0; q < Deposits::kQuantities; ++q)
-      put_words(words + q * plane.size() + index, plane.deposits.sum(plane.cell(index), q));
+      put_words(words + std::ptrdiff_t{q} * plane.size() + index, plane.deposits.sum(plane.cell(index), q));
   }
 };
 struct AddPlane {
@@ -35,7 +35,7 @@ struct AddPlane {
   KOKKOS_FUNCTION void operator()(int index) const {
     for (int q = 0; q < Deposits::kQuantities; ++q) {
       std::int64_t sum = 0;
-      take_words(words + q * plane.size() + index, sum);
+      take_words(words + std::ptrdiff_t{q} * plane.size() + index, sum);
       plane.deposits.sum(plane.cell(index), q) += sum;
     }
   }

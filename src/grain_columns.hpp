@@ -62,6 +62,7 @@ namespace grain_columns_detail {
 
 template <class T>
 void add_to(RecordLayout& layout, const Kokkos::View<T*>& array) {
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): T may be Real itself
   layout.add(array.data(), sizeof(T), sizeof(T) / sizeof(Real));
 }
 inline void add_to(RecordLayout& layout, const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history) {

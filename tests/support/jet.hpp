@@ -15,6 +15,7 @@ struct Jet {
   std::array<double, 6> dd{};
 
   Jet() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): formulas mix both
   Jet(double constant) : v(constant) {}
   /// The coordinate itself: axis 0, 1, 2, 3 is x, y, z, t.
   static Jet variable(double value, std::size_t axis) {
