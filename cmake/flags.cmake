@@ -7,7 +7,7 @@ target_include_directories(barchan_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 # No fused multiply-add on the compiler's own account: it would choose differently wherever a formula is
 # inlined, and N steps in one call would no longer equal N calls of one step bit for bit.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -fno-math-errno -fno-trapping-math -ffp-contract=off")
-set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -ffp-contract=off")
 # Which lines the tests reach (tests/hygiene/coverage.sh).
 set(CMAKE_CXX_FLAGS_COVERAGE "-O1 -ffp-contract=off --coverage -fprofile-abs-path")
 set(CMAKE_EXE_LINKER_FLAGS_COVERAGE "--coverage")
@@ -38,6 +38,20 @@ if(BARCHAN_NATIVE)
 endif()
 if(BARCHAN_SANITIZE)
   target_compile_options(barchan_flags INTERFACE -fsanitize=${BARCHAN_SANITIZE} -fno-omit-frame-pointer
-    -fno-sanitize-recover=undefined)
+    -fno-sanitize-recover=all)
   target_link_options(barchan_flags INTERFACE -fsanitize=${BARCHAN_SANITIZE})
+  # A subscript past its row, but still inside the array, is nothing to the address sanitizer: these are.
+  target_compile_definitions(barchan_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  if(BARCHAN_SANITIZE MATCHES thread)
+    # How OpenMP and Kokkos order the threads, in words that the thread sanitizer knows.
+    add_library(barchan_sanitize OBJECT tests/support/tsan_openmp.cpp)
+    target_compile_options(barchan_flags INTERFACE
+      "SHELL:-include \"${CMAKE_SOURCE_DIR}/tests/support/tsan_fence.hpp\"")
+  else()
+    add_library(barchan_sanitize OBJECT tests/support/keep_libraries.cpp)
+    target_compile_definitions(barchan_flags INTERFACE KOKKOS_ENABLE_DEBUG_BOUNDS_CHECK)
+  endif()
+  target_link_libraries(barchan_sanitize PRIVATE Kokkos::kokkos)
+  target_compile_options(barchan_sanitize PRIVATE $<TARGET_PROPERTY:barchan_flags,INTERFACE_COMPILE_OPTIONS>)
+  target_sources(barchan_flags INTERFACE $<TARGET_OBJECTS:barchan_sanitize>)
 endif()

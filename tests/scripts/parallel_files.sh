@@ -6,5 +6,5 @@ tests="$(dirname "$BARCHAN_PROGRAM")/unit_tests"
 command -v mpirun > /dev/null || { echo "no mpirun"; exit 77; }
 options=(--oversubscribe)
 [ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
-export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}" OMP_PROC_BIND=false
 mpirun "${options[@]}" -n 2 "$tests" --gtest_filter='ParallelFiles.*' --gtest_brief=1

@@ -8,7 +8,7 @@ python=/usr/bin/python3
 dir="$(mktemp -d)"
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
-export OMP_NUM_THREADS=1
+export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}"
 failures=0
 fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
 

@@ -6,7 +6,7 @@ support="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit
-export OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}" OMP_PROC_BIND=false
 options=(--quiet --bind-to none --oversubscribe)
 [ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
 
