@@ -45,7 +45,7 @@ if(BARCHAN_SANITIZE)
   if(BARCHAN_SANITIZE MATCHES thread)
     # How OpenMP and Kokkos order the threads, in words that the thread sanitizer knows.
     add_library(barchan_sanitize OBJECT tests/support/tsan_openmp.cpp)
-    target_compile_options(barchan_flags INTERFACE
+    target_compile_options(barchan_flags INTERFACE -g1
       "SHELL:-include \"${CMAKE_SOURCE_DIR}/tests/support/tsan_fence.hpp\"")
   else()
     add_library(barchan_sanitize OBJECT tests/support/keep_libraries.cpp)
