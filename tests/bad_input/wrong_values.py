@@ -1,0 +1,117 @@
+"""Values of the wrong type, outside their range, absurd."""
+
+from entry import DRY, DUNE, TABLE, Entry
+
+
+def fluid(line):
+    return {"[fluid]": "[fluid]\n" + line}
+
+
+def grains(line):
+    return {"[grains]": "[grains]\n" + line}
+
+
+CELLS, SIZES = "cells = [10, 14, 6]", "sizes = [[1.5e-4, 20], [2e-4, 160], [2.5e-4, 20]]"
+END, STEP, GRAIN_STEP = "end = 0.01", "fluid_step = 2.5e-4", "grain_step = 5e-6"
+SIZE = "size = [0.012, 0.006, 0.006]"
+
+ENTRIES = [
+    # types
+    Entry("text for a number", ["@end", "[time] end", "must be a number"], {END: 'end = "0.01"'}),
+    Entry("number for text", ["@title", "must be a string"], {'"Small coupled case"': "7"}),
+    Entry("list for a number", ["@end", "must be a number"], {END: "end = [0.01]"}),
+    Entry("number for a list", ["@size", "array of 3 numbers"], {SIZE: "size = 0.012"}),
+    Entry("list of two", ["@size", "array of 3 numbers"], {SIZE: "size = [0.012, 0.006]"}),
+    Entry("list of four", ["@cells", "array of 3 numbers"], {CELLS: "cells = [10, 14, 6, 1]"}),
+    Entry("list of texts", ["@cells", "array of 3 numbers"], {CELLS: 'cells = ["10", "14", "6"]'}),
+    Entry("list of lists", ["@cells", "array of 3 numbers"], {CELLS: "cells = [[10, 14, 6]]"}),
+    Entry("fraction of a cell", ["@cells", "an integer"], {CELLS: "cells = [10.5, 14, 6]"}),
+    Entry("a float for a count", ["@cells", "an integer"], {CELLS: "cells = [10.0, 14, 6]"}),
+    Entry("1 for true", ["@frozen", "true or false"], grains("frozen = 1")),
+    Entry("yes for true", ["@frozen", "true or false"], grains('frozen = "yes"')),
+    Entry("a date", ["@end", "must be a number"], {END: "end = 2026-01-31"}),
+    Entry("a time of day", ["@end", "must be a number"], {END: "end = 07:32:00"}),
+    Entry("a table for a number", ["@end", "must be a number"], {END: "end = { value = 1 }"}),
+    Entry("not a number", ["@end", "must be a finite number"], {END: "end = nan"}),
+    Entry("infinite", ["@end", "must be a finite number"], {END: "end = inf"}),
+    Entry("minus infinite", ["@mean_velocity", "finite number"], {"mean_velocity = 0.2": "mean_velocity = -inf"}),
+    Entry("1e400", ["@end", "finite number"], {END: "end = 1e400"}),
+    Entry("NaN in a list", ["@size", "finite number"], {SIZE: "size = [0.012, nan, 0.006]"}),
+    Entry("sizes flat", ["@sizes", "array of [diameter in m above 0, count above 0]"], {SIZES: "sizes = [2e-4, 200]"}),
+    Entry("sizes in the wrong order", ["@sizes", "array of [diameter in m above 0, count above 0]"], {SIZES: "sizes = [[200, 2e-4]]"}),
+    Entry("negative count of grains", ["@sizes", "count above 0"], {SIZES: "sizes = [[2e-4, -5]]"}),
+    Entry("negative diameter", ["@sizes", "diameter in m above 0"], {SIZES: "sizes = [[-2e-4, 5]]"}),
+    Entry("forces: a text", ["@forces", "an array of"], {"[output]": '[coupling]\nforces = "drag"\n[output]'}),
+    Entry("forces: unknown", ["@forces", '"dragg"', 'did you mean "drag"'], {"[output]": '[coupling]\nforces = ["dragg"]\n[output]'}),
+    Entry("choice misspelt", ["@turbulence", 'did you mean "wale"'], fluid('turbulence = "whale"')),
+    Entry("choice unknown", ["@turbulence", '"wale"', '"none"'], fluid('turbulence = "smagorinsky"')),
+    Entry("choice in upper case", ["@turbulence", 'did you mean "wale"'], fluid('turbulence = "WALE"')),
+    Entry("choice empty", ["@bottom", '"no_slip"', '"free_slip"'], fluid('bottom = ""')),
+    # ranges
+    Entry("negative end", ["@end", "must be above 0"], {END: "end = -1"}),
+    Entry("end of 0", ["@end", "must be above 0"], {END: "end = 0"}),
+    Entry("zero cells", ["@cells", "at least 1"], {CELLS: "cells = [10, 0, 6]"}),
+    Entry("negative cells", ["@cells", "at least 1"], {CELLS: "cells = [-10, 14, 6]"}),
+    Entry("cells beyond 32 bits", ["@cells", "up to 2147483647"], {CELLS: "cells = [4294967297, 14, 6]"}),
+    Entry("a million cells a side", ["@cells", "at most 100000"], {CELLS: "cells = [1000000, 14, 6]"}),
+    Entry("zero size", ["@size", "above 0"], {SIZE: "size = [0.012, 0, 0.006]"}),
+    Entry("negative size", ["@size", "above 0"], {SIZE: "size = [-0.012, 0.006, 0.006]"}),
+    Entry("restitution of 0", ["@restitution", "above 0 and at most 1"], grains("restitution = 0")),
+    Entry("restitution in per cent", ["@restitution", "above 0 and at most 1"], grains("restitution = 10")),
+    Entry("Poisson's ratio of 0.6", ["@poisson_ratio", "at least 0 and at most 0.5"], grains("poisson_ratio = 0.6")),
+    Entry("negative friction", ["@sliding_friction", "at least 0"], grains("sliding_friction = -0.1")),
+    Entry("negative modulus of a wall", ["@youngs_modulus = -1", "above 0"], {"[initial]": "[grains.wall]\nyoungs_modulus = -1\n[initial]"}),
+    Entry("negative viscosity", ["@kinematic_viscosity", "at least 0"], fluid("kinematic_viscosity = -1e-6")),
+    Entry("negative flow", ["@mean_velocity", "at least 0"], {"mean_velocity = 0.2": "mean_velocity = -0.2"}),
+    Entry("negative seed", ["@seed", "at least 0"], {"[initial]": "[initial]\nseed = -1"}),
+    Entry("keep no restart file", ["@keep", "at least 1 and at most 1000"], {"wall_interval = 0": "keep = 0"}),
+    Entry("tolerance of 1", ["@pressure_tolerance", "above 0 and below 1"], {"[output]": "[solver]\npressure_tolerance = 1\n[output]"}),
+    Entry("no iterations", ["@max_iterations", "at least 1"], {"[output]": "[solver]\nmax_iterations = 0\n[output]"}),
+    Entry("a thousand correctors", ["@correctors", "at most 100"], {"[output]": "[solver]\ncorrectors = 1000\n[output]"}),
+    Entry("negative interval", ["@grains_interval", "at least 0"], {"grains_interval = 0.0025": "grains_interval = -1"}),
+    Entry("statistics interval of 0", ["@interval", "above 0"], {"[output]": "[statistics]\nstart = 0\ninterval = 0\n[output]"}),
+    Entry("title empty", [], {'"Small coupled case"': '""'}, command="check case.toml", code=0),
+    Entry("title of two lines", ["@title", "one line"], {'"Small coupled case"': '"Small\\ncase"'}),
+    Entry("title of control characters", ["@title", "one line"], {'"Small coupled case"': '"\\u001b[31mSmall"'}),
+    Entry("title of 10000 letters", ["@title", "at most"], {"Small coupled case": "S" * 10000}),
+    # numbers nobody means
+    Entry("no end in sight", ["@end", "fluid steps", "longer time.fluid_step"], {END: "end = 1e300"}),
+    Entry("more steps than can be counted", ["@end", "fluid steps"], {END: "end = 1e12"}),
+    Entry("fluid step of 1e-300", ["@end", "fluid steps"], {STEP: "fluid_step = 1e-300", GRAIN_STEP: "grain_step = 1e-300"}),
+    Entry("fluid step of an hour", ["@fluid_step", "at most 1"], {STEP: "fluid_step = 3600"}),
+    Entry("grain step of 1e-300", ["@grain_step", "at least"], {GRAIN_STEP: "grain_step = 1e-300"}),
+    Entry("end shorter than a step", ["@end", "at least one fluid_step"], {END: "end = 1e-5"}),
+    Entry("a domain of light years", ["@size", "at most"], {SIZE: "size = [1e300, 1e300, 1e300]"}),
+    Entry("a domain of atoms", ["@size", "at least"], {SIZE: "size = [1e-300, 1e-300, 1e-300]"}),
+    Entry("viscosity of 1e300", ["@kinematic_viscosity", "at most"], fluid("kinematic_viscosity = 1e300")),
+    Entry("viscosity of 1e-300", ["@kinematic_viscosity", "at least"], fluid("kinematic_viscosity = 1e-300")),
+    Entry("flow of 1e300 m/s", ["@mean_velocity", "at most"], {"mean_velocity = 0.2": "mean_velocity = 1e300"}),
+    Entry("water of 1e300 kg/m3", ["@density", "at most"], fluid("density = 1e300")),
+    Entry("water of 1e-300 kg/m3", ["@density", "at least"], fluid("density = 1e-300")),
+    Entry("grains of 1e300 kg/m3", ["@density", "at most"], grains("density = 1e300")),
+    Entry("modulus of 1e300 Pa", ["@youngs_modulus", "at most"], {"youngs_modulus = 1.25e6": "youngs_modulus = 1e300"}),
+    Entry("modulus of 1e-300 Pa", ["@youngs_modulus", "at least"], {"youngs_modulus = 1.25e6": "youngs_modulus = 1e-300"}),
+    Entry("friction of 1e300", ["@sliding_friction", "at most"], grains("sliding_friction = 1e300")),
+    Entry("gravity of 1e300", ["@gravity", "at most"], grains("gravity = [0, -1e300, 0]")),
+    Entry("gradient of 1e300", ["@pressure_gradient", "at most"], {"mean_velocity = 0.2": "pressure_gradient = 1e300"}),
+    Entry("top at 1e300 m/s", ["@top_velocity", "at most"], fluid('top = "no_slip"\ntop_velocity = 1e300')),
+    Entry("grains of 1e300 m", ["@sizes", "at most"], {SIZES: "sizes = [[1e300, 2]]"}),
+    Entry("grains of 1e-300 m", ["@sizes", "at least"], {SIZES: "sizes = [[1e-300, 2]]"}),
+    Entry("9e18 grains", ["@sizes", "at most"], {SIZES: "sizes = [[2e-4, 9000000000000000000]]"}),
+    Entry("counts that overflow", ["@sizes", "at most"], {SIZES: "sizes = [[2e-4, 9000000000000000000], [2e-4, 9000000000000000000]]"}),
+    Entry("skin of a kilometre", ["@skin", "at most"], grains("skin = 1000")),
+    Entry("radius of 1e-300", ["radius", "must be larger"], {"radius = 0.0018": "radius = 1e-300"}),
+    Entry("dropped from 1e300 m", ["must", "domain"], {"radius = 0.0018": "radius = 0.0018\ndrop_height = 1e300"}),
+    Entry("first row of 1e-300 m", ["@first_cell_height", "at least"], {"first_cell_height = 2.6e-4": "first_cell_height = 1e-300"}),
+    Entry("1e15 cells", ["case.toml", "cells"], {CELLS: "cells = [100000, 100000, 100000]", "first_cell_height = 2.6e-4\n": "",
+                                                 "mean_velocity = 0.2": "mean_velocity = 1e-9", 'fluid = "turbulent"': 'fluid = "still"',
+                                                 STEP: "fluid_step = 1e-12", GRAIN_STEP: "grain_step = 1e-12", END: "end = 1e-11"}),
+    Entry("cells for a terabyte", ["needs about", "GB", "fluid.cells"],
+          {CELLS: "cells = [2000, 2000, 1000]", "first_cell_height = 2.6e-4\n": "", STEP: "fluid_step = 1e-7",
+           GRAIN_STEP: "grain_step = 1e-7", END: "end = 1e-5"}),
+    Entry("smoothing over a metre", [], {"[output]": "[coupling]\nsmoothing_length = 1\n[output]"}, command="check case.toml", code=0),
+    Entry("smoothing over 1e300 m", ["@smoothing_length", "at most"], {"[output]": "[coupling]\nsmoothing_length = 1e300\n[output]"}),
+    Entry("an interval of 1e300 s", [], {"grains_interval = 0.0025": "grains_interval = 1e300", END: "end = 5e-4"}, code=0),
+    Entry("one cell", ["[fluid]", "cells"], {CELLS: "cells = [1, 1, 1]", "first_cell_height = 2.6e-4\n": ""}),
+    Entry("one grain", [], {SIZES: "sizes = [[2e-4, 1]]", END: "end = 5e-4"}, base=DUNE, code=0),
+]
