@@ -122,25 +122,38 @@ std::vector<double> DuneTracker::state() const {
 void DuneTracker::set_state(std::span<const double> numbers) {
   std::size_t position = 0;
   const auto next = [&]() {
-    if (position >= numbers.size()) throw std::invalid_argument("dune tracker: state too short");
+    if (position >= numbers.size())
+      throw std::runtime_error("the restart file's record of the dunes is too short");
     return numbers[position++];
   };
+  const auto count = [&](auto largest) {
+    const double number = next();
+    if (!(number >= 0 && number <= static_cast<double>(largest))) {
+      throw std::runtime_error("the restart file's record of the dunes counts what cannot be");
+    }
+    return static_cast<decltype(largest)>(number);
+  };
+  constexpr auto most = std::int64_t{1} << 53;
+  constexpr int last_label = std::numeric_limits<int>::max();
   DuneTracker fresh(domain_, criteria_);
-  fresh.n_initial_ = static_cast<std::int64_t>(next());
-  fresh.n_lost_ = static_cast<std::int64_t>(next());
-  fresh.next_label_ = static_cast<int>(next());
-  for (auto n_tracks = static_cast<std::int64_t>(next()); n_tracks > 0; --n_tracks) {
-    Track track{.label = static_cast<int>(next()), .missed = next() != 0.0};
+  fresh.n_initial_ = count(most);
+  fresh.n_lost_ = count(most);
+  fresh.next_label_ = count(last_label);
+  for (auto n_tracks = count(most); n_tracks > 0; --n_tracks) {
+    Track track{.label = count(last_label), .missed = next() != 0.0};
     track.x = next();
     track.z = next();
     track.reach = next();
-    for (auto n = static_cast<std::int64_t>(next()); n > 0; --n) {
+    for (auto n = count(most); n > 0; --n) {
       const double t = next();
       track.samples.push_back({t, next()});
     }
+    if (track.samples.empty())
+      throw std::runtime_error("the restart file's record of the dunes has one without a past");
     fresh.tracks_.push_back(track);
   }
-  if (position != numbers.size()) throw std::invalid_argument("dune tracker: state too long");
+  if (position != numbers.size())
+    throw std::runtime_error("the restart file's record of the dunes is too long");
   *this = fresh;
 }
 

@@ -28,7 +28,7 @@ class DuneTracker {
   [[nodiscard]] std::int64_t n_lost() const { return n_lost_; }
 
   /// The memory as plain numbers for restart files; set_state() restores it exactly and throws
-  /// std::invalid_argument if the numbers are not from state().
+  /// std::runtime_error if the numbers are not from state().
   [[nodiscard]] std::vector<double> state() const;
   void set_state(std::span<const double> numbers);
 

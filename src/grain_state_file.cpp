@@ -308,9 +308,14 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
     list.rebuild(s, false);
     return;
   }
-  if (list.partition())
-    list.partition()->restore(file.array<std::int64_t>("grains/columns_of_rank"),
-                              file.real("grains/imbalance_at_cut"));
+  if (list.partition()) {
+    const auto starts = file.array<std::int64_t>("grains/columns_of_rank",
+                                                 {static_cast<std::uint64_t>(rank_count(s.ranks))});
+    if (starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
+        starts.back() > std::numeric_limits<std::uint32_t>::max())
+      refuse(file, "grains/columns_of_rank does not cut the columns");
+    list.partition()->restore(starts, file.real("grains/imbalance_at_cut"));
+  }
   list.restore(s);
 }
 

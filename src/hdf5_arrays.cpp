@@ -98,6 +98,11 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   if (!exists(name)) fail("it has no array \"" + name + "\"", {});
   const auto [base, rest] = place_of(name);
   const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
+  const Handle creation(check(H5Dget_create_plist(array.get()), name), H5Pclose);
+  // Such an array may lead to itself, where the library would go round for ever.
+  if (H5Pget_layout(creation.get()) == H5D_VIRTUAL || H5Pget_external_count(creation.get()) > 0) {
+    fail("its values lie elsewhere, in other arrays or files", name);
+  }
   const Handle space(check(H5Dget_space(array.get()), name), H5Sclose);
   const Handle type(check(H5Dget_type(array.get()), name), H5Tclose);
   const int rank = check(H5Sget_simple_extent_ndims(space.get()), name);
@@ -108,7 +113,6 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   if (mode_ != Mode::read) return result;  // our own words, perhaps not on the disk yet
   // A damaged file must not make us ask for absurd amounts of memory: of what an array claims to
   // hold, this much must be there. Deflate (in files that others made) packs up to 1032 times.
-  const Handle creation(check(H5Dget_create_plist(array.get()), name), H5Pclose);
   const std::uint64_t packed = H5Pget_nfilters(creation.get()) > 0 ? 1100 : 1;
   const std::uint64_t stored =
       std::min<std::uint64_t>(H5Dget_storage_size(array.get()), std::filesystem::file_size(path_));

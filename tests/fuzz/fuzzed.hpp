@@ -4,8 +4,8 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -13,6 +13,8 @@
 
 /// The entry that libFuzzer and replay.cpp call.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// Called once before; a target may have its own.
+extern "C" __attribute__((weak)) int LLVMFuzzerInitialize(int* argc, char*** argv);
 
 namespace barchan::fuzz {
 
@@ -24,8 +26,7 @@ inline std::string_view as_text(Bytes bytes) {
 
 /// Ends the program as a finding.
 [[noreturn]] inline void violated(std::string_view property, std::string_view detail = {}) {
-  std::fprintf(stderr, "property violated: %.*s %.*s\n", static_cast<int>(property.size()),
-               property.data(), static_cast<int>(detail.size()), detail.data());
+  std::cerr << "property violated: " << property << ' ' << detail << std::endl;
   std::abort();
 }
 

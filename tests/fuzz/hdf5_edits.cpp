@@ -14,53 +14,64 @@ using hdf5::Handle;
 namespace {
 
 /// Names that mean something to the readers, and some that do not.
-constexpr std::array<const char*, 40> names{"/",
-                                            "grains",
-                                            "contacts",
-                                            "fluid",
-                                            "scalars",
-                                            "scalars/grains",
-                                            "scalars/fluid",
-                                            "grains/id",
-                                            "grains/kin",
-                                            "grains/x_reference",
-                                            "grains/wall_touching",
-                                            "grains/wall_xi_t",
-                                            "grains/of_rank",
-                                            "contacts/first",
-                                            "contacts/second",
-                                            "contacts/xi_t",
-                                            "dunes",
-                                            "fluid/u_x",
-                                            "fluid/p",
-                                            "grid",
-                                            "frame_000000",
-                                            "frame_000001",
-                                            "frame_000002",
-                                            "frame_999999",
-                                            "frame_000001/id",
-                                            "frame_000001/d",
-                                            "frame_000001/x",
-                                            "frame_000001/u",
-                                            "frame_000001/omega",
-                                            "frame_000000/id",
-                                            "grid/x",
-                                            "grid/y",
-                                            "new",
-                                            "new/new",
-                                            "grains/new",
-                                            "frame_000001/new",
-                                            "frame_1",
-                                            "frame_-1",
-                                            "frame_4294967296",
-                                            "."};
-constexpr std::array<const char*, 14> attribute_names{
-    "kind",     "format",  "step",  "time",  "title",     "config", "version",
-    "git_hash", "backend", "units", "r_max", "n_initial", "t",      "new"};
+constexpr std::array names{"/",
+                           "grains",
+                           "contacts",
+                           "fluid",
+                           "scalars",
+                           "scalars/grains",
+                           "scalars/fluid",
+                           "statistics",
+                           "scalars/statistics",
+                           "grains/id",
+                           "grains/kin",
+                           "grains/x_reference",
+                           "grains/contact_force",
+                           "grains/fluid_force",
+                           "grains/wall_touching",
+                           "grains/wall_xi_t",
+                           "grains/of_rank",
+                           "contacts/first",
+                           "contacts/second",
+                           "contacts/xi_t",
+                           "contacts/rolling",
+                           "contacts/of_rank",
+                           "dunes",
+                           "fluid/u_x",
+                           "fluid/p",
+                           "fluid/alpha_f",
+                           "statistics/sums",
+                           "statistics/force_map",
+                           "grid",
+                           "frame_000000",
+                           "frame_000001",
+                           "frame_000002",
+                           "frame_999999",
+                           "frame_000001/id",
+                           "frame_000001/d",
+                           "frame_000001/x",
+                           "frame_000001/u",
+                           "frame_000001/omega",
+                           "frame_000000/id",
+                           "grid/x",
+                           "grid/y",
+                           "new",
+                           "new/new",
+                           "grains/new",
+                           "frame_000001/new",
+                           "frame_1",
+                           "frame_-1",
+                           "frame_4294967296",
+                           "."};
+constexpr std::array attribute_names{
+    "kind",     "format",  "step",        "time",        "title", "config",          "version",
+    "git_hash", "backend", "units",       "r_max",       "r_min", "sauter_diameter", "n_initial",
+    "n_left",   "t",       "has_history", "dt_previous", "drive", "n_samples",       "new"};
 
 class Editor {
  public:
-  Editor(hid_t file, Tape& tape) : file_(file), tape_(tape) {}
+  Editor(hid_t file, Tape& tape, const std::filesystem::path& folder)
+      : file_(file), tape_(tape), other_file_(folder / "other_file") {}
 
   void one_edit() {
     switch (tape_.pick(14)) {
@@ -165,7 +176,7 @@ class Editor {
         break;
       }
       case 4:
-        H5Pset_external(list.get(), "other_file", 0, H5F_UNLIMITED);
+        H5Pset_external(list.get(), other_file_.c_str(), 0, H5F_UNLIMITED);
         break;
       default: {
         const Handle all = space_of(whole, false);
@@ -174,7 +185,8 @@ class Editor {
         break;
       }
     }
-    H5Pset_alloc_time(list.get(), H5D_ALLOC_TIME_LATE);
+    const bool pieces = H5Pget_layout(list.get()) == H5D_CHUNKED;
+    H5Pset_alloc_time(list.get(), pieces ? H5D_ALLOC_TIME_INCR : H5D_ALLOC_TIME_LATE);
     const double fill = tape_.number();
     H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &fill);
     H5Ldelete(file_, at, H5P_DEFAULT);
@@ -197,8 +209,9 @@ class Editor {
       H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, zero.data(), nullptr, one.data(), nullptr);
     }
     const Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
-    // Not what the tape could make so large that the file is as large.
+    // Not what the tape could make so large that the file is as large, nor what may lead to itself.
     const Handle list(H5Dget_create_plist(array), H5Pclose), of_type(H5Dget_type(array), H5Tclose);
+    if (H5Pget_layout(list.get()) == H5D_VIRTUAL) return;
     std::array<hsize_t, H5S_MAX_RANK> piece{};
     int n = H5Pget_chunk(list.get(), H5S_MAX_RANK, piece.data());
     if (n < 0) n = H5Sget_simple_extent_dims(space.get(), piece.data(), nullptr);
@@ -250,6 +263,8 @@ class Editor {
     const std::int64_t whole = tape_.integer();
     const Handle array(H5Dopen2(file_, at, H5P_DEFAULT), H5Dclose);
     if (array.get() < 0) return;
+    const Handle list(H5Dget_create_plist(array.get()), H5Pclose);
+    if (H5Pget_layout(list.get()) == H5D_VIRTUAL) return;
     const Handle space(H5Dget_space(array.get()), H5Sclose),
         of_type(H5Dget_type(array.get()), H5Tclose);
     std::array<hsize_t, H5S_MAX_RANK> extent{}, start{};
@@ -307,6 +322,8 @@ class Editor {
   void resize() {
     const Handle array(H5Dopen2(file_, name(), H5P_DEFAULT), H5Dclose);
     if (array.get() < 0) return;
+    const Handle list(H5Dget_create_plist(array.get()), H5Pclose);
+    if (H5Pget_layout(list.get()) != H5D_CHUNKED) return;
     std::array<hsize_t, H5S_MAX_RANK> extent{};
     for (std::size_t d = 0; d < 4; ++d) extent[d] = tape_.extent();
     H5Dset_extent(array.get(), extent.data());
@@ -332,6 +349,7 @@ class Editor {
 
   hid_t file_;
   Tape& tape_;
+  std::filesystem::path other_file_;
 };
 
 }  // namespace
@@ -342,7 +360,7 @@ void edit(const std::filesystem::path& file, Tape tape) {
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   const Handle open(H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
   demand(open.get() >= 0, "the valid file opens");
-  Editor editor(open.get(), tape);
+  Editor editor(open.get(), tape, file.parent_path());
   for (int n = 0; n < 40 && !tape.empty(); ++n) editor.one_edit();
 }
 

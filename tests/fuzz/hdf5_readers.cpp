@@ -1,7 +1,10 @@
 #include "tests/fuzz/hdf5_readers.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 
 #include "src/checkpoint.hpp"
@@ -17,13 +20,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder of this process's inputs; it goes at the end, also after a finding.
+constexpr std::string_view folder_prefix = "barchan_fuzz_";
+
+/// The folder of this process's inputs. It goes at the end, and what processes that crashed have
+/// left goes with the next one.
 struct InputFolder {
   fs::path path;
   InputFolder() {
     const fs::path in_memory = "/dev/shm";
     const fs::path base = fs::is_directory(in_memory) ? in_memory : fs::temp_directory_path();
-    path = base / ("barchan_fuzz_" + std::to_string(::getpid()));
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(base)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(folder_prefix)) continue;
+      const int owner = std::atoi(name.c_str() + folder_prefix.size());
+      if (owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) fs::remove_all(entry, ignored);
+    }
+    path = base / (std::string(folder_prefix) + std::to_string(::getpid()));
     fs::create_directory(path);
   }
   ~InputFolder() {

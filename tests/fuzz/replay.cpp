@@ -1,9 +1,13 @@
 // Without libFuzzer: gives a target every file named, and every file in the folders named.
+// --random SECONDS [SEED] after them goes on with bytes by chance, for targets that make sense of
+// any.
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -26,10 +30,33 @@ std::vector<fs::path> files_of(const std::vector<fs::path>& places) {
   return files;
 }
 
+void give(const std::string& bytes) {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
+/// The input on its way is in the file "input.random": it is what a crash is about.
+void go_on_by_chance(double seconds, unsigned seed) {
+  std::mt19937 engine(seed);
+  const auto begin = std::chrono::steady_clock::now();
+  int n = 0;
+  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds)) {
+    std::string bytes(engine() % 64, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(engine());
+    std::ofstream("input.random", std::ios::binary) << bytes;
+    give(bytes);
+    ++n;
+  }
+  fs::remove("input.random");
+  std::cout << n << " inputs by chance\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto files = files_of({argv + 1, argv + argc});
+  if (LLVMFuzzerInitialize != nullptr) LLVMFuzzerInitialize(&argc, &argv);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const auto option = std::find(words.begin(), words.end(), "--random");
+  const auto files = files_of({words.begin(), option});
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(stream), {});
@@ -38,8 +65,10 @@ int main(int argc, char** argv) {
       return 1;
     }
     std::cout << file.string() << std::endl;  // at once: the last one named is the one that fails
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    give(bytes);
   }
   std::cout << files.size() << " inputs, every one read or refused with a sentence\n";
-  return files.empty() ? 1 : 0;
+  const auto n_left = words.end() - option;
+  if (n_left > 1) go_on_by_chance(std::stod(option[1]), n_left > 2 ? std::stoul(option[2]) : 1);
+  return 0;
 }

@@ -23,15 +23,14 @@ cmake --build build/fuzz --target "${target}_fuzzer"
 
 found="build/fuzz/found/$target"
 mkdir -p "$found/corpus"
-options=(-max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=64 -print_final_stats=1
-  -artifact_prefix="$found/")
+options=(-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1 -max_total_time="$seconds" -timeout=5
+  -rss_limit_mb=1024 -malloc_limit_mb=64 -len_control=10 -artifact_prefix="$found/")
 if [ -e "$here/$target.dict" ]; then options+=(-dict="$here/$target.dict"); fi
 case $target in
-  hdf5*)
-    # The library is not ours and leaks and crashes on some damaged files: one process after another.
-    export ASAN_OPTIONS="detect_leaks=0:${ASAN_OPTIONS:-}"
-    options+=(-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1 -max_len=16384)
-    ;;
+  hdf5) options+=(-max_len=16384) ;;
+  hdf5_structure) options+=(-max_len=256) ;;
   *) options+=(-max_len=8192) ;;
 esac
+# The HDF5 library is not ours, and leaks when it gives up on a damaged file.
+export ASAN_OPTIONS="detect_leaks=$([[ $target == hdf5* ]] && echo 0 || echo 1):${ASAN_OPTIONS:-}"
 exec "build/fuzz/$here/${target}_fuzzer" "${options[@]}" "$@" "$found/corpus" "$here/corpus/$target"

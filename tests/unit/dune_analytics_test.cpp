@@ -332,7 +332,17 @@ TEST(DuneTracker, RestoredStateContinuesTheSame) {
 
   std::vector<double> broken = straight.state();
   broken.pop_back();
-  EXPECT_THROW(resumed.set_state(broken), std::invalid_argument);
+  EXPECT_THROW(resumed.set_state(broken), std::runtime_error);
+  // Counts as a damaged file may have them, and a dune that was never seen.
+  for (const double bad : {-1.0, 1e300, std::nan("")}) {
+    for (const std::size_t at : {0, 1, 2, 3, 4, 9}) {
+      broken = straight.state();
+      broken[at] = bad;
+      EXPECT_THROW(resumed.set_state(broken), std::runtime_error) << at;
+    }
+  }
+  EXPECT_THROW(resumed.set_state(std::vector<double>{9, 0, 1, 1, 0, 0, 1, 1, 1, 0}),
+               std::runtime_error);
   EXPECT_EQ(straight.state(), resumed.state());
 }
 
