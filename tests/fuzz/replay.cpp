@@ -69,6 +69,6 @@ int main(int argc, char** argv) {
   }
   std::cout << files.size() << " inputs, every one read or refused with a sentence\n";
   const auto n_left = words.end() - option;
-  if (n_left > 1) go_on_by_chance(std::stod(option[1]), n_left > 2 ? std::stoul(option[2]) : 1);
+  if (n_left > 1) go_on_by_chance(std::stod(option[1]), n_left > 2 ? static_cast<unsigned>(std::stoul(option[2])) : 1U);
   return 0;
 }
