@@ -114,10 +114,12 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   // A damaged file must not make us ask for absurd amounts of memory: of what an array claims to
   // hold, this much must be there. Deflate (in files that others made) packs up to 1032 times.
   const std::uint64_t packed = H5Pget_nfilters(creation.get()) > 0 ? 1100 : 1;
-  const std::uint64_t stored =
-      std::min<std::uint64_t>(H5Dget_storage_size(array.get()), std::filesystem::file_size(path_));
+  const std::uint64_t file_size = std::filesystem::file_size(path_);
   std::uint64_t count = 0;
-  if (!count_elements(result.extents, count) || count / packed > stored / H5Tget_size(type.get())) {
+  // In this order: the library itself is no good at extents beyond 64 bits.
+  if (!count_elements(result.extents, count) ||
+      count / packed > std::min<std::uint64_t>(file_size, H5Dget_storage_size(array.get())) /
+                           H5Tget_size(type.get())) {
     fail("it claims " + to_string(result.extents) + " elements, more than the file can hold", name);
   }
   return result;

@@ -1,6 +1,6 @@
 #include "tests/fuzz/hdf5_edits.hpp"
 
-#include <cstring>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -217,7 +217,11 @@ class Editor {
     if (n < 0) n = H5Sget_simple_extent_dims(space.get(), piece.data(), nullptr);
     auto bytes = static_cast<double>(H5Tget_size(of_type.get()));
     for (int d = 0; d < n; ++d) bytes *= static_cast<double>(piece[static_cast<std::size_t>(d)]);
-    if (bytes > 1e6) return;
+    std::array<hsize_t, H5S_MAX_RANK> extent{};
+    H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+    double elements = 1;  // the library crashes as it writes into an array of more than 2^64
+    for (const hsize_t e : extent) elements *= std::max(1.0, static_cast<double>(e));
+    if (bytes > 1e6 || elements > 1e18) return;
     const double value = tape_.number();
     H5Dwrite(array, H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, &value);
   }

@@ -40,7 +40,8 @@ void go_on_by_chance(double seconds, unsigned seed) {
   const auto begin = std::chrono::steady_clock::now();
   int n = 0;
   while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds)) {
-    std::string bytes(engine() % 64, '\0');
+    std::string bytes(1 + engine() % (4u << engine() % 5),
+                      '\0');  // often few, or nothing is left whole
     for (char& byte : bytes) byte = static_cast<char>(engine());
     std::ofstream("input.random", std::ios::binary) << bytes;
     give(bytes);
@@ -69,6 +70,8 @@ int main(int argc, char** argv) {
   }
   std::cout << files.size() << " inputs, every one read or refused with a sentence\n";
   const auto n_left = words.end() - option;
-  if (n_left > 1) go_on_by_chance(std::stod(option[1]), n_left > 2 ? static_cast<unsigned>(std::stoul(option[2])) : 1U);
+  if (n_left > 1)
+    go_on_by_chance(std::stod(option[1]),
+                    n_left > 2 ? static_cast<unsigned>(std::stoul(option[2])) : 1U);
   return 0;
 }
