@@ -41,8 +41,9 @@ PlaneFft::PlaneFft(const Grid& grid)
       first_z_(Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).place)) {
   if (!rows_.is_trivial()) {
     const auto [nx, rows, planes] = rows_.joined_extents();
-    lines_of_x_ = Kokkos::View<Real*>(
-        "fft: lines of x", static_cast<std::size_t>(nx) * static_cast<std::size_t>(rows * planes));
+    lines_of_x_ = Kokkos::View<Real*>("fft: lines of x", static_cast<std::size_t>(nx) *
+                                                             static_cast<std::size_t>(rows) *
+                                                             static_cast<std::size_t>(planes));
   }
   if (!planes_.is_trivial())
     modes_of_rows_ = spectrum_of("fft: modes of rows", planes_.cut_extents());

@@ -60,7 +60,7 @@ FlowStatisticsTable FlowStatistics::table() const {
   table.u_star = std::sqrt(std::abs(mean(0, Q::stress)));
   for (int j = 0; j < grid_.ny; ++j) {
     const double u = mean(j, Q::u), w = mean(j, Q::w);
-    const auto below = static_cast<std::size_t>(j + 1);  // the first entry is a ghost face
+    const auto below = static_cast<std::size_t>(j) + 1;  // the first entry is a ghost face
     StatisticsRow row;
     row.y = (faces(below) + faces(below + 1)) / 2;
     row.u = u;

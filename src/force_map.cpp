@@ -40,7 +40,7 @@ void ForceMap::write(const std::filesystem::path& file) const {
   const double angle = 360.0 / n_angles;
   for (int a = 0; a < n_angles; ++a) {
     for (int r = 0; r < n_radii; ++r) {
-      const Bin& bin = bins_[static_cast<std::size_t>(a * n_radii + r)];
+      const Bin& bin = bins_[static_cast<std::size_t>(a) * n_radii + static_cast<std::size_t>(r)];
       if (bin.n == 0) continue;
       const Vec3 mean = (1 / bin.n) * bin.force;
       text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",

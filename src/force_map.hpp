@@ -20,7 +20,8 @@ class ForceMap {
   static constexpr int n_radii = 40, n_angles = 36;
   static constexpr double bin_diameters = 2.5;
 
-  explicit ForceMap(const DuneDomain& domain) : domain_(domain), bins_(n_radii * n_angles) {}
+  explicit ForceMap(const DuneDomain& domain)
+      : domain_(domain), bins_(std::size_t{n_radii} * n_angles) {}
 
   /// force: resultant on each grain [N], rows as in the cloud. Nothing while there is no dune.
   void sample(double t, const GrainCloud& grains, std::span<const Vec3> force);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "src/communicator.hpp"
@@ -13,7 +14,7 @@ namespace barchan {
 
 namespace {
 
-const std::string prefix = "frame_";
+constexpr std::string_view prefix = "frame_";
 
 /// Number of a frame's group; -1 for any other name.
 int frame_number(const std::string& name) {

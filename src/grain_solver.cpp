@@ -141,7 +141,7 @@ void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainS
                         .fluid = grains.fluid};
   };
   if (moved_.extent_int(0) != ahead_ + 1) {
-    moved_ = Kokkos::View<Real*>("way of the grains", static_cast<std::size_t>(ahead_ + 1));
+    moved_ = Kokkos::View<Real*>("way of the grains", static_cast<std::size_t>(ahead_) + 1);
   }
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(),

@@ -39,7 +39,8 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
   const int modes = x.n / 2 + 1, stride = z.lines * z.rows;
   const int row_stride = static_cast<int>(x.row_stride);
-  const Kokkos::View<Real*> real("fft: plan", static_cast<std::size_t>(x.rows * row_stride + x.n));
+  const Kokkos::View<Real*> real("fft: plan",
+                                 static_cast<std::size_t>(x.rows * x.row_stride + x.n));
   const Kokkos::View<Kokkos::complex<Real>*> complex(
       "fft: plan", static_cast<std::size_t>(std::max(modes * x.rows, stride * z.n)));
   fftw_complex* c = as_fftw(complex.data());

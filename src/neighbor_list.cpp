@@ -32,7 +32,7 @@ template <class View>
 void reserve(View& view, const char* label, int n) {
   if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
     view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
-                static_cast<std::size_t>(n + n / 16 + 64));
+                static_cast<std::size_t>(n) + static_cast<std::size_t>(n / 16) + 64);
   }
 }
 

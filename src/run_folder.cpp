@@ -21,10 +21,10 @@ namespace {
 
 constexpr const char* history_name = "history.csv";
 constexpr const char* dune_name = "dune.csv";
-const std::string history_header =
+constexpr const char* history_header =
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap";
-const std::string dune_header =
+constexpr const char* dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
 /// What is about a run that failed, and not about the one that comes now.

@@ -70,7 +70,7 @@ struct HostGrid {
   double x(int i) const { return grid.x0 + (i + 0.5) * grid.dx; }
   double z_face(int k) const { return grid.z0 + k * grid.dz; }
   double z(int k) const { return grid.z0 + (k + 0.5) * grid.dz; }
-  double y_face(int j) const { return faces[static_cast<std::size_t>(j + 1)]; }
+  double y_face(int j) const { return faces[static_cast<std::size_t>(j) + 1]; }
   double y(int j) const { return 0.5 * (y_face(j) + y_face(j + 1)); }
   double dy(int j) const { return y_face(j + 1) - y_face(j); }
   double volume(int j) const { return grid.dx * dy(j) * grid.dz; }

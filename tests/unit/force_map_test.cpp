@@ -40,7 +40,8 @@ void expect_known(const ForceMap& map, double samples) {
   double n = 0;
   for (int a = 0; a < ForceMap::n_angles; ++a) {
     for (int r = 0; r < ForceMap::n_radii; ++r) {
-      const ForceMap::Bin& bin = map.bins()[static_cast<std::size_t>(a * ForceMap::n_radii + r)];
+      const ForceMap::Bin& bin =
+          map.bins()[static_cast<std::size_t>(a) * ForceMap::n_radii + static_cast<std::size_t>(r)];
       n += bin.n;
       if (bin.n == 0 || r < 2) continue;
       const Vec3 mean = (1 / bin.n) * bin.force;

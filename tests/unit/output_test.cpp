@@ -56,7 +56,10 @@ FluidState make_flow() {
   return flow;
 }
 
-std::size_t cell(int i, int j, int k) { return static_cast<std::size_t>(i + nx * (j + ny * k)); }
+std::size_t cell(int i, int j, int k) {
+  return static_cast<std::size_t>(i) +
+         nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+}
 
 int count(const std::string& text, const std::string& part) {
   int n = 0;
@@ -131,7 +134,7 @@ TEST(Output, FieldsXdmfPointsAtTheArrays) {
 GrainState make_grains(int n) {
   GrainState grains;
   grains.n = n;
-  const auto capacity = static_cast<std::size_t>(n + 2);
+  const auto capacity = static_cast<std::size_t>(n) + 2;
   grains.kin = Kokkos::View<GrainKinematics*>("kin", capacity);
   grains.id = Kokkos::View<std::int64_t*>("id", capacity);
   const auto kin = Kokkos::create_mirror_view(grains.kin);
@@ -207,7 +210,7 @@ TEST(Output, TracksAreIdsAndPositions) {
   const auto x = file.read<double>("frame_000001/x", {n, 3});
   const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
   for (int g = 0; g < grains.n; ++g) {
-    EXPECT_NEAR(x[static_cast<std::size_t>(3 * g + 1)], kin(g).x.y, 1e-6 * std::abs(kin(g).x.y));
+    EXPECT_NEAR(x[3 * static_cast<std::size_t>(g) + 1], kin(g).x.y, 1e-6 * std::abs(kin(g).x.y));
   }
 }
 

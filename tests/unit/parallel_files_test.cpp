@@ -88,7 +88,7 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   output.write_fields(flow_of(rank, &pencils), 2, 2);
 
   const Hdf5File fields(folder.path() / "fields.h5", Hdf5File::Mode::read, world);
-  const auto wide = static_cast<std::uint64_t>(nx * ranks);
+  const auto wide = static_cast<std::uint64_t>(nx) * static_cast<std::uint64_t>(ranks);
   const auto p = fields.read<double>("frame_000002/p", {nz, ny, wide});
   for (std::size_t c = 0; c < p.size(); ++c) {
     EXPECT_EQ(p[c], 10.0 + static_cast<double>(c % wide / nx));
