@@ -139,10 +139,12 @@ void not_an_int() {
   std::printf("%d\n", static_cast<int>(large));
 }
 
+/// Several: the address of the last one may still lie about on the stack.
 void leak() {
-  auto* lost = new std::vector<int>(100);
-  std::printf("%zu\n", lost->size());
-  lost = nullptr;
+  for (int k = 1; k <= 10; ++k) {
+    auto* lost = new std::vector<int>(static_cast<std::size_t>(k));
+    std::printf("%zu\n", lost->size());
+  }
 }
 
 const std::map<std::string, std::function<void()>> modes = {

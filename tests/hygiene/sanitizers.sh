@@ -78,7 +78,7 @@ if [ "$kind" = thread ]; then
   probe "data race .*in race_with_a_thread" race_with_a_thread
 else
   probe heap-buffer-overflow past_the_end
-  probe "bounds error" past_the_row
+  probe "out of bounds access" past_the_row
   probe "Assertion '__n < this->size()' failed" past_the_vector
   probe stack-use-after-return after_return
   probe "signed integer overflow" overflow
