@@ -1,7 +1,9 @@
 """Reads a study file (docs/conventions.md, "Studies")."""
 
+import datetime
 import difflib
 import itertools
+import math
 import os
 import re
 import tomllib
@@ -14,6 +16,9 @@ STUDY_KEYS = ("title", "base", "at_once", "threads")
 
 class StudyError(Exception):
     """A sentence for the user."""
+
+
+MOST_CASES = 10_000  # each is checked before the first one runs
 
 
 @dataclass
@@ -50,6 +55,8 @@ def as_toml(value):
         return "true" if value else "false"
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, (datetime.date, datetime.time)):
+        return value.isoformat()
     if isinstance(value, list):
         return "[" + ", ".join(as_toml(one) for one in value) + "]"
     return repr(value)
@@ -85,12 +92,18 @@ def unknown(name, known, where):
 
 
 def load(path):
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        raise StudyError(f"cannot read {path}: it is not a file")
     try:
-        return tomllib.loads(path.read_text())
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise StudyError(f"cannot read {path}: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise StudyError(f"{path}: {error}") from error
+    except UnicodeDecodeError as error:
+        raise StudyError(f"{path}: it is not UTF-8 text (byte {error.start})") from error
+    except tomllib.TOMLDecodeError as error:
+        raise StudyError(f"{path}: not TOML: {error}") from error
+    except RecursionError as error:
+        raise StudyError(f"{path}: not TOML: nested too deep") from error
 
 
 def lists_of(table, path, section):
@@ -114,9 +127,12 @@ def one_at_a_time(lists, base_config, common, path):
     return cases
 
 
-def all_combinations(lists, common):
+def all_combinations(lists, common, path):
     if not lists:
         return []
+    count = math.prod(len(values) for values in lists.values())
+    if count > MOST_CASES:
+        raise StudyError(f"{path}: [grid] makes {count} cases, of at most {MOST_CASES}: give fewer keys or values")
     return [Case("_".join(label(key, value) for key, value in zip(lists, values)),
                  {**common, **dict(zip(lists, values))})
             for values in itertools.product(*lists.values())]
@@ -136,18 +152,35 @@ def named_cases(tables, common, path):
     return cases
 
 
+def check_kind(value, section, path):
+    """[[case]] is a list of sections, the others are sections."""
+    if section != "case":
+        if not isinstance(value, dict):
+            raise StudyError(f"{path}: {section} must be a section, [{section}]")
+    elif not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
+        raise StudyError(f"{path}: case must be given as sections [[case]], one for each")
+    else:
+        for one in value:
+            if not isinstance(one.get("name", ""), str) or not isinstance(one.get("set", {}), dict):
+                raise StudyError(f'{path}: [[case]] must have a name = "..." and a set = {{ key = value }}')
+
+
 def check_sections(table, path):
     for section in table:
         if section not in SECTIONS:
             raise unknown(section, SECTIONS, path)
+        check_kind(table[section], section, path)
     head = table.get("study", {})
     for key in head:
         if key not in STUDY_KEYS:
             raise unknown(key, STUDY_KEYS, f"{path}: [study]")
     if not isinstance(head.get("base"), str):
         raise StudyError(f"{path}: [study] base must name the case that is varied")
+    if not isinstance(head.get("title", ""), str):
+        raise StudyError(f"{path}: [study] title must be text")
     for key in ("at_once", "threads"):
-        if key in head and not (isinstance(head[key], int) and head[key] >= 1):
+        # True is an int to Python.
+        if key in head and not (type(head[key]) is int and head[key] >= 1):
             raise StudyError(f"{path}: [study] {key} must be a number of at least 1")
     return head
 
@@ -161,7 +194,7 @@ def read_study(path, options):
     cases = []
     if "vary" in table:
         cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base_config, common, path)
-    cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), common)
+    cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), common, path)
     cases += named_cases(table.get("case", []), common, path)
     if not cases:
         raise StudyError(f"{path}: no cases: give [vary], [grid] or [[case]]")
@@ -169,11 +202,12 @@ def read_study(path, options):
     for name in names:
         if names.count(name) > 1:
             raise StudyError(f'{path}: two cases are named "{name}"')
+    for name, given in (("--at-once", options.at_once), ("--threads", options.threads)):
+        if given is not None and given < 1:
+            raise StudyError(f"{name} must be at least 1, not {given}")
     at_once = options.at_once or head.get("at_once", 1)
     cores = len(os.sched_getaffinity(0))
     threads = options.threads or head.get("threads", max(1, cores // at_once))
-    if at_once < 1 or threads < 1:
-        raise StudyError("--at-once and --threads must be at least 1")
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
     return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,

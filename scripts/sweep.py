@@ -248,8 +248,11 @@ def parse(arguments):
 
 def lock(folder):
     """Two sweeps in one folder would overwrite each other's runs."""
-    folder.mkdir(parents=True, exist_ok=True)
-    handle = open(folder / ".lock", "w")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        handle = open(folder / ".lock", "w")
+    except OSError as error:
+        raise StudyError(f"cannot write results to {folder}: {error.strerror}; take another --out") from error
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:

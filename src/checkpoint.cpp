@@ -38,6 +38,17 @@ std::int64_t step_of(const std::string& name) {
   throw InputError("cannot restart from " + file.string() + ": " + what);
 }
 
+/// The restart file that may serve in place of a damaged one.
+std::string instead_of(const std::filesystem::path& file) {
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  std::filesystem::path other;
+  for (const auto& [step, path] : list_checkpoints(folder)) {
+    if (path.filename() != file.filename()) other = path;
+  }
+  if (other.empty()) return "; copy it again if it was copied, or start anew";
+  return "; another one is " + other.string();
+}
+
 /// Rank 0 reads the file through before the HDF5 library looks at it: what is damaged can make the
 /// library itself fail. False without a seal, as in files of others and of earlier versions.
 bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
@@ -47,7 +58,8 @@ bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
     found = check_seal(file);
   }
   // Rank 0 tells why; the others end with it.
-  if (as_rank_0_says(found.seal == Seal::broken, communicator)) refuse(file, found.problem);
+  if (as_rank_0_says(found.seal == Seal::broken, communicator))
+    refuse(file, found.problem + instead_of(file));
   return as_rank_0_says(found.seal == Seal::whole, communicator);
 }
 
@@ -62,6 +74,8 @@ CheckpointScalar split(const std::string& path) {
 std::string checkpoint_name(std::int64_t step) {
   return fmt::format("{}{:010}{}", prefix, step, ending);
 }
+
+bool is_checkpoint_name(const std::filesystem::path& name) { return step_of(name.string()) >= 0; }
 
 std::map<std::int64_t, std::filesystem::path> list_checkpoints(
     const std::filesystem::path& folder) {
@@ -147,11 +161,18 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
     fail("it is not a restart file");
   }
   const auto format = file_.integer_attribute("/", "format");
-  if (format < oldest_format || format > format_version) {
+  if (format > format_version) {
+    fail(
+        fmt::format("it was written in format {} by a newer version, {}; this version reads {} to "
+                    "{}: take that version",
+                    format, provenance().version, oldest_format, format_version));
+  }
+  if (format < oldest_format) {
     fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}", format,
                      provenance().version, oldest_format, format_version));
   }
-  if (format >= first_sealed_format && !sealed_) fail("it is damaged: its seal is gone");
+  if (format >= first_sealed_format && !sealed_)
+    fail("it is damaged: its seal is gone" + instead_of(path()));
 }
 
 void CheckpointReader::fail(const std::string& what) const { refuse(path(), what); }

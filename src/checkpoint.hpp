@@ -188,6 +188,9 @@ class CheckpointReader {
   Hdf5File file_;
 };
 
+/// True for "restart_0000012000.h5" and the like.
+bool is_checkpoint_name(const std::filesystem::path& name);
+
 /// Restart files of a folder by step; none where the folder does not exist.
 std::map<std::int64_t, std::filesystem::path> list_checkpoints(const std::filesystem::path& folder);
 

@@ -72,6 +72,27 @@ std::string unknown_command(int argc, const char* const* argv) {
                      fmt::join(commands, ", "));
 }
 
+/// What CLI11 lists as "not expected", in order, with the option it may have been meant for.
+std::string not_expected(const CLI::App& app, const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (std::string word : app.remaining(true)) {
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with("-")) continue;
+    if (word == "--ranks") {
+      return "--ranks is an option of the launcher, ./barchan run; with the program itself start "
+             "ranks by mpirun -np N\n";
+    }
+    const std::string close = nearest(word, names);
+    return fmt::format("unknown option {}{}; {} --help lists them\n", word,
+                       close.empty() ? "" : fmt::format(" (did you mean {}?)", close),
+                       command.get_name());
+  }
+  return {};
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
@@ -84,9 +105,13 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
   app.set_version_flag("--version", version);
   const CLI::App* run = add_run(app, line);
   const CLI::App* check = add_check(app, line);
-  add_info(app, line);
+  const CLI::App* info = add_info(app, line);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& stop) {
+    const CLI::App& command = run->parsed() ? *run : check->parsed() ? *check : *info;
+    const std::string found = not_expected(app, command);
+    return bad_usage(found.empty() ? std::string(stop.what()) + "\n" : found);
   } catch (const CLI::ParseError& stop) {
     std::ostringstream out, err;
     if (app.exit(stop, out, err) != 0) return bad_usage(err.str());

@@ -9,10 +9,23 @@
 
 #include "src/config_section.hpp"
 #include "src/config_validate.hpp"
+#include "src/input_file.hpp"
+#include "src/printable.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;
 namespace {
+
+/// A title stands in tables, pages and pictures.
+void read_title(Section& s, std::string& title) {
+  constexpr std::size_t longest = 200;
+  s.optional("title", title);
+  const Node* node = s.take("title");
+  if (printable(title) != title) s.complain("title", *node, "must be one line of text");
+  if (title.size() > longest) {
+    s.complain("title", *node, fmt::format("must be at most {} bytes long", longest));
+  }
+}
 
 void read(Section& s, TimeConfig& c) {
   s.require("end", c.end, {above(0)});
@@ -91,9 +104,8 @@ void resolve_start(Section& s, std::string_view key, std::string& start,
     return;
   }
   const fs::path path = fs::absolute(folder / written).lexically_normal();
-  if (!fs::is_regular_file(path)) {
-    s.complain(key, *node,
-               fmt::format("must be a file that exists; there is no {}", path.string()));
+  if (const std::string why = not_a_file(path); !why.empty()) {
+    s.complain(key, *node, fmt::format("must be a file to read: {}: {}", path.string(), why));
     return;
   }
   start = path.string();
@@ -181,7 +193,7 @@ Config read_tree(Reading& reading, const Node& tree, const fs::path& file) {
   GrainConfig grains;
   {
     Section root(reading, &tree, "");
-    with_section(reading, root, "case", [&](Section& s) { s.optional("title", c.title); });
+    with_section(reading, root, "case", [&](Section& s) { read_title(s, c.title); });
     const bool time = with_section(reading, root, "time", [&](Section& s) { read(s, c.time); });
     require_section(reading, time, "time");
     const bool domain = with_section(reading, root, "domain",
@@ -215,12 +227,20 @@ struct Loaded {
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain);
 
+/// Far longer than any case, far shorter than results that are given for one by mistake.
+constexpr std::uintmax_t longest_case = 10'000'000;
+
 std::optional<std::string> read_text(const fs::path& file, std::vector<Problem>& problems) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!fs::is_regular_file(file) || !stream) {
-    problems.push_back({{file.string(), 0}, "no such file, or not one that can be read"});
+  std::string why = not_a_file(file);
+  if (why.empty() && fs::file_size(file) > longest_case) {
+    why = fmt::format("it is {} MB long, and a case is a few kB of TOML",
+                      fs::file_size(file) / 1'000'000);
+  }
+  if (!why.empty()) {
+    problems.push_back({{file.empty() ? "CONFIG" : file.string(), 0}, "cannot be read: " + why});
     return {};
   }
+  std::ifstream stream(file, std::ios::binary);
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
@@ -293,11 +313,14 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
 /// Throws if there is any problem.
 Loaded checked(Loaded loaded) {
   if (loaded.problems.empty()) return loaded;
+  constexpr std::size_t most_told = 30;  // of what is no case at all there may be any number
+  const std::size_t count = loaded.problems.size();
   std::vector<std::string> lines;
   for (const Problem& problem : loaded.problems) {
-    lines.push_back(fmt::format("{}: {}", to_string(problem.where), problem.text));
+    if (lines.size() == most_told) break;
+    lines.push_back(printable(fmt::format("{}: {}", to_string(problem.where), problem.text)));
   }
-  const std::size_t count = lines.size();
+  if (count > lines.size()) lines.push_back(fmt::format("  ... and {} more", count - lines.size()));
   lines.push_back(fmt::format("{} problem{}; nothing was run.", count, count == 1 ? "" : "s"));
   throw ConfigError(std::move(lines));
 }

@@ -1,10 +1,13 @@
 #include "src/config_section.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "src/printable.hpp"
 
 namespace barchan {
 namespace {
@@ -28,6 +31,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return above_row[b.size()];
 }
 
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+/// A key as TOML needs it written, and a terminal can show it.
+std::string shown_key(std::string_view key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) != 0 || c == '_' || c == '-' || c == ' ';
+  });
+  return printable(bare ? std::string(key) : toml_quoted(key), 60);
+}
+
 std::string dotted(std::string_view section, std::string_view key) {
   if (section.empty()) return std::string(key);
   return fmt::format("{}.{}", section, key);
@@ -40,6 +57,7 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
   const std::size_t most = typed.size() < 4 ? 1 : std::max<std::size_t>(2, typed.size() / 3);
   std::size_t least = most + 1;
   for (const std::string& candidate : candidates) {
+    if (same_but_for_case(typed, candidate)) return candidate;
     const std::size_t distance = edit_distance(typed, candidate);
     if (distance < least) {
       least = distance;
@@ -52,7 +70,7 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
 void Reading::add(const Location& where, std::string_view section, std::string_view key,
                   const Node* node, const std::string& message) {
   std::string text = section.empty() ? std::string() : fmt::format("[{}] ", section);
-  text += key;
+  text += shown_key(key);
   if (node != nullptr) text += " = " + toml_text(*node);
   problems_.push_back({where, fmt::format("{}: {}", text, message)});
 }
@@ -105,13 +123,26 @@ void Reading::unknown(const std::string& section, const std::string& key, const 
   unknown_.push_back({section, key, &node});
 }
 
-std::string Reading::suggestion(const Unknown& unknown) const {
+/// The section that knows exactly this key, apart from the one it was written in.
+std::string Reading::section_with(const std::string& key) const {
+  for (const auto& [section, keys] : keys_) {
+    if (!section.empty() && std::find(keys.begin(), keys.end(), key) != keys.end()) return section;
+  }
+  return {};
+}
+
+std::string Reading::suggestion(const Unknown& unknown) {
+  const bool is_section = unknown.section.empty() && unknown.node->table() != nullptr;
+  const std::string home = is_section ? std::string() : section_with(unknown.key);
+  if (!home.empty()) return fmt::format(" (did you mean \"{}\" of [{}]?)", unknown.key, home);
   const auto own = keys_.find(unknown.section);
   if (own != keys_.end()) {
     const std::string close = nearest(unknown.key, own->second);
+    // What it stands for was not read, so nothing is to be concluded from its default.
+    if (!close.empty()) bad_.insert(dotted(unknown.section, close));
     if (!close.empty()) return fmt::format(" (did you mean \"{}\"?)", close);
   }
-  if (unknown.section.empty() && unknown.node->table() != nullptr) return {};
+  if (is_section) return {};
   for (const auto& [section, keys] : keys_) {
     const std::string close = nearest(unknown.key, keys);
     if (!close.empty() && !section.empty()) {
@@ -122,12 +153,14 @@ std::string Reading::suggestion(const Unknown& unknown) const {
 }
 
 void Reading::complain_about_unknown() {
+  std::size_t hints = 0;
   for (const Unknown& unknown : unknown_) {
     const bool is_section = unknown.node->table() != nullptr && unknown.section.empty();
-    const std::string hint = suggestion(unknown);
+    // A file of another kind may hold very many; they need not all be compared with ours.
+    const std::string hint = ++hints > 100 ? std::string() : suggestion(unknown);
     if (is_section) {
-      problems_.push_back(
-          {unknown.node->where, fmt::format("[{}]: unknown section{}", unknown.key, hint)});
+      problems_.push_back({unknown.node->where,
+                           fmt::format("[{}]: unknown section{}", shown_key(unknown.key), hint)});
     } else {
       complain(unknown.node->where, unknown.section, unknown.key, nullptr, "unknown key" + hint);
     }

@@ -63,7 +63,8 @@ class Reading {
     std::string section, key;
     const Node* node;
   };
-  std::string suggestion(const Unknown& unknown) const;
+  std::string section_with(const std::string& key) const;
+  std::string suggestion(const Unknown& unknown);
   void add(const Location& where, std::string_view section, std::string_view key, const Node* node,
            const std::string& message);
 

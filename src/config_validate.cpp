@@ -9,22 +9,12 @@
 #include <fmt/format.h>
 
 #include "src/config_names.hpp"
+#include "src/config_plausible.hpp"
 #include "src/derived.hpp"
+#include "src/findings.hpp"
 
 namespace barchan {
 namespace {
-
-using Keys = std::vector<std::string>;
-
-struct Findings {
-  std::vector<Finding> all;
-  void error(Keys keys, std::string message) {
-    all.push_back({Finding::Severity::error, std::move(keys), std::move(message)});
-  }
-  void warning(Keys keys, std::string message) {
-    all.push_back({Finding::Severity::warning, std::move(keys), std::move(message)});
-  }
-};
 
 void check_time(const Config& c, Findings& found) {
   if (c.time.end < c.time.fluid_step) {
@@ -69,6 +59,13 @@ bool check_mesh(const Config& c, Findings& found) {
 }
 
 void check_steps(const Config& c, const FluidNumbers& n, Findings& found) {
+  if (n.stretching > 2) {
+    found.error({"fluid.first_cell_height", "fluid.cells", "domain.size"},
+                fmt::format("must be larger: rows would grow by {:.3g} each, of at most 2 (better "
+                            "1.2); more rows help as well",
+                            n.stretching));
+    return;
+  }
   if (n.stretching > 1.2) {
     found.warning({"fluid.first_cell_height", "fluid.cells"},
                   fmt::format("makes rows grow by {:.3f} each; above 1.2 is coarse", n.stretching));
@@ -155,54 +152,6 @@ void check_surroundings(const Config& c, Findings& found) {
   if (grains.boundary_z == GrainBoundaryZ::wall) {
     found.warning({"grains.boundary_z"}, "stops grains where the fluid, periodic, passes");
   }
-}
-
-void check_pour(const Config& c, Findings& found) {
-  const PourConfig& pour = *c.initial.pour;
-  if (c.grains->sizes.empty()) {
-    found.error({"grains.sizes", "initial.grains"}, "must say which grains to pour");
-  }
-  if (c.grains->frozen) {
-    found.error({"grains.frozen", "initial.grains"}, "contradicts pour: grains could not settle");
-  }
-  for (const int axis : {0, 1}) {
-    const double extent = c.size[axis == 0 ? 0 : 2];
-    const double at = pour.centre[static_cast<std::size_t>(axis)];
-    if (at - pour.radius < 0 || at + pour.radius > extent) {
-      found.error({"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
-                  fmt::format("must keep the cone inside the domain; along {} it spans {:.4g} to "
-                              "{:.4g} m of 0 to {:.4g} m",
-                              axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent));
-    }
-  }
-  // The cone is cut from a close-packed lattice one per cent wider than the largest grain.
-  double count = 0, spacing = 0;
-  for (const SizeClass& size : c.grains->sizes) {
-    count += static_cast<double>(size.count);
-    spacing = std::max(spacing, 1.01 * size.diameter);
-  }
-  const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
-  const double height = 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
-  if (height + pour.drop_height > c.size[1]) {
-    found.error({"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
-                fmt::format("must be larger: the cone would reach about {:.3g} m, above the domain",
-                            height + pour.drop_height));
-  }
-}
-
-void check_initial(const Config& c, Findings& found) {
-  if (!c.fluid && c.initial.fluid != "still") {
-    found.error({"initial.fluid"}, "must be absent without a [fluid] section");
-  }
-  const bool given = c.initial.pour.has_value() || !c.initial.grains.empty();
-  if (!c.grains && given) {
-    found.error({"initial.grains"}, "must be absent without a [grains] section");
-  }
-  if (c.grains && !given) {
-    found.error({"initial.grains"},
-                "must say where the [grains] start: a file or { pour = {...} }");
-  }
-  if (c.grains && c.initial.pour) check_pour(c, found);
 }
 
 void check_output(const Config& c, Findings& found) {
@@ -292,6 +241,15 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
   if (!c.grains || sizes.empty() || !has_mesh(c)) return {};
   const Derived derived = derive(c, sizes);
   const GrainNumbers& n = *derived.grains;
+  const double narrowest = *std::min_element(c.size.begin(), c.size.end());
+  if (narrowest > 0 && n.d_max >= narrowest) {
+    found.error(
+        {"grains.sizes", "domain.size"},
+        fmt::format("holds a diameter of {:.4g} m, wider than the domain, {:.4g} m; lengths "
+                    "are in m: 0.2 mm is 2e-4",
+                    n.d_max, narrowest));
+    return found.all;
+  }
   if (!c.grains->frozen && c.grains->contact_model == ContactModel::hertz_mindlin) {
     check_hertz_step(c, n, found);
   } else if (!c.grains->frozen) {
@@ -322,7 +280,8 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
 }
 
 std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& sizes) {
-  Findings found;
+  Findings found{.all = implausible(c)};
+  if (!found.all.empty()) return found.all;  // what follows from such numbers means nothing
   check_time(c, found);
   if (!c.fluid && !c.grains) {
     found.error({"fluid", "grains"}, "required, or [grains]: without both there is nothing to run");
@@ -338,28 +297,6 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);
   found.all.insert(found.all.end(), of_sizes.begin(), of_sizes.end());
-  return found.all;
-}
-
-std::vector<Finding> check_start(const Config& c, const Config& start, bool flow) {
-  Findings found;
-  const std::string key = flow ? "initial.fluid" : "initial.grains";
-  if (flow && !start.fluid) {
-    found.error({key}, "must be a case with [fluid]");
-  } else if (!flow && !start.grains) {
-    found.error({key}, "must be a case with [grains]");
-  }
-  if (!flow || !c.fluid || !start.fluid) return found.all;
-  if (start.size != c.size) {
-    found.error({key, "domain.size"}, fmt::format("must have the same domain; its size is [{}] m",
-                                                  fmt::join(start.size, ", ")));
-  }
-  if (start.fluid->cells != c.fluid->cells ||
-      start.fluid->first_cell_height != c.fluid->first_cell_height) {
-    found.error({key, "fluid.cells", "fluid.first_cell_height"},
-                fmt::format("must have the same mesh; its cells are [{}] from {:.4g} m",
-                            fmt::join(start.fluid->cells, ", "), start.fluid->first_cell_height));
-  }
   return found.all;
 }
 

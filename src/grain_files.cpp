@@ -4,17 +4,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "src/atomic_file.hpp"
 #include "src/checkpoint.hpp"
+#include "src/config_section.hpp"
 #include "src/frame_file.hpp"
 #include "src/grain_state.hpp"
+#include "src/printable.hpp"
 #include "src/seal.hpp"
 
 namespace barchan {
@@ -47,7 +52,11 @@ class CsvReader {
   }
 
   InitialGrains read() {
-    if (!next_line()) fail("it is empty");
+    check_text();
+    if (!next_line()) {
+      fail(std::max<std::size_t>(line_number_, 1),
+           "it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
+    }
     read_header();
     // Lines are about this long at least: fewer reallocations.
     reserve(rest_.size() / 40);
@@ -82,15 +91,56 @@ class CsvReader {
     lines_.reserve(n);
   }
 
+  /// Before lines are looked for: there may be none.
+  void check_text() {
+    const std::string_view start = rest_.substr(0, 4096);
+    line_number_ = 1;
+    if (start.starts_with("\x89HDF")) fail("it is an HDF5 file; give its name the ending .h5");
+    if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) {
+      fail("it is UTF-16 text; save it as UTF-8");
+    }
+    if (start.substr(0, start.find('\n')).find_first_of(std::string_view("\0\1\2\3\4", 5)) !=
+        start.npos) {
+      fail(
+          "it is not text but bytes of another kind; needed is a table with the header "
+          "id,diameter,x,y,z");
+    }
+    if (start.find('\r') != start.npos && start.find('\n') == start.npos) {
+      fail("its line ends are carriage returns alone; save it with newlines");
+    }
+    line_number_ = 0;
+  }
+
+  /// What else the values may be separated by; empty if it is commas.
+  std::string other_separator() const {
+    for (const auto& [mark, name] :
+         {std::pair{';', "semicolons"}, {'\t', "tabs"}, {' ', "spaces"}}) {
+      const bool there = std::count(line_.begin(), line_.end(), mark) >= 2;
+      if (there && line_.find(',') == line_.npos) return name;
+    }
+    return {};
+  }
+
   void read_header() {
+    constexpr const char* needed = "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz";
+    if (const std::string marks = other_separator(); !marks.empty()) {
+      fail(fmt::format("values are separated by {}; write commas, and decimals with a point",
+                       marks));
+    }
+    if (line_.find_first_of("\"'") != line_.npos) fail("titles stand without quotes");
+    const bool any_letter = std::any_of(line_.begin(), line_.end(), [](unsigned char c) {
+      return std::isalpha(c) != 0 && c != 'e' && c != 'E';
+    });
+    if (!any_letter) fail(fmt::format("the header is missing; {}", needed));
     std::string_view rest = line_;
-    while (!rest.empty()) {
+    for (bool more = true; more;) {
+      more = rest.find(',') != rest.npos;
       const auto title = trimmed(take(rest, ','));
+      if (title.empty()) fail(fmt::format("column {} has no name", order_.size() + 1));
       const auto found = std::find(columns.begin(), columns.end(), title);
       if (found == columns.end()) {
-        fail(fmt::format(
-            "unknown column \"{}\"; columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz",
-            title));
+        fail(fmt::format("unknown column \"{}\" in the header{}; {}", printable(title, 60),
+                         suggestion(title), needed));
       }
       const auto column = static_cast<std::size_t>(found - columns.begin());
       if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
@@ -104,6 +154,15 @@ class CsvReader {
             fmt::format("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]));
       }
     }
+  }
+
+  /// The column that a title in capitals, with its unit or misspelt was meant for.
+  static std::string suggestion(std::string_view title) {
+    const std::vector<std::string> names(columns.begin(), columns.end());
+    const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
+    std::string close = nearest(word, names);
+    if (word == "radius" || word == "r" || word == "d") close = "diameter";
+    return close.empty() ? close : fmt::format(" (did you mean \"{}\"?)", close);
   }
 
   void read_row() {
@@ -123,7 +182,9 @@ class CsvReader {
       }
     }
     if (n_fields != order_.size()) {
-      fail(fmt::format("{} values, but the header has {} columns", n_fields, order_.size()));
+      const bool twice = n_fields >= 2 * order_.size() - 1;  // ids are whole
+      fail(fmt::format("{} values, but the header has {} columns{}", n_fields, order_.size(),
+                       twice ? "; are there decimal commas? Decimals need a point" : ""));
     }
     if (value[1] <= 0) fail(fmt::format("diameter = {}: must be above 0", value[1]));
     lines_.push_back(line_number_);
@@ -139,9 +200,14 @@ class CsvReader {
     T value{};
     if (field.starts_with('+')) field.remove_prefix(1);  // from_chars knows no plus sign
     const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error == std::errc::result_out_of_range && std::is_integral_v<T>) {
+      fail(fmt::format("{} = {}: must be at most {}", columns[column], printable(field, 60),
+                       std::numeric_limits<std::int64_t>::max()));
+    }
     if (error != std::errc() || stop != field.data() + field.size()) {
-      fail(fmt::format("{} = \"{}\": must be {}", columns[column], field,
-                       std::is_integral_v<T> ? "a whole number" : "a number"));
+      fail(fmt::format("{} = \"{}\": must be {}{}", columns[column], printable(field, 60),
+                       std::is_integral_v<T> ? "a whole number" : "a number",
+                       field.find_first_of("\"'") != field.npos ? ", without quotes" : ""));
     }
     if constexpr (!std::is_integral_v<T>) {
       if (!std::isfinite(value)) {
@@ -188,7 +254,7 @@ void check_grains(const InitialGrains& grains, const std::filesystem::path& file
   for (std::size_t g = 0; g < grains.size(); ++g) {
     std::string problem;
     if (!(grains.diameter[g] > 0 && std::isfinite(grains.diameter[g]))) {
-      problem = fmt::format("has a diameter of {} m", grains.diameter[g]);
+      problem = fmt::format("has a diameter of {} m: it must be above 0", grains.diameter[g]);
     } else if (!finite(grains.x[g]) || !finite(grains.u[g]) || !finite(grains.omega[g])) {
       problem = "has a position or velocity that is not finite";
     } else if (!ids.insert(grains.id[g]).second) {
@@ -202,7 +268,10 @@ void check_grains(const InitialGrains& grains, const std::filesystem::path& file
 
 InitialGrains read_last_frame(const Hdf5File& file) {
   const auto frames = list_frames(file);
-  if (frames.empty()) throw std::runtime_error(file.path().string() + " holds no frames of grains");
+  if (frames.empty()) {
+    throw std::runtime_error(file.path().string() +
+                             " holds no frames of grains: give a grains.h5 or a restart file");
+  }
   const std::string group = frames.back().name + "/";
   InitialGrains grains;
   grains.id = file.read<std::int64_t>(group + "id");

@@ -6,6 +6,7 @@
 
 #include "src/communicator.hpp"
 #include "src/hdf5_handle.hpp"
+#include "src/input_file.hpp"
 #include "src/seal.hpp"
 
 namespace barchan {
@@ -87,8 +88,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
   hdf5::start_library();
   parallel_ = rank_count(communicator) > 1;
   is_root_ = rank_of(communicator) == 0;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder", {});
+  if (mode == Mode::read) {  // opening a pipe would wait for ever
+    if (const std::string why = not_a_file(path); !why.empty()) fail(why, {});
+  }
   const Handle access = access_list(parallel_, communicator, system_error_.get());
   Id opened = -1;
   if (mode == Mode::create || mode == Mode::create_sealable) {

@@ -112,8 +112,9 @@ std::string Health::grain_problem(const GrainState& grains, const CoupledStep& s
                                   const std::vector<Real>& worst, bool at_start) const {
   const GrainSolver& solver = *step.grain_solver();
   const WorstGrains mine = worst_of(grains, solver, true_grain_step(config_.time));
+  // A rank without grains or pairs has Kokkos' identity for a worst item: its place is none.
   const auto tell = [&](const WorstItem& item, auto words) {
-    return of_the_worst(ranks_, item.val, item.loc < 0 ? std::string() : words(item.loc));
+    return of_the_worst(ranks_, item.val, item.val > 0 ? words(item.loc) : std::string());
   };
   if (!(worst[2] < kMostWay)) {
     return tell(mine.way, [&](int g) {

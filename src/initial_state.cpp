@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/config_load.hpp"
 #include "src/config_validate.hpp"
 #include "src/domain.hpp"
@@ -61,11 +64,23 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
     const bool inside = x.x >= 0 && x.x <= config.size[0] && x.y >= -r && x.y <= config.size[1] &&
                         x.z >= 0 && x.z <= config.size[2];
     if (!inside) {
-      throw InputError(fmt::format(
-          "{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to ({:.6g}, {:.6g}, "
-          "{:.6g}) m (domain.size)",
-          source, grains.id[g], x.x, x.y, x.z, config.size[0], config.size[1], config.size[2]));
+      const bool far_out = norm(x) > 10 * (config.size[0] + config.size[1] + config.size[2]);
+      throw InputError(
+          fmt::format("{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to "
+                      "({:.6g}, {:.6g}, "
+                      "{:.6g}) m (domain.size){}",
+                      source, grains.id[g], x.x, x.y, x.z, config.size[0], config.size[1],
+                      config.size[2], far_out ? "; lengths are in m, not mm" : ""));
     }
+  }
+}
+
+/// What the configuration alone did not show: whether the steps and the domain suit these grains.
+void check_sizes(const InitialGrains& grains, const Config& config, const std::string& source) {
+  const auto [least, most] = std::minmax_element(grains.diameter.begin(), grains.diameter.end());
+  for (const Finding& f : check_grain_sizes(config, {{*least, 1}, {*most, 1}})) {
+    if (f.severity != Finding::Severity::error) continue;
+    throw InputError(fmt::format("{}: with these grains {} {}", source, f.keys.front(), f.message));
   }
 }
 
@@ -80,8 +95,11 @@ SystemState make_initial_state(const Config& config, const InitialFiles& files,
     InitialGrains grains =
         poured ? pour_grains(*config.initial.pour, config.grains->sizes, config.size)
                : read_grains(files.grains);
+    const std::string source = poured ? "initial.grains.pour" : files.grains.string();
+    if (grains.size() == 0) throw InputError(source + " holds no grains");
+    check_sizes(grains, config, source);
     wrap(grains, config);
-    check_inside(grains, config, poured ? "initial.grains.pour" : files.grains.string());
+    check_inside(grains, config, source);
     state.grains = make_grain_state(grains, config.grains->density, ranks);
   }
   return state;

@@ -2,18 +2,23 @@
 #include <mpi.h>
 
 #include <Kokkos_Core.hpp>
+#include <charconv>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "barchan_version.hpp"
 #include "src/check.hpp"
 #include "src/command_line.hpp"
 #include "src/communicator.hpp"
-#include "src/info.hpp"
 #include "src/errors.hpp"
+#include "src/info.hpp"
+#include "src/printable.hpp"
 #include "src/report.hpp"
 #include "src/run_case.hpp"
 
@@ -37,10 +42,27 @@ struct MpiScope {
   MPI_Comm refusals = MPI_COMM_NULL;  // ranks may meet here while others are busy in the world
 };
 
+/// Kokkos ends the program with a stack trace when it cannot read its own settings.
+void check_environment() {
+  for (const char* name : {"KOKKOS_NUM_THREADS", "KOKKOS_DEVICE_ID"}) {
+    const char* const set = std::getenv(name);
+    if (set == nullptr) continue;
+    const std::string_view text = set;
+    int value = -1;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const int least = std::string_view(name) == "KOKKOS_NUM_THREADS" ? 1 : 0;
+    if (error == std::errc() && stop == text.data() + text.size() && value >= least) continue;
+    throw barchan::InputError(std::string("the environment variable ") + name + " = \"" + set +
+                              "\" must be a whole number of at least " + std::to_string(least) +
+                              "; unset it, or use --threads");
+  }
+}
+
 int execute(const barchan::CommandLine& line) {
   using barchan::Command;
   switch (line.command) {
     case Command::run: {
+      check_environment();
       Kokkos::InitializationSettings settings;
       if (line.threads > 0) settings.set_num_threads(line.threads);
       // Ranks that share cores were asked for: a warning from each would bury the run's own lines.
@@ -63,7 +85,8 @@ int execute(const barchan::CommandLine& line) {
 
 /// One message and an end for all ranks. A problem that all of them met is told by rank 0, which
 /// ends the others; one that another rank met alone is told by that rank a moment later.
-int fail(const std::string& message, int exit_code) {
+int fail(const std::string& words, int exit_code) {
+  const std::string message = barchan::printable_lines(words);
   const int rank = barchan::rank_of(MPI_COMM_WORLD);
   if (rank == 0) {
     barchan::report::error("{}", message);
@@ -79,13 +102,14 @@ int fail(const std::string& message, int exit_code) {
 int refuse(const MpiScope& mpi, const std::string& message) {
   constexpr int bad_input = 2;
   if (!barchan::all_come(mpi.refusals, std::chrono::seconds(2))) return fail(message, bad_input);
-  if (barchan::rank_of(MPI_COMM_WORLD) == 0) std::cerr << message << '\n';
+  if (barchan::rank_of(MPI_COMM_WORLD) == 0) std::cerr << barchan::printable_lines(message) << '\n';
   return bad_input;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
   const MpiScope mpi(&argc, &argv);
   try {
     const auto line = barchan::parse_command_line(

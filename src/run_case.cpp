@@ -12,6 +12,7 @@
 #include "src/config_validate.hpp"
 #include "src/derived.hpp"
 #include "src/errors.hpp"
+#include "src/out_folder.hpp"
 #include "src/report.hpp"
 #include "src/simulation.hpp"
 #include "src/watchdog.hpp"
@@ -97,8 +98,33 @@ void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
       config.file.string(), need / 1e9, have / 1e9));
 }
 
+/// Rank 0 looks, all end if it finds something.
+template <class Check>
+void on_rank_0(const Check& check) {
+  std::string problem;
+  try {
+    if (rank_of(MPI_COMM_WORLD) == 0) check();
+  } catch (const InputError& found) {
+    problem = found.what();
+  }
+  if (as_rank_0_says(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
+}
+
+/// Before hours go into what a case starts from.
+void check_folder(const Config& config, const RunOptions& options) {
+  on_rank_0([&] {
+    check_out_folder(options.folder);
+    if (options.restart) {
+      check_results_go_on(options.folder);
+    } else {
+      check_nothing_is_lost(config, options.folder);
+    }
+  });
+}
+
 Outcome run_one(const Config& config, const RunOptions& options) {
   check_memory(config, known_sizes(config));
+  check_folder(config, options);
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);

@@ -9,11 +9,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 
 #include "src/atomic_file.hpp"
 #include "src/checkpoint.hpp"
 #include "src/communicator.hpp"
+#include "src/errors.hpp"
 
 namespace barchan {
 
@@ -28,20 +30,20 @@ constexpr const char* dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
 /// What is about a run that failed, and not about the one that comes now.
+constexpr const char* failure_names[] = {"failure_grains.h5", "failure_grains.xdmf",
+                                         "failure_fields.h5", "failure_fields.xdmf"};
 void remove_failure(const std::filesystem::path& folder) {
-  for (const char* name : {"failure_grains.h5", "failure_grains.xdmf", "failure_fields.h5",
-                           "failure_fields.xdmf"}) {
-    std::filesystem::remove(folder / name);
-  }
+  for (const char* name : failure_names) std::filesystem::remove(folder / name);
 }
+
+constexpr const char* result_names[] = {
+    "config.toml",     "run.json",          "history.csv",   "dune.csv",  "fields.h5",
+    "fields.xdmf",     "grains.h5",         "grains.xdmf",   "tracks.h5", "statistics.csv",
+    "flow_average.h5", "flow_average.xdmf", "force_map.csv", "log.txt"};
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
-  for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
-                           "fields.xdmf", "grains.h5", "grains.xdmf", "tracks.h5", "statistics.csv",
-                           "flow_average.h5", "flow_average.xdmf", "force_map.csv", "log.txt"}) {
-    std::filesystem::remove(folder / name);
-  }
+  for (const char* name : result_names) std::filesystem::remove(folder / name);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path());
   }
@@ -52,19 +54,41 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw std::runtime_error("cannot make the folder " + folder.string() + ": " + error.message());
+    throw InputError("cannot make the folder " + folder.string() + ": " + error.message() +
+                     "; take another --out");
   }
+}
+
+bool is_one_of(std::span<const char* const> names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The text of a table to go on with; empty if there is none yet.
+std::string text_of_table(const std::filesystem::path& file, const std::string& header) {
+  const std::string first_line = header + "\n";
+  const std::string text = std::filesystem::exists(file) ? read_text(file) : std::string();
+  if (!text.empty() && !text.starts_with(first_line) && !first_line.starts_with(text)) {
+    throw std::runtime_error("cannot continue " + file.string() + ": its columns are not \"" +
+                             header + "\"");
+  }
+  return text;
 }
 
 }  // namespace
 
+bool is_result(const std::filesystem::path& name) {
+  return is_one_of(result_names, name) || is_one_of(failure_names, name) ||
+         name.extension() == ".tmp" || is_checkpoint_name(name);
+}
+
+void check_tables(const std::filesystem::path& folder) {
+  text_of_table(folder / history_name, history_header);
+  text_of_table(folder / dune_name, dune_header);
+}
+
 void cut_table(const std::filesystem::path& file, const std::string& header, double t) {
   std::string kept = header + "\n";
-  const std::string text = std::filesystem::exists(file) ? read_text(file) : std::string();
-  if (!text.empty() && !text.starts_with(kept) && !kept.starts_with(text)) {
-    throw std::runtime_error("cannot continue " + file.string() + ": its columns are not \"" +
-                             header + "\"");
-  }
+  const std::string text = text_of_table(file, header);
   const auto columns = std::count(header.begin(), header.end(), ',');
   const double last = t + 1e-9 * std::max(1.0, std::abs(t));  // times have ten digits in the table
   for (std::size_t begin = kept.size(), end = 0; begin < text.size(); begin = end + 1) {

@@ -97,6 +97,12 @@ class RunFolder {
   int history_ = -1, dune_ = -1;  // file descriptors; -1: not open
 };
 
+/// True for names of files that a new run removes from its folder.
+bool is_result(const std::filesystem::path& name);
+
+/// Throws std::runtime_error when a table in the folder is not one that a restart can go on with.
+void check_tables(const std::filesystem::path& folder);
+
 /// Keeps the lines of a CSV table whose first column is at most `t`; a last line that was not
 /// written to its end goes too. A missing or empty file becomes one with the header only.
 /// Throws std::runtime_error when the file has another header.

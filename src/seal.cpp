@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/input_file.hpp"
+
 namespace barchan {
 
 namespace {
@@ -74,6 +76,7 @@ void seal(const std::filesystem::path& file) {
 }
 
 bool has_seal(const std::filesystem::path& file) {
+  if (!not_a_file(file).empty()) return false;  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
   std::string text(mark.size(), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));

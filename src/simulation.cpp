@@ -118,6 +118,12 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
 void Simulation::go_on_from(const CheckpointReader& file) {
   load_state(file, state_, coupled_step_);
   step_ = file.integer("step");
+  if (step_ > end_step_) {
+    throw InputError(
+        fmt::format("cannot restart from {}: its time, {:.6g} s, is beyond time.end = "
+                    "{:.6g} s: set a later end, or take an earlier restart file",
+                    file.path().string(), file.real("t"), config_.time.end));
+  }
   restart_time_ = file.real("t");
   if (std::abs(*restart_time_ - time()) > 1e-6 * config_.time.fluid_step) {
     throw InputError(fmt::format("cannot restart from {}: its time {:.6g} s is not that of step {}",
@@ -231,7 +237,8 @@ void Simulation::watch() {
 
 bool Simulation::due(double interval) const {
   if (!(interval > 0)) return false;
-  const auto every = std::max<std::int64_t>(1, std::llround(interval / config_.time.fluid_step));
+  const double steps = std::min(interval / config_.time.fluid_step, 1e18);
+  const auto every = std::max<std::int64_t>(1, std::llround(steps));
   return step_ % every == 0;
 }
 

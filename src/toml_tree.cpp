@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "src/printable.hpp"
+#include "src/toml_hint.hpp"
+
 namespace barchan {
 namespace {
 
@@ -53,10 +56,10 @@ Node convert(const toml::node& from, const Location& where) {
 
 /// The value part of an assignment: TOML if it is, else a string of its characters.
 Node parse_value(std::string_view text, const Location& where) {
+  const bool one_line = text.find('\n') == text.npos && unparsable(text).line == 0;
   try {
-    const toml::table parsed = toml::parse("value = " + std::string(text));
-    if (parsed.size() == 1 && text.find('\n') == text.npos)
-      return convert(*parsed.get("value"), where);
+    const toml::table parsed = toml::parse(one_line ? "value = " + std::string(text) : "");
+    if (parsed.size() == 1) return convert(*parsed.get("value"), where);
   } catch (const toml::parse_error&) {
     // A bare word: --set fluid.turbulence=none.
   }
@@ -91,11 +94,16 @@ const Node* Node::find(std::string_view key) const {
 
 Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems) {
   const Location whole{name, 1};
+  if (const Unparsable stop = unparsable(text); stop.line > 0) {
+    problems.push_back({{name, stop.line}, fmt::format("not TOML: {}", stop.why)});
+    return Node{NodeTable{}, whole};
+  }
   try {
     return convert(toml::parse(text, name), whole);
   } catch (const toml::parse_error& error) {
     const Location where{name, static_cast<int>(error.source().begin.line)};
-    problems.push_back({where, fmt::format("not TOML: {}", error.description())});
+    problems.push_back(
+        {where, fmt::format("not TOML: {}{}", error.description(), toml_hint(text, where.line))});
   }
   return Node{NodeTable{}, whole};
 }
@@ -103,7 +111,11 @@ Node parse_toml(std::string_view text, const std::string& name, std::vector<Prob
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems) {
   const std::size_t equals = assignment.find('=');
   const std::string_view dotted = assignment.substr(0, equals);
-  const Location where{fmt::format("--set {}", dotted), 0};
+  const Location where{fmt::format("--set {}", printable(dotted, 60)), 0};
+  if (is_too_deep(dotted)) {
+    problems.push_back({where, "unknown key: none has so many parts"});
+    return;
+  }
   if (equals == assignment.npos || dotted.empty()) {
     problems.push_back({where, "must have the form key=value, as in time.end=2.5"});
     return;

@@ -17,9 +17,9 @@ def folder(path):
 
 
 ENTRIES = [
-    Entry("--out is a file", ["out", "a file", "--out"], files={"out": "mine\n"}),
-    Entry("--out below a file", ["notes.txt", "--out"], files={"notes.txt": "mine\n"}, command="run case.toml --quiet --out notes.txt/run"),
-    Entry("--out is the case", ["case.toml", "a file"], command="run case.toml --quiet --out case.toml"),
+    Entry("--out is a file", ["out", "a file, not a folder", "--out"], files={"out": "mine\n"}),
+    Entry("--out below a file", ["notes.txt is a file, not a folder", "another --out"], files={"notes.txt": "mine\n"}, command="run case.toml --quiet --out notes.txt/run"),
+    Entry("--out is the case", ["case.toml is a file, not a folder", "another --out"], command="run case.toml --quiet --out case.toml"),
     Entry("--out is /dev/null", ["/dev/null", "--out"], command="run case.toml --quiet --out /dev/null"),
     Entry("--out below /proc", ["/proc", "--out"], command="run case.toml --quiet --out /proc/run"),
     Entry("--out is a broken link", ["out", "--out"], files={"out": lambda path: path.symlink_to("gone/far")}),
@@ -42,9 +42,9 @@ ENTRIES = [
     nobody("flow that may not be read", ["secret.h5", "Permission denied"], edits={'fluid = "turbulent"': 'fluid = "secret.h5"'},
            given=("good/restart_0000000004.h5 as secret.h5",)),
     # Full disks are met on the way: exit code 1, and what is there is whole or gone.
-    Entry("no room for the first table", ["out", "No space left", "run.json"], SHORT, place="tmpfs 4k", code=1, writes=True),
-    Entry("no room for the fields", ["fields.h5", "No space left"], SHORT, place="tmpfs 64k", code=1, writes=True),
-    Entry("no room for the restart file", ["restart_", "No space left"], SHORT, place="tmpfs 200k", code=1, writes=True),
+    Entry("no room for the first table", ["cannot write out/", "No space left"], SHORT, place="tmpfs 4k", code=1, writes=True),
+    Entry("no room for the fields", ["cannot write out/", ".h5", "No space left"], SHORT, place="tmpfs 64k", code=1, writes=True),
+    Entry("no room for the restart file", ["restart_0000000004.h5", "No space left"], SHORT, place="tmpfs 440k", code=1, writes=True),
     Entry("files may not grow", ["File too large"], SHORT, place="prlimit 20000", code=1, writes=True),
     Entry("no file may be written", ["File too large"], SHORT, place="prlimit 0", code=1, writes=True),
 ]

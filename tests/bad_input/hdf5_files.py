@@ -1,5 +1,7 @@
 """HDF5 files that are none, are damaged, or were made by something else."""
 
+import os
+
 import h5py
 import numpy
 
@@ -83,20 +85,20 @@ ENTRIES = [
               ["start.h5", "id"]),
     from_file("grains.h5: no grains", edited(id=numpy.zeros(0, "i8"), d=numpy.zeros(0), x=numpy.zeros((0, 3)), u=numpy.zeros((0, 3)),
                                              omega=numpy.zeros((0, 3))), ["start.h5", "no grains"]),
-    from_file("grains.h5: NaN position", edited(x=numpy.full((N, 3), numpy.nan)), ["start.h5", "grain 0", "finite"]),
+    from_file("grains.h5: NaN position", edited(x=numpy.full((N, 3), numpy.nan)), ["start.h5", "grain 0", "not finite"]),
     from_file("grains.h5: infinite speed", edited(u=numpy.full((N, 3), numpy.inf, "f4")), ["start.h5", "grain", "finite"]),
     from_file("grains.h5: NaN diameter", edited(d=numpy.full(N, numpy.nan)), ["start.h5", "grain 0", "diameter"]),
     from_file("grains.h5: diameters of 0", edited(d=numpy.zeros(N)), ["start.h5", "grain 0", "diameter", "above 0"]),
     from_file("grains.h5: negative diameters", edited(d=numpy.full(N, -2e-4)), ["start.h5", "grain 0", "diameter", "above 0"]),
-    from_file("grains.h5: ids twice", edited(id=numpy.zeros(N, "i8")), ["start.h5", "id 0", "twice"]),
-    from_file("grains.h5: negative ids", edited(id=-1 - numpy.arange(N)), ["start.h5", "id", "at least 0"]),
+    from_file("grains.h5: ids twice", edited(id=numpy.zeros(N, "i8")), ["start.h5", "grain 0", "is in it twice"]),
+    from_file("grains.h5: negative ids", edited(id=-1 - numpy.arange(N)), [], code=0),
     from_file("grains.h5: outside", edited(x=numpy.full((N, 3), 1.0)), ["start.h5", "outside the domain"]),
     from_file("grains.h5: on top of each other", edited(x=numpy.full((N, 3), 0.003)), ["start.h5", "overlap"]),
     from_file("grains.h5: an array larger than the file", h5(huge), ["start.h5"]),
     Entry("grains.h5: flow instead of grains", ["start.h5", "id"], {'grains = "grains.csv"': 'grains = "start.h5"'}, base=TABLE,
           given=("good/fields.h5 as start.h5",)),
     *[Entry(f"grains.h5: cut at {keep:.0%}", ["start.h5", "cut short"], {'grains = "grains.csv"': 'grains = "start.h5"'}, base=TABLE,
-            given=GRAINS, files={"start.h5": lambda path, keep=keep: cut(path, keep)}) for keep in (0.1, 0.5, 0.9, 0.999)],
+            given=GRAINS, files={"start.h5": lambda path, keep=keep: cut(path, keep)}) for keep in (0.1, 0.5, 0.9, 0.99)],
     Entry("grains.h5: a folder", ["@grains =", "is a folder"], {'grains = "grains.csv"': 'grains = "start.h5"'}, base=TABLE,
           files={"start.h5": lambda path: path.mkdir()}),
     # As the flow of a start: a restart file of another kind or case.
@@ -121,7 +123,9 @@ ENTRIES = [
     info("info: foreign", h5(lambda file: file.create_dataset("a", data=[1, 2])), ["start.h5", "not one that barchan wrote"]),
     info("info: a folder", lambda path: path.mkdir(), ["start.h5", "folder"]),
     Entry("info: no such file", ["nowhere.h5", "No such file"], text="", command="info nowhere.h5"),
-    Entry("info: /dev/zero", ["/dev/zero", "not a file"], text="", command="info /dev/zero", limit=5),
+    Entry("info: /dev/zero", ["/dev/zero", "not a file but a device"], text="", command="info /dev/zero", limit=5),
+    Entry("info: a FIFO", ["start.h5", "not a file but a device or a pipe"], text="", command="info start.h5", files={"start.h5": os.mkfifo},
+          limit=5),
     Entry("info: the case", ["case.toml", "not an HDF5 file"], command="info case.toml"),
     Entry("info: cut", ["start.h5", "cut short"], text="", command="info start.h5", given=GRAINS,
           files={"start.h5": lambda path: cut(path, 0.5)}),

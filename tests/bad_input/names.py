@@ -10,7 +10,7 @@ def named(name, file, **more):
     """The case under this name: a good one runs, a bad one is told with its name."""
     quoted = "'" + file.replace("'", "'\\''") + "'"
     return [Entry(f"{name}, good", [], text="", files={file: SHORT}, command=f"run {quoted} --quiet --out 'out {name}'", code=0, **more),
-            Entry(f"{name}, bad", [file.replace("\n", "\\n") + ":4:", "must be above 0"], text="", files={file: BAD}, command=f"run {quoted} --quiet", **more)]
+            Entry(f"{name}, bad", [file.replace("\n", "\\n") + ":5:", "must be above 0"], text="", files={file: BAD}, command=f"run {quoted} --quiet", **more)]
 
 
 ENTRIES = [
@@ -24,8 +24,8 @@ ENTRIES = [
     *named("no ending", "case"),
     *named("two endings", "case.toml.bak"),
     *named("a long name", "n" * 200 + ".toml"),
-    Entry("a line end in the name", ["two\\nlines.toml:4:"], text="", files={"two\nlines.toml": BAD}, command="run 'two\nlines.toml' --quiet"),
-    Entry("a name that is not UTF-8", ["bad_\\xff.toml:4:"], text="", files={b"bad_\xff.toml".decode(errors="surrogateescape"): BAD},
+    Entry("a line end in the name", ["two\\nlines.toml:5:"], text="", files={"two\nlines.toml": BAD}, command="run 'two\nlines.toml' --quiet"),
+    Entry("a name that is not UTF-8", ["bad_\\xff.toml:5:"], text="", files={b"bad_\xff.toml".decode(errors="surrogateescape"): BAD},
           command="run 'bad_\udcff.toml' --quiet"),
     Entry("a table with a space in its name", [], base=TABLE.replace("grains.csv", "meine Körner.csv"),
           edits={"end = 0.01": "end = 5e-4"}, files={"meine Körner.csv": grains_csv()}, code=0),

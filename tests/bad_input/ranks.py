@@ -12,11 +12,11 @@ ENTRIES = [
     Entry("ranks: bad option told once", ["--threads"], command="run case.toml --threads 0", ranks=2),
     Entry("ranks: bad table told once", ["grains.csv:1:", "unknown column"], base=TABLE, files={"grains.csv": "a,b\n1,2\n"}, ranks=2),
     Entry("ranks: overlaps told once", ["grains.csv", "overlap"], base=TABLE, ranks=2,
-          files={"grains.csv": grains_csv([(n, 2e-4, 0.006, 0.001 + 1e-5 * n, 0.003) for n in range(5)])}),
+          files={"grains.csv": grains_csv([(n, 2e-4, 0.006, 0.001 + 1e-5 * n, 0.003) for n in range(1, 6)])}),
     Entry("ranks: damaged restart told once", ["restart_0000000004.h5", "damaged"], given=("good as out",), ranks=2,
           files={"out/restart_0000000004.h5": lambda path: path.write_bytes(path.read_bytes()[:-9] + bytes(9) + b"more")},
           command="run case.toml --quiet --out out --restart out/restart_0000000004.h5"),
     Entry("ranks: restart of another mesh told once", ["fluid.cells", "written with"], {"cells = [10,": "cells = [12,"}, ranks=2,
           given=("good as out",), command="run case.toml --quiet --out out --restart out/restart_0000000004.h5"),
-    Entry("ranks: --out is a file", ["out", "a file"], files={"out": "mine\n"}, ranks=2),
+    Entry("ranks: --out is a file", ["out", "a file, not a folder", "another --out"], files={"out": "mine\n"}, ranks=2),
 ]

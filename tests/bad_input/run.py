@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bad input: tries every entry of the corpus in a folder of its own and checks how it ends.
 
-    run.py PROGRAM [--only TEXT] [--show] [--at-once N] [--every N]
+    run.py PROGRAM [--only TEXT] [--show] [--wrong-only] [--at-once N]
 
 An entry is fine when the exit code is the expected one, the message holds the expected words and tells of as many
 problems as there are, nothing else is said (no signal, abort, stack trace, dump of a library's errors), nothing is
@@ -104,7 +104,7 @@ def command_of(entry, program):
 class Ended:
     def __init__(self, code, out, err, seconds):
         self.code, self.out, self.err, self.seconds = code, out, err, seconds
-        self.wrong = []
+        self.wrong, self.skipped = [], None
 
     def how(self):
         if self.code is None:
@@ -128,18 +128,21 @@ def execute(command, folder, environment, limit):
 
 def problems_told(entry, text):
     """Number of problems in a message, or a sentence about its form."""
-    lines = [line for line in text.splitlines() if line.strip() and not is_banner(line)]
+    lines = [line for line in without_usage(text).splitlines() if line.strip()]
     if lines and (count := re.fullmatch(r"(\d+) problems?; nothing was run\.", lines[-1])):
-        told = [line for line in lines[:-1] if not line.startswith("  ")]
-        return len(told) if len(told) == int(count[1]) else f"counts {count[1]} problems but names {len(told)}"
+        told = sum(not line.startswith("  ") for line in lines[:-1])
+        more = re.fullmatch(r"  \.\.\. and (\d+) more", lines[-2])
+        told += int(more[1]) if more else 0
+        return told if told == int(count[1]) else f"counts {count[1]} problems but names {told}"
     # Lines that are set in belong to the one above; what follows a list of them concludes it.
     loose = [n for n, line in enumerate(lines) if not line.startswith("  ") and not (n > 0 and lines[n - 1].startswith("  "))]
     return len(loose)
 
 
-def is_banner(line):
-    """argparse and mpirun put words of their own around a message."""
-    return line.startswith(("usage: ", "Run with --help")) or re.match(r" {3,}\[", line) is not None
+def without_usage(text):
+    """argparse and CLI11 put words of their own around a message; a warning is none of a problem."""
+    text = re.sub(r"^usage: .*\n( .*\n)*", "", text, flags=re.M)
+    return re.sub(r"^(Run with --help|warning: |libgomp: ).*\n", "", text, flags=re.M)
 
 
 def check_message(entry, ended):
@@ -185,7 +188,7 @@ def attempt(entry, program, good, scratch, number):
 
 
 def show(entry, kind, ended, verbose):
-    if getattr(ended, "skipped", None):
+    if ended.skipped:
         print(f"{kind:<16} {entry.name:<52} skipped: {ended.skipped}")
         return
     verdict = "ok" if not ended.wrong else "WRONG"
@@ -202,7 +205,7 @@ def table(results):
     ways = ["exit code 0", "exit code 1", "exit code 2", "hung", "other", "skipped", "wrong"]
     counts = collections.defaultdict(collections.Counter)
     for kind, _, ended in results:
-        if getattr(ended, "skipped", None):
+        if ended.skipped:
             counts[kind]["skipped"] += 1
             continue
         counts[kind][ended.how() if ended.how() in ways else "other"] += 1
@@ -221,6 +224,7 @@ def parse(arguments):
     parser.add_argument("program", type=Path)
     parser.add_argument("--only", default="", help="entries with this text in their name or kind")
     parser.add_argument("--show", action="store_true", help="print every message")
+    parser.add_argument("--wrong-only", action="store_true", help="print no line for what ends as it should")
     parser.add_argument("--at-once", type=int, default=2)
     return parser.parse_args(arguments)
 
@@ -247,7 +251,8 @@ def main(arguments):
             results = []
             for (kind, entry), job in zip(entries, jobs):
                 ended = job.result()
-                show(entry, kind, ended, options.show)
+                if ended.wrong or not options.wrong_only:
+                    show(entry, kind, ended, options.show)
                 results.append((kind, entry, ended))
     wrong = table(results)
     print(f"\n{len(results)} inputs in {time.monotonic() - began:.0f} s: {wrong} ended otherwise than they should")

@@ -1,6 +1,8 @@
 """What is around the program: launcher, studies, pictures."""
 
-from entry import DRY, DUNE, Entry
+import os
+
+from entry import DUNE, Entry
 
 STUDY = '[study]\nbase = "case.toml"\n'
 VARY = "[vary]\ngrains.rolling_friction = [0.05, 0.1]\n"
@@ -29,9 +31,9 @@ ENTRIES = [
     launcher("launcher: sweep of nothing", "sweep", ["needs a study"]),
     launcher("launcher: plot of nothing", "plot", ["needs a run folder"]),
     study("study: no such file", "", ["nowhere.toml", "No such file"], command="sweep nowhere.toml"),
-    study("study: a folder", lambda path: path.mkdir(), ["study.toml", "directory"]),
+    study("study: a folder", lambda path: path.mkdir(), ["study.toml", "it is not a file"]),
     study("study: empty", "", ["study.toml", "base"]),
-    study("study: not TOML", "[study\n", ["study.toml", "line 1"]),
+    study("study: not TOML", "[study\n", ["study.toml", "not TOML", "line 1"]),
     study("study: not UTF-8", b'[study]\nbase = "\xff"\n', ["study.toml", "UTF-8"]),
     study("study: a case for a study", DUNE, ["study.toml", "case"], ),
     study("study: unknown section", STUDY + "[varry]\na = [1]\n", ["study.toml", 'did you mean "vary"']),
@@ -43,9 +45,9 @@ ENTRIES = [
     study("study: no cases", STUDY, ["study.toml", "no cases", "[vary]"]),
     study("study: a value, not a list", STUDY + "[vary]\ngrains.rolling_friction = 0.1\n", ["must be a list"]),
     study("study: an empty list", STUDY + "[vary]\ngrains.rolling_friction = []\n", ["must be a list"]),
-    study("study: vary as a number", STUDY.replace("[study]", "vary = 3\n[study]"), ["study.toml", "vary"]),
+    study("study: vary as a number", "vary = 3\n" + STUDY, ["study.toml", "vary"]),
     study("study: vary as a list", STUDY + "[[vary]]\ngrains.rolling_friction = [0.1]\n", ["study.toml", "vary"]),
-    study("study: set as a number", STUDY.replace("[study]", "set = 3\n[study]") + VARY, ["study.toml", "set"]),
+    study("study: set as a number", "set = 3\n" + STUDY + VARY, ["study.toml", "set"]),
     study("study: case as a table", STUDY + '[case]\nname = "a"\n', ["study.toml", "[[case]]"]),
     study("study: case without a name", STUDY + "[[case]]\nset = {}\n", ["study.toml", "name"]),
     study("study: case with a path for a name", STUDY + '[[case]]\nname = "../a"\n', ["study.toml", "must be of letters"]),
@@ -60,6 +62,9 @@ ENTRIES = [
     study("study: --at-once many", STUDY + VARY, ["--at-once", "many"], command="sweep study.toml --at-once many"),
     study("study: --threads -1", STUDY + VARY, ["--threads", "at least 1"], command="sweep study.toml --threads -1"),
     study("study: title as a number", STUDY + "title = 3\n" + VARY, ["title", "must be"]),
+    study("study: a FIFO", os.mkfifo, ["study.toml", "it is not a file"], limit=5),
+    study("study: a million million cases", STUDY + "[grid]\n" + "".join(f"grains.k{n} = {list(range(100))}\n" for n in range(6)),
+          ["[grid] makes 1000000000000 cases", "fewer"]),
     study("study: --out is a file", STUDY + VARY, ["case.toml", "--out"], command="sweep study.toml --out case.toml"),
     study("study: a value of two lines", STUDY + '[grid]\ninitial.fluid = ["a\\nb"]\n', ["initial.fluid"]),
     plot("plot: no such folder", "nowhere", ["nowhere"]),
