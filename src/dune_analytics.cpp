@@ -126,9 +126,9 @@ void DuneTracker::set_state(std::span<const double> numbers) {
       throw std::runtime_error("the restart file's record of the dunes is too short");
     return numbers[position++];
   };
-  const auto count = [&](auto largest) {
+  const auto count = [&](auto largest, double least = 0) {
     const double number = next();
-    if (!(number >= 0 && number <= static_cast<double>(largest))) {
+    if (!(number >= least && number <= static_cast<double>(largest))) {
       throw std::runtime_error("the restart file's record of the dunes counts what cannot be");
     }
     return static_cast<decltype(largest)>(number);
@@ -136,7 +136,7 @@ void DuneTracker::set_state(std::span<const double> numbers) {
   constexpr auto most = std::int64_t{1} << 53;
   constexpr int last_label = std::numeric_limits<int>::max();
   DuneTracker fresh(domain_, criteria_);
-  fresh.n_initial_ = count(most);
+  fresh.n_initial_ = count(most, -1);  // -1: no call yet, as in a flow without grains
   fresh.n_lost_ = count(most);
   fresh.next_label_ = count(last_label);
   for (auto n_tracks = count(most); n_tracks > 0; --n_tracks) {
@@ -152,6 +152,8 @@ void DuneTracker::set_state(std::span<const double> numbers) {
       throw std::runtime_error("the restart file's record of the dunes has one without a past");
     fresh.tracks_.push_back(track);
   }
+  if (fresh.n_initial_ < 0 && fresh.next_label_ > 0)
+    throw std::runtime_error("the restart file's record of the dunes has some before the first look");
   if (position != numbers.size())
     throw std::runtime_error("the restart file's record of the dunes is too long");
   *this = fresh;

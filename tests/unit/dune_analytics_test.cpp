@@ -316,6 +316,13 @@ TEST(DuneTracker, CountsLostGrains) {
   EXPECT_TRUE(tracker.update(0.2, Grains{}.cloud()).empty());
 }
 
+TEST(DuneTracker, OneThatHasSeenNothingComesBack) {  // of a flow without grains
+  const DuneTracker fresh(DuneDomain{.length_x = 0.1, .length_z = 0.1});
+  DuneTracker resumed(DuneDomain{.length_x = 0.1, .length_z = 0.1});
+  EXPECT_NO_THROW(resumed.set_state(fresh.state()));
+  EXPECT_EQ(resumed.state(), fresh.state());
+}
+
 TEST(DuneTracker, RestoredStateContinuesTheSame) {
   Grains grains;
   pile(grains, 0.03, 0.02, 8.0 * mm, cone(8.0 * mm, 2.5 * mm));
