@@ -177,7 +177,7 @@ def add_grains(t, case, machine, network, shape):
               + rebuilds * (counts.rebuild(b) + counts.Counts(reductions=1)))
     t["ghosts"] = network.seconds(replace(ghosts, reductions=0, all_to_alls=0), ranks)
     t["ghosts"] += rebuilds * machine.rebuild[1] * b.ghosts + n * machine.beside
-    t["reductions"] += network.seconds(counts.Counts(reductions=ghosts.reductions + 3), ranks)
+    t["reductions"] += network.seconds(counts.Counts(reductions=ghosts.reductions + 4), ranks)
     visits = counts.visits(b)
     t["visits"] = network.seconds(replace(visits, all_to_alls=0), ranks)
     calls = ghosts.all_to_alls + visits.all_to_alls
