@@ -168,8 +168,8 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
                     format, provenance().version, oldest_format, format_version));
   }
   if (format < oldest_format) {
-    fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}", format,
-                     provenance().version, oldest_format, format_version));
+    fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}",
+                     format, provenance().version, oldest_format, format_version));
   }
   if (format >= first_sealed_format && !sealed_)
     fail("it is damaged: its seal is gone" + instead_of(path()));

@@ -31,7 +31,8 @@ CLI::App* add_run(CLI::App& app, CommandLine& line) {
                   "0: never)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0, 1'000'000));
-  run->add_flag("--dry-run", line.dry_run, "check the case and show its numbers; nothing is run or written");
+  run->add_flag("--dry-run", line.dry_run,
+                "check the case and show its numbers; nothing is run or written");
   run->add_flag("--starts-only", line.starts_only,
                 "run the cases this one starts from where their results are missing, then stop");
   run->add_flag("--quiet", line.quiet, "no live line on the terminal");

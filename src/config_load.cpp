@@ -21,7 +21,9 @@ void read_title(Section& s, std::string& title) {
   constexpr std::size_t longest = 200;
   s.optional("title", title);
   const Node* node = s.take("title");
-  if (printable(title) != title) s.complain("title", *node, "must be one line of text");
+  if (printable_lines(title) != title) {
+    s.complain("title", *node, "must be text without control characters");
+  }
   if (title.size() > longest) {
     s.complain("title", *node, fmt::format("must be at most {} bytes long", longest));
   }
@@ -105,7 +107,11 @@ void resolve_start(Section& s, std::string_view key, std::string& start,
   }
   const fs::path path = fs::absolute(folder / written).lexically_normal();
   if (const std::string why = not_a_file(path); !why.empty()) {
-    s.complain(key, *node, fmt::format("must be a file to read: {}: {}", path.string(), why));
+    std::error_code ignored;
+    s.complain(key, *node,
+               fs::exists(path, ignored)
+                   ? fmt::format("must be a file to read: {}: {}", path.string(), why)
+                   : fmt::format("must be a file that exists; there is no {}", path.string()));
     return;
   }
   start = path.string();

@@ -173,8 +173,8 @@ Section::Section(Reading& reading, const Node* node, std::string name)
   if (node_ != nullptr && node_->table() == nullptr) {
     const std::size_t dot = name_.rfind('.');
     const std::string key = dot == std::string::npos ? name_ : name_.substr(dot + 1);
-    reading_.complain(node_->where, dot == std::string::npos ? "" : name_.substr(0, dot), key, node_,
-                      fmt::format("must be a section, [{}]", name_));
+    reading_.complain(node_->where, dot == std::string::npos ? "" : name_.substr(0, dot), key,
+                      node_, fmt::format("must be a section, [{}]", name_));
     node_ = nullptr;
   }
 }

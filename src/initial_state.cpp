@@ -86,8 +86,8 @@ void check_sizes(const InitialGrains& grains, const Config& config, const std::s
 
 }  // namespace
 
-SystemState make_initial_state(const Config& config, const InitialFiles& files,
-                               MPI_Comm ranks, const Decomposition* pencils) {
+SystemState make_initial_state(const Config& config, const InitialFiles& files, MPI_Comm ranks,
+                               const Decomposition* pencils) {
   SystemState state;
   if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
   if (config.grains) {

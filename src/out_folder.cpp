@@ -38,7 +38,8 @@ fs::path existing_part(const fs::path& folder) {
 }
 
 bool same_place(const fs::path& a, const fs::path& b) {
-  return fs::weakly_canonical(a) == fs::weakly_canonical(b);
+  // What is not there yet is compared by name, which must not depend on where we are.
+  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 void check_start(const std::string& key, const std::string& source, const fs::path& folder) {

@@ -89,8 +89,8 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
 /// Refuses what this machine cannot hold, before it is asked for the memory.
 void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
   const double need = derive(config, sizes).memory / rank_count(MPI_COMM_WORLD);
-  const double have = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-                      static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double have =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   if (need <= have) return;
   throw InputError(fmt::format(
       "{}: this case needs about {:.3g} GB a rank, and this machine has {:.3g} GB: take fewer "

@@ -12,8 +12,8 @@
 #include "src/config_restart.hpp"
 #include "src/derived.hpp"
 #include "src/domain.hpp"
-#include "src/grain_state_file.hpp"
 #include "src/errors.hpp"
+#include "src/grain_state_file.hpp"
 #include "src/records.hpp"
 #include "src/run_identity.hpp"
 #include "src/state_file.hpp"
@@ -48,9 +48,10 @@ void check_restart(const Config& config, const CheckpointReader& file) {
   if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
   const auto conflicts = restart_conflicts(config, config_as_written(resolved, file.path()));
   if (conflicts.empty()) return;
-  throw InputError(fmt::format("cannot restart from {}: it does not fit this case\n  {}\nkeep these keys "
-                               "as they were, or start anew",
-                               file.path().string(), fmt::join(conflicts, "\n  ")));
+  throw InputError(
+      fmt::format("cannot restart from {}: it does not fit this case\n  {}\nkeep these keys "
+                  "as they were, or start anew",
+                  file.path().string(), fmt::join(conflicts, "\n  ")));
 }
 
 /// The state a run starts from; a restart brings its own number of grains.

@@ -62,7 +62,7 @@ ENTRIES = [
     study("study: --at-once many", STUDY + VARY, ["--at-once", "many"], command="sweep study.toml --at-once many"),
     study("study: --threads -1", STUDY + VARY, ["--threads", "at least 1"], command="sweep study.toml --threads -1"),
     study("study: title as a number", STUDY + "title = 3\n" + VARY, ["title", "must be"]),
-    study("study: a FIFO", os.mkfifo, ["study.toml", "it is not a file"], limit=5),
+    study("study: a FIFO", os.mkfifo, ["study.toml", "it is not a file"], limit=10),
     study("study: a million million cases", STUDY + "[grid]\n" + "".join(f"grains.k{n} = {list(range(100))}\n" for n in range(6)),
           ["[grid] makes 1000000000000 cases", "fewer"]),
     study("study: --out is a file", STUDY + VARY, ["case.toml", "--out"], command="sweep study.toml --out case.toml"),

@@ -14,13 +14,13 @@ def start(name):
 
 
 ENTRIES = [
-    Entry("start: missing table", ["@grains =", "No such file", "grains.csv"], base=TABLE),
-    Entry("start: missing flow", ["@fluid =", "No such file", "flow.h5"], {FLOW: 'fluid = "flow.h5"'}),
-    Entry("start: missing case", ["@fluid =", "No such file", "flow.toml"], {FLOW: 'fluid = "flow.toml"'}),
+    Entry("start: missing table", ["@grains =", "there is no", "grains.csv"], base=TABLE),
+    Entry("start: missing flow", ["@fluid =", "there is no", "flow.h5"], {FLOW: 'fluid = "flow.h5"'}),
+    Entry("start: missing case", ["@fluid =", "there is no", "flow.toml"], {FLOW: 'fluid = "flow.toml"'}),
     Entry("start: a folder", ["@grains =", "is a folder"], base=TABLE, files={"grains.csv": lambda p: p.mkdir()}),
-    Entry("start: a FIFO", ["@grains =", "not a file but a device or a pipe"], base=TABLE, files={"grains.csv": os.mkfifo}, limit=5),
-    Entry("start: /dev/zero", ["@grains =", "a file ending in .csv"], start('"/dev/zero"'), base=TABLE, limit=5),
-    Entry("start: link to /dev/zero", ["@grains =", "must be a file"], base=TABLE, limit=5,
+    Entry("start: a FIFO", ["@grains =", "not a file but a device or a pipe"], base=TABLE, files={"grains.csv": os.mkfifo}, limit=10),
+    Entry("start: /dev/zero", ["@grains =", "a file ending in .csv"], start('"/dev/zero"'), base=TABLE, limit=10),
+    Entry("start: link to /dev/zero", ["@grains =", "must be a file"], base=TABLE, limit=10,
           files={"grains.csv": lambda p: p.symlink_to("/dev/zero")}),
     Entry("start: of another kind", ["@grains =", ".csv, .h5, .toml"], start('"grains.txt"'), base=TABLE),
     Entry("start: upper-case ending", ["@grains =", "a file ending in .csv"], start('"grains.CSV"'), base=TABLE,

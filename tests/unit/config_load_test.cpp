@@ -317,7 +317,8 @@ TEST_F(ConfigStart, AFileThatIsNotThere) {
   const std::string path = (folder_ / "none.toml").string();
   EXPECT_EQ(load(path), only(path + ": cannot be read: No such file or directory"));
   EXPECT_EQ(load(folder_.string()), only(folder_.string() + ": cannot be read: it is a folder"));
-  EXPECT_EQ(load("/dev/zero"), only("/dev/zero: cannot be read: it is not a file but a device or a pipe"));
+  EXPECT_EQ(load("/dev/zero"),
+            only("/dev/zero: cannot be read: it is not a file but a device or a pipe"));
 }
 
 }  // namespace

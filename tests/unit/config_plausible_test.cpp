@@ -69,9 +69,9 @@ TEST(ConfigPlausible, WhatIsNoTomlIsToldWithItsLikelyCause) {
             0);
 }
 
-TEST(ConfigPlausible, ATitleIsOneLine) {
-  EXPECT_EQ(problems("case.title = \"a\\nb\"\n" + fluid_case()),
-            only("case.toml:1: [case] title = \"a\\nb\": must be one line of text"));
+TEST(ConfigPlausible, ATitleIsText) {
+  EXPECT_EQ(problems("case.title = \"a\\u001Bb\"\n" + fluid_case()),
+            only("case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters"));
   EXPECT_EQ(problems("case.title = \"" + std::string(201, 'a') + "\"\n" + fluid_case()).size(), 2u);
   EXPECT_TRUE(problems("case.title = \"D\xC3\xBCne\"\n" + fluid_case()).empty());
 }

@@ -60,19 +60,22 @@ TEST(GrainFiles, LikelyCausesAreNamed) {
   says("id;diameter;x;y;z\n1;0,1;0;0;0\n", "heap.csv:1: values are separated by semicolons");
   says("id\tdiameter\tx\ty\tz\n", "heap.csv:1: values are separated by tabs");
   says("id diameter x y z\n", "heap.csv:1: values are separated by spaces");
-  says("id,diameter,x,y,z\n1,0,1,0,2,0,3,0,4\n", "heap.csv:2: 9 values, but the header has 5 columns; are there decimal commas?");
+  says("id,diameter,x,y,z\n1,0,1,0,2,0,3,0,4\n",
+       "heap.csv:2: 9 values, but the header has 5 columns; are there decimal commas?");
   says("1,2e-4,0,0,0\n", "heap.csv:1: the header is missing");
   says("ID,diameter,x,y,z\n", "did you mean \"id\"?");
   says("id,diameter [m],x,y,z\n", "did you mean \"diameter\"?");
   says("id,,diameter,x,y,z\n", "column 2 has no name");
   says("\"id\",\"diameter\",\"x\",\"y\",\"z\"\n", "titles stand without quotes");
   says("id,diameter,x,y,z\n1,\"2e-4\",0,0,0\n", "must be a number, without quotes");
-  says("id,diameter,x,y,z\n99999999999999999999,1,0,0,0\n", "id = 99999999999999999999: must be at most 9223372036854775807");
+  says("id,diameter,x,y,z\n99999999999999999999,1,0,0,0\n",
+       "id = 99999999999999999999: must be at most 9223372036854775807");
   says("id,diameter,x,y,z\r1,1,0,0,0\r", "carriage returns alone");
   says("\xFF\xFEi", "UTF-16");
   says("\x89HDF\r\n", "it is an HDF5 file");
   says(std::string("PK\3\4\0", 5), "not text");
-  says(std::string("id,diameter,x,y,z\n1,2e-4\0,0,0,0\n", 31), "diameter = \"2e-4\\x00\": must be a number");
+  says(std::string("id,diameter,x,y,z\n1,2e-4\0,0,0,0\n", 31),
+       "diameter = \"2e-4\\x00\": must be a number");
 }
 
 TEST(GrainFiles, ProblemsNameFileAndLine) {
@@ -80,7 +83,8 @@ TEST(GrainFiles, ProblemsNameFileAndLine) {
   EXPECT_EQ(problem("id,diameter,x,z\n1,1,1,1\n"),
             "heap.csv:1: column \"y\" is missing; needed are id,diameter,x,y,z");
   EXPECT_EQ(problem("id,diameter,x,y,z,radius\n"),
-            "heap.csv:1: unknown column \"radius\" in the header (did you mean \"diameter\"?); columns are id,diameter,x,y,z and optionally "
+            "heap.csv:1: unknown column \"radius\" in the header (did you mean \"diameter\"?); "
+            "columns are id,diameter,x,y,z and optionally "
             "vx,vy,vz,wx,wy,wz");
   EXPECT_EQ(problem("id,diameter,x,y,z,x\n"), "heap.csv:1: column \"x\" appears twice");
   EXPECT_EQ(problem(head + "1,1,0,0,0\n2,1,0,zero,0\n"),
