@@ -248,6 +248,8 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
   std::string expected = "an array of [diameter in m above 0, count above 0]";
   const auto* classes = std::get_if<NodeArray>(&node.value);
   if (classes == nullptr) return expected;
+  constexpr std::int64_t most = std::numeric_limits<int>::max();  // what a run can number
+  std::int64_t total = 0;
   std::vector<SizeClass> read;
   for (const Node& element : *classes) {
     const auto* pair = std::get_if<NodeArray>(&element.value);
@@ -256,6 +258,8 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
         convert((*pair)[1], size.count) || size.diameter <= 0 || size.count <= 0) {
       return fmt::format("{}; {} is not", expected, toml_text(element));
     }
+    if (size.count > most - total) return fmt::format("sizes of at most {} grains in all", most);
+    total += size.count;
     read.push_back(size);
   }
   value = read;

@@ -1,7 +1,6 @@
 // What the fuzz targets share: what a reader of foreign input may do with bytes it does not like.
 #pragma once
 
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -34,7 +33,7 @@ inline void demand(bool holds, std::string_view property, std::string_view detai
   if (!holds) violated(property, detail);
 }
 
-/// Libraries are not instrumented: what they and we say stands for the places they have been to.
+/// A library that is not instrumented: what it complains of stands for the places it has been to.
 inline void mark(std::size_t place) {
 #ifdef BARCHAN_LIBFUZZER
   constexpr std::size_t n = 1 << 13;
@@ -44,17 +43,6 @@ inline void mark(std::size_t place) {
 #else
   static_cast<void>(place);
 #endif
-}
-
-/// A hash of the words of a text; numbers in it do not count.
-inline std::size_t hash_of(std::string_view text) {
-  std::size_t hash = 14695981039346656037u;
-  for (const char c : text) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) {
-      hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    }
-  }
-  return hash ^ (hash >> 29);
 }
 
 /// True if the call returns. It may refuse by a `Refusal` with a sentence for the user; any other
@@ -67,7 +55,6 @@ bool accepts(const Call& call) {
     return true;
   } catch (const Refusal& problem) {
     demand(!std::string_view(problem.what()).empty(), "a refusal says why");
-    mark(hash_of(problem.what()));
   } catch (const std::exception& problem) {
     violated("refusals are sentences for the user, not:", problem.what());
   } catch (...) {

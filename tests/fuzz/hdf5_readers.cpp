@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <string_view>
 
 #include "src/checkpoint.hpp"
 #include "src/frame_file.hpp"
@@ -46,7 +48,7 @@ struct InputFolder {
 };
 
 herr_t mark_complaint(unsigned, const H5E_error2_t* entry, void*) {
-  mark(hash_of(entry->func_name) + 31 * entry->line);
+  mark(std::hash<std::string_view>{}(entry->func_name) + 31 * entry->line);
   return 0;
 }
 herr_t mark_complaints(hid_t stack, void*) {

@@ -40,8 +40,8 @@ void go_on_by_chance(double seconds, unsigned seed) {
   const auto begin = std::chrono::steady_clock::now();
   int n = 0;
   while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds)) {
-    std::string bytes(1 + engine() % (4u << engine() % 5),
-                      '\0');  // often few, or nothing is left whole
+    const auto most = 4u << (engine() % 5);  // often few, or nothing is left whole
+    std::string bytes(1 + engine() % most, '\0');
     for (char& byte : bytes) byte = static_cast<char>(engine());
     std::ofstream("input.random", std::ios::binary) << bytes;
     give(bytes);

@@ -32,5 +32,5 @@ case $target in
   *) options+=(-max_len=8192) ;;
 esac
 # The HDF5 library is not ours, and leaks when it gives up on a damaged file.
-export ASAN_OPTIONS="detect_leaks=$([[ $target == hdf5* ]] && echo 0 || echo 1):${ASAN_OPTIONS:-}"
+export ASAN_OPTIONS="detect_leaks=$([[ $target == hdf5* ]] && echo 0 || echo 1):allocator_may_return_null=1:${ASAN_OPTIONS:-}"
 exec "build/fuzz/$here/${target}_fuzzer" "${options[@]}" "$@" "$found/corpus" "$here/corpus/$target"
