@@ -65,6 +65,7 @@ struct Watched {
 std::vector<Watched> watched;
 double watched_seconds = 0;
 bool is_watched = false;
+// NOLINTNEXTLINE(bugprone-throwing-static-initialization): made of a number, while compiling
 Clock::time_point started;
 
 void on_begin(const char* name, const std::uint32_t, std::uint64_t* id) {
