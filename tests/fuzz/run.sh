@@ -7,12 +7,11 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 here=tests/fuzz
-targets="$(cd "$here" && ls -- *_fuzzer.cpp | sed 's/_fuzzer.cpp//')"
 target="${1:-config}"
 seconds="${2:-60}"
 shift $(($# < 2 ? $# : 2))
 if [ ! -e "$here/${target}_fuzzer.cpp" ]; then
-  echo "no target '$target'; there are:" $targets >&2
+  echo "no target '$target'; there are: $(cd "$here" && printf '%s\n' *_fuzzer.cpp | sed 's/_fuzzer.cpp//' | paste -sd ' ')" >&2
   exit 2
 fi
 
@@ -32,5 +31,7 @@ case $target in
   *) options+=(-max_len=8192) ;;
 esac
 # The HDF5 library is not ours, and leaks when it gives up on a damaged file.
-export ASAN_OPTIONS="detect_leaks=$([[ $target == hdf5* ]] && echo 0 || echo 1):allocator_may_return_null=1:${ASAN_OPTIONS:-}"
+leaks=1
+[[ $target != hdf5* ]] || leaks=0
+export ASAN_OPTIONS="detect_leaks=$leaks:allocator_may_return_null=1:${ASAN_OPTIONS:-}"
 exec "build/fuzz/$here/${target}_fuzzer" "${options[@]}" "$@" "$found/corpus" "$here/corpus/$target"
