@@ -76,6 +76,7 @@ void read(Section& s, GrainConfig& c, Reading& reading) {
   s.optional("boundary_z", c.boundary_z);
   s.optional("gravity", c.gravity);
   s.optional("skin", c.skin, {at_least(0)});
+  s.optional("max_overlap", c.max_overlap, {above(0), at_most(1)});
   AmbientConfig ambient;
   Section around(reading, s.take("ambient"), "grains.ambient");
   around.optional("density", ambient.density, {above(0)});

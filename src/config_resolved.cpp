@@ -112,6 +112,7 @@ void write(Writer& w, const GrainConfig& c) {
   w.key("boundary_z", c.boundary_z);
   w.key("gravity", c.gravity);
   w.key("skin", c.skin);
+  w.key("max_overlap", c.max_overlap);
   w.section("grains.wall");
   write(w, c.wall);
   if (c.ambient) {

@@ -104,13 +104,14 @@ bool is_finite(const FluidStepReport& r) {
 
 constexpr const char* softer =
     "they meet too hard or lie too deep for their stiffness: take a larger grains.youngs_modulus "
-    "(and with it a shorter time.grain_step)";
+    "(and with it a shorter time.grain_step), or allow it with grains.max_overlap";
 
 }  // namespace
 
 std::string Health::grain_problem(const GrainState& grains, const CoupledStep& step,
                                   const std::vector<Real>& worst, bool at_start) const {
   const GrainSolver& solver = *step.grain_solver();
+  const Real limit = config_.grains->max_overlap;
   const WorstGrains mine = worst_of(grains, solver, true_grain_step(config_.time));
   // A rank without grains or pairs has Kokkos' identity for a worst item: its place is none.
   const auto tell = [&](const WorstItem& item, auto words) {
@@ -132,7 +133,7 @@ std::string Health::grain_problem(const GrainState& grains, const CoupledStep& s
           who, mine.way.val, norm(k.u), norm(k.omega), kMostWay);
     });
   }
-  if (worst[1] > kMostOverlap) {
+  if (worst[1] > limit) {
     return tell(mine.in_wall, [&](int g) {
       const auto [wall, inside] = deepest_wall(solver, element(grains.kin, g).x);
       if (inside < 0) {
@@ -144,7 +145,7 @@ std::string Health::grain_problem(const GrainState& grains, const CoupledStep& s
       }
       return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}{}",
                          grain_at(grains, g), 100 * mine.in_wall.val, name_of(wall),
-                         100 * kMostOverlap, at_start ? "" : ": ", at_start ? "" : softer);
+                         100 * limit, at_start ? "" : ": ", at_start ? "" : softer);
     });
   }
   return tell(mine.pair, [&](int p) {
@@ -152,7 +153,7 @@ std::string Health::grain_problem(const GrainState& grains, const CoupledStep& s
     return fmt::format(
         "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}{}",
         grain_at(grains, element(grains.list.i, p)), second, 100 * mine.pair.val,
-        100 * kMostOverlap, at_start ? "" : ": ", at_start ? "" : softer);
+        100 * limit, at_start ? "" : ": ", at_start ? "" : softer);
   });
 }
 
@@ -196,6 +197,7 @@ std::string Health::flow_problem(const FluidState& fluid, const FluidStepReport&
 std::string Health::problem_of(const SystemState& state, const CoupledStep& step,
                                bool at_start) const {
   const bool grains_move = state.grains && !config_.grains->frozen;
+  const Real limit = config_.grains ? config_.grains->max_overlap : 0;
   std::vector<Real> worst(4, 0.0);  // overlap of a pair, with a wall; way; fluid fraction
   if (grains_move) {
     const WorstGrains mine =
@@ -211,7 +213,7 @@ std::string Health::problem_of(const SystemState& state, const CoupledStep& step
                             Kokkos::Max<Real>(worst[3]));
   }
   max_over(ranks_, worst);
-  if (!(worst[0] <= kMostOverlap && worst[1] <= kMostOverlap && worst[2] < kMostWay)) {
+  if (!(worst[0] <= limit && worst[1] <= limit && worst[2] < kMostWay)) {
     return grain_problem(*state.grains, step, worst, at_start);
   }
   if (!state.fluid) return {};

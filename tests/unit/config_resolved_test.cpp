@@ -52,6 +52,7 @@ Config unusual() {
   g.boundary_z = GrainBoundaryZ::wall;
   g.gravity = {0.1, -9.7, 0.2};
   g.skin = 1e-5;
+  g.max_overlap = 0.25;
   c.grains = g;
   c.coupling = {DragLaw::koch_hill,
                 VoidFraction::centre,
@@ -98,7 +99,7 @@ TEST(ConfigResolved, EveryKeyIsWritten) {
   // The text of a default case names each key that the loader knows: no default stays unsaid.
   const std::string text = to_toml(unusual());
   for (const char* key :
-       {"title", "end", "wall_clock_limit", "size", "cells", "pressure_gradient", "skin",
+       {"title", "end", "wall_clock_limit", "size", "cells", "pressure_gradient", "skin", "max_overlap",
         "rolling_theta_m", "forces", "drop_height", "grain_forces", "keep", "correctors"}) {
     EXPECT_NE(text.find(std::string("\n") + key + " = "), std::string::npos) << key;
   }

@@ -73,7 +73,7 @@ TEST(Health, OverlapOfAPairBeyondATenth) {
     add_grain(grains, d, {0.003, 0.002, 0.0025});
     add_grain(grains, d, {0.003 + (1 - overlap) * d, 0.002, 0.0025});
     const CoupledRun run(c, grains);
-    if (overlap < kMostOverlap) {
+    if (overlap < c.grains->max_overlap) {
       EXPECT_EQ(complaint(run), "none");
       continue;
     }
