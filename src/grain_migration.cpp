@@ -136,6 +136,8 @@ void GrainMigration::send_contacts(const KeptContacts& kept) {
 /// New contacts: of the rows that stayed, then what was received.
 void GrainMigration::take_contacts(KeptContacts& kept, int words) const {
   const int n_stay = n_stay_, n = n_stay + grains_.n_from();
+  // Zero at first; then each row writes the start of the next one alone. If it wrote its own as
+  // well, two threads would write the one between them.
   const Rows first = make_rows("contacts kept: first", n + 1);
   const KeptContacts old = kept;
   const Rows row = row_;
@@ -144,7 +146,6 @@ void GrainMigration::take_contacts(KeptContacts& kept, int words) const {
   Kokkos::parallel_scan(
       "migration: starts of contacts", items(n),
       KOKKOS_LAMBDA(int g, int& sum, bool final) {
-        if (final) first(g) = sum;
         sum += g < n_stay ? old.first(row(g) + 1) - old.first(row(g))
                           : static_cast<int>(grain_records[(g - n_stay + 1) * words - 1]);
         if (final) first(g + 1) = sum;
