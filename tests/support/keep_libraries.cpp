@@ -8,11 +8,12 @@ extern "C" {
 
 /// Libraries stay loaded: the plug-ins of these two leak, and would be gone before the sanitizer
 /// looks.
-int dlclose(void*) { return 0; }
+int dlclose(void*) noexcept { return 0; }
 
 /// Asprintf as distributions compile it into libraries. The C library's own takes the memory from
 /// inside, beyond which the sanitizer does not see without frame pointers.
-int __vasprintf_chk(char** text, int, const char* format, std::va_list arguments) {
+[[gnu::format(printf, 3, 0)]] int __vasprintf_chk(char** text, int, const char* format,
+                                                  std::va_list arguments) noexcept {
   std::va_list again;
   va_copy(again, arguments);
   const int length = std::vsnprintf(nullptr, 0, format, again);
@@ -23,7 +24,8 @@ int __vasprintf_chk(char** text, int, const char* format, std::va_list arguments
   return std::vsnprintf(*text, static_cast<std::size_t>(length) + 1, format, arguments);
 }
 
-int __asprintf_chk(char** text, int flag, const char* format, ...) {
+[[gnu::format(printf, 3, 4)]] int __asprintf_chk(char** text, int flag, const char* format,
+                                                 ...) noexcept {
   std::va_list arguments;
   va_start(arguments, format);
   const int length = __vasprintf_chk(text, flag, format, arguments);
