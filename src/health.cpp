@@ -102,8 +102,9 @@ bool is_finite(const FluidStepReport& r) {
   return std::isfinite(r.courant) && std::isfinite(r.continuity_residual);
 }
 
+constexpr const char* apart = ": move them apart, or allow it with grains.max_overlap";
 constexpr const char* softer =
-    "they meet too hard or lie too deep for their stiffness: take a larger grains.youngs_modulus "
+    ": they meet too hard or lie too deep for their stiffness: take a larger grains.youngs_modulus "
     "(and with it a shorter time.grain_step), or allow it with grains.max_overlap";
 
 }  // namespace
@@ -143,17 +144,17 @@ std::string Health::grain_problem(const GrainState& grains, const CoupledStep& s
                                       "shorter time.grain_step or a larger "
                                       "grains.youngs_modulus");
       }
-      return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}{}",
+      return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}",
                          grain_at(grains, g), 100 * mine.in_wall.val, name_of(wall),
-                         100 * limit, at_start ? "" : ": ", at_start ? "" : softer);
+                         100 * limit, at_start ? apart : softer);
     });
   }
   return tell(mine.pair, [&](int p) {
     const auto second = element(grains.id, element(grains.list.j, p));
     return fmt::format(
-        "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}{}",
+        "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}",
         grain_at(grains, element(grains.list.i, p)), second, 100 * mine.pair.val,
-        100 * limit, at_start ? "" : ": ", at_start ? "" : softer);
+        100 * limit, at_start ? apart : softer);
   });
 }
 
