@@ -53,7 +53,7 @@ std::vector<Change> changes(const Config& config, const Config& written) {
     if (was != value) all.push_back({key, was, value});
   }
   for (const auto& [key, value] : before) {
-    if (now.find(key) == now.end()) all.push_back({key, value, "absent"});
+    if (!now.contains(key)) all.push_back({key, value, "absent"});
   }
   return all;
 }
