@@ -2,7 +2,8 @@
 # clang-tidy over every source of src/, perf/ and tests/, and over kernels/ through them:
 #   tests/hygiene/tidy.sh [FILE...]
 # The checks, and why some are off, are in .clang-tidy. What was clean is looked at again when it, a
-# header of ours that it includes, the checks or the tool have changed; ALL=1 looks at every file.
+# header of ours that it includes, the checks or the tool have changed; ALL=1 looks at every file. QUICK=1
+# leaves out clang-analyzer-*, which takes most of the time.
 # Needs (Debian) clang-tidy-22, or CLANG_TIDY=PROGRAM. JOBS: files at a time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -13,9 +14,15 @@ export tidy="${CLANG_TIDY:-clang-tidy-22}" build=build/tidy
 export options="--extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unknown-pragmas --extra-arg=-Wno-invalid-constexpr"
 options+=" --extra-arg=-idirafter --extra-arg=$(g++ -print-file-name=include)"
 if [ "$(uname -m)" = x86_64 ]; then options+=" --extra-arg=-march=x86-64-v3"; fi
+# The analyzer follows few paths through a function: with more it spends its time in Kokkos' reference counts.
+for option in mode=shallow max-nodes=20000; do
+  options+=" --extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=$option"
+done
+export clean=$build/clean
+if [ "${QUICK:-0}" != 0 ]; then options+=" --checks=-clang-analyzer-*" clean=$build/clean_quick; fi
 
 command -v "$tidy" > /dev/null || { echo "tidy: no $tidy (Debian: clang-tidy-22)" >&2; exit 1; }
-mkdir -p $build/clean
+mkdir -p $clean
 cmake --preset release -B $build -DBARCHAN_PCH=OFF -DBARCHAN_NATIVE=OFF > $build/configure.log 2>&1 ||
   { tail -n 20 $build/configure.log >&2; exit 1; }
 mapfile -t all < <(sed -nE 's#^ *"file": "(.*)".*#\1#p' $build/compile_commands.json |
@@ -38,7 +45,7 @@ state_of() {  # a name for FILE as it is, with all of ours that it includes, dir
 }
 
 look_at() {  # prints what is found in FILE
-  local mark=$build/clean/${1//\//_} state log
+  local mark=$clean/${1//\//_} state log
   state="$(state_of "$1")"
   if [ "${ALL:-0}" = 0 ] && [ "$(cat "$mark" 2> /dev/null)" = "$state" ]; then return 0; fi
   rm -f "$mark"
