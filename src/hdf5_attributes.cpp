@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "src/hdf5_file.hpp"
+#include "src/hdf5_guard.hpp"
 #include "src/hdf5_handle.hpp"
 
 namespace barchan {
@@ -92,6 +93,7 @@ std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::s
 }
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+  const hdf5::Guard guard(path_);
   char* text = nullptr;
   get_attribute(object, name, H5T_STRING, text_type().get(), &text);
   std::string result(text == nullptr ? "" : text);
