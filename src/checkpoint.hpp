@@ -29,6 +29,7 @@ struct Stored {
   static_assert(std::is_integral_v<T> || sizeof(T) % sizeof(double) == 0);
   static constexpr bool integer = std::is_integral_v<T>;
   using type = std::conditional_t<integer, std::int64_t, double>;
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): T may be double itself
   static constexpr std::size_t count = integer ? 1 : sizeof(T) / sizeof(double);
 };
 

@@ -93,7 +93,7 @@ void GhostGrains::place(GrainState& grains, Kinematics& kin, const Columns& colu
   Kokkos::parallel_for(
       "ghosts: keys", items(n_ghosts), KOKKOS_LAMBDA(int p) {
         Vec3 x;
-        take_words(received + p * kWhole, x);
+        take_words(received + std::ptrdiff_t{kWhole} * p, x);
         key(p) = columns.key_of(x);
         order(p) = p;
       });
@@ -104,7 +104,7 @@ void GhostGrains::place(GrainState& grains, Kinematics& kin, const Columns& colu
   const Kinematics to = kin;
   Kokkos::parallel_for(
       "ghosts: take", items(n_ghosts), KOKKOS_LAMBDA(int q) {
-        const Real* from = received + order(q) * kWhole;
+        const Real* from = received + std::ptrdiff_t{kWhole} * order(q);
         row(order(q)) = n + q;
         GrainKinematics& grain = to(n + q);
         take_words(from, grain.x), take_words(from + 3, grain.r);
@@ -125,7 +125,7 @@ void GhostGrains::find(GrainState& grains, Kinematics& kin, const Columns& colum
   Kokkos::parallel_for(
       "ghosts: copy", items(counts_.n_to()), KOKKOS_LAMBDA(int p) {
         const GrainKinematics& grain = from(row(p));
-        Real* to = sent + p * kWhole;
+        Real* to = sent + std::ptrdiff_t{kWhole} * p;
         put_words(to, grain.x_r()), put_words(to + 4, grain.u_m());
         put_words(to + 8, grain.spin()), put_words(to + 12, id(row(p)));
       });
@@ -139,7 +139,7 @@ void GhostGrains::update(const Kinematics& kin) {
   Kokkos::parallel_for(
       "ghosts: send motion", items(counts_.n_to()), KOKKOS_LAMBDA(int p) {
         const GrainKinematics& grain = kin(sent_row(p));
-        Real* to = sent + p * kMotion;
+        Real* to = sent + std::ptrdiff_t{kMotion} * p;
         put_words(to, grain.x), put_words(to + 3, grain.u), put_words(to + 6, grain.omega);
       });
   exchange(counts_, kMotion, send_, receive_);
@@ -148,7 +148,7 @@ void GhostGrains::update(const Kinematics& kin) {
   Kokkos::parallel_for(
       "ghosts: take motion", items(counts_.n_from()), KOKKOS_LAMBDA(int p) {
         GrainKinematics& grain = kin(row(p));
-        const Real* from = received + p * kMotion;
+        const Real* from = received + std::ptrdiff_t{kMotion} * p;
         take_words(from, grain.x), take_words(from + 3, grain.u);
         take_words(from + 6, grain.omega);
       });

@@ -56,7 +56,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   const auto kin = Kokkos::create_mirror_view(s.kin);
   const auto id = Kokkos::create_mirror_view(s.id);
   for (int g = 0; g < n; ++g) {
-    const auto q = static_cast<std::size_t>(first + g);
+    const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
     kin(g) = GrainKinematics{.x = initial.x[q],
                              .r = r,

@@ -50,7 +50,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              std::string_view value) {
   const std::string terminated(value);
   const char* text = terminated.c_str();
-  put_attribute(object, name, text_type().get(), &text);
+  put_attribute(object, name, text_type().get(), static_cast<const void*>(&text));
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
@@ -95,7 +95,7 @@ std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::s
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
   const hdf5::Guard guard(path_);
   char* text = nullptr;
-  get_attribute(object, name, H5T_STRING, text_type().get(), &text);
+  get_attribute(object, name, H5T_STRING, text_type().get(), static_cast<void*>(&text));
   std::string result(text == nullptr ? "" : text);
   H5free_memory(text);
   return result;

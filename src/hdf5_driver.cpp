@@ -87,7 +87,7 @@ herr_t set_end_of_allocation(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
                   void* buffer) {
-  OpenFile& f = own(file);
+  const OpenFile& f = own(file);
   auto* bytes = static_cast<char*>(buffer);
   while (size > 0) {
     const auto got = ::pread(f.descriptor, bytes, size, static_cast<off_t>(address));

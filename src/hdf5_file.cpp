@@ -1,7 +1,7 @@
 #include "src/hdf5_file.hpp"
 
-#include <cstring>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "src/communicator.hpp"
@@ -77,7 +77,9 @@ void Hdf5File::fail(const std::string& reason, const std::string& object) const 
 template <class Code>
 Code Hdf5File::check(Code code, const std::string& object) const {
   if (code < 0)
-    fail(*system_error_ != 0 ? std::strerror(*system_error_) : hdf5::last_reason(), object);
+    fail(*system_error_ != 0 ? std::generic_category().message(*system_error_)
+                             : hdf5::last_reason(),
+         object);
   return code;
 }
 template int Hdf5File::check(int, const std::string&) const;
@@ -110,7 +112,7 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::check_writes() const {
-  if (*system_error_ != 0) fail(std::strerror(*system_error_), {});
+  if (*system_error_ != 0) fail(std::generic_category().message(*system_error_), {});
 }
 
 void Hdf5File::close() {

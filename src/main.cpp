@@ -45,6 +45,7 @@ struct MpiScope {
 /// Kokkos ends the program with a stack trace when it cannot read its own settings.
 void check_environment() {
   for (const char* name : {"KOKKOS_NUM_THREADS", "KOKKOS_DEVICE_ID"}) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): there are no other threads yet
     const char* const set = std::getenv(name);
     if (set == nullptr) continue;
     const std::string_view text = set;

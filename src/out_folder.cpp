@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "src/atomic_file.hpp"
@@ -70,7 +69,7 @@ void check_out_folder(const fs::path& folder) {
                                link ? "a link that leads nowhere" : "a file, not a folder"));
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
-    refuse(folder, fmt::format("{}: {}", there.string(), std::strerror(errno)));
+    refuse(folder, fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
   }
   if (!same_place(there, folder)) return;
   for (const auto& entry : fs::directory_iterator(there)) {

@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <span>
 #include <stdexcept>
+#include <system_error>
 
 #include "src/atomic_file.hpp"
 #include "src/checkpoint.hpp"
@@ -134,7 +134,8 @@ void RunFolder::append_line(int& descriptor, const char* name, const std::string
   if (!root_) return;
   if (descriptor < 0) descriptor = ::open(file(name).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor < 0) {
-    throw std::runtime_error("cannot write " + file(name).string() + ": " + std::strerror(errno));
+    throw std::runtime_error("cannot write " + file(name).string() + ": " +
+                             std::generic_category().message(errno));
   }
   write_all(descriptor, line, file(name));
 }

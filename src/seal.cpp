@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "src/input_file.hpp"
@@ -24,7 +24,7 @@ constexpr std::string_view mark =
 
 [[noreturn]] void fail(const char* verb, const std::filesystem::path& file) {
   throw std::runtime_error(
-      fmt::format("cannot {} {}: {}", verb, file.string(), std::strerror(errno)));
+      fmt::format("cannot {} {}: {}", verb, file.string(), std::generic_category().message(errno)));
 }
 
 struct Content {

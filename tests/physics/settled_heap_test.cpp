@@ -29,6 +29,7 @@ Real translational_energy(const HostGrains& h) {
 /// its tangential forces, to 4.18 within 300 steps. Its kinetic energy, of translation, is 1.8e-10
 /// J in the end.
 void expect_settled(const std::string& name, Real shift) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets it
   const char* file = std::getenv("BARCHAN_HEAP_CSV");
   if (file == nullptr) GTEST_SKIP() << "BARCHAN_HEAP_CSV is not set";
   InitialGrains grains = read_grains(file);

@@ -2,6 +2,7 @@
 // a folder:  BARCHAN_RESULTS=docs/validation ./barchan test -R ChungOoi
 #pragma once
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -42,19 +43,17 @@ inline std::string result_origin() {
   const ::testing::TestInfo& info = *::testing::UnitTest::GetInstance()->current_test_info();
   const bool nightly = std::string(info.name()).find("Nightly") != std::string::npos;
   const std::string tests = nightly ? "-L nightly" : std::string("-R ") + info.test_suite_name();
-  const std::time_t now = std::time(nullptr);
-  char date[16];
-  std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
   return fmt::format(
       "# test: {}.{}\n# command: BARCHAN_RESULTS=docs/validation ./barchan test {}\n"
-      "# commit: {}\n# machine: {}; {}\n# date: {}\n",
+      "# commit: {}\n# machine: {}; {}\n# date: {:%Y-%m-%d}\n",
       info.test_suite_name(), info.name(), tests, make_provenance({}).git_hash, processor_name(),
-      device_name(), date);
+      device_name(), fmt::gmtime(std::time(nullptr)));
 }
 
 /// Adds a row to DIR/<table>.csv; DIR is $BARCHAN_RESULTS, seen from the root of the repository.
 /// The first row that the program adds to a table replaces the old table. Nothing without DIR.
 inline void save_result(const std::string& table, const std::vector<Result>& row) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets it
   const char* folder = std::getenv("BARCHAN_RESULTS");
   if (folder == nullptr || *folder == '\0') return;
   static std::map<std::string, std::ofstream> tables;
