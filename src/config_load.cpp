@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "src/config_section.hpp"
+#include "src/config_start.hpp"
 #include "src/config_validate.hpp"
 #include "src/input_file.hpp"
 #include "src/printable.hpp"

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "src/config_validate.hpp"
+#include "src/config.hpp"
+#include "src/findings.hpp"
 
 namespace barchan {
 

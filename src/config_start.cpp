@@ -1,13 +1,11 @@
-// Checks of what a case starts from.
+#include "src/config_start.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "src/config_validate.hpp"
-#include "src/findings.hpp"
 
 namespace barchan {
 namespace {

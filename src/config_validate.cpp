@@ -10,8 +10,8 @@
 
 #include "src/config_names.hpp"
 #include "src/config_plausible.hpp"
+#include "src/config_start.hpp"
 #include "src/derived.hpp"
-#include "src/findings.hpp"
 
 namespace barchan {
 namespace {

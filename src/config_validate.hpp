@@ -5,16 +5,9 @@
 #include <vector>
 
 #include "src/config.hpp"
+#include "src/findings.hpp"
 
 namespace barchan {
-
-/// Dotted `keys` the finding rests on, the one to point at first; `message` follows
-/// "[section] key = value: ".
-struct Finding {
-  enum class Severity { error, warning } severity;
-  std::vector<std::string> keys;
-  std::string message;
-};
 
 /// Everything found. `sizes`: of the grains when known (known_sizes); with none, what depends on
 /// grain size is not checked: call check_grain_sizes once the grains are there.
@@ -22,10 +15,6 @@ std::vector<Finding> validate(const Config& config, const std::vector<SizeClass>
 
 /// Only what depends on the sizes: the grain step against the Rayleigh time, cells against grains.
 std::vector<Finding> check_grain_sizes(const Config& config, const std::vector<SizeClass>& sizes);
-
-/// What does not fit between a case and the case whose end it starts from. `flow`: the start is
-/// that of the fluid (initial.fluid), else of the grains (initial.grains).
-std::vector<Finding> check_start(const Config& config, const Config& start, bool flow);
 
 /// The warnings of `validate`, one line each: "warning: [section] key: message".
 std::vector<std::string> config_warnings(const Config& config, const std::vector<SizeClass>& sizes);

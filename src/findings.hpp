@@ -1,15 +1,21 @@
-// What the checks of a configuration gather.
+// What the checks of a configuration find.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "src/config_validate.hpp"
-
 namespace barchan {
 
 using Keys = std::vector<std::string>;
+
+/// Dotted `keys` the finding rests on, the one to point at first; `message` follows
+/// "[section] key = value: ".
+struct Finding {
+  enum class Severity { error, warning } severity;
+  Keys keys;
+  std::string message;
+};
 
 struct Findings {
   std::vector<Finding> all;
@@ -20,8 +26,5 @@ struct Findings {
     all.push_back({Finding::Severity::warning, std::move(keys), std::move(message)});
   }
 };
-
-/// [initial] against the sections it belongs to, and a cone to pour against the domain.
-void check_initial(const Config& c, Findings& found);
 
 }  // namespace barchan

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/config_load.hpp"
+#include "src/config_start.hpp"
 #include "src/config_validate.hpp"
 #include "src/domain.hpp"
 #include "src/errors.hpp"
