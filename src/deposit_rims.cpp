@@ -25,8 +25,10 @@ struct PackPlane {
   DepositPlane plane;
   Real* words;
   KOKKOS_FUNCTION void operator()(int index) const {
-    for (int q = 0; q < Deposits::kQuantities; ++q)
-      put_words(words + std::ptrdiff_t{q} * plane.size() + index, plane.deposits.sum(plane.cell(index), q));
+    for (int q = 0; q < Deposits::kQuantities; ++q) {
+      put_words(words + std::ptrdiff_t{q} * plane.size() + index,
+                plane.deposits.sum(plane.cell(index), q));
+    }
   }
 };
 struct AddPlane {

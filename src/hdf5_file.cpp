@@ -86,10 +86,12 @@ template int Hdf5File::check(int, const std::string&) const;
 template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
-    : path_(path), mode_(mode), system_error_(std::make_unique<int>(0)) {
+    : path_(path),
+      mode_(mode),
+      parallel_(rank_count(communicator) > 1),
+      is_root_(rank_of(communicator) == 0),
+      system_error_(std::make_unique<int>(0)) {
   hdf5::start_library();
-  parallel_ = rank_count(communicator) > 1;
-  is_root_ = rank_of(communicator) == 0;
   if (mode == Mode::read) {  // opening a pipe would wait for ever
     if (const std::string why = not_a_file(path); !why.empty()) fail(why, {});
   }

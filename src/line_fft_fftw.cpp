@@ -25,6 +25,9 @@ fftw_plan checked(fftw_plan plan) {
 /// would plan the strided z direction badly without measuring.
 struct LineFft::Library {
   fftw_plan x_forward = nullptr, x_backward = nullptr, z_forward = nullptr, z_backward = nullptr;
+  Library() = default;
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
   ~Library() {
     for (fftw_plan plan : {x_forward, x_backward, z_forward, z_backward}) {
       if (plan != nullptr) fftw_destroy_plan(plan);
@@ -62,7 +65,8 @@ LineFft::~LineFft() = default;
 
 void LineFft::forward_x(Real* real, Kokkos::complex<Real>* modes) const {
   const fftw_plan plan = library_->x_forward;
-  const std::ptrdiff_t plane = x_.plane_stride, modes_plane = (x_.n / 2 + 1) * x_.rows;
+  const std::ptrdiff_t plane = x_.plane_stride,
+                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: forward x", x_.planes, [=](int k) {
     fftw_execute_dft_r2c(plan, real + k * plane, as_fftw(modes + k * modes_plane));
@@ -71,7 +75,8 @@ void LineFft::forward_x(Real* real, Kokkos::complex<Real>* modes) const {
 
 void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
   const fftw_plan plan = library_->x_backward;
-  const std::ptrdiff_t plane = x_.plane_stride, modes_plane = (x_.n / 2 + 1) * x_.rows;
+  const std::ptrdiff_t plane = x_.plane_stride,
+                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: backward x", x_.planes, [=](int k) {
     fftw_execute_dft_c2r(plan, as_fftw(modes + k * modes_plane), real + k * plane);

@@ -29,7 +29,7 @@ struct StoppedInPrerequisite {};
 bool is_toml(const std::string& source) { return fs::path(source).extension() == ".toml"; }
 
 std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
+  const std::ifstream in(file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();

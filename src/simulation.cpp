@@ -94,8 +94,8 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
           [&] { return first_state(config, restart.get(), files, ranks_, pencils_.get()); })),
       coupled_step_(read_input([&] { return CoupledStep(config, state_); })),
       health_(config, ranks_),
-      tracker_(dune_domain(config)) {
-  end_step_ = fluid_steps(config.time);
+      tracker_(dune_domain(config)),
+      end_step_(fluid_steps(config.time)) {
   if (config.statistics) {
     statistics_.emplace(*config.fluid, state_.fluid->grid);
     if (config.statistics->fields) flow_average_.emplace(state_.fluid->grid);

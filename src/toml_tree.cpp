@@ -60,7 +60,7 @@ Node parse_value(std::string_view text, const Location& where) {
   try {
     const toml::table parsed = toml::parse(one_line ? "value = " + std::string(text) : "");
     if (parsed.size() == 1) return convert(*parsed.get("value"), where);
-  } catch (const toml::parse_error&) {
+  } catch (const toml::parse_error&) {  // NOLINT(bugprone-empty-catch)
     // A bare word: --set fluid.turbulence=none.
   }
   Node word;
@@ -188,7 +188,7 @@ struct Printer {
 
 std::string toml_text(const Node& node) {
   constexpr std::size_t longest = 60;
-  std::string text = std::visit(Printer{}, node.value);
+  const std::string text = std::visit(Printer{}, node.value);
   return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
 }
 

@@ -20,8 +20,8 @@ using namespace barchan;
 const TemporaryFolder& folder() {
   static const TemporaryFolder the_folder;
   static const bool filled = [] {
-    std::ofstream(the_folder / "flow.h5");
-    std::ofstream(the_folder / "heap.csv");
+    std::ofstream(the_folder / "flow.h5") << std::flush;
+    std::ofstream(the_folder / "heap.csv") << std::flush;
     std::ofstream(the_folder / "start.toml")
         << "[time]\nend = 1\n[domain]\nsize = [0.1, 0.02, 0.02]\n"
            "[fluid]\ncells = [8, 4, 4]\nmean_velocity = 0.1\n"

@@ -25,7 +25,7 @@ inline std::string_view as_text(Bytes bytes) {
 
 /// Ends the program as a finding.
 [[noreturn]] inline void violated(std::string_view property, std::string_view detail = {}) {
-  std::cerr << "property violated: " << property << ' ' << detail << std::endl;
+  std::cerr << "property violated: " << property << ' ' << detail << '\n' << std::flush;
   std::abort();
 }
 

@@ -243,9 +243,9 @@ class Editor {
     if (n < 1 || n > 1000) return;
     if (H5Tis_variable_str(of_type.get()) > 0) {
       const std::array<std::string, 4> words{"restart", "", std::string(3000, 'x'), "\xff\xfe\n"};
-      const std::string word = words[tape_.pick(4)];
+      const std::string& word = words[tape_.pick(4)];
       const std::vector<const char*> all(static_cast<std::size_t>(n), word.c_str());
-      H5Awrite(attribute.get(), of_type.get(), all.data());
+      H5Awrite(attribute.get(), of_type.get(), static_cast<const void*>(all.data()));
     } else if (H5Tget_class(of_type.get()) == H5T_FLOAT) {
       const std::vector<double> all(static_cast<std::size_t>(n), tape_.number());
       H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, all.data());

@@ -1,9 +1,10 @@
 #include "tests/fuzz/hdf5_readers.hpp"
 
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -28,6 +29,8 @@ constexpr std::string_view folder_prefix = "barchan_fuzz_";
 /// left goes with the next one.
 struct InputFolder {
   fs::path path;
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
   InputFolder() {
     const fs::path in_memory = "/dev/shm";
     const fs::path base = fs::is_directory(in_memory) ? in_memory : fs::temp_directory_path();
@@ -35,7 +38,8 @@ struct InputFolder {
     for (const auto& entry : fs::directory_iterator(base)) {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with(folder_prefix)) continue;
-      const int owner = std::atoi(name.c_str() + folder_prefix.size());
+      int owner = 0;
+      std::from_chars(name.data() + folder_prefix.size(), name.data() + name.size(), owner);
       if (owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) fs::remove_all(entry, ignored);
     }
     path = base / (std::string(folder_prefix) + std::to_string(::getpid()));
@@ -48,7 +52,7 @@ struct InputFolder {
 };
 
 herr_t mark_complaint(unsigned, const H5E_error2_t* entry, void*) {
-  mark(std::hash<std::string_view>{}(entry->func_name) + 31 * entry->line);
+  mark(std::hash<std::string_view>{}(entry->func_name) + std::size_t{31} * entry->line);
   return 0;
 }
 herr_t mark_complaints(hid_t stack, void*) {

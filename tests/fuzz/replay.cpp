@@ -65,7 +65,8 @@ int main(int argc, char** argv) {
       std::cerr << "cannot read " << file << '\n';
       return 1;
     }
-    std::cout << file.string() << std::endl;  // at once: the last one named is the one that fails
+    // At once: the last one named is the one that fails.
+    std::cout << file.string() << '\n' << std::flush;
     give(bytes);
   }
   std::cout << files.size() << " inputs, every one read or refused with a sentence\n";
