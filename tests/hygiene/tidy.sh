@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # clang-tidy over every source of src/, perf/ and tests/, and over kernels/ through them:
 #   tests/hygiene/tidy.sh [FILE...]
-# The checks, and why some are off, are in .clang-tidy. What was clean is looked at again when it, a
-# header of ours that it includes, the checks or the tool have changed; ALL=1 looks at every file. QUICK=1
-# leaves out clang-analyzer-*, which takes most of the time.
+# The checks, and why some are off, are in .clang-tidy and tests/.clang-tidy. What was clean is looked at
+# again when it, a header of ours that it includes, the checks or the tool have changed; ALL=1 looks at
+# every file. QUICK=1 leaves out clang-analyzer-*, which takes most of the time.
 # Needs (Debian) clang-tidy-22, or CLANG_TIDY=PROGRAM. JOBS: files at a time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -40,7 +40,7 @@ state_of() {  # a name for FILE as it is, with all of ours that it includes, dir
     seen[$file]=1
     while IFS= read -r include; do todo+=("$include"); done < <(sed -nE 's/^#include "([^"]+)".*/\1/p' "$file")
   done
-  { "$tidy" --version; echo "$options"; grep -v '^#' .clang-tidy
+  { "$tidy" --version; echo "$options"; grep -hv '^#' .clang-tidy tests/.clang-tidy
     printf '%s\n' "${!seen[@]}" | sort | xargs -d '\n' sha256sum; } | sha256sum
 }
 

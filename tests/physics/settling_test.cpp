@@ -18,7 +18,7 @@ using test::Water;
 struct Sphere {
   double d, rho_p = 2500;
   Water water = {};
-  std::string label = "";  // of its saved transient, if that is to be kept
+  std::string label = {};  // of its saved transient, if that is to be kept
 };
 
 struct Outcome {

@@ -51,6 +51,7 @@ void expect_same_state(const std::filesystem::path& a, const std::filesystem::pa
     ASSERT_EQ(x.size(), y.size()) << name;
     std::size_t differing = 0;
     for (std::size_t n = 0; n < x.size(); ++n) {
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c): the bits
       differing += std::memcmp(&x[n], &y[n], sizeof(double)) != 0;
     }
     EXPECT_EQ(differing, 0u) << name;

@@ -59,8 +59,8 @@ Shares exact(const Vec3& x, double r) {
 /// Share of the grain that lies in wrong cells.
 double misplaced(const Shares& a, const Shares& b) {
   double sum = 0;
-  for (const auto& [cell, share] : a) sum += std::abs(share - (b.count(cell) ? b.at(cell) : 0)) / 2;
-  for (const auto& [cell, share] : b) sum += a.count(cell) ? 0 : share / 2;
+  for (const auto& [cell, share] : a) sum += std::abs(share - (b.contains(cell) ? b.at(cell) : 0)) / 2;
+  for (const auto& [cell, share] : b) sum += a.contains(cell) ? 0 : share / 2;
   return sum;
 }
 

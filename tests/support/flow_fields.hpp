@@ -31,7 +31,7 @@ inline HostField to_host(const Field& f) {
 
 /// Sets the owned cells to value(i, j, k); ghosts become zero.
 template <class Value>
-void set_field(const Field& f, const Grid& grid, Value value) {
+void set_field(const Field& f, const Grid& grid, const Value& value) {
   decltype(HostField::values) host("host", f.storage.extent(0), f.storage.extent(1),
                                    f.storage.extent(2));
   for (int k = 0; k < grid.nz; ++k)

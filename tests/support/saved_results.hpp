@@ -70,7 +70,7 @@ inline void save_result(const std::string& table, const std::vector<Result>& row
     file.open(where / (table + ".csv"));
     file << result_origin() << names << '\n';
   }
-  file << values << std::endl;  // complete also when a later test crashes
+  file << values << '\n' << std::flush;  // complete also when a later test crashes
   if (!file) throw std::runtime_error("cannot write " + table + ".csv into " + folder);
 }
 
