@@ -13,14 +13,14 @@ show() {  # show ARGUMENT...: a run of a second or more
 
 show || fail "exit code $?"
 clear=$'\r\033[K'
-pieces="$(grep -c -F "$clear" "$dir/shown")" || fail "no live line"
 # What stands between two clearings without a line end is a live line.
-longest="$(python3 - "$dir/shown" << 'PYTHON'
+read -r pieces longest < <(python3 - "$dir/shown" << 'PYTHON'
 import sys
 pieces = open(sys.argv[1], newline="", encoding="utf-8").read().split("\r\033[K")[1:-1]
-print(max((len(p) for p in pieces if "\n" not in p), default=0))
+lengths = [len(p) for p in pieces if "\n" not in p]
+print(len(lengths), max(lengths, default=0))
 PYTHON
-)"
+)
 [ "$longest" -gt 20 ] && [ "$longest" -lt 40 ] || fail "a live line of $longest characters on 40 columns"
 tail -c 2 "$dir/shown" | cmp -s - <(printf '\r\n') || fail "what follows would stand in the live line"
 if grep -q $'[\r\033]' "$dir/run/log.txt"; then fail "log.txt has control characters"; fi
