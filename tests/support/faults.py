@@ -29,7 +29,7 @@ def run(folder, settings, restart=None, **options):
 
 
 def start(folder, settings, restart=None, threads=1):
-    environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads)}
+    environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
     return subprocess.Popen(command(folder, settings, restart), env=environment, stdout=subprocess.DEVNULL,
                             stderr=subprocess.PIPE, text=True)
 
