@@ -8,7 +8,7 @@ trap 'rm -rf "$dir"' EXIT
 fail() { echo "FAILED: $*"; cat -v "$dir/shown"; exit 1; }
 show() {  # show ARGUMENT...: a run of a second or more
   python3 "$root/tests/support/on_terminal.py" "$BARCHAN_PROGRAM" run "$root/tests/support/small_dune.toml" \
-    --set time.end=0.3 --threads 1 --out "$dir/run" "$@" > "$dir/shown"
+    --set time.end=0.8 --threads 1 --out "$dir/run" "$@" > "$dir/shown"
 }
 
 show || fail "exit code $?"
