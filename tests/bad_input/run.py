@@ -45,6 +45,15 @@ def base_environment(scratch, ranks=1):
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
+def environment_of(entry, temporary):
+    environment = {**base_environment(temporary, entry.ranks), **entry.env}
+    if entry.place:  # a program that counts its lines cannot write them everywhere, nor as anyone
+        environment["GCOV_PREFIX"] = str(temporary)
+    if entry.library_fault:  # which an address sanitizer must leave to the program
+        environment["ASAN_OPTIONS"] = ":".join([os.environ.get("ASAN_OPTIONS", ""), "replace_intrin=0", "replace_str=0"])
+    return environment
+
+
 def make_good_runs(program, folder):
     """What entries start from: runs that went well. Short ones, so that copies are quick."""
     wet = DUNE[: DUNE.index("[grains]")] + '[initial]\nfluid = "turbulent"\n'
@@ -180,7 +189,7 @@ def attempt(entry, program, good, scratch, number):
         lay_out(entry, place, good)
         before = snapshot(place)
         with places.as_wanted(entry, place):
-            ended = execute([*prefix, *command_of(entry, program)], place, {**base_environment(temporary, entry.ranks), **entry.env}, entry.limit)
+            ended = execute([*prefix, *command_of(entry, program)], place, environment_of(entry, temporary), entry.limit)
         if ended.code != entry.code:
             ended.wrong.append(f"{ended.how()}, not {entry.code}")
         check_message(entry, ended)
