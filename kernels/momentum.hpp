@@ -165,8 +165,6 @@ struct Predict {
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const FaceRef &u = convection.u, &flux = convection.flux;
-    const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
-
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
     const Real nx = convection.x(i, j, k) + cell_to_xface(alpha, i, j, k) * stress.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, u.x(i, j, k),
@@ -178,8 +176,9 @@ struct Predict {
     const Real uy =
         advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
                 u.y(i, j, k), at(exchange.impulse.y, i, j, k), at(exchange.implicit.y, i, j, k));
-    rate.y(i, j, k) = inside * ny;
-    u_star.y(i, j, k) = inside * uy;
+    // y-face 0 is the wall; what lies behind it may hold anything.
+    rate.y(i, j, k) = j > 0 ? ny : Real(0);
+    u_star.y(i, j, k) = j > 0 ? uy : Real(0);
 
     const Real nz = convection.z(i, j, k) + cell_to_zface(alpha, i, j, k) * stress.z(i, j, k);
     const Real uz =

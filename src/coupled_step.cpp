@@ -43,6 +43,7 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
     add_exchange(*state.grains);
     visits_ = GrainVisits(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
+    grains_->list().use_meanwhile(IdleMemory(fluid_->idle().for_anything()));
   } else if (config.grains->ambient) {
     add_fluid(*state.grains);
     still_.rho_f = still_.weight.displaced = config.grains->ambient->density;

@@ -1,7 +1,9 @@
 // The fluid step: volume-averaged Navier-Stokes equations, Set II (model A).
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "kernels/pressure.hpp"
 #include "src/boundary.hpp"
@@ -51,7 +53,12 @@ class FluidSolver {
   /// meanwhile, so that a step takes less memory.
   struct Idle {
     FaceVector faces[2];
-    std::array<Field, 3> cells;
+    std::array<Field, 3> cells;  // for finite values: the solver multiplies some of them with zero
+    /// Those that may be left with any bits.
+    std::vector<Field> for_anything() const {
+      const auto& [a, b] = faces;
+      return {a.x, a.y, a.z, b.x, b.y, b.z};
+    }
   };
   Idle idle() const { return {{flux_, u_star_}, pressure_.idle_fields()}; }
 

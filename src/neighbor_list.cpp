@@ -27,12 +27,16 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
   return n;
 }
 
-/// Room for n entries, or a few, kept between rebuilds; grows by a sixteenth more than asked.
+/// n entries, or a few, and a sixteenth more.
+std::size_t with_slack(int n) {
+  return static_cast<std::size_t>(n) + static_cast<std::size_t>(n / 16) + 64;
+}
+
+/// Room for n entries, kept between rebuilds; grows by more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
   if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
-    view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
-                static_cast<std::size_t>(n) + static_cast<std::size_t>(n / 16) + 64);
+    view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), with_slack(n));
   }
 }
 
@@ -73,6 +77,27 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
   if (rank_count(ranks) > 1) ranks_ = std::make_unique<Ranks>(ranks);
 }
 
+/// Idle memory if there is enough, else as reserve() does.
+template <class T>
+void NeighborList::take_meanwhile(Kokkos::View<T*>& view, const char* label, int n) {
+  const auto idle = idle_.take<T>(with_slack(n));
+  if (idle.extent(0) > 0) {
+    view = idle;
+    return;
+  }
+  if (view.use_count() == 0) view = {};  // idle memory of an earlier rebuild
+  reserve(view, label, n);
+}
+
+void NeighborList::take_room(const GrainState& grains) {
+  idle_.free_all();
+  const int n = grains.n + grains.n_ghosts;
+  take_meanwhile(row_, "row in the contacts kept", n + 1);
+  take_meanwhile(room_, "room of a rebuild", n);
+  take_meanwhile(key_room_, "keys of a rebuild", 2 * n);
+  take_meanwhile(occupied_.of_grain, "column of grain", n);
+}
+
 void NeighborList::check_positions(const GrainState& grains) const {
   const auto kin = grains.kin;
   int bad = grains.n;
@@ -111,7 +136,7 @@ void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
   reserve(row_, "row in the contacts kept", n + 1);
   reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", 2 * n);
   const Kokkos::View<std::uint64_t*, Kokkos::MemoryUnmanaged> key(key_room_.data(),
                                                                   static_cast<std::size_t>(n));
   const auto row = Kokkos::subview(row_, std::pair<int, int>(0, n));
@@ -159,16 +184,16 @@ void NeighborList::keep_contacts(const GrainState& grains) {
   const PairList& list = grains.list;
   const int n = grains.n;
   const KeepingGrains keeping{.list = list, .id = grains.id, .both = ranks_ != nullptr};
-  reserve(kept_.first, "contacts kept: first", n + 1);
+  take_meanwhile(kept_.first, "contacts kept: first", n + 1);
   reserve(row_, "row in the contacts kept", n + 1);
   Kokkos::deep_copy(kept_.first, 0);
   Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
                        CountContacts{.keeping = keeping, .count = kept_.first});
   const int n_contacts = counts_to_starts(kept_.first, n);
-  reserve(kept_.partner, "contacts kept: partner", n_contacts);
-  reserve(kept_.xi_t, "contacts kept: xi_t", n_contacts);
-  if (list.has_rolling()) reserve(kept_.rolling, "contacts kept: rolling", n_contacts);
-  if (list.has_force()) reserve(kept_.force, "contacts kept: force", n_contacts);
+  take_meanwhile(kept_.partner, "contacts kept: partner", n_contacts);
+  take_meanwhile(kept_.xi_t, "contacts kept: xi_t", n_contacts);
+  if (list.has_rolling()) take_meanwhile(kept_.rolling, "contacts kept: rolling", n_contacts);
+  if (list.has_force()) take_meanwhile(kept_.force, "contacts kept: force", n_contacts);
   const auto rows = std::pair<int, int>(0, n);
   Kokkos::deep_copy(Kokkos::subview(row_, rows), Kokkos::subview(kept_.first, rows));
   Kokkos::parallel_for("neighbors: keep contacts", list.n_pairs,
@@ -219,7 +244,7 @@ void NeighborList::register_others(const PairList& list, int n) {
 void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin) {
   const int n = grains.n + grains.n_ghosts;
   reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", 2 * n);
   const Windows window = find_windows(kin, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
@@ -260,6 +285,7 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
   check_positions(grains);
+  take_room(grains);
   wrap(grains);
   if (rebuilds_ > 0) keep_contacts(grains);
   if (ranks_) share_out(grains);
@@ -285,6 +311,7 @@ void NeighborList::update_ghosts(const GrainState& grains) const {
 
 void NeighborList::restore(GrainState& grains) {
   const int n = grains.n;
+  take_room(grains);
   Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
                                               static_cast<std::size_t>(std::max(n, 1)));
   reserve(row_, "row in the contacts kept", n + 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "kernels/neighbor_search.hpp"
 #include "src/config.hpp"
@@ -9,6 +10,7 @@
 #include "src/grain_migration.hpp"
 #include "src/grain_partition.hpp"
 #include "src/grain_state.hpp"
+#include "src/idle_memory.hpp"
 
 namespace barchan {
 
@@ -42,6 +44,9 @@ class NeighborList {
   /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
   Real largest_margin() const { return skin_ / 10; }
   std::int64_t rebuilds() const { return rebuilds_; }
+  /// Memory that nobody else uses during a call of rebuild or restore: those take it for what they
+  /// need only meanwhile, as far as it goes.
+  void use_meanwhile(IdleMemory idle) { idle_ = std::move(idle); }
   bool with_rolling = false;  // keep a rolling torque per pair
   bool with_force = false;    // keep the force of each pair in the last sub-step
   const PeriodicBox& box() const { return box_; }
@@ -59,6 +64,10 @@ class NeighborList {
   void wrap(GrainState& grains) const;
 
  private:
+  template <class T>
+  void take_meanwhile(Kokkos::View<T*>& view, const char* label, int n);
+  void take_room(const GrainState& grains);
+
   struct Ranks {
     explicit Ranks(MPI_Comm all) : partition(all) {}
     GrainPartition partition;
@@ -80,7 +89,8 @@ class NeighborList {
   // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
   // then the next free place of other slots.
   Kokkos::View<Quad*> room_;
-  Kokkos::View<std::uint64_t* [2]> key_room_;
+  Kokkos::View<std::uint64_t*> key_room_;  // two for each
+  IdleMemory idle_;
 };
 
 }  // namespace barchan

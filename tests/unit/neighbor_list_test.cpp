@@ -118,6 +118,60 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
   EXPECT_EQ(marked, kept);
 }
 
+/// Memory whose bits mean nothing, as others leave it.
+IdleMemory idle_memory(const Grid& grid, int fields, std::vector<Field>& all) {
+  while (static_cast<int>(all.size()) < fields) {
+    all.emplace_back("test: idle", grid);
+    Kokkos::deep_copy(all.back().storage, Kokkos::Experimental::quiet_NaN_v<Real>);
+  }
+  return IdleMemory(all);
+}
+
+TEST(NeighborList, TakesIdleMemoryForTheSameListAndHistory) {
+  Config c = grain_config();
+  c.size = {0.003, 0.003, 0.003};
+  Grid grid;
+  grid.nx = grid.ny = 18, grid.nz = 30;  // 12,800 numbers a field
+  for (const int fields : {0, 1, 12}) {  // none, not enough, plenty
+    GrainState s = make_grain_state(random_grains(500, c.size, 3), 2500);
+    NeighborList list(c, s.r_max);
+    list.with_rolling = list.with_force = true;
+    std::vector<Field> idle;
+    list.use_meanwhile(idle_memory(grid, fields, idle));
+    for (int round = 0; round < 4; ++round) {
+      list.rebuild(s, false);
+      EXPECT_EQ(listed_pairs(s), all_pairs(s, c.grains->skin, 0, c.size[2]));
+      if (round > 0) EXPECT_EQ(handle_marks(s, false), 0);
+      handle_marks(s, true);
+      for (const Field& field : idle) {
+        Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
+      }
+      drift(s, 1e-4);
+    }
+  }
+}
+
+TEST(NeighborList, IdleMemoryIsGivenOutOnce) {
+  Grid grid;
+  grid.nx = grid.ny = grid.nz = 6;  // 512 numbers a field: 4096 bytes
+  std::vector<Field> fields;
+  IdleMemory idle = idle_memory(grid, 2, fields);
+  const auto* const first = reinterpret_cast<const std::byte*>(fields[0].storage.data());
+  const auto place = [&](const auto& view) {
+    return reinterpret_cast<const std::byte*>(view.data()) - first;
+  };
+  const auto a = idle.take<int>(3);
+  EXPECT_EQ(place(a), 0);
+  EXPECT_EQ(a.extent(0), 3u);
+  EXPECT_EQ(place(idle.take<std::int64_t>(504)), 64) << "on the next boundary, to the end";
+  const auto b = idle.take<Vec3>(1);
+  EXPECT_EQ(static_cast<const void*>(b.data()), fields[1].storage.data());
+  EXPECT_EQ(idle.take<Real>(505).extent(0), 0u) << "more than is left";
+  idle.free_all();
+  EXPECT_EQ(place(idle.take<Real>(512)), 0);
+  EXPECT_EQ(idle.take<Real>(513).extent(0), 0u) << "no field is that large";
+}
+
 TEST(NeighborList, DropsAndCountsWhatLeft) {
   const Config c = grain_config();
   GrainState s = make_grain_state(random_grains(300, c.size, 11), 2500);
