@@ -13,7 +13,7 @@ fi
 cmake --preset cuda -DCMAKE_CXX_FLAGS=-Xptxas=-v
 # The log grows: what is not compiled again keeps the lines of its last compilation.
 set +e
-cmake --build $build --parallel "${JOBS:-$(nproc)}" --target all tests 2>&1 | tee -a $build/ptxas.log |
+cmake --build $build --parallel "${JOBS:-$(nproc)}" --target all tests -- -k 0 2>&1 | tee -a $build/ptxas.log |
   grep --line-buffered -E '^\[|error|warning:|FAILED'
 status=${PIPESTATUS[0]}
 set -e

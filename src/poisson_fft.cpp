@@ -38,7 +38,7 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
   columns_.modes = fft_->spectrum();
   columns_.ny = grid.ny;
   const bool has_constant = fft_->first_mode_x() == 0 && fft_->first_mode_z() == 0;
-  columns_.singular = mass == 0 && has_constant && !columns_.modes.empty();
+  columns_.singular = mass == 0 && has_constant && columns_.modes.span() > 0;
   factorise(grid, mass, diffusion);
 }
 
