@@ -11,16 +11,10 @@
 #include "src/health.hpp"
 #include "src/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace barchan {
 namespace {
-
-// A sanitizer holds back what is freed, so that it can tell who uses it after that.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryIsTheProgramsOwn = false;
-#else
-constexpr bool kMemoryIsTheProgramsOwn = true;
-#endif
 
 /// Memory that this process holds [bytes].
 double resident() {
@@ -129,7 +123,7 @@ void a_long_run(std::int64_t grain_steps) {
       100 * growth, sums.ledger_error / sums.given, sums.largest_volume_mismatch, sums.way);
   EXPECT_EQ(pairs.missed, 0u);
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
-  EXPECT_LT(kMemoryIsTheProgramsOwn ? growth : 0, 0.01);
+  EXPECT_LT(testing::kSanitized ? 0 : growth, 0.01);
   // Each step rounds its sums to some 1e-15 of what it exchanges, and adds them to sums that grow.
   EXPECT_LT(sums.ledger_error, 1e-13 * sums.given);
   EXPECT_LT(sums.largest_volume_mismatch, 1e-13);
