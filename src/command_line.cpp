@@ -80,7 +80,7 @@ std::string not_expected(const CLI::App& app, const CLI::App& command) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   for (std::string word : app.remaining(true)) {
-    word = word.substr(0, word.find('='));
+    if (const auto equals = word.find('='); equals != word.npos) word.resize(equals);
     if (!word.starts_with("-")) continue;
     if (word == "--ranks") {
       return "--ranks is an option of the launcher, ./barchan run; with the program itself start "

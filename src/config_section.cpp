@@ -138,9 +138,11 @@ std::string Reading::suggestion(const Unknown& unknown) {
   const auto own = keys_.find(unknown.section);
   if (own != keys_.end()) {
     const std::string close = nearest(unknown.key, own->second);
-    // What it stands for was not read, so nothing is to be concluded from its default.
-    if (!close.empty()) bad_.insert(dotted(unknown.section, close));
-    if (!close.empty()) return fmt::format(" (did you mean \"{}\"?)", close);
+    if (!close.empty()) {
+      // What it stands for was not read, so nothing is to be concluded from its default.
+      bad_.insert(dotted(unknown.section, close));
+      return fmt::format(" (did you mean \"{}\"?)", close);
+    }
   }
   if (is_section) return {};
   for (const auto& [section, keys] : keys_) {
