@@ -21,7 +21,8 @@ else()
   # not pedantic and has parentheses of its own. No fused multiply-add, as above.
   target_compile_options(barchan_flags INTERFACE --Werror=all-warnings --fmad=false
     -Wno-parentheses)
-  target_compile_definitions(barchan_flags INTERFACE FMT_USE_CONSTEXPR=1)  # fmt 9 halves it for nvcc
+  # fmt 9 halves it for nvcc; Eigen serves the host alone.
+  target_compile_definitions(barchan_flags INTERFACE FMT_USE_CONSTEXPR=1 EIGEN_NO_CUDA)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # False alarms of g++ 12 inside the headers of fmt and the standard library at -O3.

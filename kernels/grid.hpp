@@ -102,12 +102,14 @@ struct Field {
   int stride_y = 0, stride_z = 0;
 
   Field() = default;
-  Field(const char* label, const Grid& grid)
-      : storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2),
-        stride_y(grid.nx + 2),
-        stride_z((grid.nx + 2) * (grid.ny + 2)) {
+  explicit Field(const Storage& values)
+      : storage(values),
+        stride_y(values.extent_int(0)),
+        stride_z(values.extent_int(0) * values.extent_int(1)) {
     origin = storage.data() + 1 + stride_y + stride_z;
   }
+  Field(const char* label, const Grid& grid)
+      : Field(Storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
   KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
     // The row first: its address does not depend on i, and compilers then see plain strides.
     return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "kernels/grid.hpp"
@@ -9,11 +10,20 @@
 namespace barchan {
 
 /// Gives out pieces of some fields, which nobody reads before their owner has written them again.
+/// Fields that follow each other in memory count as one.
 class IdleMemory {
  public:
   IdleMemory() = default;
-  explicit IdleMemory(const std::vector<Field>& fields) {
-    for (const Field& field : fields) blocks_.push_back({.field = field, .used = 0});
+  explicit IdleMemory(std::vector<Field> fields) : fields_(std::move(fields)) {
+    for (const Field& field : fields_) {
+      auto* const begin = reinterpret_cast<std::byte*>(field.storage.data());
+      const std::size_t size = field.storage.span() * sizeof(Real);
+      if (!blocks_.empty() && blocks_.back().begin + blocks_.back().size == begin) {
+        blocks_.back().size += size;
+      } else {
+        blocks_.push_back({.begin = begin, .size = size});
+      }
+    }
   }
 
   /// What was given out is no longer in use.
@@ -21,14 +31,14 @@ class IdleMemory {
     for (Block& block : blocks_) block.used = 0;
   }
 
-  /// Room for n values, not initialised, in the first field that has it; a view without extent where
-  /// none has. The view does not keep the field alive, this does.
+  /// Room for n values, not initialised, in the first block that has it; a view without extent where
+  /// none has. The view does not keep the fields alive, this does.
   template <class T>
   Kokkos::View<T*> take(std::size_t n) {
     const std::size_t bytes = (n * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
     for (Block& block : blocks_) {
-      if (block.field.storage.span() * sizeof(Real) - block.used < bytes) continue;
-      auto* const place = reinterpret_cast<std::byte*>(block.field.storage.data()) + block.used;
+      if (block.size - block.used < bytes) continue;
+      std::byte* const place = block.begin + block.used;
       block.used += bytes;
       return Kokkos::View<T*>(reinterpret_cast<T*>(place), n);
     }
@@ -38,9 +48,10 @@ class IdleMemory {
  private:
   static constexpr std::size_t kAlignment = 64;  // [bytes], as Kokkos' own
   struct Block {
-    Field field;
-    std::size_t used = 0;  // [bytes] from its start
+    std::byte* begin = nullptr;
+    std::size_t size = 0, used = 0;  // [bytes]
   };
+  std::vector<Field> fields_;
   std::vector<Block> blocks_;
 };
 

@@ -55,6 +55,40 @@ double difference(const Field& whole, const Field& mine, const Grid& grid) {
   return max_over(MPI_COMM_WORLD, largest);
 }
 
+/// A drag coefficient of its own for every grain.
+void give_each_its_own(const GrainState& grains) {
+  const auto beta = grains.fluid.beta;
+  const auto id = grains.id;
+  Kokkos::parallel_for(
+      "test: what grains give", grains.n,
+      KOKKOS_LAMBDA(int g) { beta(g) = 1 + Kokkos::sin(static_cast<Real>(id(g))); });
+}
+
+void move_by_the_last_bit(const GrainState& grains, int row) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: last bit", 1, KOKKOS_LAMBDA(int) { kin(row).x.x *= 1 + 4e-16; });
+}
+
+Real carried_x(const GrainState& grains) {
+  Real sum_x = 0;
+  const auto carried = grains.exchange.carried_impulse;
+  Kokkos::parallel_reduce(
+      "test: at home", grains.n, KOKKOS_LAMBDA(int g, Real& sum) { sum += carried(g).x; }, sum_x);
+  return sum_x;
+}
+
+/// A field times what was deposited of the implicit coefficient.
+struct InCells {
+  GridRef grid;
+  FieldRef values;
+  Deposits deposits;
+  KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
+    return values(i, j, k) *
+           deposits.implicit.decode(deposits.sum(CellIndex{i, j, k}.linear(grid), 1));
+  }
+};
+
 Config heap_at_the_seam(VoidFraction points, GrainBoundaryX x) {
   Config c = testing::coupled_config();
   c.coupling.void_fraction = points;
@@ -107,11 +141,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     GrainState grains = make_grain_state(scattered_grains(c, 900), 2500, MPI_COMM_WORLD);
     add_fluid(grains);
     add_exchange(grains);
-    const auto beta = grains.fluid.beta;
-    const auto id = grains.id;
-    Kokkos::parallel_for(
-        "test: what grains give", grains.n,
-        KOKKOS_LAMBDA(int g) { beta(g) = 1 + Kokkos::sin(static_cast<Real>(id(g))); });
+    give_each_its_own(grains);
     GrainVisits visits(grid, false);
     const auto needs = [](GrainState& s, const auto& action) {
       action(s.kin);
@@ -136,13 +166,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
       return test::noise(i + grid.i_begin, j, k + grid.k_begin);
     });
     Halo(grid).fill(f);
-    const GridRef at = grid;
-    const FieldRef values = f;
-    const Real in_cells = sum_each_cell(
-        "test: cells", grid, KOKKOS_LAMBDA(int i, int j, int k) {
-          return values(i, j, k) *
-                 deposits.implicit.decode(deposits.sum(CellIndex{i, j, k}.linear(at), 1));
-        });
+    const Real in_cells = sum_each_cell("test: cells", grid, InCells{grid, f, deposits});
     std::vector<Real> at_grains(3);
     Kokkos::parallel_reduce("test: gather", there.n,
                             CarryToGrain{.locate = locate,
@@ -157,11 +181,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     EXPECT_NEAR(in_cells / at_grains[0], 1, 1e-11);
     visits.take_home(grains,
                      [](GrainState& s, const auto& action) { action(s.exchange.carried_impulse); });
-    Real home = 0;
-    const auto carried = grains.exchange.carried_impulse;
-    Kokkos::parallel_reduce(
-        "test: at home", grains.n, KOKKOS_LAMBDA(int g, Real& sum) { sum += carried(g).x; }, home);
-    EXPECT_NEAR(sum_over(MPI_COMM_WORLD, home) / at_grains[0], 1, 1e-12);
+    EXPECT_NEAR(sum_over(MPI_COMM_WORLD, carried_x(grains)) / at_grains[0], 1, 1e-12);
   }
 }
 
@@ -199,9 +219,7 @@ TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
 TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
   const Config c = testing::coupled_config();
   Coupled whole(c), moved(c), shared(c, MPI_COMM_WORLD);
-  const auto kin = moved.state.grains->kin;
-  Kokkos::parallel_for(
-      "test: last bit", 1, KOKKOS_LAMBDA(int) { kin(100).x.x *= 1 + 4e-16; });
+  move_by_the_last_bit(*moved.state.grains, 100);
   double worst_share = 0;
   for (int s = 1; s <= 200; ++s) {
     for (Coupled* one : {&whole, &moved, &shared}) one->step.advance(one->state);

@@ -137,6 +137,14 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
   for (const double difference : s.off()) EXPECT_LT(difference, 1e-9);
 }
 
+void move_the_left_ones(const GrainState& grains) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: move", grains.n, KOKKOS_LAMBDA(int g) {
+        if (kin(g).x.x < 0.003) kin(g).x.x += 0.012;
+      });
+}
+
 /// A heap beside an empty floor.
 TEST(GrainsOverRanks, CutsGiveEqualWorkAndFollowTheGrains) {
   Config c = box({0.02, 0.01, 0.004});
@@ -149,11 +157,7 @@ TEST(GrainsOverRanks, CutsGiveEqualWorkAndFollowTheGrains) {
   const Real mean = 6000.0 / n_ranks();
   EXPECT_LT(max_over(MPI_COMM_WORLD, s.state.n), 1.15 * mean);
   // All that lies left of the middle goes far to the right: one or two ranks have it all.
-  const auto kin = s.state.kin;
-  Kokkos::parallel_for(
-      "test: move", s.state.n, KOKKOS_LAMBDA(int g) {
-        if (kin(g).x.x < 0.003) kin(g).x.x += 0.012;
-      });
+  move_the_left_ones(s.state);
   s.solver.list().rebuild(s.state, false);  // they go to the owners of the places ...
   s.solver.list().rebuild(s.state, false);  // ... who then have too much to do
   EXPECT_GT(cuts.imbalance_before(), 1.1);

@@ -242,15 +242,19 @@ TEST(MessageCounts, AListRebuild) {
   expect_equal(since(before), rebuild(s.solver.list().ghosts()->counts()));
 }
 
+void move_along_x(const GrainState& grains, Real way) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: move", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += way; });
+}
+
 /// Every grain goes on by one column, some to another rank: 30 words each, and no contacts.
 TEST(MessageCounts, AMigration) {
   const Config c = periodic_box();
   testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
   if (n_ranks() == 1) return;
   const NeighborList& list = s.solver.list();
-  const auto kin = s.state.kin;
-  Kokkos::parallel_for(
-      "test: move", s.state.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += 3e-4; });
+  move_along_x(s.state, 3e-4);
   const std::int64_t migrated = list.n_migrated();
   const MessageCounts before = message_counts();
   s.solver.list().rebuild(s.state, false);

@@ -76,9 +76,7 @@ class FlatBed {
   }
 
   void advance(double seconds) {
-    for (double t = 0; t < seconds * (1 - 1e-9); t += config_.time.fluid_step) {
-      step_.advance(state_);
-    }
+    for (int s = steps_in(seconds); s > 0; --s) step_.advance(state_);
   }
 
   /// The next `seconds`. The stress on the bed is what the drive gives the water above it, less
@@ -90,7 +88,9 @@ class FlatBed {
     std::vector<double> drift(volume_.size());
     const double before = momentum_per_area();
     double impulse = 0;
-    for (; seen.time < seconds * (1 - 1e-9); seen.time += dt) {
+    const int steps = steps_in(seconds);
+    seen.time = steps * dt;
+    for (int s = 0; s < steps; ++s) {
       step_.advance(state_);
       impulse += kDensity * state_.fluid->drive * (config_.size[1] - depth) * dt;
       const auto kin = host_copy(state_.grains->kin);
@@ -108,6 +108,9 @@ class FlatBed {
   }
 
  private:
+  int steps_in(double seconds) const {
+    return static_cast<int>(std::lround(seconds / config_.time.fluid_step));
+  }
   /// Of the water [N s/m2].
   double momentum_per_area() {
     const double area = config_.size[0] * config_.size[2];

@@ -114,7 +114,7 @@ class TaylorGreen {
   /// energy of dt^2 |du/dt|^2 / 2, for a whole dt 2 % of what viscosity takes by the first record.
   void start(double dt) {
     advance(dt / 32);
-    for (double part = dt / 32; part < 0.6 * dt; part *= 2) advance(part);
+    for (int parts = 32; parts > 1; parts /= 2) advance(dt / parts);
   }
   Record record(double t) const {
     for_each_cell("test", grid_, UpdateEddyViscosity{grid_, fluid_.u, nu_t_, c_w_delta_.data()});

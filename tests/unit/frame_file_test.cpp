@@ -17,8 +17,10 @@ long writes_left = -1;
 
 /// Takes the place of the C library's pwrite in this executable, so that a test can stop a process
 /// at any write to a result file.
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): theirs are reserved
 extern "C" ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
-  if (writes_left >= 0 && writes_left-- == 0) _exit(9);
+  if (writes_left == 0) _exit(9);
+  if (writes_left > 0) --writes_left;
   return syscall(SYS_pwrite64, descriptor, bytes, size, offset);
 }
 

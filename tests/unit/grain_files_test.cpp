@@ -1,8 +1,8 @@
 #include "src/grain_files.hpp"
 
 #include <gtest/gtest.h>
-#include <time.h>
 
+#include <ctime>
 #include <fstream>
 
 #include "src/checkpoint.hpp"

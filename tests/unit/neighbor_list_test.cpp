@@ -172,6 +172,16 @@ TEST(NeighborList, IdleMemoryIsGivenOutOnce) {
   EXPECT_EQ(idle.take<Real>(513).extent(0), 0u) << "no field is that large";
 }
 
+TEST(NeighborList, IdleFieldsThatFollowEachOtherAreOnePiece) {
+  const Kokkos::View<Real****, Kokkos::LayoutLeft> all("test: idle", 8, 8, 8, 3);
+  const auto field = [&](int c) {
+    return Field(Kokkos::subview(all, Kokkos::ALL, Kokkos::ALL, Kokkos::ALL, c));
+  };
+  IdleMemory idle({field(0), field(1), field(2)});
+  EXPECT_EQ(idle.take<Real>(3 * 512 + 1).extent(0), 0u);
+  EXPECT_EQ(idle.take<Real>(3 * 512).data(), all.data());
+}
+
 TEST(NeighborList, DropsAndCountsWhatLeft) {
   const Config c = grain_config();
   GrainState s = make_grain_state(random_grains(300, c.size, 11), 2500);
