@@ -165,6 +165,8 @@ struct Predict {
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const FaceRef &u = convection.u, &flux = convection.flux;
+    const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
+
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
     const Real nx = convection.x(i, j, k) + cell_to_xface(alpha, i, j, k) * stress.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, u.x(i, j, k),
@@ -176,9 +178,8 @@ struct Predict {
     const Real uy =
         advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
                 u.y(i, j, k), at(exchange.impulse.y, i, j, k), at(exchange.implicit.y, i, j, k));
-    // y-face 0 is the wall; what lies behind it may hold anything.
-    rate.y(i, j, k) = j > 0 ? ny : Real(0);
-    u_star.y(i, j, k) = j > 0 ? uy : Real(0);
+    rate.y(i, j, k) = inside * ny;
+    u_star.y(i, j, k) = inside * uy;
 
     const Real nz = convection.z(i, j, k) + cell_to_zface(alpha, i, j, k) * stress.z(i, j, k);
     const Real uz =
@@ -190,11 +191,15 @@ struct Predict {
   }
 };
 
-/// No flow through these faces.
+/// No flow through the lid, and none behind the floor, which is read though it does not count: for
+/// all i and k, those of ghosts, too.
 struct CloseFaces {
-  FieldRef a, b;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    a(i, j, k) = b(i, j, k) = 0;
+  FaceRef flux;
+  FieldRef v_star;
+  int ny;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
+    flux.y(i, ny, k) = v_star(i, ny, k) = 0;
+    flux.x(i, -1, k) = flux.y(i, -1, k) = flux.z(i, -1, k) = 0;
   }
 };
 

@@ -88,9 +88,9 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
       mobility_ = make_faces("fluid: mobility", grid_);
     }
     // Others may have used these fields since.
-    for_each_cell("fluid: nothing through the lid",
-                  CellRange{0, grid_.nx, grid_.ny, grid_.ny + 1, 0, grid_.nz},
-                  CloseFaces{flux_.y, u_star_.y});
+    for_each_cell("fluid: nothing through the walls",
+                  CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
+                  CloseFaces{flux_, u_star_.y, grid_.ny});
     for_each_cell("fluid: mass flux", grid_,
                   MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
     boundary_.fill_periodic(flux_);
