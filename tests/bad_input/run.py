@@ -150,9 +150,9 @@ def problems_told(entry, text):
 
 
 def without_usage(text):
-    """argparse and CLI11 put words of their own around a message; a warning is none of a problem."""
+    """argparse, CLI11 and a count of lines put words of their own around a message; a warning is none of a problem."""
     text = re.sub(r"^usage: .*\n( .*\n)*", "", text, flags=re.M)
-    return re.sub(r"^(Run with --help|warning: |libgomp: ).*\n", "", text, flags=re.M)
+    return re.sub(r"^(Run with --help|warning: |libgomp: |libgcov profiling error:).*\n", "", text, flags=re.M)
 
 
 def check_message(entry, ended):
