@@ -13,7 +13,8 @@ namespace {
 
 /// In one piece, of more use to others while it is idle.
 FaceVector make_faces(const char* label, const Grid& grid) {
-  const Kokkos::View<Real****, Kokkos::LayoutLeft> all(label, grid.nx + 2, grid.ny + 2, grid.nz + 2, 3);
+  const Kokkos::View<Real****, Kokkos::LayoutLeft> all(label, grid.nx + 2, grid.ny + 2, grid.nz + 2,
+                                                       3);
   const auto component = [&all](int c) {
     return Field(Kokkos::subview(all, Kokkos::ALL, Kokkos::ALL, Kokkos::ALL, c));
   };

@@ -89,9 +89,9 @@ class FluidSolver {
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  Real flow_rate_ = 0;                   // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
-  Real drive_response_ = 0;              // the same of c_x dy: per unit of drive times dt
-  Real fluid_height_ = 0;                // sum of alpha dy over x-faces [m]
+  Real flow_rate_ = 0;       // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
+  Real drive_response_ = 0;  // the same of c_x dy: per unit of drive times dt
+  Real fluid_height_ = 0;    // sum of alpha dy over x-faces [m]
   FluidStepReport report_;
 };
 

@@ -31,8 +31,8 @@ class IdleMemory {
     for (Block& block : blocks_) block.used = 0;
   }
 
-  /// Room for n values, not initialised, in the first block that has it; a view without extent where
-  /// none has. The view does not keep the fields alive, this does.
+  /// Room for n values, not initialised, in the first block that has it; a view without extent
+  /// where none has. The view does not keep the fields alive, this does.
   template <class T>
   Kokkos::View<T*> take(std::size_t n) {
     const std::size_t bytes = (n * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;

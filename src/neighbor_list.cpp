@@ -98,6 +98,13 @@ void NeighborList::take_room(const GrainState& grains) {
   take_meanwhile(occupied_.of_grain, "column of grain", n);
 }
 
+/// Those that came from other ranks, and ghosts, may need more.
+void NeighborList::reserve_room(int n) {
+  reserve(room_, "room of a rebuild", n);
+  reserve(key_room_, "keys of a rebuild", 2 * n);
+  reserve(occupied_.of_grain, "column of grain", n);
+}
+
 void NeighborList::check_positions(const GrainState& grains) const {
   const auto kin = grains.kin;
   int bad = grains.n;
@@ -113,9 +120,10 @@ void NeighborList::check_positions(const GrainState& grains) const {
   Kokkos::deep_copy(id, Kokkos::subview(grains.id, bad));
   Vec3 last;
   Kokkos::deep_copy(last, Kokkos::subview(grains.x_reference, bad));
-  const std::string place = fmt::format("; it was near ({:.6g}, {:.6g}, {:.6g}) m: time.grain_step may "
-                                        "be too long, or grains overlapped at the start",
-                                        last.x, last.y, last.z);
+  const std::string place = fmt::format(
+      "; it was near ({:.6g}, {:.6g}, {:.6g}) m: time.grain_step may "
+      "be too long, or grains overlapped at the start",
+      last.x, last.y, last.z);
   throw StateError(
       fmt::format("the position of grain {} is not finite{}", id, rebuilds_ > 0 ? place : ""),
       ranks_ == nullptr);
@@ -135,8 +143,7 @@ void NeighborList::wrap(GrainState& grains) const {
 void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
   reserve(row_, "row in the contacts kept", n + 1);
-  reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", 2 * n);
+  reserve_room(n);
   const Kokkos::View<std::uint64_t*, Kokkos::MemoryUnmanaged> key(key_room_.data(),
                                                                   static_cast<std::size_t>(n));
   const auto row = Kokkos::subview(row_, std::pair<int, int>(0, n));
@@ -160,7 +167,6 @@ void NeighborList::sort(GrainState& grains, bool drop) {
 }
 
 Windows NeighborList::find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n) {
-  reserve(occupied_.of_grain, "column of grain", n);
   const NumberColumns find{.columns = columns_, .grains = kin, .occupied = occupied_};
   Kokkos::parallel_scan("neighbors: occupied columns", n, find, occupied_.n);
   reserve(occupied_.id, "occupied columns", occupied_.n);
@@ -185,7 +191,6 @@ void NeighborList::keep_contacts(const GrainState& grains) {
   const int n = grains.n;
   const KeepingGrains keeping{.list = list, .id = grains.id, .both = ranks_ != nullptr};
   take_meanwhile(kept_.first, "contacts kept: first", n + 1);
-  reserve(row_, "row in the contacts kept", n + 1);
   Kokkos::deep_copy(kept_.first, 0);
   Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
                        CountContacts{.keeping = keeping, .count = kept_.first});
@@ -206,7 +211,6 @@ void NeighborList::share_out(GrainState& grains) {
   if (!has_kept_) kept_.first = Kokkos::View<int*>("contacts kept: first", grains.n + 1);
   ranks_->partition.balance(grains, columns_, kept_.first);
   columns_.origin = ranks_->partition.origin();
-  reserve(room_, "room of a rebuild", grains.n);
   ranks_->migrate(grains, kept_, columns_, ranks_->partition.owners(), room_);
 }
 
@@ -243,8 +247,7 @@ void NeighborList::register_others(const PairList& list, int n) {
 
 void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin) {
   const int n = grains.n + grains.n_ghosts;
-  reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", 2 * n);
+  reserve_room(n);
   const Windows window = find_windows(kin, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
@@ -314,7 +317,6 @@ void NeighborList::restore(GrainState& grains) {
   take_room(grains);
   Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
                                               static_cast<std::size_t>(std::max(n, 1)));
-  reserve(row_, "row in the contacts kept", n + 1);
   const auto kin = grains.kin, moved = at_reference;
   const auto reference = grains.x_reference;
   const auto row = row_;

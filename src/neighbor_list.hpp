@@ -19,8 +19,8 @@ namespace barchan {
 /// drops grains beyond the outlet. Throws StateError naming the grain if a position is not finite.
 ///
 /// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
-/// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it, with
-/// the same bits: which grain is the first depends on the places of the two columns alone.
+/// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it,
+/// with the same bits: which grain is the first depends on the places of the two columns alone.
 class NeighborList {
  public:
   NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF);
@@ -67,6 +67,7 @@ class NeighborList {
   template <class T>
   void take_meanwhile(Kokkos::View<T*>& view, const char* label, int n);
   void take_room(const GrainState& grains);
+  void reserve_room(int n);
 
   struct Ranks {
     explicit Ranks(MPI_Comm all) : partition(all) {}

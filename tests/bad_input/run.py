@@ -138,7 +138,7 @@ def execute(command, folder, environment, limit):
 
 def problems_told(entry, text):
     """Number of problems in a message, or a sentence about its form."""
-    lines = [line for line in without_usage(text).splitlines() if line.strip()]
+    lines = [line for line in without_words_of_others(text).splitlines() if line.strip()]
     if lines and (count := re.fullmatch(r"(\d+) problems?; nothing was run\.", lines[-1])):
         told = sum(not line.startswith("  ") for line in lines[:-1])
         more = re.fullmatch(r"  \.\.\. and (\d+) more", lines[-2])
@@ -149,7 +149,7 @@ def problems_told(entry, text):
     return len(loose)
 
 
-def without_usage(text):
+def without_words_of_others(text):
     """argparse, CLI11 and a count of lines put words of their own around a message; a warning is none of a problem."""
     text = re.sub(r"^usage: .*\n( .*\n)*", "", text, flags=re.M)
     return re.sub(r"^(Run with --help|warning: |libgomp: |libgcov profiling error:).*\n", "", text, flags=re.M)

@@ -18,8 +18,7 @@ struct Coupled {
   SystemState state;
   CoupledStep step;
 
-  explicit Coupled(const Config& c)
-      : config(c), state(make_initial_state(c, {})), step(c, state) {
+  explicit Coupled(const Config& c) : config(c), state(make_initial_state(c, {})), step(c, state) {
     step.start(state);
   }
   void advance(int n) {

@@ -93,9 +93,10 @@ TEST_P(NeighborListShapes, NoPairIsMissedAndNoneIsListedTwice) {
 
 INSTANTIATE_TEST_SUITE_P(
     Boundaries, NeighborListShapes,
-    ::testing::Values(Shape{GrainBoundaryX::exit, GrainBoundaryZ::periodic, {0.01, 0.004, 0.003}},
-                      Shape{GrainBoundaryX::periodic, GrainBoundaryZ::periodic, {0.0009, 0.03, 0.004}},
-                      Shape{GrainBoundaryX::wall, GrainBoundaryZ::wall, {0.0003, 0.02, 0.01}}));
+    ::testing::Values(
+        Shape{GrainBoundaryX::exit, GrainBoundaryZ::periodic, {0.01, 0.004, 0.003}},
+        Shape{GrainBoundaryX::periodic, GrainBoundaryZ::periodic, {0.0009, 0.03, 0.004}},
+        Shape{GrainBoundaryX::wall, GrainBoundaryZ::wall, {0.0003, 0.02, 0.01}}));
 
 TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
   Config c = grain_config();
