@@ -1,6 +1,6 @@
 """The dunes of one frame, found and measured as the program does for dune.csv.
 
-The same bins, thresholds and centreline as src/dune_map.cpp and src/dune_shape.cpp (definitions in
+The same bins, thresholds and centreline as src/diagnostics/dune_map.cpp and src/diagnostics/dune_shape.cpp (definitions in
 docs/conventions.md), so that what is said about single grains, e.g. that one lies in a horn, agrees
 with the lengths in dune.csv. Lengths in m, angles from +x. Criteria are in mean grain diameters.
 """

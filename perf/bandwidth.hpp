@@ -3,7 +3,7 @@
 
 #include <Kokkos_Core.hpp>
 
-#include "kernels/vec3.hpp"
+#include "kernels/math/vec3.hpp"
 
 namespace barchan {
 

@@ -8,7 +8,7 @@
 #include "perf/bench.hpp"
 #include "perf/cases.hpp"
 #include "perf/events.hpp"
-#include "src/poisson_fft.hpp"
+#include "src/fluid/poisson_fft.hpp"
 
 namespace barchan {
 

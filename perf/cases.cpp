@@ -5,8 +5,8 @@
 #include "perf/events.hpp"
 #include "perf/heaps.hpp"
 #include "perf/options.hpp"
-#include "src/config_load.hpp"
-#include "src/initial_state.hpp"
+#include "src/config/load.hpp"
+#include "src/run/initial_state.hpp"
 
 namespace barchan {
 

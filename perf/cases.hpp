@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "src/coupled_step.hpp"
+#include "src/coupling/coupled_step.hpp"
 
 namespace barchan {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kernels/grain.hpp"
+#include "kernels/grains/grain.hpp"
 
 namespace barchan {
 

@@ -13,7 +13,7 @@ using Space = Kokkos_Profiling_SpaceHandle;
 using Clock = std::chrono::steady_clock;
 
 // Kokkos calls bare functions, hence the globals.
-constexpr const char* rebuild_region = "list rebuild";  // as in src/neighbor_list.cpp
+constexpr const char* rebuild_region = "list rebuild";  // as in src/grains/neighbor_list.cpp
 EventCounts events;
 bool counting = false;
 std::int64_t bytes_alive = 0;

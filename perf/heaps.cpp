@@ -9,9 +9,9 @@
 
 #include "perf/cases.hpp"
 #include "perf/options.hpp"
-#include "src/atomic_file.hpp"
-#include "src/grain_files.hpp"
-#include "src/initial_state.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/grains/grain_files.hpp"
+#include "src/run/initial_state.hpp"
 
 namespace barchan {
 

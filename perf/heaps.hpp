@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "src/initial_grains.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

@@ -9,8 +9,8 @@
 #include "barchan_version.hpp"
 #include "perf/options.hpp"
 #include "perf/records.hpp"
-#include "src/communicator.hpp"
-#include "src/launch.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 

@@ -66,7 +66,7 @@ CORE = Machine("core", substep=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7,
                coupled=(0, 6.2e-7), iteration=7e-8, smoothing=2.7e-8)
 # docs/performance.md, "GPU: compiled, not run; estimate": straight lines through its columns. Among ranks
 # a sub-step launches two more kernels and waits for the largest way; a message is packed, awaited and
-# unpacked; src/transpose.cpp launches a kernel for each rank of a line.
+# unpacked; src/parallel/transpose.cpp launches a kernel for each rank of a line.
 H200 = Machine("H200 (estimate)", substep=(9e-6, 2.41e-10), rebuild=(3.8e-4, 4.2e-10), exchange=3e-10,
                flow=(1.9e-4, 1.1e-10), coupled=(2.4e-3, 3.5e-10), iteration=5.5e-11, smoothing=2.8e-11,
                beside=1.6e-5, message=6e-6, block=4e-6)

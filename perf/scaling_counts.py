@@ -8,15 +8,15 @@ import math
 from dataclasses import dataclass, fields
 
 WORD = 8                    # bytes of a number
-GHOST, GHOST_MOTION = 13, 9  # words of a new ghost, and in a sub-step: src/ghost_grains.cpp
+GHOST, GHOST_MOTION = 13, 9  # words of a new ghost, and in a sub-step: src/grains/ghost_grains.cpp
 GATHER = (21, 17)           # words a grain takes to the flow and home: gather_needs, gather_gives,
-DEPOSIT = (26, 3)           # deposit_needs, carry_gives of src/coupled_step.cpp
-SWEEPS = 2                  # src/local_correction.cpp
+DEPOSIT = (26, 3)           # deposit_needs, carry_gives of src/coupling/coupled_step.cpp
+SWEEPS = 2                  # src/fluid/local_correction.cpp
 
 
 @dataclass(frozen=True)
 class Counts:
-    """Of one rank, as src/messages.hpp has them."""
+    """Of one rank, as src/parallel/messages.hpp has them."""
     messages: float = 0
     bytes: float = 0
     reductions: float = 0
@@ -37,7 +37,7 @@ def sent(messages, numbers):
 
 @dataclass(frozen=True)
 class Split:
-    """[0, n) in consecutive parts, the longer ones first: src/decomposition.hpp."""
+    """[0, n) in consecutive parts, the longer ones first: src/parallel/decomposition.hpp."""
     n: int
     parts: int
 
@@ -51,7 +51,7 @@ def fits(n, parts):
 
 
 def cost(nx, nz, px, pz):
-    """Cost::of() in src/decomposition.cpp."""
+    """Cost::of() in src/parallel/decomposition.cpp."""
     cells = nx * nz / (px * pz)
     transposes = sum(0 if parts == 1 else 6 * numbers * cells + 400 * times * (parts - 1)
                      for parts, numbers, times in ((px, 3, 4), (pz, 2, 2)))
@@ -90,7 +90,7 @@ class Pencil:
 
     @property
     def colours(self):
-        """ColumnPlaces::colours() in kernels/column_relaxation.hpp."""
+        """ColumnPlaces::colours() in kernels/fluid/column_relaxation.hpp."""
         return 2 if self.nx_all % 2 == 0 and self.nz_all % 2 == 0 else 3
 
 
@@ -112,7 +112,7 @@ def there_and_back(shared, split, others, width):
 
 
 def fft_solve(p):
-    """PoissonFft::solve(): lines of x, lines of z and rows made whole, and back (src/fft.cpp)."""
+    """PoissonFft::solve(): lines of x, lines of z and rows made whole, and back (src/fluid/fft.cpp)."""
     cells_x, cells_z = Split(p.nx_all, p.px), Split(p.nz_all, p.pz)
     rows, planes, modes = Split(p.ny, p.px), Split(p.nz_all, p.px), Split(p.nx_all // 2 + 1, p.pz)
     return (there_and_back(cells_x, rows, p.nz, 1) + there_and_back(cells_z, modes, rows.count(0), 2)

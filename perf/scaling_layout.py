@@ -1,7 +1,7 @@
 """Which rank has which grains: pieces of the Morton curve, their ghosts, their visits to the flow.
 
-Counted on a map of columns, as the program counts them: kernels/grain_owners.hpp,
-src/grain_partition.cpp.
+Counted on a map of columns, as the program counts them: kernels/grains/grain_owners.hpp,
+src/grains/grain_partition.cpp.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Columns:
 
 
 def spread_bits(a):
-    """kernels/neighbor_search.hpp."""
+    """kernels/grains/neighbor_search.hpp."""
     a = a.astype(np.uint64)
     for shift, mask in ((8, 0x00FF00FF), (4, 0x0F0F0F0F), (2, 0x33333333), (1, 0x55555555)):
         a = (a | (a << np.uint64(shift))) & np.uint64(mask)
@@ -39,7 +39,7 @@ def place_of(ix, iz):
 
 
 def column_counts(size):
-    """column_count() of src/neighbor_list.cpp along x and z."""
+    """column_count() of src/grains/neighbor_list.cpp along x and z."""
     cutoff = 2 * LARGEST_RADIUS + SKIN
     return tuple(int(extent / cutoff) for extent in size)
 

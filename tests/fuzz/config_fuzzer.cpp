@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "src/config_load.hpp"
-#include "src/config_resolved.hpp"
-#include "src/config_restart.hpp"
-#include "src/config_validate.hpp"
-#include "src/derived.hpp"
+#include "src/config/derived.hpp"
+#include "src/config/load.hpp"
+#include "src/config/resolved.hpp"
+#include "src/config/restart_check.hpp"
+#include "src/config/validate.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Bytes as the table of initial.grains.
-#include "src/grain_files.hpp"
+#include "src/grains/grain_files.hpp"
 #include "tests/fuzz/sound_grains.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

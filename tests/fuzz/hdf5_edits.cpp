@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/hdf5_handle.hpp"
+#include "src/io/hdf5_handle.hpp"
 #include "tests/fuzz/hdf5_types.hpp"
 
 namespace barchan::fuzz {

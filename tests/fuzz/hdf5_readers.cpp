@@ -10,11 +10,11 @@
 #include <functional>
 #include <string_view>
 
-#include "src/checkpoint.hpp"
-#include "src/frame_file.hpp"
-#include "src/grain_files.hpp"
-#include "src/hdf5_handle.hpp"
-#include "src/info.hpp"
+#include "src/grains/grain_files.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
+#include "src/io/hdf5_handle.hpp"
+#include "src/run/info.hpp"
 #include "tests/fuzz/sound_grains.hpp"
 
 namespace barchan::fuzz {

@@ -3,7 +3,7 @@
 #include <iterator>
 #include <string>
 
-#include "src/seal.hpp"
+#include "src/io/seal.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/hdf5_readers.hpp"
 #include "tests/fuzz/valid_files.hpp"

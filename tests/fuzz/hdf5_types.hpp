@@ -1,7 +1,7 @@
 // Types of numbers, texts and records that a file of somebody else may hold.
 #pragma once
 
-#include "src/hdf5_handle.hpp"
+#include "src/io/hdf5_handle.hpp"
 #include "tests/fuzz/tape.hpp"
 
 namespace barchan::fuzz {

@@ -9,12 +9,12 @@
 #include <iterator>
 #include <string>
 
-#include "src/checkpoint.hpp"
-#include "src/config_load.hpp"
-#include "src/errors.hpp"
-#include "src/report.hpp"
-#include "src/seal.hpp"
-#include "src/simulation.hpp"
+#include "src/base/errors.hpp"
+#include "src/base/report.hpp"
+#include "src/config/load.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/seal.hpp"
+#include "src/run/simulation.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/hdf5_readers.hpp"
 

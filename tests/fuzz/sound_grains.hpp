@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "src/initial_grains.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 
 namespace barchan::fuzz {

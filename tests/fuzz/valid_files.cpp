@@ -3,8 +3,8 @@
 #include <numeric>
 #include <vector>
 
-#include "src/checkpoint.hpp"
-#include "src/frame_file.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
 #include "tests/fuzz/hdf5_readers.hpp"
 
 namespace barchan::fuzz {

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 command -v cppcheck > /dev/null || { echo "cppcheck: not found (Debian: cppcheck)" >&2; exit 1; }
 mkdir -p build/cppcheck
 mapfile -t files < <(find src perf tests -name '*.cpp' | sort)
-headers=(kernels/*.hpp src/*.hpp perf/*.hpp tests/*/*.hpp)
+headers=(kernels/*/*.hpp src/*/*.hpp perf/*.hpp tests/*/*.hpp)
 # shellcheck disable=SC2054  # the commas are cppcheck's
 options=(--std=c++20 --language=c++ --enable=warning,performance,portability,style --inline-suppr
   --library=posix,googletest,openmp -I. --cppcheck-build-dir=build/cppcheck -j "${JOBS:-1}"

@@ -57,5 +57,5 @@ export -f state_of look_at
 # shellcheck disable=SC2016  # expanded by the inner bash
 printf '%s\n' "${files[@]}" | xargs -d '\n' -n 1 -P "${JOBS:-1}" bash -c 'look_at "$1" || exit 1' look_at ||
   { echo "tidy: findings above" >&2; exit 1; }
-headers=(kernels/*.hpp src/*.hpp perf/*.hpp tests/*/*.hpp)
+headers=(kernels/*/*.hpp src/*/*.hpp perf/*.hpp tests/*/*.hpp)
 echo "tidy: ${#files[@]} sources (of ${#all[@]}) and what they include of ${#headers[@]} headers are clean"

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "src/deposit_rims.hpp"
-#include "src/domain.hpp"
-#include "src/grain_visits.hpp"
-#include "src/initial_state.hpp"
+#include "src/coupling/deposit_rims.hpp"
+#include "src/coupling/fluid_side_grains.hpp"
+#include "src/fluid/domain.hpp"
+#include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"
@@ -142,24 +142,24 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     add_fluid(grains);
     add_exchange(grains);
     give_each_its_own(grains);
-    GrainVisits visits(grid, false);
+    FluidSideGrains visits(grid, false);
     const auto needs = [](GrainState& s, const auto& action) {
       action(s.kin);
       action(s.fluid.beta);
     };
-    GrainState& there = visits.bring(grains, needs);
+    GrainState& there = visits.to_fluid_ranks(grains, needs);
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
     Kokkos::deep_copy(there.fluid.added_mass, 0.0);
     Kokkos::deep_copy(there.exchange.carried_impulse, Vec3{});
     const ExchangeOfGrain of_grain{
         .dt = 1, .grains = there.kin, .on_grains = there.fluid, .exchange = there.exchange};
-    const Locate locate = make_locate(c, grid, there.r_max);
+    const DepositStencil stencil = make_deposit_stencil(c, grid, there.r_max);
     Deposits deposits;
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.implicit = fixed_point_for(1e4);
     Kokkos::parallel_for(
         "test: scatter", there.n,
-        DepositGrain{.locate = locate, .of_grain = of_grain, .deposits = deposits});
+        DepositGrain{.stencil = stencil, .of_grain = of_grain, .deposits = deposits});
     DepositRims(grid).add(deposits);
     const Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
@@ -169,7 +169,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     const Real in_cells = sum_each_cell("test: cells", grid, InCells{grid, f, deposits});
     std::vector<Real> at_grains(3);
     Kokkos::parallel_reduce("test: gather", there.n,
-                            CarryToGrain{.locate = locate,
+                            CarryToGrain{.stencil = stencil,
                                          .of_grain = of_grain,
                                          .x = f,
                                          .y = f,
@@ -179,8 +179,8 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     sum_over(MPI_COMM_WORLD, at_grains);
     EXPECT_GT(std::abs(at_grains[0]), 1e-3);
     EXPECT_NEAR(in_cells / at_grains[0], 1, 1e-11);
-    visits.take_home(grains,
-                     [](GrainState& s, const auto& action) { action(s.exchange.carried_impulse); });
+    visits.to_grain_ranks(
+        grains, [](GrainState& s, const auto& action) { action(s.exchange.carried_impulse); });
     EXPECT_NEAR(sum_over(MPI_COMM_WORLD, carried_x(grains)) / at_grains[0], 1, 1e-12);
   }
 }

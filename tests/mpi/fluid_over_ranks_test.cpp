@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "src/fluid_solver.hpp"
-#include "src/fluid_state.hpp"
-#include "src/local_correction.hpp"
-#include "src/messages.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/fluid/local_correction.hpp"
+#include "src/parallel/messages.hpp"
 #include "tests/support/shared_grid.hpp"
 
 namespace barchan {

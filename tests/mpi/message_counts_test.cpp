@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/coupled_step.hpp"
-#include "src/messages.hpp"
+#include "src/coupling/coupled_step.hpp"
+#include "src/parallel/messages.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"

@@ -1,11 +1,11 @@
-#include "src/watchdog.hpp"
+#include "src/run/watchdog.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "src/stopwatch.hpp"
+#include "src/base/stopwatch.hpp"
 
 namespace barchan {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/config_load.hpp"
-#include "src/initial_flow.hpp"
+#include "src/config/load.hpp"
+#include "src/fluid/initial_flow.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 #include "tests/support/packing.hpp"

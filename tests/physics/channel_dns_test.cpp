@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/config_load.hpp"
-#include "src/simulation.hpp"
+#include "src/config/load.hpp"
+#include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/finished_run.hpp"
 #include "tests/support/reference_table.hpp"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdio>
 
-#include "src/fluid_solver.hpp"
-#include "src/launch.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "src/initial_state.hpp"
+#include "src/run/initial_state.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/packing.hpp"
 

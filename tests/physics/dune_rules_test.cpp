@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/toml_tree.hpp"
+#include "src/config/toml_tree.hpp"
 #include "tests/support/dune_rules.hpp"
 #include "tests/support/finished_run.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "kernels/flow_sums.hpp"
-#include "src/fluid_solver.hpp"
-#include "src/initial_flow.hpp"
-#include "src/launch.hpp"
+#include "kernels/fluid/flow_sums.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/fluid/initial_flow.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "kernels/flow_sums.hpp"
-#include "src/launch.hpp"
+#include "kernels/fluid/flow_sums.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 

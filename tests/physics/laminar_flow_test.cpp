@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "src/fluid_solver.hpp"
+#include "src/fluid/fluid_solver.hpp"
 #include "tests/support/flow_errors.hpp"
 
 namespace barchan {

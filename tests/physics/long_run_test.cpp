@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "src/health.hpp"
-#include "src/initial_state.hpp"
+#include "src/coupling/state_checks.hpp"
+#include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/sanitized.hpp"
 
@@ -83,7 +83,7 @@ void a_long_run(std::int64_t grain_steps) {
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);
   step.start(state);
-  const Health health(config, MPI_COMM_SELF);
+  const StateChecks health(config, MPI_COMM_SELF);
   std::mt19937_64 random(7);
   const std::int64_t steps = grain_steps / step.substeps();
   Sums sums;
@@ -95,8 +95,8 @@ void a_long_run(std::int64_t grain_steps) {
     ASSERT_NO_THROW(health.check(state, step)) << "step " << n;
     const ExchangeLedger& l = step.coupling()->ledger();
     sums.given += norm(l.given_to_grains);
-    sums.largest_volume_mismatch = std::max(
-        sums.largest_volume_mismatch, std::abs(l.deposited_volume / l.grain_volume - 1));
+    sums.largest_volume_mismatch =
+        std::max(sums.largest_volume_mismatch, std::abs(l.deposited_volume / l.grain_volume - 1));
     if (n == steps / 10) early = resident();
     if (random() % 25 != 0) continue;
     ++looks;
@@ -107,20 +107,19 @@ void a_long_run(std::int64_t grain_steps) {
   }
   const auto e = step.ledger().entries();
   for (const char* axis : {"_x", "_y", "_z"}) {
-    sums.ledger_error +=
-        std::abs(e.at(std::string("impulse_taken_from_fluid") + axis) -
-                 e.at(std::string("impulse_given_to_grains") + axis)) +
-        std::abs(e.at(std::string("impulse_carried_to_grains") + axis) -
-                 e.at(std::string("impulse_implicit_on_fluid") + axis));
+    sums.ledger_error += std::abs(e.at(std::string("impulse_taken_from_fluid") + axis) -
+                                  e.at(std::string("impulse_given_to_grains") + axis)) +
+                         std::abs(e.at(std::string("impulse_carried_to_grains") + axis) -
+                                  e.at(std::string("impulse_implicit_on_fluid") + axis));
   }
   const double growth = resident() / early - 1;
   std::printf(
       "%lld grain steps, %lld list rebuilds; %d looks at all pairs: %zu touching, %zu missed; "
       "memory %+.3f %% since a tenth of the way; ledger off by %.2g of what was exchanged; volume "
       "%.2g; a grain went %.3g m\n",
-      static_cast<long long>(grain_steps),
-      static_cast<long long>(step.grain_solver()->rebuilds()), looks, pairs.touching, pairs.missed,
-      100 * growth, sums.ledger_error / sums.given, sums.largest_volume_mismatch, sums.way);
+      static_cast<long long>(grain_steps), static_cast<long long>(step.grain_solver()->rebuilds()),
+      looks, pairs.touching, pairs.missed, 100 * growth, sums.ledger_error / sums.given,
+      sums.largest_volume_mismatch, sums.way);
   EXPECT_EQ(pairs.missed, 0u);
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
   EXPECT_LT(testing::kSanitized ? 0 : growth, 0.01);

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "src/fluid_solver.hpp"
+#include "src/fluid/fluid_solver.hpp"
 #include "tests/support/flow_errors.hpp"
 #include "tests/support/saved_results.hpp"
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdio>
 
-#include "src/boundary.hpp"
-#include "src/launch.hpp"
-#include "src/pressure_solver.hpp"
+#include "src/fluid/boundary.hpp"
+#include "src/fluid/pressure_solver.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/checkpoint.hpp"
-#include "src/errors.hpp"
-#include "src/frame_file.hpp"
-#include "src/simulation.hpp"
+#include "src/base/errors.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
+#include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 
 namespace barchan {

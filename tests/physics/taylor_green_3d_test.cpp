@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "kernels/wale.hpp"
-#include "src/fluid_solver.hpp"
-#include "src/launch.hpp"
+#include "kernels/fluid/wale.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_errors.hpp"
 #include "tests/support/saved_results.hpp"
 

@@ -21,11 +21,11 @@ constexpr int kCells = 6;  // cubic cells of edge one in each direction
 struct Cells {
   test::HostGrid grid{
       make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0))};
-  Locate locate = locate_in(grid.ref(), PointSet::divided, true);
+  DepositStencil stencil = deposit_stencil_in(grid.ref(), PointSet::divided, true);
 
   /// Shares by the code.
   Shares deposited(const Vec3& x, double r) const {
-    const GrainCells cells = locate({.x = x, .r = r, .u = {}, .m = 1, .omega = {}});
+    const GrainCells cells = stencil({.x = x, .r = r, .u = {}, .m = 1, .omega = {}});
     Shares s;
     for (int q = 0; q < cells.n; ++q) {
       const CellIndex& c = cells.cell[q];
@@ -59,7 +59,8 @@ Shares exact(const Vec3& x, double r) {
 /// Share of the grain that lies in wrong cells.
 double misplaced(const Shares& a, const Shares& b) {
   double sum = 0;
-  for (const auto& [cell, share] : a) sum += std::abs(share - (b.contains(cell) ? b.at(cell) : 0)) / 2;
+  for (const auto& [cell, share] : a)
+    sum += std::abs(share - (b.contains(cell) ? b.at(cell) : 0)) / 2;
   for (const auto& [cell, share] : b) sum += a.contains(cell) ? 0 : share / 2;
   return sum;
 }

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "kernels/wale.hpp"
-#include "src/launch.hpp"
+#include "kernels/fluid/wale.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

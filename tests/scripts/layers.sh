@@ -1,10 +1,16 @@
 #!/usr/bin/env bash
 # The direction of knowledge: kernels know only Kokkos and each other; src knows kernels; tests and perf
-# know both, not each other; no header includes itself in a circle. And no file grows past 400 lines.
+# know both, not each other; a folder of kernels/ or src/ knows itself and the folders before it in the lists
+# below, and no other; no header includes itself in a circle. And no file grows past its limit of lines.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-max_lines=400
+# Each folder may include itself and those before it. ARCHITECTURE.md draws them.
+kernel_rooms=(math fluid grains coupling)
+src_rooms=(base parallel config io fluid grains coupling output diagnostics run)
+
+max_lines=400          # anywhere
+max_lines_of_program=300  # in src/ and kernels/
 failures=0
 complain() {
   echo "$*"
@@ -17,6 +23,32 @@ device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdin
 mapfile -d '' sources < <(find kernels src tests perf \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
 includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[>"]' "${sources[@]}" |
   sed -E 's/:[[:space:]]*#[[:space:]]*include[[:space:]]*/ /')"  # "file:line target" a line
+
+# rank_of ROOM ROOMS...: the number of a folder in its list; nothing if it is not there.
+rank_of() {
+  local room=$1 rank=0 known
+  shift
+  for known in "$@"; do
+    if [ "$known" = "$room" ]; then
+      echo "$rank"
+      return
+    fi
+    rank=$((rank + 1))
+  done
+}
+
+# check_rooms PLACE TARGET TOP ROOMS...: an include from TOP/room/... to TOP/room/... points down or stays.
+check_rooms() {
+  local place=$1 target=$2 top=$3 from to
+  shift 3
+  from="${place#"$top"/}" to="${target#"$top"/}"
+  from="$(rank_of "${from%%/*}" "$@")" to="$(rank_of "${to%%/*}" "$@")"
+  if [ -z "$from" ] || [ -z "$to" ]; then
+    complain "$place: $target: not in a folder that this script lists"
+  elif [ "$to" -gt "$from" ]; then
+    complain "$place: $target is in a folder further up; the order is: $*"
+  fi
+}
 
 while read -r place target; do
   name="${target:1:-1}"
@@ -34,6 +66,10 @@ while read -r place target; do
     tests/*) [[ $target != \"perf/* ]] || complain "$place: tests may not include $target" ;;
     perf/*) [[ $target != \"tests/* ]] || complain "$place: perf may not include $target" ;;
   esac
+  case "$place $name" in
+    kernels/*\ kernels/*) check_rooms "$place" "$name" kernels "${kernel_rooms[@]}" ;;
+    src/*\ src/*) check_rooms "$place" "$name" src "${src_rooms[@]}" ;;
+  esac
 done <<< "$includes"
 
 circle="$(sed -n 's/^\(.*\):[0-9]* "\(.*\)"$/\1 \2/p' <<< "$includes" | { tsort 2>&1 > /dev/null || true; } |
@@ -42,7 +78,9 @@ circle="$(sed -n 's/^\(.*\):[0-9]* "\(.*\)"$/\1 \2/p' <<< "$includes" | { tsort 
 
 while IFS= read -r -d '' file; do
   lines="$(wc -l < "$file")"
-  [ "$lines" -le "$max_lines" ] || complain "$file: $lines lines, more than $max_lines; split it by noun"
+  limit=$max_lines
+  case $file in src/* | kernels/*) limit=$max_lines_of_program ;; esac
+  [ "$lines" -le "$limit" ] || complain "$file: $lines lines, more than $limit; split it by noun"
 done < <(find barchan src kernels tests perf analysis scripts cmake -type f \
   \( -name barchan -o -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0 2> /dev/null)
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/config_load.hpp"
+#include "src/config/load.hpp"
 
 namespace barchan::test {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "src/config.hpp"
+#include "src/config/config.hpp"
 
 namespace barchan::testing {
 
@@ -42,8 +42,7 @@ inline Config coupled_config() {
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              (name + "-" + std::to_string(::getpid()))) {
+      : path_(std::filesystem::temp_directory_path() / (name + "-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "src/coupled_step.hpp"
-#include "src/domain.hpp"
+#include "src/coupling/coupled_step.hpp"
+#include "src/fluid/domain.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/grain_cases.hpp"
 

@@ -1,5 +1,5 @@
 // Drag and settling of a sphere from the literature, written down independently of
-// kernels/drag.hpp.
+// kernels/coupling/drag.hpp.
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/fluid_state.hpp"
+#include "src/fluid/fluid_state.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan::test {

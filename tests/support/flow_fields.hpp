@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "src/boundary.hpp"
-#include "src/domain.hpp"
-#include "src/mesh.hpp"
+#include "src/config/mesh.hpp"
+#include "src/fluid/boundary.hpp"
+#include "src/fluid/domain.hpp"
 
 namespace barchan::test {
 
@@ -17,7 +17,8 @@ struct HostField {
   Real operator()(int i, int j, int k) const { return values(i + 1, j + 1, k + 1); }
   /// As kernels see a field, for those of their functions that a test calls on the host.
   FieldRef ref() const {
-    const int row = static_cast<int>(values.extent(0)), plane = row * static_cast<int>(values.extent(1));
+    const int row = static_cast<int>(values.extent(0)),
+              plane = row * static_cast<int>(values.extent(1));
     return {values.data() + 1 + row + plane, row, plane};
   }
 };
@@ -82,8 +83,7 @@ struct HostGrid {
 /// Stretched unless `first` is zero.
 inline Grid stretched_grid(std::array<int, 3> n, std::array<double, 3> size, double first,
                            const Decomposition* ranks = nullptr) {
-  return make_grid(n[0], n[2], size[0], size[2], stretched_faces(size[1], n[1], first),
-                   ranks);
+  return make_grid(n[0], n[2], size[0], size[2], stretched_faces(size[1], n[1], first), ranks);
 }
 
 inline Config flow_config(std::array<int, 3> n, std::array<double, 3> size, double first) {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "kernels/contact_law.hpp"
-#include "kernels/sphere.hpp"
+#include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_cases.hpp"
 
 namespace barchan::testing {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "src/grain_solver.hpp"
+#include "src/grains/grain_solver.hpp"
 
 namespace barchan::testing {
 

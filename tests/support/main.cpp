@@ -4,7 +4,7 @@
 
 #include <Kokkos_Core.hpp>
 
-#include "src/report.hpp"
+#include "src/base/report.hpp"
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "src/config.hpp"
+#include "src/config/config.hpp"
 #include "tests/support/jet.hpp"
 
 namespace barchan::test {

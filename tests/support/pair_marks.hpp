@@ -1,7 +1,7 @@
 // Marks in the place of contact histories, which tell whose they are.
 #pragma once
 
-#include "src/grain_state.hpp"
+#include "src/grains/grain_state.hpp"
 
 namespace barchan::testing {
 

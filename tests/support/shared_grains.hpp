@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/communicator.hpp"
-#include "src/grain_solver.hpp"
+#include "src/grains/grain_solver.hpp"
+#include "src/parallel/communicator.hpp"
 #include "tests/support/grain_cases.hpp"
 
 namespace barchan::testing {

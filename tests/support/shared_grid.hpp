@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "src/communicator.hpp"
-#include "src/decomposition.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/decomposition.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan::test {

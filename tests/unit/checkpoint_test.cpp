@@ -1,11 +1,11 @@
-#include "src/checkpoint.hpp"
+#include "src/io/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <fstream>
 
-#include "src/grain_state.hpp"
+#include "src/grains/grain_state.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 

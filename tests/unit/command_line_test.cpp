@@ -1,4 +1,4 @@
-#include "src/command_line.hpp"
+#include "src/run/command_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,9 +31,10 @@ TEST(CommandLine, RunWithNothingElse) {
 }
 
 TEST(CommandLine, RunWithAll) {
-  const CommandLine line = parse({"run", "--set", "fluid.cells=[8,9,10]", "case.toml", "--out",
-                                  "a dir", "--restart=r.h5", "--threads", "3", "--set",
-                                  "case.title=a b", "--patience", "20", "--dry-run", "--quiet", "--set=time.end=-1"});
+  const CommandLine line =
+      parse({"run", "--set", "fluid.cells=[8,9,10]", "case.toml", "--out", "a dir",
+             "--restart=r.h5", "--threads", "3", "--set", "case.title=a b", "--patience", "20",
+             "--dry-run", "--quiet", "--set=time.end=-1"});
   EXPECT_EQ(line.command, Command::run);
   EXPECT_EQ(line.file, "case.toml");
   EXPECT_EQ(line.overrides,

@@ -1,5 +1,5 @@
 // Every way a configuration file can be wrong is said with its line, its key and what is allowed.
-#include "src/config_load.hpp"
+#include "src/config/load.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -99,9 +99,10 @@ TEST(ConfigLoad, WrongTypesAreNamed) {
   EXPECT_EQ(problems(fluid_case("[case]\ntitle = 2001-02-03\n")),
             only("case.toml:8: [case] title = 2001-02-03: must be a string"));
   const std::string sizes = "must be an array of [diameter in m above 0, count above 0]; ";
-  EXPECT_EQ(problems(grain_case(), {"grains.sizes=[[2e-4, 2147483647], [3e-4, 1]]"}),
-            only("--set grains.sizes: [grains] sizes = [[0.0002, 2147483647], [0.0003, 1]]: must be "
-                 "sizes of at most 2147483647 grains in all"));
+  EXPECT_EQ(
+      problems(grain_case(), {"grains.sizes=[[2e-4, 2147483647], [3e-4, 1]]"}),
+      only("--set grains.sizes: [grains] sizes = [[0.0002, 2147483647], [0.0003, 1]]: must be "
+           "sizes of at most 2147483647 grains in all"));
   EXPECT_EQ(problems(grain_case(), {"grains.sizes=[[2e-4, 10], [2e-4, 0]]"}),
             only("--set grains.sizes: [grains] sizes = [[0.0002, 10], [0.0002, 0]]: " + sizes +
                  "[0.0002, 0] is not"));

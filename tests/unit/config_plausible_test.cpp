@@ -1,10 +1,10 @@
 // Numbers that nobody means, what is no text, and names that a terminal must not obey.
-#include "src/config_plausible.hpp"
+#include "src/config/plausible.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/printable.hpp"
-#include "src/toml_hint.hpp"
+#include "src/base/printable.hpp"
+#include "src/config/toml_hint.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {
@@ -66,8 +66,9 @@ TEST(ConfigPlausible, WhatIsNoTomlIsToldWithItsLikelyCause) {
 }
 
 TEST(ConfigPlausible, ATitleIsText) {
-  EXPECT_EQ(problems("case.title = \"a\\u001Bb\"\n" + fluid_case()),
-            only("case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters"));
+  EXPECT_EQ(
+      problems("case.title = \"a\\u001Bb\"\n" + fluid_case()),
+      only("case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters"));
   EXPECT_EQ(problems("case.title = \"" + std::string(201, 'a') + "\"\n" + fluid_case()).size(), 2u);
   EXPECT_TRUE(problems("case.title = \"D\xC3\xBCne\"\n" + fluid_case()).empty());
 }

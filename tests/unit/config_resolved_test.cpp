@@ -1,9 +1,9 @@
 // The resolved configuration means the same as the one it came from.
-#include "src/config_resolved.hpp"
+#include "src/config/resolved.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/config_load.hpp"
+#include "src/config/load.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {
@@ -98,9 +98,9 @@ TEST(ConfigResolved, FrozenAndAmbientComeBack) {
 TEST(ConfigResolved, EveryKeyIsWritten) {
   // The text of a default case names each key that the loader knows: no default stays unsaid.
   const std::string text = to_toml(unusual());
-  for (const char* key :
-       {"title", "end", "wall_clock_limit", "size", "cells", "pressure_gradient", "skin", "max_overlap",
-        "rolling_theta_m", "forces", "drop_height", "grain_forces", "keep", "correctors"}) {
+  for (const char* key : {"title", "end", "wall_clock_limit", "size", "cells", "pressure_gradient",
+                          "skin", "max_overlap", "rolling_theta_m", "forces", "drop_height",
+                          "grain_forces", "keep", "correctors"}) {
     EXPECT_NE(text.find(std::string("\n") + key + " = "), std::string::npos) << key;
   }
 }

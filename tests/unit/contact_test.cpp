@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/contact_force.hpp"
-#include "kernels/sphere.hpp"
+#include "kernels/grains/contact_force.hpp"
+#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 namespace {
@@ -109,7 +109,7 @@ TEST(ContactForce, NeverLeavesTheCoulombConeWhenElastic) {
     const Vec3 tangential = c.force - c.force.y * Vec3{0, 1, 0};
     EXPECT_LE(norm(tangential), 0.4 * c.force.y * (1 + 1e-12));
     EXPECT_NEAR(dot(c.xi_t, pair.normal), 0, 1e-20);
-    EXPECT_NEAR(norm(c.twist), norm(tangential), 1e-12 * c.force.y);
+    EXPECT_NEAR(norm(c.n_cross_f_t), norm(tangential), 1e-12 * c.force.y);
   }
 }
 
@@ -127,7 +127,7 @@ TEST(ContactForce, OppositeRolesGiveOppositeForces) {
   const ContactResult ra = contact_force(law(0.5), Epsd2{}, friction, a, {}, 1e-7);
   const ContactResult rb = contact_force(law(0.5), Epsd2{}, friction, b, {}, 1e-7);
   EXPECT_NEAR(norm(ra.force + rb.force), 0, 1e-12 * norm(ra.force));
-  EXPECT_NEAR(norm(ra.twist - rb.twist), 0, 1e-12 * norm(ra.twist));
+  EXPECT_NEAR(norm(ra.n_cross_f_t - rb.n_cross_f_t), 0, 1e-12 * norm(ra.n_cross_f_t));
 }
 
 /// Rolls a contact about z by `angle` in n steps; returns the torque.

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "src/coupled_step.hpp"
-#include "src/initial_state.hpp"
-#include "src/launch.hpp"
+#include "src/coupling/coupled_step.hpp"
+#include "src/parallel/launch.hpp"
+#include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 
 namespace barchan {

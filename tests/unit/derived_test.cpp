@@ -1,5 +1,5 @@
 // Derived numbers against the values known for the paper's case.
-#include "src/derived.hpp"
+#include "src/config/derived.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "kernels/drag.hpp"
+#include "kernels/coupling/drag.hpp"
 
 namespace barchan {
 namespace {
@@ -25,11 +25,11 @@ TEST(Drag, MatchesTheReferenceTable) {
     Real u, alpha, gidaspow, di_felice, koch_hill, syamlal, repaired;
     in >> u >> alpha >> gidaspow >> di_felice >> koch_hill >> syamlal >> repaired;
     const LocalFlow flow = water(alpha, u);
-    EXPECT_NEAR(Gidaspow{}(flow) * u / gidaspow, 1, 1e-3) << line;
-    EXPECT_NEAR(DiFelice{}(flow) * u / di_felice, 1, 1e-3) << line;
-    EXPECT_NEAR(KochHill{}(flow) * u / koch_hill, 1, 1e-3) << line;
-    EXPECT_NEAR(SyamlalOBrien{}(flow) * u / syamlal, 1, 1e-3) << line;
-    EXPECT_NEAR(PaperRepaired{}(flow) * u / repaired, 1, 1e-3) << line;
+    EXPECT_NEAR(Gidaspow{}(flow)*u / gidaspow, 1, 1e-3) << line;
+    EXPECT_NEAR(DiFelice{}(flow)*u / di_felice, 1, 1e-3) << line;
+    EXPECT_NEAR(KochHill{}(flow)*u / koch_hill, 1, 1e-3) << line;
+    EXPECT_NEAR(SyamlalOBrien{}(flow)*u / syamlal, 1, 1e-3) << line;
+    EXPECT_NEAR(PaperRepaired{}(flow)*u / repaired, 1, 1e-3) << line;
     ++rows;
   }
   EXPECT_GE(rows, 18);
@@ -42,9 +42,9 @@ TEST(Drag, IsFiniteAtZeroSlipAndStokesWhenAlone) {
   EXPECT_NEAR(Beetstra{.d_mean = 2e-4}(water(1, 0)), stokes * 1.064, 1e-4 * stokes);
   for (const Real alpha : {0.4, 0.7, 0.9, 1.0}) {
     const LocalFlow flow = water(alpha, 0);
-    for (const Real beta : {Gidaspow{}(flow), DiFelice{}(flow), KochHill{}(flow),
-                            SyamlalOBrien{}(flow), PaperRepaired{}(flow),
-                            Beetstra{.d_mean = 2e-4}(flow)}) {
+    for (const Real beta :
+         {Gidaspow{}(flow), DiFelice{}(flow), KochHill{}(flow), SyamlalOBrien{}(flow),
+          PaperRepaired{}(flow), Beetstra{.d_mean = 2e-4}(flow)}) {
       EXPECT_TRUE(std::isfinite(beta) && beta > 0) << alpha;
     }
   }

@@ -1,6 +1,6 @@
 // In-line dune analytics against shapes whose width, length, height and horns are known.
 
-#include "src/dune_analytics.hpp"
+#include "src/diagnostics/dune_analytics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Averages of the flow on the grid against a flow whose means and second moments are known.
-#include "src/flow_average.hpp"
+#include "src/diagnostics/flow_average.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "src/fluid_solver.hpp"
-#include "src/run_identity.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/run/run_identity.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "src/flow_statistics.hpp"
-#include "src/fluid_solver.hpp"
-#include "src/run_identity.hpp"
+#include "src/diagnostics/flow_statistics.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/run/run_identity.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/flow_fields.hpp"
 

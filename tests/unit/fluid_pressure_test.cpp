@@ -4,9 +4,9 @@
 #include <Eigen/SparseCholesky>
 #include <numbers>
 
-#include "kernels/pressure.hpp"
-#include "src/launch.hpp"
-#include "src/pressure_solver.hpp"
+#include "kernels/fluid/pressure.hpp"
+#include "src/fluid/pressure_solver.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -1,11 +1,11 @@
 // Stencils on fields whose derivatives are known, on a grid that tells the axes apart.
 #include <gtest/gtest.h>
 
-#include "kernels/convective_acceleration.hpp"
-#include "kernels/flow_sums.hpp"
-#include "kernels/momentum.hpp"
-#include "kernels/wale.hpp"
-#include "src/launch.hpp"
+#include "kernels/fluid/convective_acceleration.hpp"
+#include "kernels/fluid/flow_sums.hpp"
+#include "kernels/fluid/momentum.hpp"
+#include "kernels/fluid/wale.hpp"
+#include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -1,12 +1,12 @@
 // Polar averages of forces about a dune, where the force field is known.
-#include "src/force_map.hpp"
+#include "src/diagnostics/force_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "src/atomic_file.hpp"
+#include "src/base/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

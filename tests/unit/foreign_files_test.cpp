@@ -4,12 +4,12 @@
 #include <array>
 #include <limits>
 
-#include "src/checkpoint.hpp"
-#include "src/frame_file.hpp"
-#include "src/grain_files.hpp"
-#include "src/hdf5_handle.hpp"
-#include "src/info.hpp"
-#include "src/seal.hpp"
+#include "src/grains/grain_files.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
+#include "src/io/hdf5_handle.hpp"
+#include "src/io/seal.hpp"
+#include "src/run/info.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/frame_file.hpp"
+#include "src/io/frame_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

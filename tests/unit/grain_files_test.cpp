@@ -1,13 +1,13 @@
-#include "src/grain_files.hpp"
+#include "src/grains/grain_files.hpp"
 
 #include <gtest/gtest.h>
 
 #include <ctime>
 #include <fstream>
 
-#include "src/checkpoint.hpp"
-#include "src/grain_state.hpp"
-#include "src/output.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/output/output_files.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/interphase.hpp"
+#include "kernels/coupling/interphase.hpp"
 #include "tests/support/grain_cases.hpp"
 
 namespace barchan {

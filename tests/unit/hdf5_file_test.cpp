@@ -1,4 +1,4 @@
-#include "src/hdf5_file.hpp"
+#include "src/io/hdf5_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "src/provenance.hpp"
+#include "src/io/provenance.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 

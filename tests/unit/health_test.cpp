@@ -1,11 +1,11 @@
 // Every way a run can go wrong is noticed after the step, with its place and a remedy.
-#include "src/health.hpp"
+#include "src/coupling/state_checks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/errors.hpp"
+#include "src/base/errors.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/grain_cases.hpp"
 
@@ -30,7 +30,7 @@ CoupledRun sound_run(int max_iterations = 200) {
 
 std::string complaint(const CoupledRun& run) {
   try {
-    Health(run.config, MPI_COMM_SELF).check(run.state, run.step);
+    StateChecks(run.config, MPI_COMM_SELF).check(run.state, run.step);
   } catch (const StateError& problem) {
     EXPECT_TRUE(problem.on_all_ranks);
     return problem.what();
@@ -59,14 +59,14 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
   for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
 }
 
-TEST(Health, SaysNothingOfASoundState) {
+TEST(StateChecks, SaysNothingOfASoundState) {
   CoupledRun run = sound_run();
   EXPECT_EQ(complaint(run), "none");
   run.advance(3);
   EXPECT_EQ(complaint(run), "none");
 }
 
-TEST(Health, OverlapOfAPairBeyondATenth) {
+TEST(StateChecks, OverlapOfAPairBeyondATenth) {
   for (const Real overlap : {0.09, 0.11}) {
     const Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
     InitialGrains grains;
@@ -79,11 +79,12 @@ TEST(Health, OverlapOfAPairBeyondATenth) {
     }
     expect_words(complaint(run), {"grain 1 at (0.003, 0.002, 0.0025) m", "grain 2", "11.0 %",
                                   "grains.youngs_modulus"});
-    EXPECT_THROW(Health(c, MPI_COMM_SELF).check_start(run.state, run.step, "heap.csv"), InputError);
+    EXPECT_THROW(StateChecks(c, MPI_COMM_SELF).check_start(run.state, run.step, "heap.csv"),
+                 InputError);
   }
 }
 
-TEST(Health, OverlapAcrossThePeriodicSide) {
+TEST(StateChecks, OverlapAcrossThePeriodicSide) {
   const Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
   InitialGrains grains;
   add_grain(grains, d, {0.006 - 0.4 * d, 0.002, 0.0025});
@@ -91,7 +92,7 @@ TEST(Health, OverlapAcrossThePeriodicSide) {
   expect_words(complaint(CoupledRun(c, grains)), {"20.0 %", "overlap"});
 }
 
-TEST(Health, AGrainPressedIntoTheFloorAndOneThroughIt) {
+TEST(StateChecks, AGrainPressedIntoTheFloorAndOneThroughIt) {
   const CoupledRun run = sound_run();
   change_grain(run, 1, [](GrainKinematics& g) { g.x.y = 0.38 * d; });
   expect_words(complaint(run), {"grain 1 at (0.001, 7.6e-05, 0.001) m", "12.0 %", "the floor"});
@@ -101,7 +102,7 @@ TEST(Health, AGrainPressedIntoTheFloorAndOneThroughIt) {
   expect_words(complaint(run), {"has gone through the top"});
 }
 
-TEST(Health, GrainsTooFastOrNotFinite) {
+TEST(StateChecks, GrainsTooFastOrNotFinite) {
   const CoupledRun run = sound_run();
   // half a radius of 0.1 mm in a grain step of 25 us: 2 m/s, the rim's speed included
   change_grain(run, 2, [](GrainKinematics& g) { g.u = {0, 1.9, 0}; });
@@ -118,7 +119,7 @@ TEST(Health, GrainsTooFastOrNotFinite) {
   expect_words(complaint(run), {"grain 2 at", "not finite"});
 }
 
-TEST(Health, FluidFractionOutOfBounds) {
+TEST(StateChecks, FluidFractionOutOfBounds) {
   for (const Real alpha : {Real(0), Real(-0.02), Real(1.001), Real(NAN)}) {
     const CoupledRun run = sound_run();
     set_cell(run.state.fluid->alpha_f, 4, 2, 3, alpha);
@@ -141,23 +142,23 @@ std::string complaint_of_flow(Real u, Real odd) {
   step.start(state);
   step.advance(state);
   try {
-    Health(c, MPI_COMM_SELF).check(state, step);
+    StateChecks(c, MPI_COMM_SELF).check(state, step);
   } catch (const StateError& problem) {
     return problem.what();
   }
   return "none";
 }
 
-TEST(Health, CourantNumberBeyondStability) {  // dt / dx = 0.25 s/m
+TEST(StateChecks, CourantNumberBeyondStability) {  // dt / dx = 0.25 s/m
   EXPECT_EQ(complaint_of_flow(3.9, 0), "none");
   expect_words(complaint_of_flow(4.2, 0), {"CFL = 1.05", "cell (", ") m", "below 1.19e-04 s"});
 }
 
-TEST(Health, AFlowThatIsNotFinite) {
+TEST(StateChecks, AFlowThatIsNotFinite) {
   expect_words(complaint_of_flow(0.1, NAN), {"no longer finite", "cell (", "time.fluid_step"});
 }
 
-TEST(Health, APressureThatWasNotSolved) {
+TEST(StateChecks, APressureThatWasNotSolved) {
   CoupledRun run = sound_run(2);
   change_grain(run, 2, [](GrainKinematics& g) { g.u = {0.3, -0.2, 0.1}; });
   run.advance(2);
@@ -166,7 +167,7 @@ TEST(Health, APressureThatWasNotSolved) {
                {"pressure equation", "after 2 iterations", "solver.max_iterations"});
 }
 
-TEST(Health, FrozenGrainsMayLieAsTheyLike) {
+TEST(StateChecks, FrozenGrainsMayLieAsTheyLike) {
   Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
   c.grains->frozen = true;
   InitialGrains grains;

@@ -1,11 +1,11 @@
-#include "src/info.hpp"
+#include "src/run/info.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "src/checkpoint.hpp"
-#include "src/frame_file.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -1,5 +1,5 @@
 // Grains of a file in the domain of a case.
-#include "src/initial_state.hpp"
+#include "src/run/initial_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "src/mesh.hpp"
+#include "src/config/mesh.hpp"
 
 #include <cmath>
 #include <stdexcept>

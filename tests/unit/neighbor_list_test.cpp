@@ -120,12 +120,12 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
 }
 
 /// Memory whose bits mean nothing, as others leave it.
-IdleMemory idle_memory(const Grid& grid, int fields, std::vector<Field>& all) {
+ScratchMemory idle_memory(const Grid& grid, int fields, std::vector<Field>& all) {
   while (static_cast<int>(all.size()) < fields) {
     all.emplace_back("test: idle", grid);
     Kokkos::deep_copy(all.back().storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
-  return IdleMemory(all);
+  return ScratchMemory(all);
 }
 
 TEST(NeighborList, TakesIdleMemoryForTheSameListAndHistory) {
@@ -138,7 +138,7 @@ TEST(NeighborList, TakesIdleMemoryForTheSameListAndHistory) {
     NeighborList list(c, s.r_max);
     list.with_rolling = list.with_force = true;
     std::vector<Field> idle;
-    list.use_meanwhile(idle_memory(grid, fields, idle));
+    list.use_scratch(idle_memory(grid, fields, idle));
     for (int round = 0; round < 4; ++round) {
       list.rebuild(s, false);
       EXPECT_EQ(listed_pairs(s), all_pairs(s, c.grains->skin, 0, c.size[2]));
@@ -156,7 +156,7 @@ TEST(NeighborList, IdleMemoryIsGivenOutOnce) {
   Grid grid;
   grid.nx = grid.ny = grid.nz = 6;  // 512 numbers a field: 4096 bytes
   std::vector<Field> fields;
-  IdleMemory idle = idle_memory(grid, 2, fields);
+  ScratchMemory idle = idle_memory(grid, 2, fields);
   const auto* const first = reinterpret_cast<const std::byte*>(fields[0].storage.data());
   const auto place = [&](const auto& view) {
     return reinterpret_cast<const std::byte*>(view.data()) - first;
@@ -178,7 +178,7 @@ TEST(NeighborList, IdleFieldsThatFollowEachOtherAreOnePiece) {
   const auto field = [&](int c) {
     return Field(Kokkos::subview(all, Kokkos::ALL, Kokkos::ALL, Kokkos::ALL, c));
   };
-  IdleMemory idle({field(0), field(1), field(2)});
+  ScratchMemory idle({field(0), field(1), field(2)});
   EXPECT_EQ(idle.take<Real>(3 * 512 + 1).extent(0), 0u);
   EXPECT_EQ(idle.take<Real>(3 * 512).data(), all.data());
 }

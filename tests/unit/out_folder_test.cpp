@@ -1,13 +1,13 @@
 // Where results cannot go is told before anything is computed, and nothing that is needed is
 // removed.
-#include "src/out_folder.hpp"
+#include "src/run/out_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "src/config_load.hpp"
-#include "src/config_resolved.hpp"
+#include "src/config/load.hpp"
+#include "src/config/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,10 +1,10 @@
-#include "src/output.hpp"
+#include "src/output/output_files.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/atomic_file.hpp"
-#include "src/fluid_state.hpp"
-#include "src/grain_state.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/grains/grain_state.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

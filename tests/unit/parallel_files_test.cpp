@@ -4,12 +4,12 @@
 
 #include <array>
 
-#include "src/checkpoint.hpp"
-#include "src/communicator.hpp"
-#include "src/decomposition.hpp"
-#include "src/fluid_state.hpp"
-#include "src/grain_state.hpp"
-#include "src/output.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/output/output_files.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/decomposition.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/pour.hpp"
+#include "src/grains/pour.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "src/report.hpp"
+#include "src/base/report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/atomic_file.hpp"
+#include "src/base/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/run_folder.hpp"
+#include "src/run/run_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/atomic_file.hpp"
+#include "src/base/atomic_file.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,13 +1,13 @@
 // One wrong bit of a sealed file is found, wherever it is.
-#include "src/seal.hpp"
+#include "src/io/seal.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
 
-#include "src/checkpoint.hpp"
-#include "src/errors.hpp"
+#include "src/base/errors.hpp"
+#include "src/io/checkpoint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
@@ -23,7 +23,8 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 
 TEST(Seal, KnowsTheChecksumOfTheStandard) {
   const TemporaryFolder folder;
-  write(folder / "f", std::string(seal_bytes, ' ').append("123456789"));  // CRC-32 check value: cbf43926
+  write(folder / "f",
+        std::string(seal_bytes, ' ').append("123456789"));  // CRC-32 check value: cbf43926
   seal(folder / "f");
   EXPECT_NE(bytes_of(folder / "f").find(": 9 cbf43926\n"), std::string::npos);
   EXPECT_EQ(check_seal(folder / "f").seal, Seal::whole);

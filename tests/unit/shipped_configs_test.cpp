@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "src/check.hpp"
-#include "src/config_load.hpp"
-#include "src/config_resolved.hpp"
-#include "src/config_validate.hpp"
+#include "src/config/load.hpp"
+#include "src/config/resolved.hpp"
+#include "src/config/validate.hpp"
+#include "src/run/check.hpp"
 
 namespace barchan {
 namespace {
@@ -26,7 +26,8 @@ std::vector<std::filesystem::path> shipped() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(BARCHAN_SOURCE_DIR "/configs")) {
-    if (entry.path().extension() == ".toml" && !is_study(entry.path())) files.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && !is_study(entry.path()))
+      files.push_back(entry.path());
   }
   return files;
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/interpolation.hpp"
-#include "kernels/void_fraction.hpp"
+#include "kernels/coupling/void_fraction.hpp"
+#include "kernels/fluid/interpolation.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -36,10 +36,10 @@ TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
   EXPECT_EQ(on_outer, 14);
 }
 
-TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
+TEST(DepositStencil, EveryPointGoesToTheCellThatHoldsIt) {
   const test::HostGrid host = awkward_grid();
   const GridRef grid = host.ref();
-  const Locate locate = locate_in(grid, PointSet::divided, false);
+  const DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, false);
   std::mt19937_64 generator(4);
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
   int n_short_cuts = 0;
@@ -50,7 +50,7 @@ TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
                             .u = {},
                             .m = 1,
                             .omega = {}};
-    GrainCells cells = locate(g);
+    GrainCells cells = stencil(g);
     EXPECT_EQ(cells.n_points, 29);
     Real total = 0;
     for (int q = 0; q < cells.n; ++q) {
@@ -62,24 +62,24 @@ TEST(Locate, EveryPointGoesToTheCellThatHoldsIt) {
     EXPECT_NEAR(total, 1, 1e-14);
     // Point by point: grains within one column of cells take a short cut.
     for (int p = 0; p < kDividedPoints; ++p) {
-      const CellIndex c = locate.cell_of(g.x + g.r * divided_point(p), grid.row_of(g.x.y));
+      const CellIndex c = stencil.cell_of(g.x + g.r * divided_point(p), grid.row_of(g.x.y));
       for (int q = 0; q < cells.n; ++q) cells.count[q] -= cells.cell[q] == c ? 1 : 0;
     }
     for (int q = 0; q < cells.n; ++q) EXPECT_EQ(cells.count[q], 0);
-    n_short_cuts += locate.in_one_column(g.x, kOuterShell * g.r) ? 1 : 0;
+    n_short_cuts += stencil.in_one_column(g.x, kOuterShell * g.r) ? 1 : 0;
   }
   EXPECT_GT(n_short_cuts, 10);
   EXPECT_LT(n_short_cuts, 290);
 }
 
-TEST(Locate, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
+TEST(DepositStencil, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
   const test::HostGrid host = awkward_grid();
   const GridRef grid = host.ref();
-  const Locate locate = locate_in(grid, PointSet::divided, false);
-  EXPECT_EQ(locate.cell_of({0.001, -1e-5, 0.001}, 0), locate.cell_of({0.001, 1e-5, 0.001}, 0));
-  EXPECT_EQ(locate.cell_of({0.001, 1e-5, -1e-5}, 0), locate.cell_of({0.001, 1e-5, 0.00799}, 0));
-  EXPECT_EQ(locate.cell_of({0.01125, 1e-5, 0.001}, 0), locate.cell_of({0.0111, 1e-5, 0.001}, 0));
-  const Locate periodic = locate_in(grid, PointSet::divided, true);
+  const DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, false);
+  EXPECT_EQ(stencil.cell_of({0.001, -1e-5, 0.001}, 0), stencil.cell_of({0.001, 1e-5, 0.001}, 0));
+  EXPECT_EQ(stencil.cell_of({0.001, 1e-5, -1e-5}, 0), stencil.cell_of({0.001, 1e-5, 0.00799}, 0));
+  EXPECT_EQ(stencil.cell_of({0.01125, 1e-5, 0.001}, 0), stencil.cell_of({0.0111, 1e-5, 0.001}, 0));
+  const DepositStencil periodic = deposit_stencil_in(grid, PointSet::divided, true);
   EXPECT_EQ(periodic.cell_of({0.01125, 1e-5, 0.001}, 0), periodic.cell_of({1e-5, 1e-5, 0.001}, 0));
 }
 
@@ -117,18 +117,16 @@ TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
   const test::HostGrid host = awkward_grid();
   const GridRef g = host.ref();
   const auto value = [](Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
-  const test::HostField u = host_field(g, [&](int i, int j, int k) {
-    return value(g.x_face(i), g.y_centre(j), g.z_centre(k));
-  });
-  const test::HostField v = host_field(g, [&](int i, int j, int k) {
-    return value(g.x_centre(i), g.y_face(j), g.z_centre(k));
-  });
-  const test::HostField w = host_field(g, [&](int i, int j, int k) {
-    return value(g.x_centre(i), g.y_centre(j), g.z_face(k));
-  });
+  const test::HostField u = host_field(
+      g, [&](int i, int j, int k) { return value(g.x_face(i), g.y_centre(j), g.z_centre(k)); });
+  const test::HostField v = host_field(
+      g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_face(j), g.z_centre(k)); });
+  const test::HostField w = host_field(
+      g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_centre(j), g.z_face(k)); });
   const FaceRef f{u.ref(), v.ref(), w.ref()};
-  for (const Vec3& p : {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075},
-                        Vec3{0.00555, 0.0021, 0.0002}, Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
+  for (const Vec3& p :
+       {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075}, Vec3{0.00555, 0.0021, 0.0002},
+        Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
     const Vec3 at = interpolate_faces(f, PointStencil(g, p, false));
     const Real expected = value(p.x, p.y, p.z);
     EXPECT_NEAR(at.x, expected, 1e-12) << p.x << " " << p.y << " " << p.z;

@@ -1,0 +1,137 @@
+// Drag of the fluid on one grain: one small type per law.
+// Every law returns beta [kg/s] with F_drag = beta (u_f - u_p) on ONE grain, u_f the interstitial
+// velocity, force in the sense of model A (no further 1 / alpha_f). Finite at zero slip.
+#pragma once
+
+#include "kernels/grains/sphere.hpp"
+
+namespace barchan {
+
+/// The flow a grain sees.
+struct LocalFlow {
+  Real alpha_f = 1;  // fluid volume fraction [-]
+  Real rho_f = 0;    // [kg/m^3]
+  Real mu_f = 0;     // [Pa s]
+  Real slip = 0;     // |u_f - u_p| [m/s]
+  Real d_p = 0;      // grain diameter [m]
+};
+
+KOKKOS_FORCEINLINE_FUNCTION Real stokes_coefficient(const LocalFlow& flow) {
+  return 3 * std::numbers::pi_v<Real> * flow.mu_f * flow.d_p;
+}
+
+/// Schiller & Naumann (1935): C_d = 24/Re (1 + 0.15 Re^0.687), one grain alone; for Re < 1000.
+struct SchillerNaumann {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real reynolds = f.rho_f * f.d_p * f.slip / f.mu_f;
+    return stokes_coefficient(f) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687)));
+  }
+};
+
+/// Gidaspow (1994): Wen & Yu (1966) with Schiller-Naumann where alpha_f > 0.8, Ergun (1952) at and
+/// below. Re = alpha_f d slip / nu. As CFDEM's GidaspowDrag evaluates it (no cap at Re > 1000);
+/// Lima et al. (2022) B2 with its misprints put right. Limit: Schiller-Naumann at alpha_f = 1.
+struct Gidaspow {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    if (f.alpha_f > Real(0.8)) {
+      const Real reynolds = f.alpha_f * f.rho_f * f.d_p * f.slip / f.mu_f;
+      return stokes_coefficient(f) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687))) *
+             Kokkos::pow(f.alpha_f, Real(-2.65));
+    }
+    return sphere_volume(f.d_p / 2) *
+           (150 * (1 - f.alpha_f) * f.mu_f / (f.alpha_f * f.d_p * f.d_p) +
+            Real(1.75) * f.rho_f * f.slip / f.d_p);
+  }
+};
+
+/// Di Felice (1994) with C_d of Dalla Valle (1948); Re = alpha_f d slip / nu; alpha_f >= 0.3.
+struct DiFelice {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real alpha = f.alpha_f > Real(0.3) ? f.alpha_f : Real(0.3);
+    const Real re_per_slip = alpha * f.rho_f * f.d_p / f.mu_f;
+    const Real reynolds = re_per_slip * f.slip;
+    const Real root = Real(0.63) * Kokkos::sqrt(f.slip) +
+                      Real(4.8) / Kokkos::sqrt(re_per_slip);  // sqrt(C_d slip)
+    const Real log_re = reynolds > 0 ? Kokkos::log10(reynolds) : Real(-30);
+    const Real bend = Real(1.5) - log_re;
+    const Real exponent = Real(3.7) - Real(0.65) * Kokkos::exp(-bend * bend / 2);
+    return root * root * f.rho_f * std::numbers::pi_v<Real> / 8 * f.d_p * f.d_p *
+           Kokkos::pow(alpha, 2 - exponent);
+  }
+};
+
+/// Koch & Hill (2001); Re = alpha_f d slip / nu; alpha_f >= 0.4.
+struct KochHill {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real alpha = f.alpha_f > Real(0.4) ? f.alpha_f : Real(0.4);
+    const Real s = 1 - alpha > Real(1e-12) ? 1 - alpha : Real(1e-12);
+    const Real reynolds = alpha * f.rho_f * f.d_p * f.slip / f.mu_f;
+    const Real f0 = s < Real(0.4) ? (1 + 3 * Kokkos::sqrt(s / 2) +
+                                     Real(135.0 / 64) * s * Kokkos::log(s) + Real(16.14) * s) /
+                                        (1 + s * (Real(0.681) + s * (Real(-8.48) + s * Real(8.16))))
+                                  : 10 * s / (alpha * alpha * alpha);
+    const Real f3 = Real(0.0673) + Real(0.212) * s + Real(0.0232) / Kokkos::pow(alpha, Real(5));
+    return sphere_volume(f.d_p / 2) * 18 * f.mu_f * alpha * alpha * (f0 + f3 * reynolds / 2) /
+           (f.d_p * f.d_p);
+  }
+};
+
+/// Ratio V_r of Syamlal & O'Brien (1987), Lima et al. (2022) B5 and B6 put right; V_r(1) = 1.
+KOKKOS_INLINE_FUNCTION Real terminal_velocity_ratio(Real alpha_f, Real reynolds) {
+  const Real a1 = Kokkos::pow(alpha_f, Real(4.14));
+  const Real a2 = alpha_f <= Real(0.85) ? Real(0.8) * Kokkos::pow(alpha_f, Real(1.28))
+                                        : Kokkos::pow(alpha_f, Real(2.65));
+  const Real b = Real(0.06) * reynolds;
+  return (a1 - b + Kokkos::sqrt(b * b + 2 * b * (2 * a2 - a1) + a1 * a1)) / 2;
+}
+
+/// Syamlal & O'Brien (1987); Re = d slip / nu without alpha_f.
+struct SyamlalOBrien {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real re_per_slip = f.rho_f * f.d_p / f.mu_f;
+    const Real v_r = terminal_velocity_ratio(f.alpha_f, re_per_slip * f.slip);
+    const Real root =
+        Real(0.63) * Kokkos::sqrt(f.slip) + Real(4.8) * Kokkos::sqrt(v_r / re_per_slip);
+    return sphere_volume(f.d_p / 2) * Real(0.75) * root * root * f.rho_f * f.alpha_f /
+           (v_r * v_r * f.d_p);
+  }
+};
+
+/// The paper's B2-B6 with the misprints put right: Wen-Yu's form with the C_d of Syamlal-O'Brien.
+/// No published program evaluates this mixture; offered for comparison.
+struct PaperRepaired {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real re_per_slip = f.rho_f * f.d_p / f.mu_f;
+    const Real v_r = terminal_velocity_ratio(f.alpha_f, re_per_slip * f.slip);
+    const Real root =
+        Real(0.63) * Kokkos::sqrt(f.slip) + Real(4.8) * Kokkos::sqrt(v_r / re_per_slip);
+    return sphere_volume(f.d_p / 2) * Real(0.75) * root * root * f.rho_f *
+           Kokkos::pow(f.alpha_f, Real(-1.65)) / f.d_p;
+  }
+};
+
+/// Beetstra, van der Hoef & Kuipers (2007) for mixtures of sizes: F of the mean grain times
+/// alpha_f y + s y^2 + 0.064 alpha_f y^3, y = d / d_mean (Sauter mean); Re = alpha_f d_mean slip /
+/// nu.
+struct Beetstra {
+  Real d_mean = 0;  // sum n d^3 / sum n d^2 of all grains [m]
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real a = f.alpha_f, s = 1 - a, y = f.d_p / d_mean;
+    const Real reynolds = a * f.rho_f * d_mean * f.slip / f.mu_f + Real(1e-12);
+    const Real viscous = 10 * s / (a * a) + a * a * (1 + Real(1.5) * Kokkos::sqrt(s));
+    const Real inertial =
+        Real(0.413) * reynolds / (24 * a * a) *
+        (1 / a + 3 * s * a + Real(8.4) * Kokkos::pow(reynolds, Real(-0.343))) /
+        (1 + Kokkos::pow(Real(10), 3 * s) * Kokkos::pow(reynolds, -(1 + 4 * s) / 2));
+    const Real mixture = a * y + s * y * y + Real(0.064) * a * y * y * y;
+    // F scales the Stokes drag of the mean grain at the superficial slip.
+    return 3 * std::numbers::pi_v<Real> * f.mu_f * d_mean * a * (viscous + inertial) * mixture;
+  }
+};
+
+/// No drag: for tests and sensitivity runs.
+struct NoDrag {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow&) const { return 0; }
+};
+
+}  // namespace barchan

@@ -1,0 +1,64 @@
+// Values of a result frame: the flow brought to the cell centres, the grains taken apart.
+#pragma once
+
+#include "kernels/fluid/grid.hpp"
+
+namespace barchan {
+
+/// Single precision, x fastest, no ghosts: rows (nz, ny, nx) of a file.
+using FrameField = Kokkos::View<float***, Kokkos::LayoutLeft>;
+
+/// A cell-centred field without its ghosts.
+struct CopyToFrame {
+  Field field;
+  FrameField out;
+  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
+    out(i, j, k) = static_cast<float>(field(i, j, k));
+  }
+};
+
+/// Mean of the two faces of a cell; `di, dj, dk` is the step from the lower to the upper one.
+struct AverageToFrame {
+  Field face;
+  int di = 0, dj = 0, dk = 0;
+  FrameField out;
+  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
+    out(i, j, k) = static_cast<float>(0.5 * (face(i, j, k) + face(i + di, j + dj, k + dk)));
+  }
+};
+
+/// Rows (n, 3) of a file.
+template <class T>
+using FrameVectors = Kokkos::View<T* [3], Kokkos::LayoutRight>;
+
+template <class T>
+KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3& v) {
+  out(p, 0) = static_cast<T>(v.x);
+  out(p, 1) = static_cast<T>(v.y);
+  out(p, 2) = static_cast<T>(v.z);
+}
+
+/// Position [m], diameter [m], velocity [m/s] and spin [rad/s] of each grain.
+/// `Kinematics` has members x, r, u, omega.
+template <class Kinematics>
+struct SplitGrains {
+  Kokkos::View<const Kinematics*> grains;
+  FrameVectors<double> x;
+  Kokkos::View<double*> d;
+  FrameVectors<float> u, omega;
+  KOKKOS_FUNCTION void operator()(int p) const {
+    const Kinematics grain = grains(p);
+    store(x, p, grain.x);
+    d(p) = 2.0 * grain.r;
+    store(u, p, grain.u);
+    store(omega, p, grain.omega);
+  }
+};
+
+struct SplitVectors {
+  Kokkos::View<const Vec3*> vectors;
+  FrameVectors<float> out;
+  KOKKOS_FUNCTION void operator()(int p) const { store(out, p, vectors(p)); }
+};
+
+}  // namespace barchan

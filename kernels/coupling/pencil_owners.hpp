@@ -1,0 +1,41 @@
+// Which rank has the cells around a grain.
+#pragma once
+
+#include "kernels/coupling/void_fraction.hpp"
+#include "kernels/fluid/grid.hpp"
+
+namespace barchan {
+
+/// n cells in parts as equal as can be, the longer ones first.
+struct PartOfCell {
+  int n = 1, parts = 1;
+  KOKKOS_FUNCTION int operator()(int i) const {
+    const int size = n / parts, longer = n % parts;
+    const int in_longer = longer * (size + 1);
+    return i < in_longer ? i / (size + 1) : longer + (i - in_longer) / size;
+  }
+};
+
+/// Ranks by pencil, x running fastest. A position along a periodic direction is first brought into
+/// the domain, one beyond another end belongs to the last pencil there.
+struct PencilOwners {
+  PartOfCell x, z;
+  Real dx = 1, dz = 1, lx = 0, lz = 0;  // of a cell, of the domain [m]
+  bool periodic_x = false;
+
+  KOKKOS_FUNCTION Vec3 into_domain(Vec3 p) const {
+    if (periodic_x) p.x -= lx * Kokkos::floor(p.x / lx);
+    p.z -= lz * Kokkos::floor(p.z / lz);
+    return p;
+  }
+  KOKKOS_FUNCTION static int cell(Real at, Real spacing, int n) {
+    const int i = static_cast<int>(Kokkos::floor(at * (1 / spacing)));
+    return i < 0 ? 0 : (i >= n ? n - 1 : i);
+  }
+  KOKKOS_FUNCTION int operator()(const Vec3& position) const {
+    const Vec3 p = into_domain(position);
+    return x(cell(p.x, dx, x.n)) + x.parts * z(cell(p.z, dz, z.n));
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,88 @@
+// How far the state is from where it cannot be right.
+#pragma once
+
+#include "kernels/fluid/time_step_limits.hpp"
+#include "kernels/grains/grain.hpp"
+#include "kernels/grains/wall_contact.hpp"
+
+namespace barchan {
+
+/// What is not a number is worse than any number.
+KOKKOS_FORCEINLINE_FUNCTION Real or_infinity(Real value) {
+  return value == value ? value : Kokkos::Experimental::infinity_v<Real>;
+}
+
+/// Where something is worst, and how bad it is there.
+using WorstItem = Kokkos::MaxLoc<Real, int>::value_type;
+KOKKOS_FORCEINLINE_FUNCTION void take_worse(WorstItem& worst, Real value, int at) {
+  if (value > worst.val) worst = {value, at};
+}
+
+/// Overlap of a listed pair over its mean diameter, 1 - |x_i - x_j| / (r_i + r_j) [-]; negative
+/// while it does not touch. Pairs whose first grain is a ghost are looked at where it is at home.
+struct PairOverlap {
+  PeriodicBox box;
+  PairList list;
+  Kokkos::View<const GrainKinematics*> grains;
+  int n_owned;
+
+  KOKKOS_FUNCTION void operator()(int p, WorstItem& worst) const {
+    if (list.i(p) >= n_owned) return;
+    const GrainKinematics &a = grains(list.i(p)), &b = grains(list.j(p));
+    take_worse(worst, or_infinity(1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r)), p);
+  }
+};
+
+/// Of a grain: its overlap with walls over its diameter, and its way in a grain step over its
+/// radius
+/// [-]; infinite where it has no place or no speed.
+struct GrainLimits {
+  Kokkos::View<const GrainKinematics*> grains;
+  Plane plane[kMaxWalls];
+  int n_walls;
+  Real dt;  // grain step [s]
+
+  KOKKOS_FUNCTION void operator()(int g, WorstItem& in_wall, WorstItem& way) const {
+    const GrainKinematics& grain = grains(g);
+    Real overlap = 0;
+    for (int w = 0; w < n_walls; ++w) {
+      const Real inside = dot(plane[w].normal, grain.x) - plane[w].offset;
+      overlap = Kokkos::max(overlap, or_infinity((grain.r - inside) / (2 * grain.r)));
+    }
+    take_worse(in_wall, overlap, g);
+    const Real speed = norm(grain.u) + grain.r * norm(grain.omega);
+    take_worse(way, or_infinity(dt * speed / grain.r + 0 * (grain.x.x + grain.x.y + grain.x.z)), g);
+  }
+};
+
+/// Courant number of a cell with the velocities of its lower faces [-].
+struct CourantOfCell {
+  GridRef grid;
+  FaceRef u;
+  Real dt;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return courant_number({u.x(i, j, k), u.y(i, j, k), u.z(i, j, k)},
+                          {grid.dx, grid.dy_centre(j), grid.dz}, dt);
+  }
+};
+
+/// How far the fluid fraction lies outside (0, 1] [-]; negative or zero inside.
+struct FractionOutside {
+  FieldRef alpha;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real a = alpha(i, j, k);
+    return a > 0 ? a - 1 : 1 - a;
+  }
+};
+
+/// Reduces a functor of cells to the worst one, by its number.
+template <class Functor>
+struct WorstCell {
+  Functor functor;
+  int nx, ny;
+  KOKKOS_FUNCTION void operator()(int cell, WorstItem& worst) const {
+    take_worse(worst, or_infinity(functor(cell % nx, cell / nx % ny, cell / (nx * ny))), cell);
+  }
+};
+
+}  // namespace barchan

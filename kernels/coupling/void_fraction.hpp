@@ -1,0 +1,196 @@
+// Where a grain's volume lies on the grid: the divided void fraction, and deposits that add up to
+// the same bits in any order.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/fluid/grid.hpp"
+#include "kernels/grains/grain.hpp"
+
+namespace barchan {
+
+/// 29 points of equal volume: the centre and two shells of 14 (6 on the axes, 8 at polar angles of
+/// 45 and 135 degrees), at the volume-weighted mean radii of the shells bounded by cbrt(1/29),
+/// cbrt(15/29) and 1 of the grain radius: r = (3/4)(b^4 - a^4)/(b^3 - a^3). The points of CFDEM's
+/// "divided" model (Lima et al. 2022, Sec. IV).
+inline constexpr int kDividedPoints = 29;
+inline constexpr Real kInnerShell = 0.6276;  // fractions of the radius
+inline constexpr Real kOuterShell = 0.9085;
+
+/// Offset of point p from the centre in units of the grain radius.
+KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
+  if (p == 0) return {};
+  const Real shell = p <= 14 ? kInnerShell : kOuterShell;
+  const int q = (p - 1) % 14;
+  if (q < 6) {
+    const Real side = q % 2 == 0 ? shell : -shell;
+    return {q / 2 == 0 ? side : 0, q / 2 == 1 ? side : 0, q / 2 == 2 ? side : 0};
+  }
+  const int corner = q - 6;  // polar angle from z: sin = cos = 1/sqrt 2; azimuth 45 + 90 n degrees
+  const Real root_half = Real(0.70710678118654752);
+  return {(corner & 1 ? -shell : shell) / 2, (corner & 2 ? -shell : shell) / 2,
+          (corner & 4 ? -shell : shell) * root_half};
+}
+
+/// The same points by height alone: nine at that of the centre, of each shell one at the top and at
+/// the bottom and four at half its radius above and below.
+inline constexpr int kDividedHeights = 9;
+struct PointsAtHeight {
+  Real offset;  // from the centre in units of the grain radius
+  int points;
+};
+KOKKOS_INLINE_FUNCTION constexpr PointsAtHeight divided_height(int q) {
+  if (q == 0) return {0, 9};
+  const Real shell = q <= 4 ? kInnerShell : kOuterShell;
+  const bool at_end = (q - 1) % 4 < 2;
+  const Real height = at_end ? shell : shell / 2;
+  return {q % 2 == 1 ? height : -height, at_end ? 1 : 4};
+}
+
+/// A cell by its place, owned or a ghost beside an owned one.
+struct CellIndex {
+  int i = 0, j = 0, k = 0;
+  /// Its place among the owned cells and the ghosts around them in x and z.
+  KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
+    return i + 1 + std::int64_t{grid.nx + 2} * (j + std::int64_t{grid.ny} * (k + 1));
+  }
+  static std::size_t count(const GridRef& grid) {
+    return static_cast<std::size_t>(grid.nx + 2) * static_cast<std::size_t>(grid.ny) *
+           static_cast<std::size_t>(grid.nz + 2);
+  }
+  KOKKOS_INLINE_FUNCTION bool operator==(const CellIndex& b) const {
+    return i == b.i && j == b.j && k == b.k;
+  }
+};
+
+/// Cells that share a grain, and how many of its points each holds.
+struct GrainCells {
+  int n = 0, n_points = 0;
+  CellIndex cell[kDividedPoints];
+  int count[kDividedPoints];
+
+  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points = 1) {
+    n_points += points;
+    for (int q = 0; q < n; ++q) {
+      if (cell[q] == c) {
+        count[q] += points;
+        return;
+      }
+    }
+    cell[n] = c;
+    count[n++] = points;
+  }
+  /// Share of the grain in its q-th cell; the shares add up to one.
+  KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
+};
+
+/// `cfdem`: a point outside gives its share to the grain's own cell, as CFDEM does.
+enum class PointSet { divided, centre, cfdem };
+
+/// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
+/// beyond the outlet goes to the last cell, periodic directions wrap. Where the grid is cut among
+/// ranks, points of a grain inside may lie in the ghosts of the neighbours' cells.
+struct DepositStencil {
+  GridRef grid;
+  PointSet points = PointSet::divided;
+  bool wrap_x = false, wrap_z = true;  // periodic, and not cut
+  int i_low = 0, i_high = 0;           // a point beyond belongs to these
+  int k_low = 0, k_high = 0;
+
+  /// Index from 0 to n - 1 along a periodic direction, of one that is rarely a period off.
+  KOKKOS_INLINE_FUNCTION static int wrap(int i, int n) {
+    if (i >= 0 && i < n) return i;
+    if (i >= -n && i < 2 * n) return i < 0 ? i + n : i - n;
+    return ((i % n) + n) % n;
+  }
+  /// Counted over the whole domain first: the same cell on any number of ranks.
+  KOKKOS_INLINE_FUNCTION int column_x(Real x) const {
+    return static_cast<int>(Kokkos::floor((x - grid.x_first()) * (1 / grid.dx))) - grid.i_begin;
+  }
+  KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
+    return static_cast<int>(Kokkos::floor((z - grid.z_first()) * (1 / grid.dz))) - grid.k_begin;
+  }
+  /// Row of a height near a row; what is beyond a wall is mirrored back.
+  KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
+    y = y < 0 ? -y : y;
+    return grid.row_near(y > grid.ly ? 2 * grid.ly - y : y, row_nearby);
+  }
+  /// The cell that holds a point not far from a row.
+  KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
+    int i = column_x(p.x);
+    if (wrap_x) i = wrap(i, grid.nx);
+    i = i < i_low ? i_low : (i > i_high ? i_high : i);
+    int k = column_z(p.z);
+    if (wrap_z) k = wrap(k, grid.nz);
+    k = k < k_low ? k_low : (k > k_high ? k_high : k);
+    return {i, row_of(p.y, row_nearby), k};
+  }
+  /// All points lie between those at -reach and +reach: true when over and under each other.
+  KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {
+    return column_x(x.x - reach) == column_x(x.x + reach) &&
+           column_z(x.z - reach) == column_z(x.z + reach);
+  }
+  /// Into the domain along periodic directions, as grains are that visit another rank.
+  KOKKOS_INLINE_FUNCTION Vec3 into_domain(Vec3 x) const {
+    if (wrap_x) x.x -= grid.lx_all * Kokkos::floor((x.x - grid.x_first()) / grid.lx_all);
+    if (wrap_z) x.z -= grid.lz_all * Kokkos::floor((x.z - grid.z_first()) / grid.lz_all);
+    return x;
+  }
+  KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
+
+  KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
+    GrainCells cells;
+    const Vec3 x = into_domain(g.x);
+    const int row = grid.row_of(x.y);
+    const CellIndex own = cell_of(x, row);
+    const bool keeps_outside = points == PointSet::cfdem;
+    if (points == PointSet::centre) {
+      cells.add(own);
+    } else if (in_one_column(x, kOuterShell * g.r)) {
+      for (int q = 0; q < kDividedHeights; ++q) {
+        const PointsAtHeight at = divided_height(q);
+        const Real y = x.y + g.r * at.offset;
+        const int j = is_outside(y) && keeps_outside ? own.j : row_of(y, row);
+        cells.add({own.i, j, own.k}, at.points);
+      }
+    } else {
+      for (int p = 0; p < kDividedPoints; ++p) {
+        const Vec3 point = x + g.r * divided_point(p);
+        cells.add(is_outside(point.y) && keeps_outside ? own : cell_of(point, row));
+      }
+    }
+    return cells;
+  }
+};
+
+/// On a grid that is not cut.
+inline DepositStencil deposit_stencil_in(const GridRef& grid, PointSet points, bool wrap_x) {
+  return {.grid = grid,
+          .points = points,
+          .wrap_x = wrap_x,
+          .wrap_z = true,
+          .i_low = 0,
+          .i_high = grid.nx - 1,
+          .k_low = 0,
+          .k_high = grid.nz - 1};
+}
+
+/// Fixed-point numbers: integer sums do not depend on the order of threads or ranks.
+struct FixedPoint {
+  Real scale = 1;  // integers per unit, a power of two
+
+  KOKKOS_INLINE_FUNCTION std::int64_t encode(Real value) const {
+    return static_cast<std::int64_t>(Kokkos::round(value * scale));
+  }
+  KOKKOS_INLINE_FUNCTION Real decode(std::int64_t sum) const {
+    return static_cast<Real>(sum) / scale;
+  }
+};
+
+/// Finest scale with which sums up to `largest` stay inside 62 bits.
+inline FixedPoint fixed_point_for(Real largest) {
+  if (!(largest > 0)) return {};
+  return {Kokkos::pow(Real(2), Kokkos::floor(Kokkos::log2(Real(4.6e18) / largest)))};
+}
+
+}  // namespace barchan

@@ -1,0 +1,148 @@
+// The structured staggered (MAC) grid and the fields on it.
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+/// Owned cells 0..n-1 in each direction, one ghost layer (-1 and n) around them.
+/// Cell (i,j,k) has its x-face (i,j,k) at x = x0 + i dx, its y-face at y_face(j), its z-face at
+/// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
+/// stretched in y. The geometry of ghost rows mirrors the first row inside.
+/// `Rows` holds the heights: a Kokkos view (Grid) or a bare pointer (GridRef).
+template <class Rows>
+struct BasicGrid {
+  int nx = 0, ny = 0, nz = 0;
+  Real dx = 0, dz = 0;           // spacing [m]
+  Real x0 = 0, z0 = 0;           // corner of the owned part [m]
+  Real lx = 0, ly = 0, lz = 0;   // extent of the owned part [m]
+  int i_begin = 0, k_begin = 0;  // the first owned cell among those of all ranks
+  Real lx_all = 0, lz_all = 0;   // extent of the domain [m]
+  Rows y_face_{};                // [ny + 3], faces -1 .. ny + 1
+  Rows y_centre_{};              // [ny + 2], cells -1 .. ny
+
+  KOKKOS_FORCEINLINE_FUNCTION Real y_face(int j) const { return y_face_[j + 1]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real y_centre(int j) const { return y_centre_[j + 1]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_face(int i) const { return x0 + i * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
+  /// Corner of the domain, bit for bit the same on all ranks [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real x_first() const { return x0 - i_begin * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_first() const { return z0 - k_begin * dz; }
+  /// Height of row j [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real dy(int j) const { return y_face_[j + 2] - y_face_[j + 1]; }
+  /// Distance between the centres on either side of y-face j [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real dy_centre(int j) const {
+    return y_centre_[j + 1] - y_centre_[j];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
+
+  /// The same as row_of(y), found from a row nearby.
+  KOKKOS_INLINE_FUNCTION int row_near(Real y, int row) const {
+    while (row > 0 && y < y_face(row)) --row;
+    while (row < ny - 1 && y >= y_face(row + 1)) ++row;
+    return row;
+  }
+
+  /// Row whose interval [y_face(j), y_face(j+1)) holds y; clamped to 0..ny-1.
+  KOKKOS_INLINE_FUNCTION int row_of(Real y) const {
+    int low = 0, high = ny;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      if (y_face(middle) <= y) {
+        low = middle;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+};
+
+/// The grid as kernels see it: trivially copyable, valid while its Grid lives.
+using GridRef = BasicGrid<const Real*>;
+
+class Decomposition;  // src/parallel/decomposition.hpp
+
+/// The grid with its memory: the part that one rank owns.
+struct Grid : BasicGrid<Kokkos::View<Real*>> {
+  int nx_all = 0, nz_all = 0;            // cells of all ranks together
+  const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
+
+  /// All x-z columns times the height of the domain [m].
+  Real height_of_all_columns() const { return ly * nx_all * nz_all; }
+  // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
+  KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
+    return {nx,
+            ny,
+            nz,
+            dx,
+            dz,
+            x0,
+            z0,
+            lx,
+            ly,
+            lz,
+            i_begin,
+            k_begin,
+            lx_all,
+            lz_all,
+            y_face_.data(),
+            y_centre_.data()};
+  }
+};
+
+/// A field as kernels see it: trivially copyable, so that a compiler can keep it in registers.
+struct FieldRef {
+  Real* origin = nullptr;
+  int stride_y = 0, stride_z = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
+    // The row first: its address does not depend on i, and compilers then see plain strides.
+    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
+  }
+};
+
+/// A scalar on the grid with its ghost layer; x runs fastest in memory on every backend.
+/// Indexing is by cell, ghosts at -1 and n. The raw origin keeps inner loops vectorisable.
+struct Field {
+  using Storage = Kokkos::View<Real***, Kokkos::LayoutLeft>;
+  Storage storage;  // (nx + 2, ny + 2, nz + 2)
+  Real* origin = nullptr;
+  int stride_y = 0, stride_z = 0;
+
+  Field() = default;
+  explicit Field(const Storage& values)
+      : storage(values),
+        stride_y(values.extent_int(0)),
+        stride_z(values.extent_int(0) * values.extent_int(1)) {
+    origin = storage.data() + 1 + stride_y + stride_z;
+  }
+  Field(const char* label, const Grid& grid)
+      : Field(Storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
+  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
+    // The row first: its address does not depend on i, and compilers then see plain strides.
+    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): a Field is one
+  KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() const { return {origin, stride_y, stride_z}; }
+};
+
+/// A vector on the faces as kernels see it.
+struct FaceRef {
+  FieldRef x, y, z;
+};
+
+/// A vector on the faces: x component on x-faces, y on y-faces, z on z-faces.
+struct FaceVector {
+  Field x, y, z;
+  // NOLINTNEXTLINE(google-explicit-constructor): they are
+  KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() const { return {x, y, z}; }
+};
+
+}  // namespace barchan

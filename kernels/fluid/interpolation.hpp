@@ -1,0 +1,68 @@
+// Trilinear interpolation from the staggered grid to a point.
+#pragma once
+
+#include "kernels/fluid/grid.hpp"
+
+namespace barchan {
+
+/// Two neighbouring indices along one axis, i and i + 1, and the weight t of the second.
+struct LinearStencil {
+  int i = 0;
+  Real t = 0;
+};
+
+/// Interpolation weights of one point in a column of this rank for each staggering. The point is
+/// brought into the domain first: wrapped along z, and along x either wrapped or held at the ends.
+/// Near a wall the ghost row takes part, so the boundary condition decides the value (a no-slip
+/// velocity vanishes there).
+struct PointStencil {
+  LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
+
+  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const Vec3& point, bool wrap_x) {
+    Real x = point.x - g.x_first();
+    if (wrap_x) x -= g.lx_all * Kokkos::floor(x / g.lx_all);
+    x = x < 0 ? 0 : (x > g.lx_all ? g.lx_all : x);
+    const Real from_first = point.z - g.z_first();
+    const Real z = from_first - g.lz_all * Kokkos::floor(from_first / g.lz_all);
+    const Real y = point.y < 0 ? 0 : (point.y > g.ly ? g.ly : point.y);
+    x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
+    x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
+    z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
+    z_centre = uniform(z / g.dz - Real(0.5), g.k_begin, -1, g.nz - 1);
+    const int row = g.row_of(y);
+    y_face = {row, (y - g.y_face(row)) / g.dy(row)};
+    const int below = y < g.y_centre(row) ? row - 1 : row;
+    y_centre = {below, (y - g.y_centre(below)) / g.dy_centre(below + 1)};
+  }
+
+ private:
+  /// The weight is counted over the whole domain: the same bits on any number of ranks.
+  KOKKOS_INLINE_FUNCTION static LinearStencil uniform(Real s, int begin, int low, int high) {
+    int i = static_cast<int>(Kokkos::floor(s)) - begin;
+    i = i < low ? low : (i > high ? high : i);
+    return {i, s - (i + begin)};
+  }
+};
+
+/// Value of `f` from its eight surrounding nodes; exact for linear fields.
+KOKKOS_INLINE_FUNCTION Real interpolate(const FieldRef& f, const LinearStencil& x,
+                                        const LinearStencil& y, const LinearStencil& z) {
+  const auto along_x = [&](int j, int k) {
+    return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k);
+  };
+  const auto in_plane = [&](int k) {
+    return (1 - y.t) * along_x(y.i, k) + y.t * along_x(y.i + 1, k);
+  };
+  return (1 - z.t) * in_plane(z.i) + z.t * in_plane(z.i + 1);
+}
+
+KOKKOS_INLINE_FUNCTION Real interpolate_cell(const FieldRef& f, const PointStencil& s) {
+  return interpolate(f, s.x_centre, s.y_centre, s.z_centre);
+}
+KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const FaceRef& f, const PointStencil& s) {
+  return {interpolate(f.x, s.x_face, s.y_centre, s.z_centre),
+          interpolate(f.y, s.x_centre, s.y_face, s.z_centre),
+          interpolate(f.z, s.x_centre, s.y_centre, s.z_face)};
+}
+
+}  // namespace barchan

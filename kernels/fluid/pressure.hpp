@@ -1,0 +1,206 @@
+// The pressure equation -div(c grad p) = b and what surrounds it.
+#pragma once
+
+#include "kernels/fluid/flow_sums.hpp"
+#include "kernels/fluid/momentum.hpp"
+#include "kernels/fluid/time_step_limits.hpp"
+
+namespace barchan {
+
+/// c = alpha^2 / (alpha + m) on faces, m = implicit / rho: how easily pressure moves the mixture's
+/// fluid. One without grains. Zero on the wall below; the wall above is never written.
+struct UpdateMobility {
+  GridRef grid;
+  FieldRef alpha;
+  FaceRef implicit;  // [kg/m^3]
+  Real per_density;  // 1 / rho
+  FaceRef c;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
+
+  /// Returns c_x dy: what a unit driving force would add to the flow rate here.
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real inside = j > 0 ? Real(1) : Real(0);
+    const Real cx = mobility(cell_to_xface(alpha, i, j, k), per_density * implicit.x(i, j, k));
+    const Real cy =
+        mobility(cell_to_yface(grid, alpha, i, j, k), per_density * implicit.y(i, j, k));
+    const Real cz = mobility(cell_to_zface(alpha, i, j, k), per_density * implicit.z(i, j, k));
+    c.x(i, j, k) = cx;
+    c.y(i, j, k) = inside * cy;
+    c.z(i, j, k) = cz;
+    return cx * grid.dy(j);
+  }
+};
+
+/// -div(c grad p) in a cell; c vanishes on walls, so ghosts of p behind them do not matter.
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const FaceRef& c,
+                                                   const FieldRef& p, int i, int j, int k) {
+  const Real centre = p(i, j, k);
+  const Real x =
+      c.x(i, j, k) * (centre - p(i - 1, j, k)) + c.x(i + 1, j, k) * (centre - p(i + 1, j, k));
+  const Real y = c.y(i, j, k) * (centre - p(i, j - 1, k)) * (1 / grid.dy_centre(j)) +
+                 c.y(i, j + 1, k) * (centre - p(i, j + 1, k)) * (1 / grid.dy_centre(j + 1));
+  const Real z =
+      c.z(i, j, k) * (centre - p(i, j, k - 1)) + c.z(i, j, k + 1) * (centre - p(i, j, k + 1));
+  return x * (1 / (grid.dx * grid.dx)) + y * (1 / grid.dy(j)) + z * (1 / (grid.dz * grid.dz));
+}
+
+/// Diagonal of the operator above [1/m^2].
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const FaceRef& c, int i,
+                                                   int j, int k) {
+  return (c.x(i, j, k) + c.x(i + 1, j, k)) * (1 / (grid.dx * grid.dx)) +
+         (c.y(i, j, k) / grid.dy_centre(j) + c.y(i, j + 1, k) / grid.dy_centre(j + 1)) *
+             (1 / grid.dy(j)) +
+         (c.z(i, j, k) + c.z(i, j, k + 1)) * (1 / (grid.dz * grid.dz));
+}
+
+// Steps of the conjugate gradients; inner products are sums over cells weighted with their height
+// (dx dz is the same everywhere), in which the operator is self-adjoint.
+
+/// r = b - A p, in the place of b.
+struct InitialResidual {
+  GridRef grid;
+  FaceRef c;
+  FieldRef p, r;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real value = r(i, j, k) - pressure_operator(grid, c, p, i, j, k);
+    r(i, j, k) = value;
+    return value * value * grid.dy(j);
+  }
+};
+/// q = A d; adds up <d, q>.
+struct ApplyOperator {
+  GridRef grid;
+  FaceRef c;
+  FieldRef d, q;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real value = pressure_operator(grid, c, d, i, j, k);
+    q(i, j, k) = value;
+    return value * d(i, j, k) * grid.dy(j);
+  }
+};
+/// p += a d, r -= a q; adds up <r, r>.
+struct AdvanceIterate {
+  GridRef grid;
+  FieldRef d, q, p, r;
+  Real a;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    p(i, j, k) += a * d(i, j, k);
+    const Real value = r(i, j, k) - a * q(i, j, k);
+    r(i, j, k) = value;
+    return value * value * grid.dy(j);
+  }
+};
+/// d = z + b d.
+struct NextDirection {
+  FieldRef z, d;
+  Real b;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    d(i, j, k) = z(i, j, k) + b * d(i, j, k);
+  }
+};
+/// Adds up <a, b>.
+struct InnerProduct {
+  GridRef grid;
+  FieldRef a, b;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return a(i, j, k) * b(i, j, k) * grid.dy(j);
+  }
+};
+struct Subtract {
+  FieldRef a;
+  Real constant;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
+};
+/// A first guess: the line through the last two pressures, in the place of the older one.
+struct ExtrapolatePressure {
+  FieldRef last, before;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    before(i, j, k) = 2 * last(i, j, k) - before(i, j, k);
+  }
+};
+/// z = r / diagonal.
+struct ScaleByDiagonal {
+  GridRef grid;
+  FaceRef c;
+  FieldRef r, z;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    z(i, j, k) = r(i, j, k) / pressure_diagonal(grid, c, i, j, k);
+  }
+};
+
+/// b = -(rho / dt) [div(alpha u) + (alpha - alpha_before) / dt] of -div(c grad p) = b [Pa/m^2],
+/// with the drive (force per mass times dt) already in the x velocity through c.
+/// Without grains alpha is one and c is not looked at.
+template <bool with_grains>
+struct PressureSource {
+  GridRef grid;
+  FaceRef u;
+  FieldRef alpha, alpha_before;
+  FaceRef c;
+  Real drive_dt;  // f dt [m/s]
+  Real density, dt;
+  FieldRef b;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real continuity(int i, int j, int k) const {
+    if constexpr (!with_grains) return div_at_cell(grid, u, i, j, k);
+    const auto x = [&](int ii) {
+      return cell_to_xface(alpha, ii, j, k) * u.x(ii, j, k) + drive_dt * c.x(ii, j, k);
+    };
+    const auto y = [&](int jj) { return cell_to_yface(grid, alpha, i, jj, k) * u.y(i, jj, k); };
+    const auto z = [&](int kk) { return cell_to_zface(alpha, i, j, kk) * u.z(i, j, kk); };
+    return (x(i + 1) - x(i)) * (1 / grid.dx) + (y(j + 1) - y(j)) * (1 / grid.dy(j)) +
+           (z(k + 1) - z(k)) * (1 / grid.dz) + (alpha(i, j, k) - alpha_before(i, j, k)) * (1 / dt);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    b(i, j, k) = -(density / dt) * continuity(i, j, k);
+  }
+};
+
+/// |div(alpha u) + d(alpha)/dt| dt: what a step leaves of the continuity equation [-].
+template <bool with_grains>
+struct ContinuityResidual {
+  PressureSource<with_grains> source;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return Kokkos::abs(source.continuity(i, j, k)) * source.dt;
+  }
+};
+
+/// u = u* + g (f dt e_x - (dt / rho) grad p), g = alpha / (alpha + m) on faces (one without
+/// grains). Keeps the old velocity's change as du_dt. Walls stay at rest.
+template <bool with_grains>
+struct CorrectVelocity {
+  GridRef grid;
+  FaceRef u_star;
+  FieldRef p;  // with ghosts
+  FieldRef alpha;
+  FaceRef implicit;
+  Real per_density;
+  Real drive_dt, dt;
+  FaceRef u, du_dt;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const FieldRef& m, int i, int j, int k) const {
+    if constexpr (!with_grains) return 1;
+    return a / (a + per_density * m(i, j, k));
+  }
+  /// Returns the Courant number of the new velocity.
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real inside = j > 0 ? Real(1) : Real(0);
+    const Real push = dt * per_density;
+    const Real gx = share(cell_to_xface(alpha, i, j, k), implicit.x, i, j, k);
+    const Real gy = share(cell_to_yface(grid, alpha, i, j, k), implicit.y, i, j, k);
+    const Real gz = share(cell_to_zface(alpha, i, j, k), implicit.z, i, j, k);
+    const Real ux = u_star.x(i, j, k) + gx * (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
+    const Real uy = inside * (u_star.y(i, j, k) - gy * push * ddy_at_yface(grid, p, i, j, k));
+    const Real uz = u_star.z(i, j, k) - gz * push * ddz_at_zface(grid, p, i, j, k);
+    du_dt.x(i, j, k) = (ux - u.x(i, j, k)) * (1 / dt);
+    du_dt.y(i, j, k) = (uy - u.y(i, j, k)) * (1 / dt);
+    du_dt.z(i, j, k) = (uz - u.z(i, j, k)) * (1 / dt);
+    u.x(i, j, k) = ux;
+    u.y(i, j, k) = uy;
+    u.z(i, j, k) = uz;
+    return courant_number({ux, uy, uz}, {grid.dx, grid.dy_centre(j), grid.dz}, dt);
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,78 @@
+// Stiffness and damping of a contact: Hertz-Mindlin and linear spring-dashpot.
+// Equation numbers: Lima et al. (2022), appendix A, with the misprints put right
+// (docs/model.md). Every law is a small type with the same call.
+#pragma once
+
+#include <numbers>
+
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+/// Elastic constants of one material.
+struct Elastic {
+  Real youngs_modulus = 0;  // [Pa]
+  Real poisson_ratio = 0;   // [-]
+};
+
+/// Contact modulus E_eff of two materials, A4 [Pa].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real effective_youngs_modulus(const Elastic& a,
+                                                                    const Elastic& b) {
+  return 1 / ((1 - a.poisson_ratio * a.poisson_ratio) / a.youngs_modulus +
+              (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
+}
+
+/// Contact shear modulus G_eff of two materials, A5 [Pa].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real effective_shear_modulus(const Elastic& a,
+                                                                   const Elastic& b) {
+  return 1 / (2 * (2 - a.poisson_ratio) * (1 + a.poisson_ratio) / a.youngs_modulus +
+              2 * (2 - b.poisson_ratio) * (1 + b.poisson_ratio) / b.youngs_modulus);
+}
+
+/// Damping ratio that delivers the restitution e, A8 with its sign turned: in [0, 1], 0 at e = 1.
+KOKKOS_FORCEINLINE_FUNCTION Real damping_ratio(Real restitution) {
+  const Real log_e = Kokkos::log(restitution);
+  return -log_e / Kokkos::sqrt(log_e * log_e + std::numbers::pi_v<Real> * std::numbers::pi_v<Real>);
+}
+
+/// One contact's springs and dashpots.
+struct ContactStiffness {
+  Real k_n, k_t;          // [N/m]
+  Real gamma_n, gamma_t;  // [kg/s], >= 0
+};
+
+/// Hertz normal spring (A6), Mindlin tangential spring (A7), damping of Tsuji et al. (1992) in the
+/// form of Antypov & Elliott (2011), which returns e exactly when the attractive tail is kept
+/// (A9, A10). r_eff, delta_n [m]; m_eff [kg]. Limits: k_n -> 0 as delta_n -> 0; e = 1: no damping.
+struct HertzMindlin {
+  Real e_eff = 0, g_eff = 0;  // [Pa]
+  Real damping = 0;           // damping_ratio(e)
+
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real r_eff, Real m_eff,
+                                                          Real delta_n) const {
+    const Real a = Kokkos::sqrt(r_eff * delta_n);  // radius of the contact area [m]
+    const Real root = Kokkos::sqrt(a * m_eff);
+    const Real two_root_5_6 = Real(1.8257418583505537);  // 2 sqrt(5/6)
+    return {.k_n = Real(4) / 3 * e_eff * a,
+            .k_t = 8 * g_eff * a,
+            .gamma_n = two_root_5_6 * damping * Kokkos::sqrt(2 * e_eff) * root,
+            .gamma_t = two_root_5_6 * damping * Kokkos::sqrt(8 * g_eff) * root};
+  }
+};
+
+/// Linear spring-dashpot: constant k_n, k_t = 2/7 k_n, the damping of the same restitution,
+/// gamma = 2 damping sqrt(m_eff k) (Schaefer, Dippel & Wolf 1996).
+struct LinearSpring {
+  Real k_n = 0;      // [N/m]
+  Real damping = 0;  // damping_ratio(e)
+
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real, Real m_eff, Real) const {
+    const Real k_t = Real(2) / 7 * k_n;
+    return {.k_n = k_n,
+            .k_t = k_t,
+            .gamma_n = 2 * damping * Kokkos::sqrt(m_eff * k_n),
+            .gamma_t = 2 * damping * Kokkos::sqrt(m_eff * k_t)};
+  }
+};
+
+}  // namespace barchan

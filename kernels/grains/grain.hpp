@@ -1,0 +1,154 @@
+// A grain as its neighbours see it, the box it moves in, and the pairs it may touch.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+/// Three components and a spare number, taken from and to memory at once.
+struct alignas(32) Quad {
+  Real x, y, z, w;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 vec() const { return {x, y, z}; }
+};
+KOKKOS_FORCEINLINE_FUNCTION Quad quad(const Vec3& a) { return {a.x, a.y, a.z, 0}; }
+KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
+  return {fused(s, a.x, b.x), fused(s, a.y, b.y), fused(s, a.z, b.z), fused(s, a.w, b.w)};
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
+  return {s * a.x, s * a.y, s * a.z, s * a.w};
+}
+
+/// What a contact needs of one grain, side by side in memory: two cache lines per neighbour
+/// instead of eleven.
+struct alignas(32) GrainKinematics {
+  Vec3 x;      // centre [m]
+  Real r = 0;  // radius [m]
+  Vec3 u;      // velocity [m/s]
+  Real m = 0;  // mass [kg]
+  Vec3 omega;  // spin [rad/s]
+  Real padding = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Quad x_r() const { return {x.x, x.y, x.z, r}; }
+  KOKKOS_FORCEINLINE_FUNCTION Quad u_m() const { return {u.x, u.y, u.z, m}; }
+  KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, padding}; }
+};
+
+/// Asks the caches of a CPU for something that is needed soon.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetch([[maybe_unused]] const T& a) {
+  KOKKOS_IF_ON_HOST((const char* begin = reinterpret_cast<const char*>(&a);
+                     for (std::size_t line = 0; line < sizeof(T); line += 64)
+                         __builtin_prefetch(begin + line);))
+}
+
+/// Lets a sub-step go ahead while the list still covers the way that the grains have come. A host
+/// that waits for a device only now and then launches sub-steps ahead of that knowledge; those
+/// behind a stale list then do nothing.
+struct ListValidity {
+  Kokkos::View<const Real*> moved;  // largest squared distance from the list's positions [m^2] ...
+  int before = 0;                   // ... as this sub-step begins: in this place
+  Real limit = 0;                   // [m^2]
+  KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return moved(before) <= limit; }
+};
+
+/// Sum of the contact forces [N] and torques [N m] on a grain.
+struct ContactSum {
+  Quad force, torque;
+};
+
+/// Periodic extents: zero where a direction is not periodic.
+struct PeriodicBox {
+  Real lx = 0, lz = 0;  // [m]
+
+  /// Nearest image of a separation between two grains of the box.
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 nearest_image(Vec3 s) const {
+    s.x -= s.x > lx / 2 ? lx : Real(0);
+    s.x += s.x < -lx / 2 ? lx : Real(0);
+    s.z -= s.z > lz / 2 ? lz : Real(0);
+    s.z += s.z < -lz / 2 ? lz : Real(0);
+    return s;
+  }
+};
+
+/// Most rows of a chunk: on a CPU they stay in its L2 cache, on a GPU every row is a chunk.
+inline constexpr int kLargestChunk =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
+                               Kokkos::DefaultExecutionSpace::memory_space>::accessible
+        ? 4096
+        : 1;
+
+/// The grains in chunks of consecutive rows, each of which one thread takes at a time. Their size
+/// depends on the number of grains alone, so that results do not depend on the number of threads.
+struct Chunks {
+  int n = 0, rows = 1;
+
+  KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + rows - 1) / rows; }
+  /// Two rows of one chunk; rows from n on are in none.
+  KOKKOS_FORCEINLINE_FUNCTION bool together(int a, int b) const {
+    return a < n && b < n && a / rows == b / rows;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * rows; }
+  KOKKOS_FORCEINLINE_FUNCTION int end(int chunk) const {
+    return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
+  }
+};
+/// Large chunks have few pairs that cross; a multiple of eight of them shares well among threads,
+/// unless that makes them tiny.
+inline Chunks make_chunks(int n) {
+  const int count = 8 * ((n + 8 * kLargestChunk - 1) / (8 * kLargestChunk));
+  const int rows = count > 0 ? (n + count - 1) / count : 1;
+  const int least = kLargestChunk < 256 ? kLargestChunk : 256;
+  return {.n = n, .rows = rows < least ? least : rows};
+}
+
+/// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does
+/// not touch.
+struct alignas(64) PairForce {
+  Vec3 force;        // on the first grain [N]
+  Real delta_n = 0;  // [m]
+  Vec3 n_cross_f_t;  // n x F_t [N]
+  Real padding = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION Quad force_overlap() const {
+    return {force.x, force.y, force.z, delta_n};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Quad n_cross_f_t_quad() const {
+    return {n_cross_f_t.x, n_cross_f_t.y, n_cross_f_t.z, padding};
+  }
+};
+
+/// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains
+/// are not of one chunk (ghosts are of none), the others those inside a chunk. Grain g is the first
+/// one of its pairs in the slots [first(g), first(g+1)), crossing, and [inner_first(g),
+/// inner_first(g+1)), inner; it is the second one in the crossing slots other_slot[other_first(g)
+/// .. other_first(g+1)).
+struct PairList {
+  Chunks chunks;
+  int n_pairs = 0, n_crossing = 0;
+  Kokkos::View<int*> first, inner_first, other_first;  // (n + 1)
+  Kokkos::View<int*> i, j;                             // (n_pairs)
+  Kokkos::View<int*> other_slot;                       // (n_crossing)
+  Kokkos::View<int*> active;              // (inner pairs) slots of a chunk's active pairs ...
+  Kokkos::View<int*> n_active;            // (chunks) ... this many, from its first inner pair on
+  Kokkos::View<Real*> slack;              // (chunks) relative way left until others may touch [m]
+  Kokkos::View<Real*> margin;             // (chunks) from contact, for the next active pairs [m]
+  Kokkos::View<std::uint8_t*> near_wall;  // (n) 1: may touch a wall until then
+  Kokkos::View<PairForce*> pair_force;    // (n_crossing)
+  Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]
+  Kokkos::View<Vec3*> rolling;  // (n_pairs) rolling torque on i [N m]; empty without rolling
+  Kokkos::View<Vec3*> force;    // (n_pairs) on i in the last sub-step [N]; empty unless asked for
+  Kokkos::View<std::uint8_t*> touching;  // (n_pairs) 1 while in contact
+
+  KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool has_force() const { return force.extent(0) > 0; }
+};
+
+}  // namespace barchan

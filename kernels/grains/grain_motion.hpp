@@ -1,0 +1,178 @@
+// One pass over the chunks of grains per sub-step: forces of their inner pairs, sum of all
+// contacts, kick, and drift into the next sub-step.
+#pragma once
+
+#include "kernels/grains/grain.hpp"
+#include "kernels/grains/pair_forces.hpp"
+#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/velocity_verlet.hpp"
+#include "kernels/grains/wall_contact.hpp"
+
+namespace barchan {
+
+/// What acts on the grains besides contacts, constant over the sub-steps of a fluid step.
+struct FluidOnGrains {
+  Kokkos::View<Vec3*> u_f;           // [m/s]
+  Kokkos::View<Real*> beta;          // [kg/s]
+  Kokkos::View<Vec3*> steady_force;  // weight, buoyancy, pressure gradient, ... [N]
+  Kokkos::View<Real*> added_mass;    // [kg]
+  Kokkos::View<Vec3*> drag_impulse;  // sum over the sub-steps of the drag on the grain [N s]
+  Kokkos::View<Vec3*> u_start;       // velocity as the fluid step began [m/s]
+  bool none = true;                  // no fluid: nothing but steady_force is there
+};
+
+/// What the line of a crossing pair does to its first grain (sign 1) or second grain (-1).
+KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
+                                                Real radius, bool has_rolling, ContactSum& sum) {
+  const PairForce& line = list.pair_force(slot);
+  sum.force = fused(sign, line.force_overlap(), sum.force);
+  sum.torque = fused(line.delta_n / 2 - radius, line.n_cross_f_t_quad(), sum.torque);
+  if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
+}
+
+KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
+  if (s >= list.n_crossing) return;
+  prefetch(list.pair_force(list.other_slot(s)));
+  prefetch(list.j(list.other_slot(s)));
+}
+
+/// Sums of the crossing contacts of the rows [begin, end) from the pair lines, of each row its own
+/// slots first, then the others.
+KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
+                                              const Kokkos::View<GrainKinematics*>& grains,
+                                              int begin, int end, bool has_rolling,
+                                              ContactSum* sums) {
+  for (int g = begin; g < end; ++g) sums[g - begin] = ContactSum{};
+  for (int p = list.first(begin); p < list.first(end); ++p) {
+    const int g = list.i(p);
+    add_pair_force(list, p, 1, grains(g).r, has_rolling, sums[g - begin]);
+  }
+  for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
+    if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
+    const int slot = list.other_slot(s), g = list.j(slot);
+    add_pair_force(list, slot, -1, grains(g).r, has_rolling, sums[g - begin]);
+  }
+}
+
+/// The start of the sub-steps: first half kick with the stored contact forces, then drift.
+struct KickAndDrift {
+  Real dt = 0;
+  Kokkos::View<GrainKinematics*> grains;
+  Kokkos::View<Vec3*> contact_force, contact_torque;
+  Kokkos::View<const Vec3*> x_reference;  // positions at the last list rebuild
+  FluidOnGrains fluid;
+
+  KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(int g, const GrainKinematics& grain,
+                                                 const ContactSum& contacts) const {
+    GrainForces f{.force = contacts.force + quad(fluid.steady_force(g)),
+                  .torque = contacts.torque,
+                  .inertia_mass = grain.m,
+                  .inertia_moment = sphere_inertia(grain.m, grain.r)};
+    if (fluid.none) return f;
+    f.u_f = quad(fluid.u_f(g));
+    f.beta = fluid.beta(g);
+    f.inertia_mass += fluid.added_mass(g);
+    return f;
+  }
+
+  /// Half kick from here, then drift; returns the drag impulse. `largest` as below.
+  KOKKOS_FORCEINLINE_FUNCTION Quad kick_and_drift(int g, const HalfKick& kick, const GrainForces& f,
+                                                  Quad& x, Quad& u, Quad& omega,
+                                                  Real& largest) const {
+    const Quad impulse = kick(f, u, omega);
+    x = fused(dt, u, x);
+    const Vec3 moved = x.vec() - x_reference(g);
+    const Real distance2 = dot(moved, moved);
+    // What is not a number counts as infinitely far: the next rebuild meets and reports it.
+    if (!(distance2 <= largest))
+      largest = distance2 > largest ? distance2 : Kokkos::Experimental::infinity_v<Real>;
+    return impulse;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void store(int g, const Quad& x, const Quad& u, const Quad& omega,
+                                         const Quad& impulse) const {
+    GrainKinematics& grain = grains(g);
+    grain.x = x.vec(), grain.u = u.vec(), grain.omega = omega.vec();
+    if (!fluid.none) fluid.drag_impulse(g) += impulse.vec();
+  }
+
+  /// Reduces the largest squared distance from the reference positions [m^2].
+  KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
+    const GrainKinematics& grain = grains(g);
+    Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
+    const GrainForces f =
+        forces(g, grain, {.force = quad(contact_force(g)), .torque = quad(contact_torque(g))});
+    const Quad impulse = kick_and_drift(g, HalfKick(dt / 2, f), f, x, u, omega, largest);
+    store(g, x, u, omega, impulse);
+  }
+};
+
+/// The end of a sub-step, a chunk of grains per index: new contact forces, second half kick, and
+/// unless it is the last sub-step the first half kick and drift of the next one. No grain of
+/// another chunk is read, so chunks may go ahead of each other.
+template <class Stiffness, class Rolling>
+struct SumKickDrift {
+  KickAndDrift motion;
+  PairForces<Stiffness, Rolling> pairs;
+  Walls<Stiffness, Rolling> walls;
+  bool has_rolling = false;
+  bool last = false;
+  Real largest_margin = 0;  // within which pairs are active [m]
+
+  KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
+    if (!pairs.validity.holds()) {  // so that the next one is closed, too
+      largest = Kokkos::Experimental::infinity_v<Real>;
+      return;
+    }
+    const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
+    ContactSum sums[kLargestChunk];
+    sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
+    if constexpr (kLargestChunk > 1) {
+      Real& slack = pairs.list.slack(chunk);
+      if (!(slack >= 0)) {
+        const Real margin = pairs.list.margin(chunk);
+        pairs.find_active(chunk, margin);
+        for (int g = begin; g < end; ++g)
+          pairs.list.near_wall(g) = walls.is_near(g, motion.grains(g), margin);
+        slack = margin;
+      }
+      pairs.add_inner(chunk, sums);
+    }
+    Real fastest = 0;  // squared speed [m^2/s^2]
+    for (int g = begin; g < end; ++g) {
+      const Real speed2 = move(g, sums[g - begin], largest);
+      fastest = speed2 > fastest ? speed2 : fastest;
+    }
+    if constexpr (kLargestChunk > 1) {
+      const Real way = 2 * motion.dt * Kokkos::sqrt(fastest);  // of two grains towards each other
+      pairs.list.slack(chunk) -= way;
+      pairs.list.margin(chunk) = next_margin(way);
+    }
+  }
+
+  /// Enough for some forty sub-steps: where grains hardly move, hardly more than contacts is
+  /// active.
+  KOKKOS_FORCEINLINE_FUNCTION Real next_margin(Real way) const {
+    const Real least = largest_margin / 10, wanted = 40 * way;
+    return wanted < least ? least : (wanted < largest_margin ? wanted : largest_margin);
+  }
+
+  /// Returns the squared speed of the drift [m^2/s^2].
+  KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum sum, Real& largest) const {
+    const GrainKinematics& grain = motion.grains(g);
+    if (kLargestChunk == 1 || pairs.list.near_wall(g)) walls.add(g, grain, motion.dt, sum);
+    if (last) {
+      motion.contact_force(g) = sum.force.vec();
+      motion.contact_torque(g) = sum.torque.vec();
+    }
+    Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
+    const GrainForces f = motion.forces(g, grain, sum);
+    const HalfKick kick(motion.dt / 2, f);
+    Quad impulse = kick(f, u, omega);
+    if (!last) impulse = impulse + motion.kick_and_drift(g, kick, f, x, u, omega, largest);
+    motion.store(g, x, u, omega, impulse);
+    return dot(u.vec(), u.vec());
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,66 @@
+#include "src/base/printable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace barchan {
+
+namespace {
+
+unsigned char byte(char c) { return static_cast<unsigned char>(c); }
+
+/// Length of the UTF-8 character at the start of `text`; 0 if there is none. Overlong forms and
+/// surrogates do not matter here: a terminal shows a mark for them.
+std::size_t character_length(std::string_view text) {
+  const unsigned char lead = byte(text.front());
+  const std::size_t length = lead < 0x80                    ? 1
+                             : lead >= 0xc2 && lead < 0xe0  ? 2
+                             : lead >= 0xe0 && lead < 0xf0  ? 3
+                             : lead >= 0xf0 && lead <= 0xf4 ? 4
+                                                            : 0;
+  if (length == 0 || length > text.size()) return 0;
+  const auto continues = [](char c) { return (byte(c) & 0xc0) == 0x80; };
+  const auto rest = text.substr(1, length - 1);
+  return std::all_of(rest.begin(), rest.end(), continues) ? length : 0;
+}
+
+/// C1 control characters, U+0080 to U+009F, are two bytes in UTF-8.
+bool is_control(std::string_view character) {
+  const unsigned char lead = byte(character.front());
+  if (character.size() == 2) return lead == 0xc2 && byte(character[1]) < 0xa0;
+  return character.size() == 1 && (lead < 0x20 || lead == 0x7f);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
+  std::string shown;
+  while (!text.empty()) {
+    if (shown.size() >= longest) return shown + "...";
+    const std::size_t length = character_length(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+    if (length > 0 && !is_control(character)) {
+      shown += character;
+    } else if (character == "\n" || character == "\t" || character == "\r") {
+      shown += character == "\n" ? "\\n" : character == "\t" ? "\\t" : "\\r";
+    } else {
+      for (const char c : character) shown += fmt::format("\\x{:02x}", byte(c));
+    }
+    text.remove_prefix(character.size());
+  }
+  return shown;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    shown += printable(text.substr(begin, end - begin));
+    if (end < text.size()) shown += '\n';
+    begin = end + 1;
+  }
+  return shown;
+}
+
+}  // namespace barchan

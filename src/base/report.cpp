@@ -1,0 +1,167 @@
+#include "src/base/report.hpp"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+namespace barchan {
+
+namespace {
+
+/// The terminal knows at most one live line; log lines go above it.
+struct State {
+  bool quiet = false, silent = false;
+  bool live = false;  // a live line is on the screen, its end not yet written
+  std::unique_ptr<spdlog::logger> log;
+};
+
+State& state() {
+  static State the_state;
+  return the_state;
+}
+
+constexpr const char* clear_line = "\r\033[K";
+
+void print(std::FILE* stream, std::string_view text) {
+  if (state().live) std::fputs(clear_line, stdout);
+  state().live = false;
+  std::fflush(stdout);  // keeps the two streams in order
+  fmt::print(stream, "{}\n", text);
+  std::fflush(stream);
+}
+
+/// Cut to the width of the terminal: a wrapped line could not be written over.
+void show_live(std::string_view text) {
+  winsize window{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1) {
+    text = text.substr(0, window.ws_col - 1U);
+  }
+  fmt::print(stdout, "{}{}", clear_line, text);
+  std::fflush(stdout);
+  state().live = true;
+}
+
+std::string si_rate(double rate) {
+  if (rate >= 1e9) return fmt::format("{:.2f} G", rate / 1e9);
+  if (rate >= 1e6) return fmt::format("{:.2f} M", rate / 1e6);
+  return fmt::format("{:.1f} k", rate / 1e3);
+}
+
+constexpr auto live_interval = std::chrono::milliseconds(250);
+
+}  // namespace
+
+namespace report {
+
+void start(bool quiet, int rank) {
+  state().quiet = quiet;
+  state().silent = rank != 0;
+}
+
+void log_to(const std::filesystem::path& file, bool append) {
+  if (state().silent) return;
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), !append);
+    state().log = std::make_unique<spdlog::logger>("barchan", std::move(sink));
+  } catch (const spdlog::spdlog_ex& error) {
+    throw std::runtime_error("cannot write " + file.string() + ": " + error.what());
+  }
+  state().log->set_pattern("%v");
+  state().log->flush_on(spdlog::level::trace);
+  // A full disk is reported by the results themselves; the log must not stop or clutter the run.
+  state().log->set_error_handler([](const std::string&) {});
+}
+
+void stop_log() { state().log.reset(); }
+
+void line(Level level, std::string_view text) {
+  if (state().silent) return;
+  const std::string marked = level == Level::warning ? fmt::format("warning: {}", text)
+                             : level == Level::error ? fmt::format("error: {}", text)
+                                                     : std::string(text);
+  if (level != Level::info) {
+    print(stderr, marked);
+  } else if (!state().quiet) {
+    print(stdout, marked);
+  }
+  if (state().log) state().log->info("{}", marked);
+}
+
+}  // namespace report
+
+std::string format_duration(double seconds) {
+  if (!(seconds >= 0) || seconds > 1e9) return "?";
+  const auto s = static_cast<std::int64_t>(std::llround(seconds));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  if (s < 86400) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+  return fmt::format("{} d {:02} h", s / 86400, s % 86400 / 3600);
+}
+
+std::string format_progress(const Progress& p, double eta_seconds) {
+  const double percent = p.t_end > 0 ? 100.0 * p.t / p.t_end : 0.0;
+  std::string text = fmt::format("t {:.4g} s  {:.1f} %", p.t, percent);
+  if (eta_seconds >= 0) text += "  left " + format_duration(eta_seconds);
+  if (p.grain_steps_per_second > 0) {
+    text += fmt::format("  {} grain-steps/s", si_rate(p.grain_steps_per_second));
+  }
+  if (p.cell_steps_per_second > 0) {
+    text += fmt::format("  {} cell-steps/s  CFL {:.3f}  p-it {:.1f}",
+                        si_rate(p.cell_steps_per_second), p.cfl, p.pressure_iterations);
+  }
+  if (p.n_grains > 0) text += fmt::format("  grains {}", p.n_grains);
+  if (p.dune_width && p.dune_length) {
+    text += fmt::format("  W {:.1f} mm  L {:.1f} mm", 1e3 * *p.dune_width, 1e3 * *p.dune_length);
+  }
+  return text;
+}
+
+ProgressLine::ProgressLine(std::chrono::milliseconds plain_interval)
+    : plain_interval_(plain_interval),
+      start_(Clock::now()),
+      last_live_(start_),
+      last_plain_(start_),
+      terminal_(isatty(STDOUT_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() { finish(); }
+
+bool ProgressLine::due() const {
+  if (state().silent) return false;
+  const auto now = Clock::now();
+  if (now - last_plain_ >= plain_interval_) return true;
+  return terminal_ && !state().quiet && now - last_live_ >= live_interval;
+}
+
+void ProgressLine::update(const Progress& progress) {
+  if (!due()) return;
+  const auto now = Clock::now();
+  const double wall = std::chrono::duration<double>(now - start_).count();
+  const double done = progress.t - progress.t_start;
+  const double eta = done > 0 ? wall * std::max(0.0, progress.t_end - progress.t) / done : -1.0;
+  const std::string text = format_progress(progress, eta);
+  if (now - last_plain_ >= plain_interval_) {
+    last_plain_ = now;
+    if (!terminal_ && !state().quiet) print(stdout, text);
+    if (state().log) state().log->info("{}", text);
+  }
+  if (terminal_ && !state().quiet) {
+    last_live_ = now;
+    show_live(text);
+  }
+}
+
+void ProgressLine::finish() {
+  if (!state().live) return;
+  fmt::print(stdout, "\n");
+  std::fflush(stdout);
+  state().live = false;
+}
+
+}  // namespace barchan

@@ -1,0 +1,40 @@
+// Wall time by phase of the step.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+using WallClock = std::chrono::steady_clock;
+
+inline double seconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+/// Seconds by phase since the run began.
+using Phases = std::map<std::string, double>;
+
+/// Adds the time of its own life to one phase; also a region for Kokkos' profiling tools.
+class PhaseTimer {
+ public:
+  PhaseTimer(Phases& phases, const char* name) : seconds_(phases[name]) {
+    Kokkos::Profiling::pushRegion(name);
+  }
+  ~PhaseTimer() {
+    Kokkos::fence("end of a phase: its kernels count as its own");
+    Kokkos::Profiling::popRegion();
+    seconds_ += seconds_since(start_);
+  }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  double& seconds_;
+  WallClock::time_point start_ = WallClock::now();
+};
+
+}  // namespace barchan

@@ -1,0 +1,207 @@
+// The configuration as a typed tree. Defaults live here and nowhere else; SI units throughout.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace barchan {
+
+enum class Turbulence { none, wale };
+enum class WallFlow { no_slip, free_slip };
+enum class CoulombLimit { total, elastic };  // normal force that limits friction
+enum class RollingModel { none, epsd2, theta_m, cdt };
+enum class ContactModel { hertz_mindlin, linear };
+enum class GrainBoundaryX { exit, periodic, wall };
+enum class GrainBoundaryZ { periodic, wall };
+enum class DragLaw {
+  gidaspow,
+  di_felice,
+  koch_hill,
+  syamlal_obrien,
+  beetstra,
+  paper_repaired,
+  none
+};
+enum class VoidFraction { divided, cfdem_faithful, centre };
+enum class Preconditioner { fft, local_fft, jacobi, none };
+
+/// [time]
+struct TimeConfig {
+  double end = 0;               // [s], required
+  double fluid_step = 2.5e-4;   // [s]; without [fluid] the interval between checks and output
+  double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
+  double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
+
+  bool operator==(const TimeConfig&) const = default;
+};
+
+/// [fluid]
+struct FluidConfig {
+  std::array<int, 3> cells{};                    // nx, ny, nz, required
+  double first_cell_height = 0;                  // [m]; 0: uniform in y
+  double density = 1000;                         // [kg/m^3]
+  double kinematic_viscosity = 1e-6;             // [m^2/s]
+  double mean_velocity = 0;                      // [m/s], held by a body force
+  std::optional<double> pressure_gradient = {};  // [Pa/m], instead of mean_velocity
+  double ramp_time = 0;  // [s] over which mean_velocity is brought up from its start
+  Turbulence turbulence = Turbulence::wale;
+  double wale_constant = 0.325;
+  WallFlow bottom = WallFlow::no_slip;
+  WallFlow top = WallFlow::free_slip;
+  double top_velocity = 0;  // [m/s] along x, of a no-slip top: a lid that drags the flow
+
+  bool operator==(const FluidConfig&) const = default;
+};
+
+/// [grains] material; [grains.wall] overrides what it names.
+struct Material {
+  double youngs_modulus = 5e6;  // [Pa]
+  double poisson_ratio = 0.45;
+  double restitution = 0.1;
+  double sliding_friction = 0.6;
+  double rolling_friction = 0.0;
+
+  bool operator==(const Material&) const = default;
+};
+
+struct SizeClass {
+  double diameter = 0;  // [m]
+  std::int64_t count = 0;
+
+  bool operator==(const SizeClass&) const = default;
+};
+
+/// [grains.ambient]: still fluid around the grains of a run without [fluid]
+/// (buoyancy, Schiller-Naumann drag, added mass).
+struct AmbientConfig {
+  double density = 1000;              // [kg/m^3]
+  double kinematic_viscosity = 1e-6;  // [m^2/s]
+
+  bool operator==(const AmbientConfig&) const = default;
+};
+
+/// [grains]
+struct GrainConfig {
+  double density = 2500;  // [kg/m^3]
+  Material material;      // keys directly in [grains]
+  Material wall;          // [grains.wall], defaults to `material`
+  CoulombLimit coulomb_limit = CoulombLimit::total;
+  RollingModel rolling_model = RollingModel::epsd2;
+  double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)
+  ContactModel contact_model = ContactModel::hertz_mindlin;
+  double linear_stiffness = 0;   // [N/m], contact_model = "linear" only, then required
+  std::vector<SizeClass> sizes;  // for `pour`; otherwise the initial file decides
+  bool frozen = false;
+  GrainBoundaryX boundary_x = GrainBoundaryX::exit;
+  GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
+  std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
+  double skin = 4e-5;                          // [m], Verlet skin
+  double max_overlap =
+      0.1;  // of a pair's mean diameter, of a grain's in a wall; more stops the run
+  std::optional<AmbientConfig> ambient = {};
+
+  bool operator==(const GrainConfig&) const = default;
+};
+
+struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stress", "added_mass",
+                        // "buoyancy"]
+  bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
+
+  bool operator==(const ForceSwitches&) const = default;
+};
+
+/// [coupling]
+struct CouplingConfig {
+  DragLaw drag = DragLaw::gidaspow;
+  VoidFraction void_fraction = VoidFraction::divided;
+  double smoothing_length = 6e-4;  // [m], 3 d in the paper; 0: off
+  bool alpha_time_derivative = true;
+  bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison
+  ForceSwitches forces;
+
+  bool operator==(const CouplingConfig&) const = default;
+};
+
+/// [initial] grains = { pour = {...} }: a jittered lattice cone above the floor that settles.
+struct PourConfig {
+  std::array<double, 2> centre{0.04, 0.05};  // x, z [m]
+  double radius = 0;                         // of the unrelaxed cone's foot [m], required
+  double drop_height = 0;                    // lowest grain above the floor [m]
+  std::uint64_t seed = 1;
+
+  bool operator==(const PourConfig&) const = default;
+};
+
+/// [initial]
+struct InitialConfig {
+  std::string fluid = "still";  // "still", "turbulent", a .h5 or a .toml (path resolved)
+  std::string grains;           // a .csv, .h5 or .toml (path resolved); empty with `pour`
+  std::optional<PourConfig> pour = {};
+  std::uint64_t seed = 1;  // of the perturbation of "turbulent"
+
+  bool operator==(const InitialConfig&) const = default;
+};
+
+/// [output], intervals in simulated seconds; 0 turns a file off.
+struct OutputConfig {
+  double history_interval = 0.01;
+  double dune_interval = 0.05;
+  double grains_interval = 0.1;
+  double fields_interval = 0.5;
+  double tracks_interval = 0;  // ids and positions alone, in tracks.h5
+  bool grain_forces = false;   // each force separately in grains.h5
+
+  bool operator==(const OutputConfig&) const = default;
+};
+
+/// [restart]
+struct RestartConfig {
+  double interval = 0;         // simulated seconds, 0: off
+  double wall_interval = 600;  // wall seconds, 0: off
+  int keep = 2;
+
+  bool operator==(const RestartConfig&) const = default;
+};
+
+/// [statistics]: averages over time; those over planes always. Off without the section.
+struct StatisticsConfig {
+  double start = 0;           // [s], required
+  double interval = 0.01;     // between samples [s]
+  bool fields = false;        // means and second moments of the flow in every cell
+  bool grain_forces = false;  // resultant force on the grains in polar bins around the main dune
+
+  bool operator==(const StatisticsConfig&) const = default;
+};
+
+/// [solver]
+struct SolverConfig {
+  double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
+  int max_iterations = 200;
+  int correctors = 1;  // pressure corrections per step
+  Preconditioner preconditioner = Preconditioner::local_fft;
+
+  bool operator==(const SolverConfig&) const = default;
+};
+
+struct Config {
+  std::filesystem::path file;  // where it came from
+  std::string title;           // [case] title
+  TimeConfig time;
+  std::array<double, 3> size{};  // [domain] size = [Lx, Ly, Lz] [m]
+  std::optional<FluidConfig> fluid;
+  std::optional<GrainConfig> grains;
+  CouplingConfig coupling;
+  InitialConfig initial;
+  OutputConfig output;
+  RestartConfig restart;
+  SolverConfig solver;
+  std::optional<StatisticsConfig> statistics = {};
+
+  bool operator==(const Config&) const = default;
+};
+
+}  // namespace barchan

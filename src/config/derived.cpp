@@ -1,0 +1,250 @@
+#include "src/config/derived.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "src/config/mesh.hpp"
+
+namespace barchan {
+namespace {
+
+/// Smallest whole number >= x, forgiving what division of decimal steps leaves
+/// (100.00000000000001).
+double ceil_tolerant(double x) { return std::ceil(x - 1e-9 * std::max(1.0, x)); }
+
+// Bytes of a cell: the state's 13 numbers, about 30 of work space and two complex transforms.
+constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
+// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
+// gathered in.
+constexpr double bytes_per_grain = 1000;
+
+double gravity_of(const GrainConfig& grains) {
+  const auto& g = grains.gravity;
+  return std::hypot(g[0], g[1], g[2]);
+}
+
+FluidNumbers derive_fluid(const Config& config) {
+  const FluidConfig& fluid = *config.fluid;
+  const double nu = fluid.kinematic_viscosity;
+  FluidNumbers n;
+  const auto& cells = fluid.cells;
+  n.cells = std::int64_t{cells[0]} * cells[1] * cells[2];
+  n.dx = config.size[0] / cells[0];
+  n.dz = config.size[2] / cells[2];
+  n.stretching = stretching_ratio(config.size[1], cells[1], fluid.first_cell_height);
+  const auto faces = stretched_faces(config.size[1], cells[1], fluid.first_cell_height);
+  n.dy_first = faces[1];
+  n.dy_last = faces[faces.size() - 1] - faces[faces.size() - 2];
+  const int walls = (fluid.bottom == WallFlow::no_slip) + (fluid.top == WallFlow::no_slip);
+  n.delta = walls == 0 ? 0 : config.size[1] / walls;
+  if (fluid.pressure_gradient) {
+    n.pressure_gradient = *fluid.pressure_gradient;
+    n.u_star = std::sqrt(std::abs(n.pressure_gradient) * n.delta / fluid.density);
+    n.bulk_velocity = bulk_velocity_of(n.u_star, n.delta, nu);
+  } else {
+    n.bulk_velocity = fluid.mean_velocity;
+    n.u_star = friction_velocity(n.bulk_velocity, n.delta, nu);
+    if (n.delta > 0) n.pressure_gradient = fluid.density * n.u_star * n.u_star / n.delta;
+  }
+  if (nu > 0) {
+    n.reynolds = 2 * n.delta * n.bulk_velocity / nu;
+    n.reynolds_tau = n.u_star * n.delta / nu;
+    n.y1_plus = 0.5 * n.dy_first * n.u_star / nu;
+    n.dx_plus = n.dx * n.u_star / nu;
+    n.dz_plus = n.dz * n.u_star / nu;
+  }
+  n.cfl = 1.15 * n.bulk_velocity * config.time.fluid_step / n.dx;
+  n.viscous_number = 4 * nu * config.time.fluid_step *
+                     (1 / (n.dx * n.dx) + 1 / (n.dy_first * n.dy_first) + 1 / (n.dz * n.dz));
+  return n;
+}
+
+/// Threshold of motion as a Shields number: Soulsby & Whitehouse (1997).
+double soulsby_threshold(double diameter, double submerged, double gravity, double viscosity) {
+  const double size = diameter * std::cbrt(submerged * gravity / (viscosity * viscosity));
+  return 0.30 / (1 + 1.2 * size) + 0.055 * (1 - std::exp(-0.020 * size));
+}
+
+GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& sizes,
+                           const std::optional<FluidNumbers>& flow) {
+  const GrainConfig& grains = *config.grains;
+  GrainNumbers n;
+  n.d_min = n.d_max = sizes.front().diameter;
+  double total = 0;
+  for (const SizeClass& size : sizes) {
+    const auto count = static_cast<double>(size.count);
+    n.count += size.count;
+    n.d_min = std::min(n.d_min, size.diameter);
+    n.d_max = std::max(n.d_max, size.diameter);
+    total += count * size.diameter;
+    n.solid_volume += count * std::numbers::pi / 6 * std::pow(size.diameter, 3);
+  }
+  n.d_mean = total / static_cast<double>(n.count);
+  n.rayleigh_min = rayleigh_time(n.d_min, grains.density, grains.material);
+  n.rayleigh_mean = rayleigh_time(n.d_mean, grains.density, grains.material);
+  n.fraction_min = true_grain_step(config.time) / n.rayleigh_min;
+  n.fraction_mean = true_grain_step(config.time) / n.rayleigh_mean;
+  const double liquid = config.fluid     ? config.fluid->density
+                        : grains.ambient ? grains.ambient->density
+                                         : 0;
+  const double nu = config.fluid     ? config.fluid->kinematic_viscosity
+                    : grains.ambient ? grains.ambient->kinematic_viscosity
+                                     : 0;
+  const double gravity = gravity_of(grains);
+  if (liquid > 0 && nu > 0 && grains.density > liquid) {
+    n.fall_velocity = settling_velocity(n.d_mean, grains.density / liquid, nu, gravity);
+    const double submerged = grains.density / liquid - 1;
+    if (flow && flow->u_star > 0 && gravity > 0) {
+      n.shields = flow->u_star * flow->u_star / (submerged * gravity * n.d_mean);
+      n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);
+    }
+  }
+  if (flow) n.cell_ratio = std::min({flow->dx, flow->dy_first, flow->dz}) / n.d_mean;
+  return n;
+}
+
+}  // namespace
+
+std::int64_t fluid_steps(const TimeConfig& time) {
+  return static_cast<std::int64_t>(std::min(9e18, ceil_tolerant(time.end / time.fluid_step)));
+}
+
+int grain_substeps(const TimeConfig& time) {
+  const double steps = ceil_tolerant(time.fluid_step / time.grain_step);
+  return static_cast<int>(std::clamp(steps, 1.0, 2e9));
+}
+
+double true_grain_step(const TimeConfig& time) { return time.fluid_step / grain_substeps(time); }
+
+double rayleigh_time(double diameter, double density, const Material& material) {
+  const double s = material.poisson_ratio;
+  const double shear_modulus = material.youngs_modulus / (2 * (1 + s));
+  return std::numbers::pi * 0.5 * diameter * std::sqrt(density / shear_modulus) /
+         (0.1631 * s + 0.8766);
+}
+
+double friction_velocity(double bulk_velocity, double delta, double viscosity) {
+  const double speed = std::abs(bulk_velocity);
+  if (speed == 0 || viscosity == 0 || delta == 0) return 0;
+  const double reynolds = 2 * delta * speed / viscosity;
+  const double friction = std::max(0.073 * std::pow(reynolds, -0.25), 12 / reynolds);
+  return speed * std::sqrt(0.5 * friction);
+}
+
+double bulk_velocity_of(double u_star, double delta, double viscosity) {
+  if (u_star == 0 || viscosity == 0 || delta == 0) return 0;
+  // Each law of friction alone; friction_velocity takes the larger u*, so U is the smaller.
+  const double dean =
+      std::pow(u_star * u_star / 0.0365 * std::pow(2 * delta / viscosity, 0.25), 4.0 / 7.0);
+  const double laminar = u_star * u_star * delta / (3 * viscosity);
+  return std::min(dean, laminar);
+}
+
+double settling_velocity(double diameter, double density_ratio, double viscosity, double gravity) {
+  const double stokes = (density_ratio - 1) * gravity * diameter * diameter / (18 * viscosity);
+  // v (1 + 0.15 Re^0.687) = v_Stokes; the left side grows with v.
+  double low = 0, high = stokes;
+  for (int n = 0; n < 100; ++n) {
+    const double v = 0.5 * (low + high);
+    (v * (1 + 0.15 * std::pow(v * diameter / viscosity, 0.687)) < stokes ? low : high) = v;
+  }
+  return 0.5 * (low + high);
+}
+
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes,
+               const AssumedRates& rates) {
+  Derived derived;
+  derived.fluid_steps = fluid_steps(config.time);
+  derived.grain_substeps = grain_substeps(config.time);
+  derived.grain_step = true_grain_step(config.time);
+  double seconds_per_step = 0;
+  if (config.fluid) {
+    derived.fluid = derive_fluid(config);
+    const auto cells = static_cast<double>(derived.fluid->cells);
+    derived.memory += bytes_per_cell * cells;
+    seconds_per_step += cells / rates.cell_steps_per_second;
+  }
+  if (config.grains && !sizes.empty()) {
+    derived.grains = derive_grains(config, sizes, derived.fluid);
+    const auto count = static_cast<double>(derived.grains->count);
+    derived.memory += bytes_per_grain * count;
+    if (!config.grains->frozen) {
+      seconds_per_step += count * derived.grain_substeps / rates.grain_steps_per_second;
+    }
+  }
+  derived.wall_time = seconds_per_step * static_cast<double>(derived.fluid_steps);
+  return derived;
+}
+
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+void line(std::string& text, const char* name, const std::string& value) {
+  text += fmt::format("  {:<24}{}\n", name, value);
+}
+
+void add_fluid(std::string& text, const FluidNumbers& n) {
+  line(text, "cells", fmt::format("{}", n.cells));
+  line(text, "cell size",
+       fmt::format("dx {:.4g}, dy {:.4g} to {:.4g}, dz {:.4g} mm (rows grow by {:.4f})", 1e3 * n.dx,
+                   1e3 * n.dy_first, 1e3 * n.dy_last, 1e3 * n.dz, n.stretching));
+  line(text, "bulk velocity U", fmt::format("{:.4g} m/s", n.bulk_velocity));
+  if (n.u_star > 0) {
+    line(text, "Re = 2 delta U / nu", fmt::format("{:.0f}", n.reynolds));
+    line(text, "friction velocity u*",
+         fmt::format("{:.4g} m/s expected (Dean's law; Re_tau {:.0f})", n.u_star, n.reynolds_tau));
+    line(text, "in wall units",
+         fmt::format("y1+ {:.2f}, dx+ {:.1f}, dz+ {:.1f}", n.y1_plus, n.dx_plus, n.dz_plus));
+    line(text, "driving gradient", fmt::format("{:.4g} Pa/m", n.pressure_gradient));
+  }
+  line(text, "CFL at the centreline", fmt::format("{:.3f}", n.cfl));
+  line(text, "viscous number", fmt::format("{:.2g} (stable below 1)", n.viscous_number));
+}
+
+void add_grains(std::string& text, const GrainNumbers& n) {
+  line(text, "grains",
+       fmt::format("{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min, 1e3 * n.d_max,
+                   1e3 * n.d_mean));
+  line(text, "solid volume", fmt::format("{:.4g} m^3", n.solid_volume));
+  line(text, "grain step / Rayleigh",
+       fmt::format("{:.1f} % (smallest), {:.1f} % (mean grain)", 100 * n.fraction_min,
+                   100 * n.fraction_mean));
+  if (n.fall_velocity > 0) {
+    line(text, "fall velocity", fmt::format("{:.4g} m/s (mean grain alone)", n.fall_velocity));
+  }
+  if (n.shields > 0) {
+    line(text, "Shields number",
+         fmt::format("{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)", n.shields,
+                     n.shields_threshold));
+  }
+  if (n.cell_ratio > 0) {
+    line(text, "smallest cell / grain", fmt::format("{:.2f}", n.cell_ratio));
+  }
+}
+
+}  // namespace
+
+std::string to_text(const Derived& derived) {
+  std::string text;
+  if (derived.fluid) add_fluid(text, *derived.fluid);
+  if (derived.grains) add_grains(text, *derived.grains);
+  std::string steps = fmt::format("{}", derived.fluid_steps);
+  if (derived.grains) {
+    steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,
+                         derived.grain_substeps == 1 ? "" : "s", derived.grain_step);
+  }
+  line(text, "steps", steps);
+  line(text, "memory", fmt::format("about {:.0f} MB", std::max(1.0, derived.memory / 1e6)));
+  line(text, "wall time", fmt::format("about {} (two CPU cores)", duration(derived.wall_time)));
+  return text;
+}
+
+}  // namespace barchan

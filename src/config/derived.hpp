@@ -1,0 +1,85 @@
+// Numbers that follow from a configuration: what `check` prints and the cross-checks rest on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/config/config.hpp"
+
+namespace barchan {
+
+/// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
+std::int64_t fluid_steps(const TimeConfig& time);
+/// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.
+int grain_substeps(const TimeConfig& time);
+/// The grain step really taken, fluid_step / grain_substeps [s].
+double true_grain_step(const TimeConfig& time);
+
+/// Rayleigh time [s] of a sphere: pi r sqrt(rho/G) / (0.1631 s + 0.8766), G = E / (2 (1 + s)),
+/// the time a surface wave takes over it. Li, Xu & Thornton (2005).
+double rayleigh_time(double diameter, double density, const Material& material);
+
+/// Friction velocity [m/s] of channel flow at bulk velocity U: u* = U sqrt(Cf / 2) with Dean's
+/// (1978) Cf = 0.073 (2 delta U / nu)^(-1/4), or the laminar 12 / (2 delta U / nu) where larger.
+/// `delta` [m] from the wall to the free surface or the middle. 0 for U = 0 or nu = 0.
+double friction_velocity(double bulk_velocity, double delta, double viscosity);
+/// The bulk velocity [m/s] of a given friction velocity: the inverse of the above.
+double bulk_velocity_of(double u_star, double delta, double viscosity);
+
+/// Fall velocity [m/s] of a lone sphere under Schiller & Naumann's drag.
+double settling_velocity(double diameter, double density_ratio, double viscosity, double gravity);
+
+struct FluidNumbers {
+  std::int64_t cells = 0;
+  double dx = 0, dz = 0, dy_first = 0, dy_last = 0;  // [m]
+  double stretching = 1;                             // ratio of neighbouring rows
+  double bulk_velocity = 0;                          // [m/s]; of a pressure gradient: expected
+  double delta = 0;         // [m], from a wall to the free surface or the middle; 0: no wall
+  double reynolds = 0;      // 2 delta U / nu
+  double u_star = 0;        // [m/s] expected
+  double reynolds_tau = 0;  // u* delta / nu
+  double y1_plus = 0;       // height of the first cell centre in nu / u*
+  double dx_plus = 0, dz_plus = 0;
+  double pressure_gradient = 0;  // [Pa/m], rho u*^2 / delta or the one given
+  double cfl = 0;                // 1.15 U dt / dx, the mean flow at the centreline
+  double viscous_number = 0;     // 4 nu dt (1/dx^2 + 1/dy^2 + 1/dz^2), first row
+};
+
+struct GrainNumbers {
+  std::int64_t count = 0;
+  double d_min = 0, d_mean = 0, d_max = 0;     // [m]; mean by number
+  double solid_volume = 0;                     // [m^3]
+  double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
+  double fraction_min = 0, fraction_mean = 0;  // grain step over these
+  double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
+  double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
+  double shields_threshold = 0;                // Soulsby & Whitehouse
+  double cell_ratio = 0;  // smallest cell length over the mean diameter; 0 without cells
+};
+
+/// Assumed speed of the machine, for estimates only.
+struct AssumedRates {
+  double cell_steps_per_second = 5e6;
+  double grain_steps_per_second = 1.5e7;
+};
+
+struct Derived {
+  std::int64_t fluid_steps = 0;
+  int grain_substeps = 1;
+  double grain_step = 0;  // [s], the one really taken
+  std::optional<FluidNumbers> fluid;
+  std::optional<GrainNumbers> grains;  // absent too when no sizes are known
+  double memory = 0;                   // [bytes], estimate
+  double wall_time = 0;                // [s], estimate from the assumed rates
+};
+
+/// `sizes` as from known_sizes; may be empty. `config` must have passed validate.
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes,
+               const AssumedRates& rates = {});
+
+/// The numbers in lines for a terminal, each ending in a newline.
+std::string to_text(const Derived& derived);
+
+}  // namespace barchan

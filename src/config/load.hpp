@@ -1,0 +1,44 @@
+// From a TOML file to a Config, or to all that is wrong with it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/base/errors.hpp"
+#include "src/config/config.hpp"
+
+namespace barchan {
+
+/// All problems of a configuration. `lines`: one per problem, by line of the file, then
+/// "N problems; nothing was run."; what() is the same as one text. Leads to exit code 2.
+class ConfigError : public InputError {
+ public:
+  explicit ConfigError(std::vector<std::string> lines);
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+/// Reads and validates a case. `overrides`: "key=value" as after --set, applied in order before
+/// anything is checked; paths in them too are relative to the folder of the file. A case that this
+/// one starts from ([initial], a .toml) is checked along with it, as it stands in its own file.
+/// Throws ConfigError.
+Config load_config(const std::filesystem::path& file,
+                   const std::vector<std::string>& overrides = {});
+
+/// The same for a text, as if it stood in `file` (which need not exist).
+Config load_config_text(std::string_view text, const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides = {});
+
+/// The configuration that a result file carries, its keys read as far as they can be: neither
+/// checked nor followed to the files it names, which may be gone.
+Config config_as_written(std::string_view resolved, const std::filesystem::path& file);
+
+/// The size classes of the grains: grains.sizes or, when empty, those of the case that
+/// initial.grains names; empty when a .csv or .h5 decides. Throws ConfigError.
+std::vector<SizeClass> known_sizes(const Config& config);
+
+}  // namespace barchan

@@ -1,0 +1,327 @@
+#include "src/coupling/coupling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/config/load.hpp"
+#include "src/parallel/particle_exchange.hpp"
+
+namespace barchan {
+
+namespace {
+
+DragModel make_drag(const Config& config, const GrainState& grains) {
+  switch (config.coupling.drag) {
+    case DragLaw::gidaspow:
+      return Gidaspow{};
+    case DragLaw::di_felice:
+      return DiFelice{};
+    case DragLaw::koch_hill:
+      return KochHill{};
+    case DragLaw::syamlal_obrien:
+      return SyamlalOBrien{};
+    case DragLaw::paper_repaired:
+      return PaperRepaired{};
+    case DragLaw::none:
+      return NoDrag{};
+    case DragLaw::beetstra:
+      break;
+  }
+  return Beetstra{.d_mean = grains.sauter_diameter};
+}
+
+PointSet point_set(VoidFraction v) {
+  switch (v) {
+    case VoidFraction::centre:
+      return PointSet::centre;
+    case VoidFraction::cfdem_faithful:
+      return PointSet::cfdem;
+    case VoidFraction::divided:
+      break;
+  }
+  return PointSet::divided;
+}
+
+FaceVector face_vector(const char* label, const Grid& grid) {
+  return {Field(label, grid), Field(label, grid), Field(label, grid)};
+}
+
+constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
+
+}  // namespace
+
+DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
+  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  DepositStencil stencil =
+      deposit_stencil_in(grid, point_set(config.coupling.void_fraction), periodic_x);
+  if (!grid.ranks) return stencil;
+  const Real reach = kOuterShell * r_max;
+  if (reach > std::min(grid.dx, grid.dz)) {
+    throw ConfigError({fmt::format(
+        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
+        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
+        grid.dx, grid.dz, r_max)});
+  }
+  const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
+  if (along_x.count > 1) {
+    stencil.wrap_x = false;
+    if (periodic_x || along_x.place > 0) stencil.i_low = -1;
+    if (periodic_x || along_x.place + 1 < along_x.count) stencil.i_high = grid.nx;
+  }
+  if (along_z.count > 1) {
+    stencil.wrap_z = false;
+    stencil.k_low = -1, stencil.k_high = grid.nz;
+  }
+  return stencil;
+}
+
+Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
+                   const Grid& grid)
+    : config_(config.coupling),
+      forces_{.drag = config.coupling.forces.drag ? 1.0 : 0.0,
+              .pressure_gradient = config.coupling.forces.pressure_gradient ? 1.0 : 0.0,
+              .stress = config.coupling.forces.stress ? 1.0 : 0.0,
+              .added_mass = config.coupling.forces.added_mass ? 1.0 : 0.0,
+              .buoyancy = config.coupling.forces.buoyancy ? 1.0 : 0.0},
+      drag_(make_drag(config, grains)),
+      grid_(grid),
+      boundary_(solver.boundary()),
+      smoother_(
+          make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
+      smooths_(config.coupling.smoothing_length > 0),
+      always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
+      skip_relaxation_(always_skips_relaxation_),
+      periodic_x_(config.grains->boundary_x == GrainBoundaryX::periodic),
+      stencil_(make_deposit_stencil(config, grid, grains.r_max)),
+      rims_(grid),
+      rho_f_(config.fluid->density),
+      nu_(config.fluid->kinematic_viscosity),
+      weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
+                          config.grains->gravity[2]},
+              .displaced = forces_.buoyancy * rho_f_},
+      force_(solver.idle().faces[0]),
+      convective_(solver.idle().faces[1]),
+      on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
+  const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
+  for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
+  cell_[0] = Field("coupling: cell density", grid);
+  std::copy_n(solver.idle().cells.begin(), 3, cell_ + 1);
+  deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
+  deposits_.volume =
+      fixed_point_for(static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max));
+}
+
+ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
+  return {.dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
+}
+
+CellRange Coupling::cells_around(const GrainState& grains) const {
+  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
+  Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
+                          ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
+                          Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
+  // Those of all ranks: a neighbour's grains read from the rim of this one's cells.
+  x0 = -max_over_ranks(grid_, -x0), x1 = max_over_ranks(grid_, x1);
+  z0 = -max_over_ranks(grid_, -z0), z1 = max_over_ranks(grid_, z1);
+  y1 = max_over_ranks(grid_, y1);
+  CellRange cells = owned_cells(grid_);
+  if (!(x0 <= x1)) return cells;  // no grains
+  // One more on either side for the interpolation; everything where that reaches a periodic side.
+  const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
+                         int& last) {
+    const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 2;
+    if (!(begin >= 0 && end <= n_all)) return;
+    const int n = last;
+    first = std::clamp(static_cast<int>(begin) - mine, 0, n);
+    last = std::clamp(static_cast<int>(end) - mine, first, n);
+  };
+  const Real x = grid_.x_first(), z = grid_.z_first();
+  shrink(x0 - x, x1 - x, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
+  shrink(z0 - z, z1 - z, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
+  const auto above = std::upper_bound(y_face_.begin(), y_face_.end(), y1);
+  cells.j1 = std::min(grid_.ny, static_cast<int>(above - y_face_.begin()) + 1);
+  return cells;
+}
+
+void Coupling::force_density(const FluidState& fluid, const GrainState& grains,
+                             const FluidForces& forces) {
+  const CellRange cells = cells_around(grains);
+  for_each_cell("coupling: force density", cells,
+                FluidForceDensity{.grid = grid_,
+                                  .u = fluid.u,
+                                  .p = fluid.p,
+                                  .stress = {grid_, fluid.u, fluid.nu_t, nu_},
+                                  .rho_f = rho_f_,
+                                  .drive = fluid.drive,
+                                  .forces = forces,
+                                  .force = force_,
+                                  .convective = convective_});
+  for_each_cell("coupling: force density at the walls",
+                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
+                HoldForceAtWall{force_.y, grid_.ny});
+  for (const FaceVector* f : {&force_, &convective_}) {
+    boundary_.fill(f->x, FieldKind::scalar);
+    boundary_.fill(f->y, FieldKind::scalar);
+    boundary_.fill(f->z, FieldKind::scalar);
+  }
+}
+
+void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
+  force_density(fluid, grains, forces_);
+  std::visit(
+      [&](const auto& law) {
+        Kokkos::parallel_for("coupling: gather", items(grains.n),
+                             GatherFluid{.drag = law,
+                                         .grid = grid_,
+                                         .u = fluid.u,
+                                         .force = force_,
+                                         .convective = convective_,
+                                         .alpha_f = fluid.alpha_f,
+                                         .rho_f = rho_f_,
+                                         .mu_f = rho_f_ * nu_,
+                                         .dt = dt,
+                                         .weight = weight_,
+                                         .forces = forces_,
+                                         .wrap_x = periodic_x_,
+                                         .at_once = skip_relaxation_,
+                                         .grains = grains.kin,
+                                         .on_grains = grains.fluid,
+                                         .exchange = grains.exchange});
+      },
+      drag_);
+  skip_relaxation_ = always_skips_relaxation_;
+}
+
+void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
+                            const GrainState& grains, const Kokkos::View<Vec3*>& force) {
+  force_density(fluid, grains, which);
+  const GridRef grid = grid_;
+  const FaceRef density = force_;
+  const auto kin = grains.kin;
+  const bool wrap_x = periodic_x_;
+  Kokkos::parallel_for(
+      "output: one fluid force", grains.n, KOKKOS_LAMBDA(int g) {
+        const PointStencil at(grid, kin(g).x, wrap_x);
+        force(g) = sphere_volume(kin(g).r) * interpolate_faces(density, at);
+      });
+}
+
+void Coupling::choose_scales(const GrainState& grains, Real dt) {
+  // Bounds of what one cell can receive: everything.
+  std::vector<Real> sum(6);
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
+                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
+  sum_over_ranks(grid_, sum);
+  deposits_.implicit = fixed_point_for(sum[1]);
+  deposits_.impulse = fixed_point_for(sum[2]);
+  ledger_ = ExchangeLedger{};
+  ledger_.grain_volume = sum[0];
+  ledger_.given_to_grains = {sum[3], sum[4], sum[5]};
+}
+
+void Coupling::decode(int quantity, const FixedPoint& point, const Field& density) const {
+  for_each_cell("coupling: decode deposit", grid_,
+                DecodeDeposit{.grid = grid_,
+                              .deposits = deposits_,
+                              .point = point,
+                              .quantity = quantity,
+                              .density = density});
+}
+
+void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
+  choose_scales(grains, dt);
+  Kokkos::deep_copy(deposits_.sum, 0);
+  Kokkos::parallel_for(
+      "coupling: deposit", items(grains.n),
+      DepositGrain{.stencil = stencil_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
+  rims_.add(deposits_);
+
+  std::swap(fluid.alpha_f, fluid.alpha_f_previous);
+  const Field alpha = fluid.alpha_f;
+  decode(0, deposits_.volume, alpha);
+  if (config_.void_fraction == VoidFraction::cfdem_faithful) {
+    for_each_cell(
+        "coupling: drop volume above the limit", grid_, KOKKOS_LAMBDA(int i, int j, int k) {
+          alpha(i, j, k) = Kokkos::min(alpha(i, j, k), 1 - kCfdemFloor);
+        });
+  }
+  if (smooths_) smoother_.solve(alpha, alpha);
+  const Grid grid = grid_;
+  ledger_.deposited_volume = sum_each_cell(
+      "coupling: solid fraction to fluid fraction", grid, KOKKOS_LAMBDA(int i, int j, int k) {
+        const Real solid = alpha(i, j, k);
+        alpha(i, j, k) = 1 - solid;
+        return solid * grid.cell_volume(j);
+      });
+  boundary_.fill(alpha, FieldKind::scalar);
+  if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
+    Kokkos::deep_copy(fluid.alpha_f_previous.storage, alpha.storage);
+  }
+
+  for (int q = 0; q < 4; ++q) {
+    decode(q + 1, q == 0 ? deposits_.implicit : deposits_.impulse, cell_[q]);
+    if (smooths_) smoother_.solve(cell_[q], cell_[q]);
+    boundary_.fill(cell_[q], FieldKind::scalar);
+  }
+  for_each_cell("coupling: spread to faces", grid_,
+                SpreadToFaces{.grid = grid_,
+                              .implicit = cell_[0],
+                              .impulse_x = cell_[1],
+                              .impulse_y = cell_[2],
+                              .impulse_z = cell_[3],
+                              .exchange = on_faces_});
+}
+
+void Coupling::start(const GrainState& grains, FluidState& fluid) {
+  deposit(grains, fluid, 0);
+  Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
+  skip_relaxation_ = true;
+}
+
+void Coupling::sum_faces(Real dt, const FluidState& fluid) {
+  const ExchangeOnFaces& e = on_faces_;
+  const FaceVector& rate = fluid.du_dt;
+  const auto sum = [&](const Field& impulse, const Field& implicit, const Field& du, bool y_faces,
+                       Real& taken, Real& implicit_taken) {
+    const FaceVolume volume{grid_, y_faces};
+    taken = -sum_each_cell("ledger: taken from the fluid", grid_, SumImpulse{volume, impulse});
+    implicit_taken =
+        dt * sum_each_cell("ledger: implicit drag", grid_, SumImplicit{volume, implicit, du});
+  };
+  ExchangeLedger& l = ledger_;
+  sum(e.impulse.x, e.implicit.x, rate.x, false, l.taken_from_fluid.x, l.implicit_on_fluid.x);
+  sum(e.impulse.y, e.implicit.y, rate.y, true, l.taken_from_fluid.y, l.implicit_on_fluid.y);
+  sum(e.impulse.z, e.implicit.z, rate.z, false, l.taken_from_fluid.z, l.implicit_on_fluid.z);
+}
+
+void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
+  for_each_cell("coupling: velocity change", grid_,
+                VelocityChangeOnCells{.grid = grid_,
+                                      .du_dt = fluid.du_dt,
+                                      .dt = dt,
+                                      .x = cell_[1],
+                                      .y = cell_[2],
+                                      .z = cell_[3]});
+  if (smooths_) {
+    for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
+  }
+  if (grid_.ranks) {  // grains read beyond the pencil's edge
+    for (int q = 1; q < 4; ++q) boundary_.fill(cell_[q], FieldKind::scalar);
+  }
+  std::vector<Real> total(3);
+  Kokkos::parallel_reduce("coupling: carry to grains", items(grains.n),
+                          CarryToGrain{.stencil = stencil_,
+                                       .of_grain = of_grain(grains, dt),
+                                       .x = cell_[1],
+                                       .y = cell_[2],
+                                       .z = cell_[3],
+                                       .carried_impulse = grains.exchange.carried_impulse},
+                          total[0], total[1], total[2]);
+  sum_over_ranks(grid_, total);
+  ledger_.carried_to_grains = {total[0], total[1], total[2]};
+  sum_faces(dt, fluid);
+}
+
+}  // namespace barchan

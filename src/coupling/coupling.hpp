@@ -1,0 +1,93 @@
+// Fluid and grains exchange volume and momentum once per fluid step.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "kernels/coupling/drag.hpp"
+#include "kernels/coupling/interphase.hpp"
+#include "src/config/config.hpp"
+#include "src/coupling/deposit_rims.hpp"
+#include "src/fluid/boundary.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/fluid/poisson_fft.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+using DragModel =
+    std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired, NoDrag>;
+
+/// Momentum and volume that changed sides in one fluid step, for the ledger.
+struct ExchangeLedger {
+  Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
+  Vec3 given_to_grains;                         // drag and added mass over the sub-steps [N s]
+  Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
+  Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
+  Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
+};
+
+/// How grains up to a radius of r_max [m] find their cells. Where the grid is cut, points of a
+/// grain may lie in ghosts; throws ConfigError if it could reach beyond.
+DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max);
+
+/// Unresolved coupling, model A: gather before the sub-steps, deposit after them, return after the
+/// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil
+/// (FluidSideGrains), and all ranks call every member together.
+class Coupling {
+ public:
+  Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
+           const Grid& grid);
+
+  /// Velocity, drag coefficient and steady forces of the fluid at each grain.
+  void gather(const FluidState& fluid, GrainState& grains, Real dt);
+  /// alpha_f from the grains' volume, and their exchange on the faces; the old alpha_f is kept in
+  /// alpha_f_previous.
+  void deposit(const GrainState& grains, FluidState& fluid, Real dt);
+  /// alpha_f and alpha_f_previous of grains that have just been placed.
+  void start(const GrainState& grains, FluidState& fluid);
+  /// Owes the grains what the implicit drag took from the fluid within the step.
+  void carry(const FluidState& fluid, GrainState& grains, Real dt);
+  /// The pressure gradient and stress forces that `which` keeps, on each grain now [N]; for output.
+  void single_force(const FluidForces& which, const FluidState& fluid, const GrainState& grains,
+                    const Kokkos::View<Vec3*>& force);
+
+  const ExchangeOnFaces& on_faces() const { return on_faces_; }
+  const SubmergedWeight& weight() const { return weight_; }
+  const ExchangeLedger& ledger() const { return ledger_; }
+
+ private:
+  /// The cells whose faces the grains' velocities and forces are interpolated from.
+  CellRange cells_around(const GrainState& grains) const;
+  void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
+  void choose_scales(const GrainState& grains, Real dt);
+  void decode(int quantity, const FixedPoint& point, const Field& density) const;
+  void sum_faces(Real dt, const FluidState& fluid);
+  ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
+
+  CouplingConfig config_;
+  FluidForces forces_;
+  DragModel drag_;
+  Grid grid_;
+  Boundary boundary_;
+  PoissonFft smoother_;
+  bool smooths_ = false;
+  bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
+  bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
+  bool periodic_x_ = false;
+  DepositStencil stencil_;
+  DepositRims rims_;
+  Real rho_f_ = 0, nu_ = 0;
+  SubmergedWeight weight_;
+  FaceVector force_, convective_;  // valid around the grains; room of the flow solver
+  std::vector<Real> y_face_;       // of rows 0 .. ny [m]
+  // Implicit coefficient and impulse densities, later velocity changes; all but the first are room
+  // of the flow solver.
+  Field cell_[4];
+  Deposits deposits_;
+  ExchangeOnFaces on_faces_;
+  ExchangeLedger ledger_;
+};
+
+}  // namespace barchan

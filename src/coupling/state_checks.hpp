@@ -1,0 +1,46 @@
+// Notices after each fluid step when a run has gone wrong, and says where and why.
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+#include "src/config/config.hpp"
+#include "src/coupling/coupled_step.hpp"
+
+namespace barchan {
+
+/// Limits of a sound state. They are far from what a good run shows (overlaps of some per cent, a
+/// CFL number of 0.5), and near enough to stop before results are ruined unseen.
+inline constexpr Real kMostOverlap = 0.1;      // of a pair's mean diameter, of a grain's in a wall
+inline constexpr Real kMaxDisplacement = 0.5;  // of a grain in a grain step, in radii
+inline constexpr Real kMostCourant = 1;        // of the flow
+inline constexpr Real kFractionSlack = 1e-9;   // of the fluid fraction around (0, 1]
+
+/// All ranks call every member together.
+class StateChecks {
+ public:
+  StateChecks(const Config& config, MPI_Comm ranks) : config_(config), ranks_(ranks) {}
+
+  /// Looks at the flow and the grains after a step, in one reduction over ranks. Throws StateError
+  /// when a grain or the flow is not finite, grains overlap too much, go through a wall or too
+  /// far in a grain step, alpha_f leaves (0, 1], the CFL number is beyond stability, or the
+  /// pressure equation was not solved.
+  void check(const SystemState& state, const CoupledStep& step) const;
+  /// The same of a state that a run starts from. Throws InputError: it came from `source`.
+  void check_start(const SystemState& state, const CoupledStep& step,
+                   const std::string& source) const;
+
+ private:
+  std::string grain_problem(const GrainState& grains, const CoupledStep& step,
+                            const std::vector<Real>& worst, bool at_start) const;
+  std::string flow_problem(const FluidState& fluid, const FluidStepReport& report,
+                           Real fraction_outside, bool at_start) const;
+  std::string problem_of(const SystemState& state, const CoupledStep& step, bool at_start) const;
+
+  Config config_;
+  MPI_Comm ranks_;
+};
+
+}  // namespace barchan

@@ -1,0 +1,163 @@
+#include "src/diagnostics/dune_analytics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace barchan {
+namespace {
+
+/// Least-squares slope dx/dt of (t, x) samples [m/s]; not a number for fewer than two times.
+template <class Samples>
+double slope(const Samples& samples) {
+  const auto n = static_cast<double>(samples.size());
+  double mean_t = 0.0, mean_x = 0.0, covariance = 0.0, variance = 0.0;
+  for (const auto& s : samples) {
+    mean_t += s.t / n;
+    mean_x += s.x / n;
+  }
+  for (const auto& s : samples) {
+    covariance += (s.t - mean_t) * (s.x - mean_x);
+    variance += (s.t - mean_t) * (s.t - mean_t);
+  }
+  return variance > 0.0 ? covariance / variance : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<DuneRow> DuneTracker::update(double t, const GrainCloud& grains) {
+  const auto n_grains = static_cast<std::int64_t>(grains.diameters.size());
+  std::vector<DuneRow> rows = measure_dunes(grains, domain_, criteria_);
+  if (n_initial_ < 0) n_initial_ = n_grains;
+  n_lost_ = n_initial_ - n_grains;
+  forget(t);
+
+  const std::vector<int> track_of_row = match(rows);
+  for (Track& track : tracks_) track.missed = true;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (track_of_row[i] < 0) tracks_.push_back({.label = next_label_++});
+    Track& track = track_of_row[i] < 0 ? tracks_.back() : tracks_[track_of_row[i]];
+    extend(track, t, rows[i]);
+    rows[i].t = t;
+    rows[i].dune = track.label;
+    rows[i].celerity = slope(track.samples);
+    rows[i].n_lost = n_lost_;
+  }
+  std::sort(rows.begin(), rows.end(),
+            [](const DuneRow& a, const DuneRow& b) { return a.dune < b.dune; });
+  return rows;
+}
+
+/// Drops samples that a restart will measure again, and labels out of sight for too long.
+void DuneTracker::forget(double t) {
+  for (Track& track : tracks_) {
+    while (!track.samples.empty() && track.samples.back().t >= t) track.samples.pop_back();
+  }
+  std::erase_if(tracks_, [&](const Track& track) {
+    return track.missed &&
+           (track.samples.empty() || track.samples.back().t < t - criteria_.celerity_window);
+  });
+}
+
+/// For each row the index of its track, -1 for a new dune: nearest pairs first.
+std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
+  struct Pair {
+    double distance;
+    int track, row;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double d = distance(tracks_[k], rows[i]);
+      if (d <= tracks_[k].reach) pairs.push_back({d, static_cast<int>(k), static_cast<int>(i)});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+  std::vector<int> track_of_row(rows.size(), -1);
+  std::vector<char> taken(tracks_.size(), 0);
+  for (const Pair& pair : pairs) {
+    if (taken[pair.track] || track_of_row[pair.row] >= 0) continue;
+    taken[pair.track] = 1;
+    track_of_row[pair.row] = pair.track;
+  }
+  return track_of_row;
+}
+
+double DuneTracker::distance(const Track& track, const DuneRow& row) const {
+  return std::hypot(domain_.nearest_x(row.cx - track.x), domain_.nearest_z(row.cz - track.z));
+}
+
+void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
+  double x = row.cx;
+  if (!track.samples.empty()) {
+    const double last = track.samples.back().x;
+    x = last + domain_.nearest_x(row.cx - last);
+  }
+  track.samples.push_back({t, x});
+  // The sample before the last stays even when it is older than the window. The tolerance keeps
+  // the number of samples steady when the window is a multiple of the interval.
+  const double oldest = t - criteria_.celerity_window * (1.0 + 1e-9);
+  while (track.samples.size() > 2 && track.samples.front().t < oldest) track.samples.pop_front();
+  track.missed = false;
+  track.x = row.cx;
+  track.z = row.cz;
+  track.reach = std::max(row.w, row.l);
+}
+
+std::vector<double> DuneTracker::state() const {
+  std::vector<double> numbers{static_cast<double>(n_initial_), static_cast<double>(n_lost_),
+                              static_cast<double>(next_label_),
+                              static_cast<double>(tracks_.size())};
+  for (const Track& track : tracks_) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(track.label), track.missed ? 1.0 : 0.0, track.x, track.z,
+                    track.reach, static_cast<double>(track.samples.size())});
+    for (const Sample& s : track.samples) numbers.insert(numbers.end(), {s.t, s.x});
+  }
+  return numbers;
+}
+
+void DuneTracker::set_state(std::span<const double> numbers) {
+  std::size_t position = 0;
+  const auto next = [&]() {
+    if (position >= numbers.size())
+      throw std::runtime_error("the restart file's record of the dunes is too short");
+    return numbers[position++];
+  };
+  const auto count = [&](auto largest, double least = 0) {
+    const double number = next();
+    if (!(number >= least && number <= static_cast<double>(largest))) {
+      throw std::runtime_error("the restart file's record of the dunes counts what cannot be");
+    }
+    return static_cast<decltype(largest)>(number);
+  };
+  constexpr auto most = std::int64_t{1} << 53;
+  constexpr int last_label = std::numeric_limits<int>::max();
+  DuneTracker fresh(domain_, criteria_);
+  fresh.n_initial_ = count(most, -1);  // -1: no call yet, as in a flow without grains
+  fresh.n_lost_ = count(most);
+  fresh.next_label_ = count(last_label);
+  for (auto n_tracks = count(most); n_tracks > 0; --n_tracks) {
+    Track track{.label = count(last_label), .missed = next() != 0.0};
+    track.x = next();
+    track.z = next();
+    track.reach = next();
+    for (auto n = count(most); n > 0; --n) {
+      const double t = next();
+      track.samples.push_back({t, next()});
+    }
+    if (track.samples.empty())
+      throw std::runtime_error("the restart file's record of the dunes has one without a past");
+    fresh.tracks_.push_back(track);
+  }
+  if (fresh.n_initial_ < 0 && fresh.next_label_ > 0)
+    throw std::runtime_error(
+        "the restart file's record of the dunes has some before the first look");
+  if (position != numbers.size())
+    throw std::runtime_error("the restart file's record of the dunes is too long");
+  *this = fresh;
+}
+
+}  // namespace barchan

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "src/diagnostics/dune_shape.hpp"
+
+namespace barchan {
+
+/// Measures the dunes time after time and keeps what needs memory: labels, celerity, losses.
+///
+/// A dune keeps its label by being the nearest to the last centroid (pairs are taken in order of
+/// distance, none farther than the larger of W and L), so the heavier part of a dune that splits
+/// keeps the name, and so does the heavier of two that merge; others get a new label, never one
+/// used before. A label missing twice running and for longer than the celerity window is given up.
+/// Celerity is the least-squares slope of Cx over the window, at least the last two times.
+class DuneTracker {
+ public:
+  explicit DuneTracker(const DuneDomain& domain, const DuneCriteria& criteria = {})
+      : domain_(domain), criteria_(criteria) {}
+
+  /// One row per dune, in order of label. Times must not go back further than a restart does:
+  /// samples at or after t are forgotten. The first call fixes the initial number of grains.
+  std::vector<DuneRow> update(double t, const GrainCloud& grains);
+
+  [[nodiscard]] std::int64_t n_lost() const { return n_lost_; }
+
+  /// The memory as plain numbers for restart files; set_state() restores it exactly and throws
+  /// std::runtime_error if the numbers are not from state().
+  [[nodiscard]] std::vector<double> state() const;
+  void set_state(std::span<const double> numbers);
+
+ private:
+  struct Sample {
+    double t, x;  // x without the jumps of a periodic direction
+  };
+  struct Track {
+    int label = 0;
+    bool missed = false;                   // not seen at the last time
+    double x = 0.0, z = 0.0, reach = 0.0;  // last centroid; largest distance of the next
+    std::deque<Sample> samples{};
+  };
+
+  void forget(double t);
+  [[nodiscard]] std::vector<int> match(const std::vector<DuneRow>& rows) const;
+  [[nodiscard]] double distance(const Track& track, const DuneRow& row) const;
+  void extend(Track& track, double t, const DuneRow& row) const;
+
+  DuneDomain domain_;
+  DuneCriteria criteria_;
+  std::vector<Track> tracks_;
+  int next_label_ = 0;
+  std::int64_t n_initial_ = -1, n_lost_ = 0;  // n_initial_ -1: no call yet
+};
+
+}  // namespace barchan

@@ -1,0 +1,161 @@
+#include "src/diagnostics/dune_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace barchan {
+namespace {
+
+std::uint64_t key_of(int ix, int iz) {
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32) |
+         static_cast<std::uint32_t>(iz);
+}
+
+int wrap(int i, int period) {
+  if (period == 0) return i;
+  const int r = i % period;
+  return r < 0 ? r + period : r;
+}
+
+}  // namespace
+
+HeightMap::HeightMap(const GrainCloud& grains, const DuneDomain& domain,
+                     const DuneCriteria& criteria) {
+  if (grains.centres.size() != 3 * grains.diameters.size())
+    throw std::invalid_argument("dune map: need three coordinates and one diameter per grain");
+  if (!grains.u_x.empty() && grains.u_x.size() != grains.diameters.size())
+    throw std::invalid_argument("dune map: need a velocity for each grain, or none");
+  if (!(domain.length_x > 0.0 && domain.length_z > 0.0))
+    throw std::invalid_argument("dune map: the domain has no extent");
+  if (grains.diameters.empty()) return;
+  choose_bins(grains.diameters, domain, criteria.bin);
+  fill(grains);
+  label_regions(mark_dune_bins(criteria));
+}
+
+void HeightMap::choose_bins(std::span<const double> diameters, const DuneDomain& domain,
+                            double bin_size) {
+  double sum = 0.0;
+  std::size_t n = 0;
+  for (const double d : diameters) {
+    if (!std::isfinite(d) || d <= 0.0) continue;
+    sum += d;
+    ++n;
+  }
+  if (n == 0) throw std::invalid_argument("dune map: no grain has a positive diameter");
+  mean_diameter_ = sum / static_cast<double>(n);
+  const double target = bin_size * mean_diameter_;
+  const int nx = static_cast<int>(std::clamp(domain.length_x / target, 1.0, 1e9));
+  const int nz = static_cast<int>(std::clamp(domain.length_z / target, 1.0, 1e9));
+  bin_x_ = domain.length_x / nx;
+  bin_z_ = domain.length_z / nz;
+  period_x_ = domain.periodic_x ? nx : 0;
+  period_z_ = domain.periodic_z ? nz : 0;
+}
+
+void HeightMap::fill(const GrainCloud& grains) {
+  const double bin_area = bin_x_ * bin_z_;
+  const double farthest = 1e9;  // in bins: keeps the conversion to int defined
+  bin_of_grain_.assign(grains.diameters.size(), -1);
+  for (std::size_t p = 0; p < grains.diameters.size(); ++p) {
+    const double d = grains.diameters[p];
+    const double x = grains.centres[3 * p] / bin_x_, z = grains.centres[3 * p + 2] / bin_z_;
+    const double top = grains.centres[3 * p + 1] + 0.5 * d;
+    if (!(std::abs(x) < farthest && std::abs(z) < farthest && std::isfinite(top))) continue;
+    const int ix = static_cast<int>(std::floor(x)), iz = static_cast<int>(std::floor(z));
+    const int b = find_or_add(wrap(ix, period_x_), wrap(iz, period_z_));
+    Bin& bin = bins_[b];
+    bin.cover += 0.25 * std::numbers::pi * d * d / bin_area;
+    bin.surface = std::max(bin.surface, top);
+    bin_of_grain_[p] = b;
+  }
+}
+
+int HeightMap::find_or_add(int ix, int iz) {
+  const auto [entry, is_new] = index_.try_emplace(key_of(ix, iz), static_cast<int>(bins_.size()));
+  if (is_new) bins_.push_back({.ix = ix, .iz = iz, .ux = ix, .uz = iz});
+  return entry->second;
+}
+
+HeightMap::Position HeightMap::unwrapped(const GrainCloud& grains, std::size_t p) const {
+  const Bin& bin = bins_[bin_of_grain_[p]];
+  const double x = grains.centres[3 * p], z = grains.centres[3 * p + 2];
+  return {.x = bin.ux * bin_x_ + x - std::floor(x / bin_x_) * bin_x_,
+          .z = bin.uz * bin_z_ + z - std::floor(z / bin_z_) * bin_z_};
+}
+
+std::array<HeightMap::Neighbour, 8> HeightMap::neighbours(const Bin& bin) const {
+  std::array<Neighbour, 8> result{};
+  std::size_t n = 0;
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (dx == 0 && dz == 0) continue;
+      const auto entry =
+          index_.find(key_of(wrap(bin.ix + dx, period_x_), wrap(bin.iz + dz, period_z_)));
+      result[n++] = {.bin = entry == index_.end() ? -1 : entry->second, .dx = dx, .dz = dz};
+    }
+  }
+  return result;
+}
+
+/// Core bins, and the rim grown from them breadth first, one bin per step, up to the reach.
+std::vector<char> HeightMap::mark_dune_bins(const DuneCriteria& criteria) const {
+  std::vector<char> marked(bins_.size(), 0);
+  std::vector<int> front;
+  for (std::size_t b = 0; b < bins_.size(); ++b) {
+    if (bins_[b].cover < criteria.core_cover) continue;
+    marked[b] = 1;
+    front.push_back(static_cast<int>(b));
+  }
+  const double reach = criteria.rim_reach * mean_diameter_ / std::max(bin_x_, bin_z_);
+  const int steps = static_cast<int>(std::ceil(reach));
+  for (int step = 0; step < steps && !front.empty(); ++step) {
+    std::vector<int> next;
+    for (const int b : front) {
+      for (const Neighbour& n : neighbours(bins_[b])) {
+        if (n.bin < 0 || marked[n.bin] || bins_[n.bin].cover < criteria.rim_cover) continue;
+        marked[n.bin] = 1;
+        next.push_back(n.bin);
+      }
+    }
+    front.swap(next);
+  }
+  return marked;
+}
+
+/// Connected components; each bin takes its unwrapped position from the bin it was reached from.
+void HeightMap::label_regions(const std::vector<char>& in_dune) {
+  std::vector<int> queue;
+  for (std::size_t seed = 0; seed < bins_.size(); ++seed) {
+    if (!in_dune[seed] || bins_[seed].region >= 0) continue;
+    bins_[seed].region = n_regions_;
+    queue.assign(1, static_cast<int>(seed));
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const Bin from = bins_[queue[head]];
+      for (const Neighbour& n : neighbours(from)) {
+        if (n.bin < 0 || !in_dune[n.bin] || bins_[n.bin].region >= 0) continue;
+        Bin& to = bins_[n.bin];
+        to.region = n_regions_;
+        to.ux = from.ux + n.dx;
+        to.uz = from.uz + n.dz;
+        queue.push_back(n.bin);
+      }
+    }
+    ++n_regions_;
+  }
+}
+
+double HeightMap::smoothed_surface(const Bin& bin) const {
+  std::array<double, 9> heights{bin.surface};
+  std::size_t n = 1;
+  for (const Neighbour& neighbour : neighbours(bin)) {
+    const bool same = neighbour.bin >= 0 && bins_[neighbour.bin].region == bin.region;
+    heights[n++] = same ? bins_[neighbour.bin].surface : 0.0;
+  }
+  std::nth_element(heights.begin(), heights.begin() + 4, heights.end());
+  return heights[4];
+}
+
+}  // namespace barchan

@@ -1,0 +1,214 @@
+#include "src/diagnostics/dune_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace barchan {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+double to_period(double x, double length, bool periodic) {
+  return periodic ? x - std::floor(x / length) * length : x;
+}
+
+/// An interval that starts empty.
+struct Extent {
+  double low = infinity, high = -infinity;
+  void include(double a, double b) {
+    low = std::min(low, a);
+    high = std::max(high, b);
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] double size() const { return empty() ? 0.0 : high - low; }
+};
+
+/// What is collected about one region; coordinates are unwrapped.
+struct Region {
+  DuneRow row;
+  double crest_height = 0.0;     // on the centreline
+  double crest_weight = 0.0;     // sum of weights behind crest_x
+  double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
+  double right_tip = -infinity;  // the same, z > Cz
+  int first_column = 0;          // ux of strip[0]
+  Extent x, z;                   // of all grains
+  std::vector<Extent> strip;     // in x, of the grains on the centreline, per column of bins
+};
+
+class DuneMeasurement {
+ public:
+  DuneMeasurement(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria)
+      : grains_(grains),
+        domain_(domain),
+        criteria_(criteria),
+        map_(grains, domain, criteria),
+        regions_(map_.n_regions()) {}
+
+  std::vector<DuneRow> run() {
+    sum_grains();
+    find_crests();
+    collect_outlines();
+    std::vector<DuneRow> rows;
+    for (const Region& region : regions_) {
+      if (is_dune(region)) rows.push_back(finish(region));
+    }
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] bool is_dune(const Region& region) const {
+    return region.row.n_grains >= criteria_.min_grains;
+  }
+  [[nodiscard]] Region* region_of_grain(std::size_t p) {
+    const int bin = map_.bin_of_grain()[p];
+    const int region = bin < 0 ? -1 : map_.bins()[bin].region;
+    return region < 0 ? nullptr : &regions_[region];
+  }
+  [[nodiscard]] bool in_strip(double z, const Region& region) const {
+    const double half_width = criteria_.centreline_half_width * map_.mean_diameter();
+    return std::abs(z - region.row.cz) < half_width;
+  }
+
+  /// Number, volume, centroid, extents.
+  void sum_grains() {
+    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+      Region* region = region_of_grain(p);
+      if (region == nullptr) continue;
+      const double d = grains_.diameters[p], volume = std::numbers::pi / 6.0 * d * d * d;
+      const auto [x, z] = map_.unwrapped(grains_, p);
+      DuneRow& row = region->row;
+      ++row.n_grains;
+      row.volume += volume;
+      row.cx += volume * x;
+      row.cy += volume * grains_.centres[3 * p + 1];
+      row.cz += volume * z;
+      if (!grains_.u_x.empty()) row.flux += volume * grains_.u_x[p];
+      region->x.include(x - 0.5 * d, x + 0.5 * d);
+      region->z.include(z - 0.5 * d, z + 0.5 * d);
+    }
+    std::vector<int> n_bins(regions_.size(), 0);
+    for (const HeightMap::Bin& bin : map_.bins()) {
+      if (bin.region >= 0) ++n_bins[bin.region];
+    }
+    const double bin_area = map_.bin_x() * map_.bin_z();
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      Region& region = regions_[i];
+      region.row.flux /= n_bins[i] * bin_area;
+      region.row.cx /= region.row.volume;
+      region.row.cy /= region.row.volume;
+      region.row.cz /= region.row.volume;
+    }
+  }
+
+  /// H over the region; crest_x on the centreline. The strip may miss every bin centre only when
+  /// the dune has no sand there, and crest_x then stays at Cx.
+  void find_crests() {
+    std::vector<double> surface(map_.bins().size(), 0.0);
+    for (std::size_t b = 0; b < surface.size(); ++b) {
+      const HeightMap::Bin& bin = map_.bins()[b];
+      if (bin.region < 0) continue;
+      Region& region = regions_[bin.region];
+      surface[b] = map_.smoothed_surface(bin);
+      region.row.h = std::max(region.row.h, surface[b]);
+      if (in_strip(map_.unwrapped_centre(bin).z, region))
+        region.crest_height = std::max(region.crest_height, surface[b]);
+    }
+    for (std::size_t b = 0; b < surface.size(); ++b) {
+      const HeightMap::Bin& bin = map_.bins()[b];
+      if (bin.region < 0) continue;
+      Region& region = regions_[bin.region];
+      const auto [x, z] = map_.unwrapped_centre(bin);
+      const double band = std::max(0.05 * region.crest_height, 0.5 * map_.mean_diameter());
+      const double weight = surface[b] - (region.crest_height - band);
+      if (weight <= 0.0 || !in_strip(z, region)) continue;
+      region.crest_weight += weight;
+      region.row.crest_x += weight * x;
+    }
+    for (Region& region : regions_) {
+      DuneRow& row = region.row;
+      row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.cx;
+    }
+  }
+
+  /// The strip along the centreline, and the most downstream edge on either side of it.
+  void collect_outlines() {
+    for (Region& region : regions_) {
+      region.first_column = static_cast<int>(std::floor(region.x.low / map_.bin_x())) - 1;
+      const int last = static_cast<int>(std::floor(region.x.high / map_.bin_x())) + 1;
+      region.strip.resize(last - region.first_column + 1);
+    }
+    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+      Region* region = region_of_grain(p);
+      if (region == nullptr) continue;
+      const double radius = 0.5 * grains_.diameters[p];
+      const auto [x, z] = map_.unwrapped(grains_, p);
+      if (in_strip(z, *region)) {
+        const int column = map_.bins()[map_.bin_of_grain()[p]].ux - region->first_column;
+        region->strip[column].include(x - radius, x + radius);
+      } else {
+        double& tip = z < region->row.cz ? region->left_tip : region->right_tip;
+        tip = std::max(tip, x + radius);
+      }
+    }
+  }
+
+  /// From toe to lee foot: the columns around the crest that hold sand without a gap.
+  [[nodiscard]] Extent centreline(const Region& region) const {
+    const double column = region.row.crest_x / map_.bin_x() - region.first_column;
+    const int n = static_cast<int>(region.strip.size());
+    int crest = -1;
+    for (int i = 0; i < n; ++i) {
+      if (region.strip[i].empty()) continue;
+      if (crest < 0 || std::abs(i + 0.5 - column) < std::abs(crest + 0.5 - column)) crest = i;
+    }
+    Extent line;
+    if (crest < 0) return line;
+    for (int i = crest; i >= 0 && !region.strip[i].empty(); --i)
+      line.include(region.strip[i].low, region.strip[i].high);
+    for (int i = crest; i < n && !region.strip[i].empty(); ++i)
+      line.include(region.strip[i].low, region.strip[i].high);
+    return line;
+  }
+
+  [[nodiscard]] DuneRow finish(const Region& region) const {
+    DuneRow row = region.row;
+    const Extent line = centreline(region);
+    if (line.empty()) {
+      row.l = region.x.size();
+    } else {
+      row.l = line.size();
+      row.horn_left = std::max(0.0, region.left_tip - line.high);
+      row.horn_right = std::max(0.0, region.right_tip - line.high);
+    }
+    row.w = region.z.size();
+    if (domain_.periodic_z) row.w = std::min(row.w, domain_.length_z);
+    if (domain_.periodic_x) row.l = std::min(row.l, domain_.length_x);
+    row.cx = to_period(row.cx, domain_.length_x, domain_.periodic_x);
+    row.cz = to_period(row.cz, domain_.length_z, domain_.periodic_z);
+    row.crest_x = to_period(row.crest_x, domain_.length_x, domain_.periodic_x);
+    row.celerity = not_known;
+    return row;
+  }
+
+  GrainCloud grains_;
+  DuneDomain domain_;
+  DuneCriteria criteria_;
+  HeightMap map_;
+  std::vector<Region> regions_;
+};
+
+}  // namespace
+
+std::vector<DuneRow> measure_dunes(const GrainCloud& grains, const DuneDomain& domain,
+                                   const DuneCriteria& criteria) {
+  std::vector<DuneRow> rows = DuneMeasurement(grains, domain, criteria).run();
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const DuneRow& a, const DuneRow& b) { return a.volume > b.volume; });
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].dune = static_cast<int>(i);
+  return rows;
+}
+
+}  // namespace barchan

@@ -1,0 +1,108 @@
+#include "src/diagnostics/flow_average.hpp"
+
+#include "src/output/field_file.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+struct Quantity {
+  const char *name, *units;
+};
+constexpr std::array<Quantity, n_flow_moments> quantities{{{"u", "m/s"},
+                                                           {"v", "m/s"},
+                                                           {"w", "m/s"},
+                                                           {"p", "Pa"},
+                                                           {"alpha_f", "1"},
+                                                           {"nu_t", "m^2/s"},
+                                                           {"uu", "m^2/s^2"},
+                                                           {"vv", "m^2/s^2"},
+                                                           {"ww", "m^2/s^2"},
+                                                           {"uv", "m^2/s^2"},
+                                                           {"uw", "m^2/s^2"},
+                                                           {"vw", "m^2/s^2"}}};
+
+template <std::size_t n>
+void make(std::array<Field, n>& fields, const Grid& grid) {
+  for (Field& field : fields) field = Field("flow average", grid);
+}
+
+}  // namespace
+
+FlowAverage::FlowAverage(const Grid& grid) : grid_(grid) {
+  make(sum_, grid);
+  make(first_, grid);
+}
+
+FlowSums FlowAverage::refs(const std::array<Field, n_flow_moments>& fields) const {
+  FlowSums refs;
+  for (int q = 0; q < n_flow_moments; ++q) refs[q] = FieldRef(fields[static_cast<std::size_t>(q)]);
+  return refs;
+}
+
+void FlowAverage::sample(const FluidState& fluid, double t) {
+  if (n_samples_ == 0) {
+    start_ = t;
+    for_each_cell("statistics: first velocity", grid_,
+                  CentreVelocity{fluid.u, first_[0], first_[1], first_[2]});
+  }
+  for_each_cell("statistics: flow moments", grid_,
+                AddFlowMoments{.u = fluid.u,
+                               .p = fluid.p,
+                               .alpha_f = fluid.alpha_f,
+                               .nu_t = fluid.nu_t,
+                               .sum = refs(sum_),
+                               .first_u = first_[0],
+                               .first_v = first_[1],
+                               .first_w = first_[2]});
+  ++n_samples_;
+}
+
+std::vector<NamedField> FlowAverage::means() {
+  std::vector<NamedField> named;
+  if (n_samples_ == 0) return named;
+  if (result_[0].origin == nullptr) make(result_, grid_);
+  for_each_cell("statistics: flow means", grid_,
+                FlowMeans{.sum = refs(sum_),
+                          .result = refs(result_),
+                          .first_u = first_[0],
+                          .first_v = first_[1],
+                          .first_w = first_[2],
+                          .per_sample = 1 / static_cast<double>(n_samples_)});
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    named.push_back({quantities[q].name, quantities[q].units, &result_[q]});
+  }
+  return named;
+}
+
+void FlowAverage::write(const OutputFiles& output, double t, std::int64_t step) {
+  if (n_samples_ == 0) return;
+  output.write_average(grid_, t, step, means(),
+                       {{"window_start", start_}, {"n_samples", static_cast<double>(n_samples_)}});
+}
+
+void FlowAverage::save(CheckpointWriter& file) const {
+  for (std::size_t q = 0; q < sum_.size(); ++q) {
+    save_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
+  }
+  for (std::size_t q = 0; q < first_.size(); ++q) {
+    save_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
+  }
+  file.scalar("statistics/n_field_samples", n_samples_);
+  file.scalar("statistics/window_start", start_);
+}
+
+void FlowAverage::load(const CheckpointReader& file) {
+  if (!file.has("statistics/n_field_samples")) return;
+  for (std::size_t q = 0; q < sum_.size(); ++q) {
+    load_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
+  }
+  for (std::size_t q = 0; q < first_.size(); ++q) {
+    load_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
+  }
+  n_samples_ = file.integer("statistics/n_field_samples");
+  start_ = file.real("statistics/window_start");
+}
+
+}  // namespace barchan

@@ -1,0 +1,42 @@
+// Means and second moments of the flow in every cell over a window of time (flow_average.h5).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/fluid/flow_moments.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/output/output_files.hpp"
+
+namespace barchan {
+
+class FlowAverage {
+ public:
+  explicit FlowAverage(const Grid& grid);
+
+  /// Ghosts of the flow must be valid.
+  void sample(const FluidState& fluid, double t);
+  std::int64_t n_samples() const { return n_samples_; }
+
+  /// u, v, w, p, alpha_f, nu_t and uu, vv, ww, uv, uw, vw, in this order. Nothing without samples.
+  std::vector<NamedField> means();
+  /// Replaces flow_average.h5; nothing without samples.
+  void write(const OutputFiles& output, double t, std::int64_t step);
+
+  void save(CheckpointWriter& file) const;
+  /// A restart of a run that had no averages starts them anew.
+  void load(const CheckpointReader& file);
+
+ private:
+  FlowSums refs(const std::array<Field, n_flow_moments>& fields) const;
+
+  Grid grid_;
+  std::array<Field, n_flow_moments> sum_;
+  std::array<Field, 3> first_;                // velocity at the first sample [m/s]
+  std::array<Field, n_flow_moments> result_;  // made when first asked for
+  std::int64_t n_samples_ = 0;
+  double start_ = 0;  // time of the first sample [s]
+};
+
+}  // namespace barchan

@@ -1,0 +1,115 @@
+#include "src/diagnostics/flow_statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/base/atomic_file.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/decomposition.hpp"
+
+namespace barchan {
+
+FlowStatistics::FlowStatistics(const FluidConfig& config, const Grid& grid)
+    : grid_(grid),
+      viscosity_(config.kinematic_viscosity),
+      sums_("statistics: plane sums", static_cast<std::size_t>(grid.ny) + 1),
+      all_("statistics: sums of all ranks", static_cast<std::size_t>(grid.ny) + 1) {}
+
+void FlowStatistics::sample(const FluidState& fluid) {
+  const StressDivergence stress{grid_, fluid.u, fluid.nu_t, viscosity_};
+  const PlaneSample sample{grid_, fluid.u, fluid.p, fluid.nu_t, stress};
+  Kokkos::parallel_for("statistics: plane sums", Kokkos::TeamPolicy<>(grid_.ny + 1, Kokkos::AUTO),
+                       AddPlaneMeans{sample, sums_});
+  if (grid_.ranks) add_ranks();
+  ++n_samples_;
+}
+
+/// The sample of all ranks, added to what is known so far: a restart then goes on with the same
+/// bits.
+void FlowStatistics::add_ranks() {
+  static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
+  const auto sample = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
+  MPI_Allreduce(MPI_IN_PLACE, sample.data(),
+                static_cast<int>(sample.size()) * PlaneSums::n_quantities, MPI_DOUBLE, MPI_SUM,
+                grid_.ranks->all());
+  for (std::size_t j = 0; j < sample.size(); ++j) {
+    for (int q = 0; q < PlaneSums::n_quantities; ++q) all_(j).value[q] += sample(j).value[q];
+  }
+  Kokkos::deep_copy(sums_, PlaneSums{});
+}
+
+FlowStatistics::HostSums FlowStatistics::sums() const {
+  if (grid_.ranks) return all_;
+  const HostSums sums("statistics: sums", sums_.extent(0));
+  Kokkos::deep_copy(sums, sums_);
+  return sums;
+}
+
+FlowStatisticsTable FlowStatistics::table() const {
+  using Q = PlaneSums;
+  const HostSums sum = sums();
+  const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid_.y_face_);
+  const double per_sample =
+      1 / (static_cast<double>(n_samples_) * grid_.nx_all * static_cast<double>(grid_.nz_all));
+  const auto mean = [&](int j, Q::Quantity q) {
+    return sum(static_cast<std::size_t>(j)).value[q] * per_sample;
+  };
+  const auto at_centre = [&](int j, Q::Quantity q) { return (mean(j, q) + mean(j + 1, q)) / 2; };
+  FlowStatisticsTable table;
+  table.n_samples = n_samples_;
+  table.u_star = std::sqrt(std::abs(mean(0, Q::stress)));
+  for (int j = 0; j < grid_.ny; ++j) {
+    const double u = mean(j, Q::u), w = mean(j, Q::w);
+    const auto below = static_cast<std::size_t>(j) + 1;  // the first entry is a ghost face
+    StatisticsRow row;
+    row.y = (faces(below) + faces(below + 1)) / 2;
+    row.u = u;
+    row.uu = mean(j, Q::uu) - u * u;
+    row.ww = mean(j, Q::ww) - w * w;
+    row.vv = at_centre(j, Q::vv);
+    row.uv = at_centre(j, Q::uv);  // the mean of v is zero: nothing passes the floor
+    row.viscous = at_centre(j, Q::viscous);
+    row.subgrid = at_centre(j, Q::stress) - row.viscous;
+    row.total = at_centre(j, Q::stress) - row.uv;
+    row.p = mean(j, Q::p);
+    row.nu_t = mean(j, Q::nu_t);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+void FlowStatistics::write(const std::filesystem::path& file) const {
+  if (n_samples_ == 0) return;
+  const FlowStatisticsTable t = table();
+  std::string text =
+      "y,y_plus,U,U_plus,uu,vv,ww,uv,k,viscous_stress,subgrid_stress,total_stress,p,nu_t,n_"
+      "samples\n";
+  for (const StatisticsRow& r : t.rows) {
+    text += fmt::format("{:.9g},{:.6g},{:.9g},{:.6g}", r.y, r.y * t.u_star / viscosity_, r.u,
+                        t.u_star > 0 ? r.u / t.u_star : 0.0);
+    for (const double value : {r.uu, r.vv, r.ww, r.uv, (r.uu + r.vv + r.ww) / 2, r.viscous,
+                               r.subgrid, r.total, r.p, r.nu_t}) {
+      text += fmt::format(",{:.9g}", value);
+    }
+    text += fmt::format(",{}\n", t.n_samples);
+  }
+  if (rank_of(grid_) == 0) write_atomically(file, text);
+}
+
+void FlowStatistics::save(CheckpointWriter& file) const {
+  file.array("statistics/sums", sums());
+  file.scalar("statistics/n_samples", n_samples_);
+}
+
+void FlowStatistics::load(const CheckpointReader& file) {
+  if (!file.has("statistics/n_samples")) return;
+  if (grid_.ranks) {
+    file.array("statistics/sums", all_);
+  } else {
+    file.array("statistics/sums", sums_);
+  }
+  n_samples_ = file.integer("statistics/n_samples");
+}
+
+}  // namespace barchan

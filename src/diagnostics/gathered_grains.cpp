@@ -1,0 +1,47 @@
+#include "src/diagnostics/gathered_grains.hpp"
+
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+std::vector<double> on_rank_0(MPI_Comm ranks, const std::vector<double>& mine) {
+  const int n_ranks = rank_count(ranks);
+  if (n_ranks == 1) return mine;
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(n_ranks)), starts{0};
+  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, ranks);
+  for (const int count : counts) starts.push_back(starts.back() + count);
+  std::vector<double> all;
+  if (rank_of(ranks) == 0) all.resize(static_cast<std::size_t>(starts.back()));
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
+              ranks);
+  return all;
+}
+
+GatheredGrains::GatheredGrains(const GrainState& grains) {
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  for (int g = 0; g < grains.n; ++g) {
+    const Vec3& x = kin(g).x;
+    centres_.insert(centres_.end(), {x.x, x.y, x.z});
+    diameters_.push_back(2 * kin(g).r);
+    u_x_.push_back(kin(g).u.x);
+  }
+  for (std::vector<double>* numbers : {&centres_, &diameters_, &u_x_})
+    *numbers = on_rank_0(grains.ranks, *numbers);
+}
+
+std::vector<Vec3> gathered(const GrainState& grains, const Kokkos::View<Vec3*>& of_grain) {
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, of_grain);
+  std::vector<double> numbers;
+  for (int g = 0; g < grains.n; ++g) {
+    const Vec3& v = host(g);
+    numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  }
+  numbers = on_rank_0(grains.ranks, numbers);
+  std::vector<Vec3> vectors;
+  for (std::size_t q = 0; q < numbers.size(); q += 3)
+    vectors.push_back({numbers[q], numbers[q + 1], numbers[q + 2]});
+  return vectors;
+}
+
+}  // namespace barchan

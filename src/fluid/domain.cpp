@@ -1,0 +1,64 @@
+#include "src/fluid/domain.hpp"
+
+#include <stdexcept>
+
+#include "src/config/load.hpp"
+#include "src/config/mesh.hpp"
+
+namespace barchan {
+
+Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces,
+               const Decomposition* ranks) {
+  Grid grid;
+  grid.nx = grid.nx_all = nx;
+  grid.ny = static_cast<int>(y_faces.size()) - 1;
+  grid.nz = grid.nz_all = nz;
+  grid.lx = grid.lx_all = lx;
+  grid.ly = y_faces.back() - y_faces.front();
+  grid.lz = grid.lz_all = lz;
+  grid.dx = lx / nx;
+  grid.dz = lz / nz;
+  if (ranks) {
+    grid.nx = ranks->x().count(ranks->along_x().place);
+    grid.nz = ranks->z().count(ranks->along_z().place);
+    grid.i_begin = ranks->x().begin(ranks->along_x().place);
+    grid.k_begin = ranks->z().begin(ranks->along_z().place);
+    grid.x0 = grid.i_begin * grid.dx;
+    grid.z0 = grid.k_begin * grid.dz;
+    grid.lx = grid.nx * grid.dx;
+    grid.lz = grid.nz * grid.dz;
+    grid.ranks = ranks;
+  }
+  grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);
+  grid.y_centre_ = Kokkos::View<Real*>("grid: y centres", grid.ny + 2);
+
+  const auto face = Kokkos::create_mirror_view(grid.y_face_);
+  const auto centre = Kokkos::create_mirror_view(grid.y_centre_);
+  const std::size_t last = y_faces.size() - 1;
+  for (std::size_t j = 0; j <= last; ++j) face(j + 1) = y_faces[j];
+  face(0) = 2 * y_faces[0] - y_faces[1];
+  face(last + 2) = 2 * y_faces[last] - y_faces[last - 1];
+  for (std::size_t j = 0; j < last + 2; ++j) centre(j) = 0.5 * (face(j) + face(j + 1));
+  Kokkos::deep_copy(grid.y_face_, face);
+  Kokkos::deep_copy(grid.y_centre_, centre);
+  return grid;
+}
+
+Grid make_grid(const Config& config, const Decomposition* ranks) {
+  const FluidConfig& fluid = config.fluid.value();
+  return make_grid(fluid.cells[0], fluid.cells[2], config.size[0], config.size[2],
+                   stretched_faces(config.size[1], fluid.cells[1], fluid.first_cell_height), ranks);
+}
+
+std::unique_ptr<const Decomposition> make_decomposition(const Config& config,
+                                                        MPI_Comm communicator) {
+  if (!config.fluid || rank_count(communicator) == 1) return {};
+  try {
+    const auto& cells = config.fluid->cells;
+    return std::make_unique<const Decomposition>(communicator, cells[0], cells[2]);
+  } catch (const std::runtime_error& problem) {
+    throw ConfigError({problem.what()});
+  }
+}
+
+}  // namespace barchan

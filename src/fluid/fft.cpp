@@ -1,0 +1,86 @@
+#include "src/fluid/fft.hpp"
+
+#include <array>
+
+namespace barchan {
+
+namespace {
+
+RankLine along_x(const Grid& grid) { return grid.ranks ? grid.ranks->along_x() : RankLine{}; }
+RankLine along_z(const Grid& grid) { return grid.ranks ? grid.ranks->along_z() : RankLine{}; }
+
+StridedArray inside(const Field& f) { return {f.origin, {1, f.stride_y, f.stride_z}}; }
+StridedArray array(const Spectrum& s) {
+  return contiguous(reinterpret_cast<Real*>(s.data()),
+                    {s.extent_int(0), s.extent_int(1), s.extent_int(2)});
+}
+Spectrum spectrum_of(const char* label, const std::array<int, 3>& extents) {
+  return Spectrum(label, extents[0], extents[1], extents[2]);
+}
+
+/// Lines of x where they are: in a field, or one after the other.
+RealLines lines_in_field(const Grid& grid) {
+  const Field like("fft: field", grid);
+  return {grid.nx, grid.ny, grid.nz, like.stride_y, like.stride_z};
+}
+RealLines lines_in_a_row(const std::array<int, 3>& e) {
+  return {e[0], e[1], e[2], e[0], static_cast<std::ptrdiff_t>(e[0]) * e[1]};
+}
+
+}  // namespace
+
+PlaneFft::PlaneFft(const Grid& grid)
+    : rows_(along_x(grid), {grid.nx_all, grid.ny, grid.nz}, 0, 1, 1),
+      planes_(along_z(grid), {grid.nx_all / 2 + 1, rows_.joined_extents()[1], grid.nz_all}, 2, 0,
+              2),
+      columns_(along_x(grid), {planes_.joined_extents()[0], grid.ny, grid.nz_all}, 1, 2, 2),
+      lines_(rows_.is_trivial() ? lines_in_field(grid) : lines_in_a_row(rows_.joined_extents()),
+             {grid.nz_all, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
+      first_x_(
+          Split{.n = grid.nx_all / 2 + 1, .parts = along_z(grid).count}.begin(along_z(grid).place)),
+      first_z_(Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).place)) {
+  if (!rows_.is_trivial()) {
+    const auto [nx, rows, planes] = rows_.joined_extents();
+    lines_of_x_ = Kokkos::View<Real*>("fft: lines of x", static_cast<std::size_t>(nx) *
+                                                             static_cast<std::size_t>(rows) *
+                                                             static_cast<std::size_t>(planes));
+  }
+  if (!planes_.is_trivial())
+    modes_of_rows_ = spectrum_of("fft: modes of rows", planes_.cut_extents());
+  if (!columns_.is_trivial())
+    modes_of_planes_ = spectrum_of("fft: modes of planes", planes_.joined_extents());
+  spectrum_ = make_spectrum("fft: spectrum");
+}
+
+PlaneFft::Way PlaneFft::way_to(const Spectrum& modes) const {
+  const Spectrum& planes = columns_.is_trivial() ? modes : modes_of_planes_;
+  return {planes_.is_trivial() ? planes : modes_of_rows_, planes};
+}
+
+void PlaneFft::forward(const Field& in, const Spectrum& out) const {
+  const Way way = way_to(out);
+  if (rows_.is_trivial()) {
+    lines_.forward_x(in.origin, way.rows.data());
+  } else {
+    rows_.join(inside(in), contiguous(lines_of_x_.data(), rows_.joined_extents()));
+    lines_.forward_x(lines_of_x_.data(), way.rows.data());
+  }
+  if (!planes_.is_trivial()) planes_.join(array(way.rows), array(way.planes));
+  lines_.forward_z(way.planes.data());
+  if (!columns_.is_trivial()) columns_.join(array(way.planes), array(out));
+}
+
+void PlaneFft::backward(const Spectrum& in, const Field& out) const {
+  const Way way = way_to(in);
+  if (!columns_.is_trivial()) columns_.cut(array(in), array(way.planes));
+  lines_.backward_z(way.planes.data());
+  if (!planes_.is_trivial()) planes_.cut(array(way.planes), array(way.rows));
+  if (rows_.is_trivial()) {
+    lines_.backward_x(way.rows.data(), out.origin);
+  } else {
+    lines_.backward_x(way.rows.data(), lines_of_x_.data());
+    rows_.cut(contiguous(lines_of_x_.data(), rows_.joined_extents()), inside(out));
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,98 @@
+// The fluid step: volume-averaged Navier-Stokes equations, Set II (model A).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "kernels/fluid/pressure.hpp"
+#include "src/fluid/boundary.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/fluid/pressure_solver.hpp"
+
+namespace barchan {
+
+struct FluidStepReport {
+  int pressure_iterations = 0;  // of all corrections together
+  Real pressure_residual = 0;   // of the last, relative to its right-hand side
+  // max |div(alpha u) + d(alpha)/dt| dt [-]; at least the share of the domain's volume that grains
+  // gave back by leaving: a periodic box of incompressible fluid has nowhere to take it from.
+  Real continuity_residual = 0;
+  Real courant = 0;           // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
+  Real drive = 0;             // body force per unit mass [m/s^2]
+  Real bulk_velocity = 0;     // sum(alpha u V) / sum(alpha V) after the step [m/s]
+  Real seconds_pressure = 0;  // wall time in the pressure equation
+};
+
+/// Solves, with alpha the fluid fraction and u the interstitial velocity,
+///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
+///                                    + alpha f e_x + exchange / rho,
+///   d(alpha)/dt + div(alpha u) = 0.
+/// Adams-Bashforth for convection and stress; the part of the exchange that follows the fluid
+/// velocity is implicit and diagonal, so one pressure correction projects exactly, up to the
+/// tolerance of the pressure equation; each further corrector multiplies that tolerance once more.
+class FluidSolver {
+ public:
+  FluidSolver(const Config& config, const Grid& grid);
+
+  /// One step. fluid.alpha_f holds the new fluid fraction and alpha_f_previous the old one in the
+  /// owned cells. Without exchange alpha_f must be one. On return all ghosts are valid.
+  FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+
+  /// Makes all ghosts valid, to be called after a state was set or read.
+  void fill_ghosts(const FluidState& fluid) const;
+
+  /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
+  Real friction_velocity(const FluidState& fluid) const;
+  /// sum(alpha u V) / sum(alpha V) [m/s].
+  Real bulk_velocity(const FluidState& fluid) const;
+  /// sum(rho alpha |u|^2 V) / 2 [J].
+  Real kinetic_energy(const FluidState& fluid) const;
+
+  /// What holds nothing between two calls of advance() of a solver with grains: room for others
+  /// meanwhile, so that a step takes less memory.
+  struct Idle {
+    FaceVector faces[2];
+    std::array<Field, 3> cells;  // for finite values: the solver multiplies some of them with zero
+    /// Those that may be left with any bits.
+    std::vector<Field> for_anything() const {
+      const auto& [a, b] = faces;
+      return {a.x, a.y, a.z, b.x, b.y, b.z};
+    }
+  };
+  Idle idle() const { return {{flux_, u_star_}, pressure_.idle_fields()}; }
+
+  const Boundary& boundary() const { return boundary_; }
+  const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }
+  Real density() const { return config_.density; }
+  Real viscosity() const { return config_.kinematic_viscosity; }
+
+ private:
+  void update_eddy_viscosity(const FluidState& fluid);
+  void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  void choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  void project(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  template <bool with_grains>
+  void correct(const FluidState& fluid, const ExchangeOnFaces* exchange, Real dt, Real drive_dt);
+  void add_to_report(const PressureReport& solved);
+  template <bool with_grains>
+  PressureSource<with_grains> pressure_source(const FaceVector& u, const FluidState& fluid,
+                                              Real drive_dt, Real dt) const;
+  Real target_bulk_velocity(const FluidState& fluid) const;
+
+  FluidConfig config_;
+  SolverConfig solver_;
+  Grid grid_;
+  Boundary boundary_;
+  std::shared_ptr<const PlaneFft> fft_;
+  PressureSolver pressure_;
+  FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
+  Field source_;                         // right-hand side of the pressure equation
+  Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
+  Real flow_rate_ = 0;       // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
+  Real drive_response_ = 0;  // the same of c_x dy: per unit of drive times dt
+  Real fluid_height_ = 0;    // sum of alpha dy over x-faces [m]
+  FluidStepReport report_;
+};
+
+}  // namespace barchan

@@ -1,0 +1,210 @@
+#include "src/fluid/initial_flow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "src/config/derived.hpp"
+#include "src/parallel/messages.hpp"
+
+namespace barchan {
+
+namespace {
+
+using std::numbers::pi;
+using HostArray = Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace>;
+
+constexpr double perturbation_rms = 0.1;  // over the bulk velocity
+constexpr int n_vortex_modes = 6;
+constexpr int n_wave_modes = 32;
+
+/// One Fourier mode of a vector potential: strength * cos(kx x + a) * cos(kz z + b) per component.
+struct Mode {
+  int mx = 0, mz = 0;
+  std::array<double, 3> strength{}, phase_x{}, phase_z{};
+};
+
+/// Where the walls are and how far the perturbation reaches from them.
+struct Profile {
+  double height = 0;  // [m]
+  double delta = 0;   // [m], 0 without walls
+  bool bottom = true, top = false;
+
+  /// Zero on both boundaries, where the potential must be constant, with its peak 0.2 delta from a
+  /// wall.
+  double envelope(double y) const {
+    const double edges = std::sin(pi * std::clamp(y / height, 0.0, 1.0));
+    if (delta == 0) return edges;
+    const auto near = [&](double distance) {
+      const double eta = distance / (0.2 * delta);
+      return eta * std::exp(1 - eta);
+    };
+    double sum = 0;
+    if (bottom) sum += near(y);
+    if (top) sum += near(height - y);
+    return sum * (1 - std::pow(1 - edges, 4));
+  }
+};
+
+/// size: of the whole domain [m].
+std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size,
+                             const Profile& profile, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  // Drawn by hand: the standard distributions differ between libraries.
+  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  const auto whole = [&](int low, int high) {
+    return low + std::min(static_cast<int>(uniform() * (high - low + 1)), high - low);
+  };
+  const double scale = profile.delta > 0 ? profile.delta : profile.height;
+  // Shortest waves: a delta along the flow and half of that across, but four cells.
+  const auto most = [](double length, double wave, int cells) {
+    return std::max(1, std::min(static_cast<int>(length / wave), cells / 4));
+  };
+  const double lx = size[0], lz = size[2];
+  const int most_x = most(lx, scale, grid.nx_all), most_z = most(lz, 0.5 * scale, grid.nz_all);
+  std::vector<Mode> modes;
+  for (int m = 0; m < n_vortex_modes + n_wave_modes; ++m) {
+    const bool vortex = m < n_vortex_modes;
+    Mode mode;
+    mode.mx = vortex ? 0 : whole(1, most_x);
+    mode.mz = vortex ? whole(std::max(1, most_z / 3), most_z) : whole(0, most_z);
+    const double k = 2 * pi * std::hypot(mode.mx / lx, mode.mz / lz);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double weight = vortex ? (c == 0 ? 2.0 : 0.0) : 1.0;
+      mode.strength[c] = weight * (2 * uniform() - 1) / k;
+      mode.phase_x[c] = 2 * pi * uniform();
+      mode.phase_z[c] = 2 * pi * uniform();
+    }
+    modes.push_back(mode);
+  }
+  return modes;
+}
+
+/// Component c of the potential on its edges: between faces along c, on faces across it.
+HostArray potential(int c, const Grid& grid, const std::vector<double>& y_faces,
+                    const Profile& profile, const std::vector<Mode>& modes) {
+  const int nx = grid.nx + 1, ny = grid.ny + 1, nz = grid.nz + 1;
+  HostArray psi("potential", nx, ny, nz);
+  const auto component = static_cast<std::size_t>(c);
+  std::vector<double> along_x(static_cast<std::size_t>(nx)), envelope;
+  for (int j = 0; j < ny; ++j) {
+    const auto row = static_cast<std::size_t>(j);
+    const std::size_t next = std::min(row + 1, y_faces.size() - 1);
+    const double y = c == 1 ? 0.5 * (y_faces[row] + y_faces[next]) : y_faces[row];
+    envelope.push_back(profile.envelope(y));
+  }
+  for (const Mode& mode : modes) {
+    for (int i = 0; i < nx; ++i) {
+      const double x = (grid.i_begin + i + (c == 0 ? 0.5 : 0)) / grid.nx_all;
+      along_x[static_cast<std::size_t>(i)] =
+          mode.strength[component] * std::cos(2 * pi * mode.mx * x + mode.phase_x[component]);
+    }
+    for (int k = 0; k < nz; ++k) {
+      const double z = (grid.k_begin + k + (c == 2 ? 0.5 : 0)) / grid.nz_all;
+      const double along_z = std::cos(2 * pi * mode.mz * z + mode.phase_z[component]);
+      for (int j = 0; j < ny; ++j) {
+        const double factor = along_z * envelope[static_cast<std::size_t>(j)];
+        for (int i = 0; i < nx; ++i) psi(i, j, k) += factor * along_x[static_cast<std::size_t>(i)];
+      }
+    }
+  }
+  return psi;
+}
+
+/// The discrete curl of the potential at faces; its discrete divergence vanishes to round-off.
+struct Curl {
+  HostArray x, y, z;
+  double dx, dz;
+  std::vector<double> dy;
+  double u(int i, int j, int k) const {
+    return (z(i, j + 1, k) - z(i, j, k)) / dy[static_cast<std::size_t>(j)] -
+           (y(i, j, k + 1) - y(i, j, k)) / dz;
+  }
+  double v(int i, int j, int k) const {
+    return (x(i, j, k + 1) - x(i, j, k)) / dz - (z(i + 1, j, k) - z(i, j, k)) / dx;
+  }
+  double w(int i, int j, int k) const {
+    return (y(i + 1, j, k) - y(i, j, k)) / dx -
+           (x(i, j + 1, k) - x(i, j, k)) / dy[static_cast<std::size_t>(j)];
+  }
+};
+
+std::vector<double> host_faces(const Grid& grid) {
+  const auto view = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
+  return {view.data() + 1, view.data() + 2 + grid.ny};
+}
+
+/// Mean velocity of every row [m/s], with the bulk velocity exact on the grid.
+std::vector<double> mean_profile(const FluidNumbers& numbers, const Profile& profile,
+                                 const std::vector<double>& y_faces, double viscosity) {
+  std::vector<double> mean;
+  double flow = 0;
+  for (std::size_t j = 0; j + 1 < y_faces.size(); ++j) {
+    const double y = 0.5 * (y_faces[j] + y_faces[j + 1]);
+    double distance = profile.bottom ? y : profile.height - y;
+    if (profile.bottom && profile.top) distance = std::min(y, profile.height - y);
+    const double value =
+        profile.delta > 0 ? reichardt_profile(distance * numbers.u_star / viscosity) : 1;
+    mean.push_back(value);
+    flow += value * (y_faces[j + 1] - y_faces[j]);
+  }
+  for (double& value : mean) value *= numbers.bulk_velocity * profile.height / flow;
+  return mean;
+}
+
+template <class Value>
+void set_owned(const Field& f, const Grid& grid, Value value) {
+  const auto host = Kokkos::create_mirror_view(f.storage);
+  for (int k = 0; k < grid.nz; ++k) {
+    for (int j = 0; j < grid.ny; ++j) {
+      for (int i = 0; i < grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+    }
+  }
+  Kokkos::deep_copy(f.storage, host);
+}
+
+}  // namespace
+
+double reichardt_profile(double y_plus) {
+  const double buffer = 1 - std::exp(-y_plus / 11) - y_plus / 11 * std::exp(-0.33 * y_plus);
+  return std::log(1 + 0.41 * y_plus) / 0.41 + 7.8 * buffer;
+}
+
+void set_turbulent_flow(const Config& config, FluidState& fluid) {
+  const Grid& grid = fluid.grid;
+  const FluidConfig& setup = config.fluid.value();
+  const FluidNumbers numbers = *derive(config, {}).fluid;
+  const Profile profile{.height = grid.ly,
+                        .delta = numbers.delta,
+                        .bottom = setup.bottom == WallFlow::no_slip,
+                        .top = setup.top == WallFlow::no_slip};
+  const std::vector<double> faces = host_faces(grid);
+  const std::vector<Mode> modes = draw_modes(grid, config.size, profile, config.initial.seed);
+  const auto psi = [&](int c) { return potential(c, grid, faces, profile, modes); };
+  Curl curl{psi(0), psi(1), psi(2), grid.dx, grid.dz, {}};
+  for (std::size_t j = 0; j + 1 < faces.size(); ++j) curl.dy.push_back(faces[j + 1] - faces[j]);
+
+  double sum = 0;
+  for (int k = 0; k < grid.nz; ++k) {
+    for (int j = 0; j < grid.ny; ++j) {
+      for (int i = 0; i < grid.nx; ++i) {
+        const double u = curl.u(i, j, k), v = curl.v(i, j, k), w = curl.w(i, j, k);
+        sum += (u * u + v * v + w * w) * curl.dy[static_cast<std::size_t>(j)];
+      }
+    }
+  }
+  const double rms = std::sqrt(sum_over_ranks(grid, sum) / grid.height_of_all_columns());
+  const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
+  const std::vector<double> mean = mean_profile(numbers, profile, faces, setup.kinematic_viscosity);
+  set_owned(fluid.u.x, grid, [&](int i, int j, int k) {
+    return mean[static_cast<std::size_t>(j)] + scale * curl.u(i, j, k);
+  });
+  set_owned(fluid.u.y, grid,
+            [&](int i, int j, int k) { return j > 0 ? scale * curl.v(i, j, k) : 0; });
+  set_owned(fluid.u.z, grid, [&](int i, int j, int k) { return scale * curl.w(i, j, k); });
+}
+
+}  // namespace barchan

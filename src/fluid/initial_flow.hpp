@@ -1,0 +1,20 @@
+// A flow to start from that soon becomes turbulent.
+#pragma once
+
+#include "src/config/config.hpp"
+#include "src/fluid/fluid_state.hpp"
+
+namespace barchan {
+
+/// Sets the velocity to Reichardt's mean profile for the friction velocity expected at the
+/// configured bulk velocity, scaled to that bulk velocity exactly, plus a divergence-free
+/// perturbation: streamwise vortices near the walls and random oblique waves, together 10 % of the
+/// bulk velocity (RMS of the three components). The same `initial.seed` gives the same flow.
+/// Ghosts are not set. `config.fluid` must be there.
+void set_turbulent_flow(const Config& config, FluidState& fluid);
+
+/// Reichardt (1951): U+ = ln(1 + k y+) / k + 7.8 (1 - exp(-y+/11) - (y+/11) exp(-0.33 y+)), k =
+/// 0.41.
+double reichardt_profile(double y_plus);
+
+}  // namespace barchan

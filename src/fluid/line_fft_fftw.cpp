@@ -1,0 +1,104 @@
+// LineFft by FFTW, on the host.
+#include <fftw3.h>
+
+#include <stdexcept>
+
+#include "src/fluid/line_fft.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+static_assert(runs_on_host, "FFTW works on the host only: a device needs a library of its own");
+
+namespace {
+
+fftw_complex* as_fftw(Kokkos::complex<Real>* z) { return reinterpret_cast<fftw_complex*>(z); }
+
+fftw_plan checked(fftw_plan plan) {
+  if (plan == nullptr) throw std::runtime_error("FFTW could not make a plan for this grid");
+  return plan;
+}
+
+}  // namespace
+
+/// One-dimensional plans, applied to one z plane (x) or one row (z) at a time: FFTW's own threads
+/// would plan the strided z direction badly without measuring.
+struct LineFft::Library {
+  fftw_plan x_forward = nullptr, x_backward = nullptr, z_forward = nullptr, z_backward = nullptr;
+  Library() = default;
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+  ~Library() {
+    for (fftw_plan plan : {x_forward, x_backward, z_forward, z_backward}) {
+      if (plan != nullptr) fftw_destroy_plan(plan);
+    }
+  }
+};
+
+LineFft::LineFft(const RealLines& x, const ComplexLines& z)
+    : x_(x), z_(z), library_(std::make_unique<Library>()) {
+  // Rows of a field start anywhere, hence unaligned; estimating keeps the plan reproducible and
+  // leaves the arrays alone, which therefore need not be those of the transforms.
+  const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+  const int modes = x.n / 2 + 1, stride = z.lines * z.rows;
+  const int row_stride = static_cast<int>(x.row_stride);
+  const Kokkos::View<Real*> real("fft: plan",
+                                 static_cast<std::size_t>(x.rows * x.row_stride + x.n));
+  const Kokkos::View<Kokkos::complex<Real>*> complex(
+      "fft: plan", static_cast<std::size_t>(std::max(modes * x.rows, stride * z.n)));
+  fftw_complex* c = as_fftw(complex.data());
+  if (x.rows > 0) {
+    library_->x_forward = checked(fftw_plan_many_dft_r2c(1, &x.n, x.rows, real.data(), nullptr, 1,
+                                                         row_stride, c, nullptr, 1, modes, flags));
+    library_->x_backward = checked(fftw_plan_many_dft_c2r(
+        1, &x.n, x.rows, c, nullptr, 1, modes, real.data(), nullptr, 1, row_stride, flags));
+  }
+  if (z.lines > 0) {
+    library_->z_forward = checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c,
+                                                     nullptr, stride, 1, FFTW_FORWARD, flags));
+    library_->z_backward = checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c,
+                                                      nullptr, stride, 1, FFTW_BACKWARD, flags));
+  }
+}
+
+LineFft::~LineFft() = default;
+
+void LineFft::forward_x(Real* real, Kokkos::complex<Real>* modes) const {
+  const fftw_plan plan = library_->x_forward;
+  const std::ptrdiff_t plane = x_.plane_stride,
+                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
+  if (plan == nullptr) return;
+  Kokkos::parallel_for("fft: forward x", x_.planes, [=](int k) {
+    fftw_execute_dft_r2c(plan, real + k * plane, as_fftw(modes + k * modes_plane));
+  });
+}
+
+void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
+  const fftw_plan plan = library_->x_backward;
+  const std::ptrdiff_t plane = x_.plane_stride,
+                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
+  if (plan == nullptr) return;
+  Kokkos::parallel_for("fft: backward x", x_.planes, [=](int k) {
+    fftw_execute_dft_c2r(plan, as_fftw(modes + k * modes_plane), real + k * plane);
+  });
+}
+
+void LineFft::forward_z(Kokkos::complex<Real>* modes) const {
+  const fftw_plan plan = library_->z_forward;
+  const std::ptrdiff_t lines = z_.lines;
+  if (z_.n == 1 || plan == nullptr) return;
+  Kokkos::parallel_for("fft: forward z", z_.rows, [=](int j) {
+    fftw_execute_dft(plan, as_fftw(modes + j * lines), as_fftw(modes + j * lines));
+  });
+}
+
+void LineFft::backward_z(Kokkos::complex<Real>* modes) const {
+  const fftw_plan plan = library_->z_backward;
+  const std::ptrdiff_t lines = z_.lines;
+  if (z_.n == 1 || plan == nullptr) return;
+  Kokkos::parallel_for("fft: backward z", z_.rows, [=](int j) {
+    fftw_execute_dft(plan, as_fftw(modes + j * lines), as_fftw(modes + j * lines));
+  });
+}
+
+}  // namespace barchan

@@ -1,0 +1,87 @@
+#include "src/fluid/poisson_fft.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// Eigenvalue of the periodic second difference -d2/dx2 for mode m of n [1/m^2].
+Real eigenvalue(int m, int n, Real spacing) {
+  const Real s = std::sin(std::numbers::pi_v<Real> * m / n);
+  return 4 * s * s / (spacing * spacing);
+}
+
+/// On a host all columns of a plane kz, side by side in vectors; on a device one column.
+struct SolveColumns {
+  ColumnSolve columns;
+  int n_modes;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int index) const {
+    if constexpr (runs_on_host) {
+      columns.solve(0, n_modes, index);
+    } else {
+      const int kx = index % n_modes;
+      columns.solve(kx, kx + 1, index / n_modes);
+    }
+  }
+};
+
+}  // namespace
+
+PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass,
+                       Real diffusion)
+    : fft_(std::move(fft)) {
+  columns_.modes = fft_->spectrum();
+  columns_.ny = grid.ny;
+  const bool has_constant = fft_->first_mode_x() == 0 && fft_->first_mode_z() == 0;
+  columns_.singular = mass == 0 && has_constant && columns_.modes.span() > 0;
+  factorise(grid, mass, diffusion);
+}
+
+void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
+  const int ny = grid.ny;
+  const int n_modes = columns_.modes.extent_int(0), planes = columns_.modes.extent_int(2);
+  columns_.weight = Kokkos::View<Real*>("poisson: weight", ny);
+  columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
+  columns_.pivot = Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
+  const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
+  const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_centre_);
+  const auto weight = Kokkos::create_mirror_view(columns_.weight);
+  const auto coupling = Kokkos::create_mirror_view(columns_.coupling);
+  const auto pivot = Kokkos::create_mirror_view(columns_.pivot);
+  const auto dy = [&](int j) { return face(j + 2) - face(j + 1); };
+  for (int j = 0; j < ny; ++j) weight(j) = dy(j) / (Real(grid.nx_all) * grid.nz_all);
+  for (int j = 1; j < ny; ++j) coupling(j) = diffusion / (centre(j + 1) - centre(j));
+
+  for (int kz = 0; kz < planes; ++kz) {
+    for (int kx = 0; kx < n_modes; ++kx) {
+      const Real lambda = eigenvalue(fft_->first_mode_x() + kx, grid.nx_all, grid.dx) +
+                          eigenvalue(fft_->first_mode_z() + kz, grid.nz_all, grid.dz);
+      for (int j = 0; j < ny; ++j) {
+        const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(kx, j - 1, kz) : 0;
+        const Real diagonal = (mass + diffusion * lambda) * dy(j) + coupling(j) + coupling(j + 1);
+        pivot(kx, j, kz) = 1 / (diagonal - below);
+      }
+    }
+  }
+  // The constant mode has no last pivot; its value there is set and the mean removed afterwards.
+  if (columns_.singular) pivot(0, ny - 1, 0) = 0;
+  Kokkos::deep_copy(columns_.weight, weight);
+  Kokkos::deep_copy(columns_.coupling, coupling);
+  Kokkos::deep_copy(columns_.pivot, pivot);
+}
+
+void PoissonFft::solve(const Field& in, const Field& out) const {
+  fft_->forward(in, columns_.modes);
+  const int n_modes = columns_.modes.extent_int(0);
+  const int planes = n_modes > 0 ? columns_.modes.extent_int(2) : 0;
+  Kokkos::parallel_for("poisson: columns", items(runs_on_host ? planes : planes * n_modes),
+                       SolveColumns{columns_, n_modes});
+  fft_->backward(columns_.modes, out);
+}
+
+}  // namespace barchan

@@ -1,0 +1,39 @@
+// Direct solver of mass phi - diffusion lap(phi) = f: the constant-coefficient pressure equation
+// and the smoothing of coupling fields.
+#pragma once
+
+#include <memory>
+
+#include "kernels/fluid/tridiagonal.hpp"
+#include "src/fluid/fft.hpp"
+
+namespace barchan {
+
+/// Finite volumes on the grid: periodic in x and z, zero gradient on the walls. Fourier transforms
+/// in x and z, a tridiagonal solve in y with factors made once. Exact to round-off; self-adjoint
+/// in the sum over cells weighted with their volume.
+class PoissonFft {
+ public:
+  /// mass [-] >= 0, diffusion [m^2] > 0. mass = 0: the mean of f is dropped, phi has zero mean.
+  /// `fft` may be shared between solvers of one grid, but not by solves at the same time.
+  PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass, Real diffusion);
+
+  /// in and out may be the same field; ghosts of `out` are left alone.
+  void solve(const Field& in, const Field& out) const;
+
+ private:
+  void factorise(const Grid& grid, Real mass, Real diffusion);
+
+  std::shared_ptr<const PlaneFft> fft_;
+  ColumnSolve columns_;
+};
+
+/// One implicit step of diffusion, (1 - L^2 lap) q = f: spreads a field over the length L [m] with
+/// zero gradient on the walls. Keeps the volume integral to round-off, is self-adjoint in the
+/// volume-weighted inner product, and makes no new extrema.
+inline PoissonFft make_smoother(const Grid& grid, std::shared_ptr<const PlaneFft> fft,
+                                Real length) {
+  return PoissonFft(grid, std::move(fft), 1, length * length);
+}
+
+}  // namespace barchan

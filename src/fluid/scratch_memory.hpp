@@ -1,0 +1,58 @@
+// Memory of fields that hold nothing just now, for others to use meanwhile.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "kernels/fluid/grid.hpp"
+
+namespace barchan {
+
+/// Gives out pieces of some fields, which nobody reads before their owner has written them again.
+/// Fields that follow each other in memory count as one.
+class ScratchMemory {
+ public:
+  ScratchMemory() = default;
+  explicit ScratchMemory(std::vector<Field> fields) : fields_(std::move(fields)) {
+    for (const Field& field : fields_) {
+      auto* const begin = reinterpret_cast<std::byte*>(field.storage.data());
+      const std::size_t size = field.storage.span() * sizeof(Real);
+      if (!blocks_.empty() && blocks_.back().begin + blocks_.back().size == begin) {
+        blocks_.back().size += size;
+      } else {
+        blocks_.push_back({.begin = begin, .size = size});
+      }
+    }
+  }
+
+  /// What was given out is no longer in use.
+  void free_all() {
+    for (Block& block : blocks_) block.used = 0;
+  }
+
+  /// Room for n values, not initialised, in the first block that has it; a view without extent
+  /// where none has. The view does not keep the fields alive, this does.
+  template <class T>
+  Kokkos::View<T*> take(std::size_t n) {
+    const std::size_t bytes = (n * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
+    for (Block& block : blocks_) {
+      if (block.size - block.used < bytes) continue;
+      std::byte* const place = block.begin + block.used;
+      block.used += bytes;
+      return Kokkos::View<T*>(reinterpret_cast<T*>(place), n);
+    }
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t kAlignment = 64;  // [bytes], as Kokkos' own
+  struct Block {
+    std::byte* begin = nullptr;
+    std::size_t size = 0, used = 0;  // [bytes]
+  };
+  std::vector<Field> fields_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace barchan

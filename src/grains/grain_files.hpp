@@ -1,0 +1,21 @@
+// Initial grains from a CSV table, a result file or a restart file.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "src/grains/initial_grains.hpp"
+
+namespace barchan {
+
+/// By the ending: .csv, or .h5, which is a grains.h5 (its last frame) or a restart file (arrays
+/// grains/id and grains/kin). Throws std::runtime_error with a sentence for the user.
+InitialGrains read_grains(const std::filesystem::path& file);
+
+/// Columns by header in any order: id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz (SI units).
+/// Empty lines and lines that start with # are skipped. Throws std::runtime_error
+/// "heap.csv:12: ..." for a missing or unknown column, a bad or not finite number, a wrong number
+/// of columns, a diameter that is not positive, an id used twice. Overlap is not looked at.
+InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name);
+
+}  // namespace barchan

@@ -1,0 +1,204 @@
+#include "src/grains/grain_migration.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "kernels/grains/pack.hpp"
+#include "src/grains/grain_arrays.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+using Rows = Kokkos::View<int*>;
+
+Rows make_rows(const char* label, int n) { return Rows(label, static_cast<std::size_t>(n)); }
+
+Rows to_device(const char* label, const std::vector<int>& values) {
+  const Rows rows = make_rows(label, static_cast<int>(values.size()));
+  const auto host = Kokkos::create_mirror_view(rows);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(rows, host);
+  return rows;
+}
+
+/// What a contact remembers, as a record.
+RecordLayout layout_of(const ContactHistory& kept) {
+  RecordLayout layout;
+  const auto add = [&layout](const auto& column) {
+    if (column.extent(0) > 0) grain_columns_detail::add_to(layout, column);
+  };
+  add(kept.partner), add(kept.xi_t), add(kept.rolling), add(kept.force);
+  return layout;
+}
+/// The last word of a grain's record: how many contacts follow it.
+struct PackContactCounts {
+  Kokkos::View<const int*> first, row;
+  Real* records;
+  int width;
+  KOKKOS_FUNCTION void operator()(int p) const {
+    records[(p + 1) * width - 1] = first(row(p) + 1) - first(row(p));
+  }
+};
+
+template <class View>
+View of_size(const char* label, const View& like, int n) {
+  return like.extent(0) > 0 ? View(label, static_cast<std::size_t>(std::max(n, 1))) : View();
+}
+
+}  // namespace
+
+/// Fills row_, leaving_ and the numbers of grains to each rank.
+void GrainMigration::choose(const GrainState& grains, const SearchColumns& columns,
+                            const GrainOwners& owners) {
+  const int n = grains.n;
+  const Rows stay = make_rows("migration: rows that stay", n);
+  const Rows leave = make_rows("migration: rows that leave", n);
+  const Rows owner = make_rows("migration: owner", n);
+  const auto kin = grains.kin;
+  n_stay_ = 0;
+  Kokkos::parallel_scan(
+      "migration: who stays", items(n),
+      KOKKOS_LAMBDA(int g, int& sum, bool final) {
+        const int to = owners.of_place(columns.place_of(kin(g).x));
+        if (final) {
+          (to == owners.me ? stay(sum) : leave(g - sum)) = g;
+          owner(g) = to;
+        }
+        sum += to == owners.me ? 1 : 0;
+      },
+      n_stay_);
+  const std::pair<int, int> leavers(0, n - n_stay_);
+  const auto row =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Kokkos::subview(leave, leavers));
+  std::vector<std::vector<int>> rows_for(owners.start.extent(0));
+  if (n > n_stay_) {
+    const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, owner);
+    for (int p = 0; p < n - n_stay_; ++p)
+      rows_for[static_cast<std::size_t>(to(row(p)))].push_back(row(p));
+  }
+  std::vector<int> sorted;
+  grains_.to.clear();
+  for (const auto& rows : rows_for) {
+    grains_.to.push_back(static_cast<int>(rows.size()));
+    sorted.insert(sorted.end(), rows.begin(), rows.end());
+  }
+  row_ = stay;
+  leaving_ = to_device("migration: leaving", sorted);
+  n_sent_ += n - n_stay_;
+}
+
+/// Tells the ranks how many grains and contacts they will get.
+void GrainMigration::count(const GrainState& grains, const ContactHistory& kept,
+                           const GrainOwners& owners) {
+  const int n = static_cast<int>(leaving_.extent(0));
+  const Rows contacts = make_rows("migration: contacts", n);
+  const auto row = leaving_;
+  const auto first = kept.first;
+  Kokkos::parallel_for(
+      "migration: count contacts", items(n),
+      KOKKOS_LAMBDA(int p) { contacts(p) = first(row(p) + 1) - first(row(p)); });
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, contacts);
+  std::vector<int> starts, to;
+  int p = 0, total = 0;
+  for (std::size_t rank = 0; rank < owners.start.extent(0); ++rank) {
+    const int before = total;
+    for (const int end = p + grains_.to[rank]; p < end; ++p) {
+      starts.push_back(total);
+      total += host(p);
+    }
+    to.push_back(total - before);
+  }
+  first_ = to_device("migration: first contact", starts);
+  grains_ = announce(grains.ranks, std::move(grains_.to));
+  contacts_ = announce(grains.ranks, std::move(to));
+}
+
+void GrainMigration::send_contacts(const ContactHistory& kept) {
+  const RecordLayout layout = layout_of(kept);
+  const Rows contact = make_rows("migration: contacts that leave", contacts_.n_to());
+  const auto row = leaving_, first = first_;
+  Kokkos::parallel_for(
+      "migration: contacts that leave", items(grains_.n_to()), KOKKOS_LAMBDA(int p) {
+        int at = first(p);
+        for (int k = kept.first(row(p)); k < kept.first(row(p) + 1); ++k) contact(at++) = k;
+      });
+  send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to()) *
+                         static_cast<std::size_t>(layout.width));
+  Kokkos::parallel_for("migration: pack contacts", items(contacts_.n_to()),
+                       PackRecords{layout, contact, send_contacts_.data(), layout.width});
+  exchange(contacts_, layout.width, send_contacts_, receive_contacts_);
+}
+
+/// New contacts: of the rows that stayed, then what was received.
+void GrainMigration::take_contacts(ContactHistory& kept, int words) const {
+  const int n_stay = n_stay_, n = n_stay + grains_.n_from();
+  // Zero at first; then each row writes the start of the next one alone. If it wrote its own as
+  // well, two threads would write the one between them.
+  const Rows first = make_rows("contact history: first", n + 1);
+  const ContactHistory old = kept;
+  const Rows row = row_;
+  const Real* const grain_records = receive_.data();
+  int total = 0;
+  Kokkos::parallel_scan(
+      "migration: starts of contacts", items(n),
+      KOKKOS_LAMBDA(int g, int& sum, bool final) {
+        sum += g < n_stay ? old.first(row(g) + 1) - old.first(row(g))
+                          : static_cast<int>(grain_records[(g - n_stay + 1) * words - 1]);
+        if (final) first(g + 1) = sum;
+      },
+      total);
+  kept = {.first = first,
+          .partner = of_size("contact history: partner", old.partner, total),
+          .xi_t = of_size("contact history: xi_t", old.xi_t, total),
+          .rolling = of_size("contact history: rolling", old.rolling, total),
+          .force = of_size("contact history: force", old.force, total)};
+  const ContactHistory now = kept;
+  Kokkos::parallel_for(
+      "migration: contacts that stay", items(n_stay), KOKKOS_LAMBDA(int g) {
+        for (int k = now.first(g); k < now.first(g + 1); ++k) {
+          const int from = old.first(row(g)) + k - now.first(g);
+          now.partner(k) = old.partner(from);
+          now.xi_t(k) = old.xi_t(from);
+          if (now.has_rolling()) now.rolling(k) = old.rolling(from);
+          if (now.has_force()) now.force(k) = old.force(from);
+        }
+      });
+  const RecordLayout layout = layout_of(now);
+  const int n_come = contacts_.n_from();
+  Kokkos::parallel_for(
+      "migration: take contacts", items(n_come),
+      UnpackRecords{layout, {}, total - n_come, receive_contacts_.data(), layout.width});
+}
+
+void GrainMigration::operator()(GrainState& grains, ContactHistory& kept,
+                                const SearchColumns& columns, const GrainOwners& owners,
+                                const Kokkos::View<Quad*>& room) {
+  choose(grains, columns, owners);
+  count(grains, kept, owners);
+  const int n_to = grains_.n_to(), n_from = grains_.n_from();
+  if (n_to == 0 && n_from == 0) return;
+  const auto everything = [](GrainState& s, const auto& action) { for_each_array(s, action); };
+  const RecordLayout layout = record_layout(grains, everything);
+  const int width = layout.width + 1;  // and the number of contacts
+  send_.reserve(static_cast<std::size_t>(n_to) * static_cast<std::size_t>(width));
+  Kokkos::parallel_for("migration: pack", items(n_to),
+                       PackRecords{layout, leaving_, send_.data(), width});
+  Kokkos::parallel_for("migration: pack counts", items(n_to),
+                       PackContactCounts{kept.first, leaving_, send_.data(), width});
+  exchange(grains_, width, send_, receive_);
+  send_contacts(kept);
+  take_contacts(kept, width);
+
+  permute(grains, row_, n_stay_, room);
+  reserve_rows(grains, n_stay_ + n_from);
+  Kokkos::parallel_for(
+      "migration: unpack", items(n_from),
+      UnpackRecords{record_layout(grains, everything), {}, n_stay_, receive_.data(), width});
+  grains.n = n_stay_ + n_from;
+}
+
+}  // namespace barchan

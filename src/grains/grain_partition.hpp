@@ -1,0 +1,56 @@
+// Which rank has which grains: pieces of the Morton curve through the x-z columns.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/grains/grain_owners.hpp"
+#include "src/grains/grain_state.hpp"
+
+namespace barchan {
+
+/// How the work is shared: that of the busiest rank over the mean.
+inline constexpr Real kWorstImbalance = 1.03;
+
+/// Cuts the curve into pieces of equal work, a piece for each rank.
+class GrainPartition {
+ public:
+  explicit GrainPartition(MPI_Comm ranks);
+
+  /// Cuts anew if the work is shared worse than kWorstImbalance, and than twice the imbalance that
+  /// was left at the last cut (columns are not cut). A grain counts one, and one half for each side
+  /// of a contact, which `contacts` holds under its grains (starts, or empty); moving a grain takes
+  /// about as long as a contact. All ranks together. True if the cuts have changed.
+  bool balance(const GrainState& grains, const SearchColumns& columns,
+               const Kokkos::View<const int*>& contacts);
+
+  /// Of a restart file: starts() and imbalance_at_cut() of the ranks that wrote it.
+  void restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut);
+  std::vector<std::int64_t> starts() const;
+
+  GrainOwners owners() const { return {me_, start_}; }
+  MPI_Comm ranks() const { return ranks_; }
+  int count() const { return count_; }
+  /// Place where this rank's columns begin.
+  std::uint32_t origin() const { return on_host_(me_); }
+  /// Work of the busiest rank over the mean at the last balance(), before its cut and after it.
+  Real imbalance_before() const { return before_; }
+  Real imbalance() const { return now_; }
+  /// What the last cut left: the next one waits for more.
+  Real imbalance_at_cut() const { return at_cut_; }
+
+ private:
+  void set_starts(const std::vector<std::int64_t>& starts);
+
+  MPI_Comm ranks_;
+  int me_ = 0, count_ = 1;
+  Kokkos::View<std::uint32_t*> start_;
+  Kokkos::View<std::uint32_t*>::host_mirror_type on_host_;
+  Real before_ = 1, now_ = 1;
+  Real at_cut_ = 1;
+  bool has_cut_ = false;
+};
+
+}  // namespace barchan

@@ -1,0 +1,87 @@
+// The grains' equations of motion over the sub-steps of one fluid step.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/rolling_resistance.hpp"
+#include "kernels/grains/wall_contact.hpp"
+#include "src/config/config.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/grains/neighbor_list.hpp"
+
+namespace barchan {
+
+using StiffnessLaw = std::variant<HertzMindlin, LinearSpring>;
+using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
+
+/// What the contacts look like now.
+struct ContactSummary {
+  std::int64_t n_contacts = 0;  // grain-grain
+  Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
+};
+
+/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
+/// that share the grains every member is called together, and what is counted is that of all.
+class GrainSolver {
+ public:
+  /// Sets up laws, walls and their history. Then call start() or, for rows read from a restart,
+  /// restore_list().
+  GrainSolver(const Config& config, GrainState& grains);
+  /// Builds the first list.
+  void start(GrainState& grains) { list_.rebuild(grains, true); }
+
+  /// n sub-steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
+  /// sub-step, bit for bit.
+  void advance(GrainState& grains, int n, Real dt);
+  /// Drops the grains that have passed the outlet (counted in n_left of their rank).
+  void remove_left(GrainState& grains);
+  /// Contacts and largest overlap from the last sub-step.
+  ContactSummary contacts(const GrainState& grains) const;
+  /// Normal and tangential contact force of each grain in the last sub-step [N]; throws
+  /// std::logic_error without output.grain_forces.
+  void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
+                      const Kokkos::View<Vec3*>& tangential) const;
+  /// The list as the last rebuild left it, from the x_reference of a restart; the history of its
+  /// slots is then to be read.
+  void restore_list(GrainState& grains) { list_.restore(grains); }
+  NeighborList& list() { return list_; }
+  const PeriodicBox& box() const { return list_.box(); }
+  int n_walls() const { return n_walls_; }
+  const Plane& wall(int w) const { return plane_[w]; }
+  std::int64_t rebuilds() const { return list_.rebuilds(); }
+  /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
+  /// results do not depend on it.
+  void set_sub_steps_ahead(int n) { ahead_ = n; }
+
+ private:
+  using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
+  int place(int step) const { return step % (ahead_ + 1); }
+  /// Reduces into the place of a sub-step, without a wait.
+  Kokkos::Max<Real, DeviceMemory> max_displacement(int step) const {
+    return Kokkos::Max<Real, DeviceMemory>(
+        Kokkos::View<Real, DeviceMemory>(moved_.data() + place(step)));
+  }
+  template <class Stiffness, class Rolling>
+  void sub_step(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
+                const KickAndDrift& motion, int s, bool last);
+  template <class Stiffness, class Rolling>
+  void sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n, Real dt);
+  void bring_together(GrainState& grains, int s);
+
+  MPI_Comm ranks_;
+  NeighborList list_;
+  StiffnessLaw pair_law_, wall_law_;
+  RollingLaw rolling_;
+  Friction pair_friction_, wall_friction_;
+  Plane plane_[kMaxWalls];
+  int n_walls_ = 0;
+  int ahead_ = kLargestChunk > 1 ? 1 : 16;
+  Kokkos::View<Real*> moved_;  // largest squared distance from the list's positions [m^2]; in the
+                               // place of a sub-step: as that one begins
+  bool exit_x_ = false;
+  Real lx_ = 0;
+};
+
+}  // namespace barchan

@@ -1,0 +1,97 @@
+// When to rebuild the Verlet list, and how.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "kernels/grains/neighbor_search.hpp"
+#include "src/config/config.hpp"
+#include "src/fluid/scratch_memory.hpp"
+#include "src/grains/ghost_grains.hpp"
+#include "src/grains/grain_migration.hpp"
+#include "src/grains/grain_partition.hpp"
+#include "src/grains/grain_state.hpp"
+
+namespace barchan {
+
+/// Half Verlet list with skin: valid until a grain has moved half the skin from where it was at the
+/// last rebuild. A rebuild sorts the grains in space, keeps the contact history and, when asked,
+/// drops grains beyond the outlet. Throws StateError naming the grain if a position is not finite.
+///
+/// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
+/// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it,
+/// with the same bits: which grain is the first depends on the places of the two columns alone.
+class NeighborList {
+ public:
+  NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF);
+
+  /// The list covers motions up to this squared distance [m^2].
+  Real limit() const { return skin_ * skin_ / 4; }
+  /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
+  void rebuild(GrainState& grains, bool drop);
+  /// Searches again from x_reference in the present order: the list as the last rebuild left it,
+  /// with the contacts that were kept. All ranks together, on as many as there were.
+  void restore(GrainState& grains);
+  /// The contacts that the next rebuild or restore carries over, as a restart file has them, under
+  /// rows of `grains` as they are now.
+  void set_kept(const ContactHistory& kept) { kept_ = kept, has_kept_ = true; }
+  /// Brings the ghosts to where their owners have moved them. All ranks together.
+  void update_ghosts(const GrainState& grains) const;
+  /// None where one rank has all grains.
+  GrainPartition* partition() const { return ranks_ ? &ranks_->partition : nullptr; }
+  const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
+  std::int64_t n_migrated() const { return ranks_ ? ranks_->migrate.n_sent() : 0; }
+  /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
+  Real largest_margin() const { return skin_ / 10; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  /// Memory that nobody else uses during a call of rebuild or restore: those take it for what they
+  /// need only meanwhile, as far as it goes.
+  void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
+  bool with_rolling = false;  // keep a rolling torque per pair
+  bool with_force = false;    // keep the force of each pair in the last sub-step
+  const PeriodicBox& box() const { return box_; }
+
+  // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
+  void keep_contacts(const GrainState& grains);
+  void redistribute(GrainState& grains);
+  void sort(GrainState& grains, bool drop);
+  Windows find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n);
+  void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin);
+  void find_ghosts(GrainState& grains, Kokkos::View<GrainKinematics*>& kin);
+  void reserve_pairs(PairList& list) const;
+  void register_others(const PairList& list, int n);
+  void check_positions(const GrainState& grains) const;
+  void wrap(GrainState& grains) const;
+
+ private:
+  template <class T>
+  void take_scratch(Kokkos::View<T*>& view, const char* label, int n);
+  void take_room(const GrainState& grains);
+  void reserve_room(int n);
+
+  struct Ranks {
+    explicit Ranks(MPI_Comm all) : partition(all) {}
+    GrainPartition partition;
+    GrainMigration migrate;
+    GhostGrains ghosts;
+  };
+
+  SearchColumns columns_;
+  PeriodicBox box_;
+  Real skin_ = 0, r_max_ = 0;
+  Real lx_ = 0, ly_ = 0, lz_ = 0;
+  bool exit_x_ = false;
+  std::int64_t rebuilds_ = 0;
+  OccupiedColumns occupied_;
+  std::unique_ptr<Ranks> ranks_;
+  ContactHistory kept_;
+  bool has_kept_ = false;
+  Kokkos::View<int*> row_;  // row of each grain in kept_; before, the next free place there
+  // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
+  // then the next free place of other slots.
+  Kokkos::View<Quad*> room_;
+  Kokkos::View<std::uint64_t*> key_room_;  // two for each
+  ScratchMemory idle_;
+};
+
+}  // namespace barchan

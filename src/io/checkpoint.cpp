@@ -1,0 +1,245 @@
+#include "src/io/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "src/base/atomic_file.hpp"
+#include "src/base/errors.hpp"
+#include "src/io/seal.hpp"
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr std::string_view prefix = "restart_";
+constexpr std::string_view ending = ".h5";
+// Raised when the meaning of stored names changes, so that old files are refused with a sentence.
+// 5: contacts by the ids of their grains; 6: sealed.
+constexpr std::int64_t format_version = 6, first_sealed_format = 6, oldest_format = 5;
+
+std::filesystem::path temporary_of(const std::filesystem::path& target) {
+  return std::filesystem::path(target).concat(".tmp");
+}
+
+/// Step of a restart file's name; -1 for any other name.
+std::int64_t step_of(const std::string& name) {
+  std::int64_t step = -1;
+  if (!name.starts_with(prefix) || !name.ends_with(ending)) return -1;
+  const char* end = name.data() + name.size() - ending.size();
+  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, step);
+  return error == std::errc() && stop == end ? step : -1;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InputError("cannot restart from " + file.string() + ": " + what);
+}
+
+/// The restart file that may serve in place of a damaged one.
+std::string instead_of(const std::filesystem::path& file) {
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  std::filesystem::path other;
+  for (const auto& [step, path] : list_checkpoints(folder)) {
+    if (path.filename() != file.filename()) other = path;
+  }
+  if (other.empty()) return "; copy it again if it was copied, or start anew";
+  return "; another one is " + other.string();
+}
+
+/// Rank 0 reads the file through before the HDF5 library looks at it: what is damaged can make the
+/// library itself fail. False without a seal, as in files of others and of earlier versions.
+bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
+  SealCheck found;
+  std::error_code unreadable;  // which the HDF5 layer puts into words
+  if (rank_of(communicator) == 0 && std::filesystem::is_regular_file(file, unreadable)) {
+    found = check_seal(file);
+  }
+  // Rank 0 tells why; the others end with it.
+  if (broadcast(found.seal == Seal::broken, communicator))
+    refuse(file, found.problem + instead_of(file));
+  return broadcast(found.seal == Seal::whole, communicator);
+}
+
+CheckpointScalar split(const std::string& path) {
+  const auto slash = path.rfind('/');
+  if (slash == std::string::npos) return {"scalars", path};
+  return {"scalars/" + path.substr(0, slash), path.substr(slash + 1)};
+}
+
+}  // namespace
+
+std::string checkpoint_name(std::int64_t step) {
+  return fmt::format("{}{:010}{}", prefix, step, ending);
+}
+
+bool is_checkpoint_name(const std::filesystem::path& name) { return step_of(name.string()) >= 0; }
+
+std::map<std::int64_t, std::filesystem::path> list_checkpoints(
+    const std::filesystem::path& folder) {
+  std::map<std::int64_t, std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (const auto step = step_of(entry.path().filename().string()); step >= 0) {
+      files[step] = entry.path();
+    }
+  }
+  return files;
+}
+
+std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder) {
+  const auto files = list_checkpoints(folder);
+  if (files.empty()) return {};
+  return files.rbegin()->second;
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int64_t step,
+                                   const Provenance& provenance, MPI_Comm communicator)
+    : step_(step),
+      target_(folder / checkpoint_name(step)),
+      file_(temporary_of(target_), Hdf5File::Mode::create_sealable, communicator),
+      communicator_(communicator) {
+  write_provenance(file_, provenance);
+  file_.set_attribute("/", "kind", "restart");
+  file_.set_attribute("/", "format", format_version);
+  file_.set_attribute("/", "step", step);
+}
+
+CheckpointWriter::~CheckpointWriter() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove(temporary_of(target_), ignored);
+}
+
+template <class T>
+void CheckpointWriter::put_scalar(const std::string& path, T value) {
+  const auto [group, name] = split(path);
+  file_.make_group(group);
+  file_.set_attribute(group, name, value);
+}
+
+void CheckpointWriter::scalar(const std::string& name, double value) { put_scalar(name, value); }
+void CheckpointWriter::scalar(const std::string& name, std::int64_t value) {
+  put_scalar(name, value);
+}
+void CheckpointWriter::scalar(const std::string& name, std::string_view value) {
+  put_scalar(name, value);
+}
+
+void CheckpointWriter::array(const std::string& name, std::span<const double> values,
+                             const Extents& extents, const Share& share) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "SI", share);
+}
+
+void CheckpointWriter::array(const std::string& name, std::span<const std::int64_t> values,
+                             const Extents& extents, const Share& share) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "1", share);
+}
+
+std::filesystem::path CheckpointWriter::commit(int keep) {
+  file_.close();
+  if (rank_of(communicator_) == 0) {
+    seal(temporary_of(target_));
+    rename_durably(temporary_of(target_), target_);
+    auto files = list_checkpoints(target_.parent_path());
+    auto last = files.upper_bound(step_);
+    for (auto later = last; later != files.end(); ++later) std::filesystem::remove(later->second);
+    auto surplus = std::distance(files.begin(), last) - std::max(keep, 1);
+    for (auto old = files.begin(); surplus > 0; ++old, --surplus) {
+      std::filesystem::remove(old->second);
+    }
+  }
+  committed_ = true;
+  if (mpi_runs()) MPI_Barrier(communicator_);  // the file is there for every rank that returns
+  return target_;
+}
+
+CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm communicator)
+    : sealed_(is_sealed(file, communicator)), file_(file, Hdf5File::Mode::read, communicator) {
+  if (!file_.has_attribute("/", "kind") || file_.text_attribute("/", "kind") != "restart") {
+    fail("it is not a restart file");
+  }
+  const auto format = file_.integer_attribute("/", "format");
+  if (format > format_version) {
+    fail(
+        fmt::format("it was written in format {} by a newer version, {}; this version reads {} to "
+                    "{}: take that version",
+                    format, provenance().version, oldest_format, format_version));
+  }
+  if (format < oldest_format) {
+    fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}",
+                     format, provenance().version, oldest_format, format_version));
+  }
+  if (format >= first_sealed_format && !sealed_)
+    fail("it is damaged: its seal is gone" + instead_of(path()));
+}
+
+void CheckpointReader::fail(const std::string& what) const { refuse(path(), what); }
+
+std::int64_t CheckpointReader::step() const { return file_.integer_attribute("/", "step"); }
+
+bool CheckpointReader::has(const std::string& name) const {
+  const auto [group, attribute] = split(name);
+  return file_.exists(name) || (file_.exists(group) && file_.has_attribute(group, attribute));
+}
+
+CheckpointScalar CheckpointReader::find_scalar(const std::string& path) const {
+  const auto [group, name] = split(path);
+  if (!file_.exists(group) || !file_.has_attribute(group, name)) {
+    fail("it holds no \"" + path + "\", which this run needs");
+  }
+  return {group, name};
+}
+
+double CheckpointReader::real(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.real_attribute(place.group, place.name);
+}
+
+std::int64_t CheckpointReader::integer(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.integer_attribute(place.group, place.name);
+}
+
+std::string CheckpointReader::text(const std::string& name) const {
+  const auto place = find_scalar(name);
+  return file_.text_attribute(place.group, place.name);
+}
+
+Extents CheckpointReader::extents(const std::string& name) const {
+  if (!file_.exists(name)) fail("it holds no \"" + name + "\", which this run needs");
+  return file_.info(name).extents;
+}
+
+void CheckpointReader::expect(const std::string& name, const Extents& extents_here,
+                              ElementType type) const {
+  const Extents found = extents(name);
+  if (!extents_here.empty() && found != extents_here) {
+    fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
+                     to_string(found), to_string(extents_here)));
+  }
+  if (file_.info(name).type != type) fail(name + " holds numbers of another type");
+}
+
+template <class T>
+std::vector<T> CheckpointReader::array(const std::string& name, const Extents& expected) const {
+  expect(name, expected, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
+  return file_.read<T>(name);  // bit for bit
+}
+template std::vector<double> CheckpointReader::array(const std::string&, const Extents&) const;
+template std::vector<std::int64_t> CheckpointReader::array(const std::string&,
+                                                           const Extents&) const;
+
+template <class T>
+std::vector<T> CheckpointReader::part(const std::string& name, const Extents& whole,
+                                      const Extents& first, const Extents& size) const {
+  expect(name, whole, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
+  return file_.read_block<T>(name, whole, first, size);
+}
+template std::vector<double> CheckpointReader::part(const std::string&, const Extents&,
+                                                    const Extents&, const Extents&) const;
+template std::vector<std::int64_t> CheckpointReader::part(const std::string&, const Extents&,
+                                                          const Extents&, const Extents&) const;
+
+}  // namespace barchan

@@ -1,0 +1,64 @@
+// An HDF5 file that grows by frames: /frame_000000, /frame_000001, ...
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/io/provenance.hpp"
+
+namespace barchan {
+
+/// One array of a frame, as the XDMF description needs it.
+struct FrameArray {
+  std::string name;
+  ArrayInfo info;
+};
+
+struct FrameInfo {
+  std::string name;  // "frame_000012"
+  double t = 0;      // [s]
+  std::int64_t step = 0;
+  std::vector<FrameArray> arrays;
+};
+
+/// The frames of an open result file in order of their number. Throws Hdf5Error.
+std::vector<FrameInfo> list_frames(const Hdf5File& file);
+
+class FrameFile {
+ public:
+  /// `restart_time`: as for OutputFiles. Throws Hdf5Error.
+  FrameFile(std::filesystem::path path, Provenance provenance, std::optional<double> restart_time,
+            MPI_Comm communicator);
+
+  /// What to write once when the file is made, besides the provenance.
+  using Preamble = std::function<void(Hdf5File&)>;
+  /// Writes the arrays of a frame below `group`.
+  using Content = std::function<void(Hdf5File&, const std::string& group)>;
+
+  /// Appends one frame. Throws Hdf5Error; the earlier frames stay readable.
+  void append(double t, std::int64_t step, const Preamble& preamble, const Content& content);
+
+  const std::vector<FrameInfo>& frames() const { return frames_; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void drop_after(double t);
+  /// Makes a new file beside and gives it the name when it is complete.
+  void replace_file(const Preamble& fill) const;
+  FrameInfo write_frame(Hdf5File& file, double t, std::int64_t step, const Content& content) const;
+
+  std::filesystem::path path_;
+  Provenance provenance_;
+  MPI_Comm communicator_;
+  bool made_ = false;  // the file on the disk is this run's
+  int next_ = 0;       // number of the next frame
+  std::vector<FrameInfo> frames_;
+};
+
+}  // namespace barchan

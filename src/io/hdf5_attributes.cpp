@@ -1,0 +1,104 @@
+// Attributes of an Hdf5File.
+#include <algorithm>
+
+#include "src/io/hdf5_file.hpp"
+#include "src/io/hdf5_guard.hpp"
+#include "src/io/hdf5_handle.hpp"
+
+namespace barchan {
+
+using hdf5::Handle;
+
+namespace {
+
+/// Text of variable length, which Python reads as str.
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
+}
+
+}  // namespace
+
+void Hdf5File::put_attribute(const std::string& object, const std::string& name, Id type,
+                             const void* value) {
+  const std::string label = object + "@" + name;
+  const auto [base, rest] = place_of(object);
+  if (has_attribute(object, name)) {
+    check(H5Adelete_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT), label);
+  }
+  const Handle space(check(H5Screate(H5S_SCALAR), label), H5Sclose);
+  const Handle attribute(
+      check(H5Acreate_by_name(base, rest.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
+                              H5P_DEFAULT, H5P_DEFAULT),
+            label),
+      H5Aclose);
+  check(H5Awrite(attribute.get(), type, value), label);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  put_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             std::int64_t value) {
+  put_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             std::string_view value) {
+  const std::string terminated(value);
+  const char* text = terminated.c_str();
+  put_attribute(object, name, text_type().get(), static_cast<const void*>(&text));
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+  const auto [base, rest] = place_of(object);
+  return check(H5Aexists_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT),
+               object + "@" + name) > 0;
+}
+
+void Hdf5File::get_attribute(const std::string& object, const std::string& name, int kind, Id type,
+                             void* value) const {
+  const std::string label = object + "@" + name;
+  if (!exists(object) || !has_attribute(object, name)) {
+    fail("it has no attribute \"" + name + "\" at \"" + object + "\"", {});
+  }
+  const auto [base, rest] = place_of(object);
+  const Handle attribute(
+      check(H5Aopen_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), label),
+      H5Aclose);
+  const Handle stored(check(H5Aget_type(attribute.get()), label), H5Tclose);
+  const Handle space(check(H5Aget_space(attribute.get()), label), H5Sclose);
+  if (H5Tget_class(stored.get()) != kind || H5Sget_simple_extent_npoints(space.get()) != 1) {
+    fail("the attribute \"" + name + "\" is of another type", object);
+  }
+  if (kind == H5T_STRING && H5Tis_variable_str(stored.get()) <= 0) {
+    fail("the attribute \"" + name + "\" is a text of fixed length", object);
+  }
+  check(H5Aread(attribute.get(), type, value), label);
+}
+
+double Hdf5File::real_attribute(const std::string& object, const std::string& name) const {
+  double value = 0;
+  get_attribute(object, name, H5T_FLOAT, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::string& name) const {
+  std::int64_t value = 0;
+  get_attribute(object, name, H5T_INTEGER, H5T_NATIVE_INT64, &value);
+  return value;
+}
+
+std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+  const hdf5::Guard guard(path_);
+  char* text = nullptr;
+  get_attribute(object, name, H5T_STRING, text_type().get(), static_cast<void*>(&text));
+  std::string result(text == nullptr ? "" : text);
+  H5free_memory(text);
+  return result;
+}
+
+}  // namespace barchan

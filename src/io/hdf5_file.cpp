@@ -1,0 +1,195 @@
+#include "src/io/hdf5_file.hpp"
+
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "src/base/input_file.hpp"
+#include "src/io/hdf5_handle.hpp"
+#include "src/io/seal.hpp"
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+using hdf5::Handle;
+
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+// Room for this many links in the root's first table, and for their names (16 bytes each): while
+// they last, adding a frame rewrites two blocks in place, the names first.
+constexpr unsigned root_links = 2048;
+constexpr std::size_t name_bytes = 16;
+
+Handle access_list(bool parallel, MPI_Comm communicator, int* error) {
+  Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (parallel) {
+    H5Pset_fapl_mpio(list.get(), communicator, MPI_INFO_NULL);
+  } else {
+    const hdf5::DriverInfo info{.error = error};
+    H5Pset_driver(list.get(), hdf5::file_driver(), &info);
+  }
+  H5Pset_fclose_degree(list.get(), H5F_CLOSE_STRONG);  // nothing outlives the Hdf5File
+  return list;
+}
+
+/// Groups below the root keep their links in their header: without this each would have a table of
+/// the root's size.
+Handle group_creation_list() {
+  constexpr unsigned compact_links = 64;
+  Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_creation_order(list.get(), H5P_CRT_ORDER_TRACKED);
+  H5Pset_link_phase_change(list.get(), compact_links, compact_links / 2);
+  H5Pset_obj_track_times(list.get(), false);
+  return list;
+}
+
+Handle creation_list(bool sealable) {
+  Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (sealable) H5Pset_userblock(list.get(), seal_bytes);
+  H5Pset_sym_k(list.get(), 0, root_links / 2);
+  H5Pset_local_heap_size_hint(list.get(), root_links * name_bytes);
+  return list;
+}
+
+}  // namespace
+
+std::string to_string(const Extents& extents) {
+  std::string text;
+  for (const auto extent : extents) {
+    if (!text.empty()) text += " x ";
+    text += std::to_string(extent);
+  }
+  return text;
+}
+
+void Hdf5File::fail(const std::string& reason, const std::string& object) const {
+  std::string text = mode_ == Mode::read ? "cannot read " : "cannot write ";
+  // Files on their way to a name are known to the user by that name.
+  const bool beside = path_.extension() == ".tmp";
+  text += (beside ? std::filesystem::path(path_).replace_extension() : path_).string();
+  text += ": " + reason;
+  if (!object.empty()) text += " (" + object + ")";
+  throw Hdf5Error(text);
+}
+
+template <class Code>
+Code Hdf5File::check(Code code, const std::string& object) const {
+  if (code < 0)
+    fail(
+        *system_error_ != 0 ? std::generic_category().message(*system_error_) : hdf5::last_reason(),
+        object);
+  return code;
+}
+template int Hdf5File::check(int, const std::string&) const;
+template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
+    : path_(path),
+      mode_(mode),
+      parallel_(rank_count(communicator) > 1),
+      is_root_(rank_of(communicator) == 0),
+      system_error_(std::make_unique<int>(0)) {
+  hdf5::start_library();
+  if (mode == Mode::read) {  // opening a pipe would wait for ever
+    if (const std::string why = not_a_file(path); !why.empty()) fail(why, {});
+  }
+  const Handle access = access_list(parallel_, communicator, system_error_.get());
+  Id opened = -1;
+  if (mode == Mode::create || mode == Mode::create_sealable) {
+    const Handle creation = creation_list(mode == Mode::create_sealable);
+    opened = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
+  } else {
+    const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
+    opened = H5Fopen(path.c_str(), flags, access.get());
+  }
+  file_ = check(opened);
+}
+
+Hdf5File::~Hdf5File() {
+  if (parallel_ && std::uncaught_exceptions() > 0) return;
+  if (hidden_ >= 0) H5Gclose(hidden_);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::check_writes() const {
+  if (*system_error_ != 0) fail(std::generic_category().message(*system_error_), {});
+}
+
+void Hdf5File::close() {
+  if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
+  if (file_ >= 0) check(H5Fclose(std::exchange(file_, -1)));
+  check_writes();
+}
+
+void Hdf5File::flush() {
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+  check_writes();
+}
+
+Hdf5File::Place Hdf5File::place_of(const std::string& name) const {
+  if (hidden_ >= 0 && name == hidden_name_) return {hidden_, "."};
+  if (hidden_ >= 0 && name.starts_with(hidden_name_ + "/")) {
+    return {hidden_, name.substr(hidden_name_.size() + 1)};
+  }
+  return {file_, name};
+}
+
+bool Hdf5File::exists(const std::string& name) const {
+  const auto [base, rest] = place_of(name);
+  if (rest == "." || rest == "/") return true;
+  // The library wants every group on the way to be asked for on its own.
+  for (std::size_t end = rest.find('/', 1);; end = rest.find('/', end + 1)) {
+    if (check(H5Lexists(base, rest.substr(0, end).c_str(), H5P_DEFAULT), name) == 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+bool Hdf5File::is_group(const std::string& name) const {
+  const auto [base, rest] = place_of(name);
+  const Handle object(check(H5Oopen(base, rest.c_str(), H5P_DEFAULT), name), H5Oclose);
+  return H5Iget_type(object.get()) == H5I_GROUP;
+}
+
+std::vector<std::string> Hdf5File::children(const std::string& group) const {
+  const auto [base, rest] = place_of(group);
+  const Handle open(check(H5Gopen2(base, rest.c_str(), H5P_DEFAULT), group), H5Gclose);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(open.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), group);
+  return names;
+}
+
+void Hdf5File::copy_from(const Hdf5File& source, const std::string& name) {
+  check(H5Ocopy(source.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+  check_writes();
+}
+
+void Hdf5File::make_group(const std::string& name) {
+  if (name.empty() || exists(name)) return;
+  if (const auto slash = name.rfind('/'); slash != std::string::npos) {
+    make_group(name.substr(0, slash));
+  }
+  const auto [base, rest] = place_of(name);
+  const Handle creation = group_creation_list();
+  const Handle group(
+      check(H5Gcreate2(base, rest.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name),
+      H5Gclose);
+}
+
+void Hdf5File::begin_hidden_group(const std::string& as) {
+  hidden_ = check(H5Gcreate_anon(file_, group_creation_list().get(), H5P_DEFAULT), as);
+  hidden_name_ = as;
+}
+
+void Hdf5File::publish_group() {
+  flush();  // all that the new link leads to is there before the link
+  check(H5Olink(hidden_, file_, hidden_name_.c_str(), H5P_DEFAULT, H5P_DEFAULT), hidden_name_);
+  check(H5Gclose(std::exchange(hidden_, -1)), hidden_name_);
+}
+
+}  // namespace barchan

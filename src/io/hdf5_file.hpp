@@ -1,0 +1,140 @@
+// The HDF5 library behind one class and one checker of return codes.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace barchan {
+
+/// Every failure of a file: "cannot write runs/x/fields.h5: <reason given by HDF5>".
+struct Hdf5Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Extents of an array, slowest first; ranks 1 to 4.
+using Extents = std::vector<std::uint64_t>;
+
+/// "62 x 30 x 25".
+std::string to_string(const Extents& extents);
+
+enum class ElementType { float32, float64, int64, other };
+
+struct ArrayInfo {
+  ElementType type = ElementType::other;
+  Extents extents;
+};
+
+/// Where this rank's share of an array lies: the whole array, and the first element of the share.
+/// Default: the share is the whole.
+struct Share {
+  Extents whole, first;
+};
+
+/// One open HDF5 file. With a communicator of more than one rank it is opened in parallel; every
+/// call is then collective, with equal arguments except the values and the shares.
+/// Object names are paths ("grid/x_face"); groups on the way to an array are made as needed.
+/// Every member throws Hdf5Error naming the file and the reason.
+class Hdf5File {
+ public:
+  /// create replaces what is there; create_sealable leaves room for a seal in front
+  /// (src/io/seal.hpp).
+  enum class Mode { read, modify, create, create_sealable };
+
+  Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator = MPI_COMM_SELF);
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  /// Closes without a complaint: call close() where a full disk must be noticed. While an exception
+  /// is on its way a file of several ranks stays open: the others, if they go on, would never come
+  /// to close it with this one, and nobody would hear of the exception.
+  ~Hdf5File();
+
+  void close();
+  void flush();
+
+  bool exists(const std::string& name) const;
+  bool is_group(const std::string& name) const;
+  /// Names directly below a group, in alphabetical order.
+  std::vector<std::string> children(const std::string& group = "/") const;
+  /// Copies a group or an array, with all below it, under the same name.
+  void copy_from(const Hdf5File& source, const std::string& name);
+  /// Makes a group and those on the way, where missing.
+  void make_group(const std::string& name);
+
+  /// Makes a group that nothing leads to yet, fills it through the names below `as`, and is made
+  /// visible as `as` by publish_group(), after all its content is on the disk. A kill at any moment
+  /// leaves a valid file, with this group or without it.
+  void begin_hidden_group(const std::string& as);
+  void publish_group();
+
+  /// T is float, double or std::int64_t. `extents` are those of `values`. Without a share, what
+  /// rank 0 has is written.
+  template <class T>
+  void write(const std::string& name, std::span<const T> values, const Extents& extents,
+             std::string_view units, const Share& share = {});
+
+  /// The block of an array that begins at `first`; the array must have the extents `whole`. Each
+  /// rank reads its own, which may be empty.
+  template <class T>
+  std::vector<T> read_block(const std::string& name, const Extents& whole, const Extents& first,
+                            const Extents& size) const;
+
+  /// Type and extents of an array; extents are checked against the file's size before they are
+  /// believed.
+  ArrayInfo info(const std::string& name) const;
+  /// The whole array (converted to T where the file holds another number type).
+  template <class T>
+  std::vector<T> read(const std::string& name) const;
+  /// As read(), but the array must have these extents.
+  template <class T>
+  std::vector<T> read(const std::string& name, const Extents& expected) const;
+
+  /// Attributes of a group or an array; "/" is the file.
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  double real_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  using Id = std::int64_t;  // hid_t, kept out of the header
+
+  /// Where to look up a name, and the name there: a hidden group has no path yet.
+  struct Place {
+    Id base;
+    std::string name;
+  };
+  Place place_of(const std::string& name) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& object) const;
+  /// Returns what an HDF5 function returned, or throws with the library's reason.
+  template <class Code>
+  Code check(Code code, const std::string& object = {}) const;
+  /// Throws if the serial driver noted a failed write.
+  void check_writes() const;
+  void put_attribute(const std::string& object, const std::string& name, Id type,
+                     const void* value);
+  /// `kind`: the H5T_class_t the stored attribute must have.
+  void get_attribute(const std::string& object, const std::string& name, int kind, Id type,
+                     void* value) const;
+
+  std::filesystem::path path_;
+  Mode mode_;
+  bool parallel_ = false, is_root_ = true;
+  std::unique_ptr<int> system_error_;  // errno noted by the serial driver; 0: none
+  Id file_ = -1;
+  Id hidden_ = -1;
+  std::string hidden_name_;
+};
+
+}  // namespace barchan

@@ -1,0 +1,22 @@
+// The grains in restart files: rows of all ranks one after the other, contacts by the ids of their
+// grains. Any number of ranks can go on from a file; the same number goes on with the same bits.
+#pragma once
+
+#include "src/grains/grain_solver.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/io/checkpoint.hpp"
+
+namespace barchan {
+
+/// All ranks together.
+void save_grains(CheckpointWriter& file, const GrainState& grains, GrainSolver& solver);
+
+/// This rank's rows of a restart file without their history, to size the state: those it wrote if
+/// as many ranks did, else an equal share.
+GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks);
+
+/// All that save_grains() wrote, into `grains` from grains_in_file(). On another number of ranks
+/// the neighbour list is built anew. All ranks together.
+void load_grains(const CheckpointReader& file, GrainState& grains, GrainSolver& solver);
+
+}  // namespace barchan

@@ -1,0 +1,244 @@
+#include "src/output/output_files.hpp"
+
+#include <utility>
+
+#include "kernels/coupling/frame_values.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/io/row_share.hpp"
+#include "src/io/xdmf.hpp"
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+namespace {
+
+using Cells = Kokkos::MDRangePolicy<Kokkos::Rank<3, Kokkos::Iterate::Left, Kokkos::Iterate::Left>>;
+using Rows = Kokkos::RangePolicy<>;
+
+template <class View>
+auto on_host(const View& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+}
+
+template <class View>
+auto values_of(const View& host) {
+  return std::span<const typename View::non_const_value_type>(host.data(), host.size());
+}
+
+/// Brings one field after the other to the host and into the group of a frame.
+class FieldWriter {
+ public:
+  FieldWriter(Hdf5File& file, std::string group, const Grid& grid)
+      : file_(file),
+        group_(std::move(group)),
+        cells_({0, 0, 0}, {grid.nx, grid.ny, grid.nz}),
+        values_("output: frame field", grid.nx, grid.ny, grid.nz),
+        extents_{size(grid.nz), size(grid.ny), size(grid.nx)} {
+    if (!grid.ranks) return;
+    share_ = {.whole = {size(grid.nz_all), size(grid.ny), size(grid.nx_all)},
+              .first = {size(grid.k_begin), 0, size(grid.i_begin)}};
+  }
+
+  void centred(const std::string& name, const Field& field, const std::string& units) {
+    if (field.origin == nullptr) return;  // a run without grains has no use for some
+    Kokkos::parallel_for("output: copy field", cells_, CopyToFrame{field, values_});
+    write(name, units);
+  }
+
+  void velocity(const FaceVector& u) {
+    average("u", {.face = u.x, .di = 1, .dj = 0, .dk = 0, .out = values_});
+    average("v", {.face = u.y, .di = 0, .dj = 1, .dk = 0, .out = values_});
+    average("w", {.face = u.z, .di = 0, .dj = 0, .dk = 1, .out = values_});
+  }
+
+ private:
+  static std::uint64_t size(int n) { return static_cast<std::uint64_t>(n); }
+
+  void average(const std::string& name, const AverageToFrame& functor) {
+    Kokkos::parallel_for("output: average to centres", cells_, functor);
+    write(name, "m/s");
+  }
+
+  void write(const std::string& name, const std::string& units) {
+    const auto host = on_host(values_);
+    file_.write(group_ + "/" + name, values_of(host), extents_, units, share_);
+  }
+
+  Hdf5File& file_;
+  std::string group_;
+  Cells cells_;
+  FrameField values_;
+  Extents extents_;
+  Share share_;
+};
+
+void write_flow(Hdf5File& file, const std::string& group, const FluidState& fluid,
+                std::span<const NamedField> more) {
+  FieldWriter writer(file, group, fluid.grid);
+  writer.velocity(fluid.u);
+  writer.centred("p", fluid.p, "Pa");
+  writer.centred("alpha_f", fluid.alpha_f, "1");
+  writer.centred("nu_t", fluid.nu_t, "m^2/s");
+  for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
+}
+
+void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainState& grains,
+                        std::span<const NamedForce> forces, const Share& rows) {
+  const auto n = static_cast<std::size_t>(grains.n);
+  const Rows range(0, grains.n);
+  const Share vectors = share_of(rows, {n, 3}, 0);
+  const auto write = [&](const std::string& name, const auto& view, const char* units) {
+    const auto host = on_host(view);
+    const bool scalar = host.size() == n && decltype(host)::rank() == 1;
+    file.write(group + "/" + name, values_of(host), scalar ? Extents{n} : Extents{n, 3}, units,
+               scalar ? rows : vectors);
+  };
+
+  const SplitGrains<GrainKinematics> split{.grains = grains.kin,
+                                           .x = FrameVectors<double>("output: x", n),
+                                           .d = Kokkos::View<double*>("output: d", n),
+                                           .u = FrameVectors<float>("output: u", n),
+                                           .omega = FrameVectors<float>("output: omega", n)};
+  Kokkos::parallel_for("output: split grains", range, split);
+  write("id", Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)), "1");
+  write("x", split.x, "m");
+  write("d", split.d, "m");
+  write("u", split.u, "m/s");
+  write("omega", split.omega, "rad/s");
+
+  for (const auto& force : forces) {
+    const FrameVectors<float> out("output: force", n);
+    Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
+    write(force.name, out, "N");
+  }
+}
+
+void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& faces) {
+  std::vector<double> centres;
+  for (std::size_t i = 1; i < faces.size(); ++i) centres.push_back(0.5 * (faces[i - 1] + faces[i]));
+  file.write(name + "_face", std::span<const double>(faces), {faces.size()}, "m");
+  file.write(name, std::span<const double>(centres), {centres.size()}, "m");
+}
+
+}  // namespace
+
+OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
+                         std::optional<double> restart_time, MPI_Comm communicator)
+    : folder_(folder),
+      provenance_(provenance),
+      communicator_(communicator),
+      fields_(folder / "fields.h5", provenance, restart_time, communicator),
+      grains_(folder / "grains.h5", provenance, restart_time, communicator),
+      tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {
+  if (!field_frames().empty()) describe_fields();  // frames may have been dropped
+  if (!grain_frames().empty()) describe_grains();
+}
+
+void OutputFiles::describe_fields() const {
+  if (rank_of(communicator_) != 0) return;
+  auto path = fields_.path();
+  write_atomically(path.replace_extension(".xdmf"), fields_xdmf("fields.h5", field_frames()));
+}
+
+void OutputFiles::describe_grains() const {
+  if (rank_of(communicator_) != 0) return;
+  auto path = grains_.path();
+  write_atomically(path.replace_extension(".xdmf"), grains_xdmf("grains.h5", grain_frames()));
+}
+
+void OutputFiles::write_grid(Hdf5File& file, const Grid& grid) {
+  const double x0 = grid.x0 - grid.i_begin * grid.dx, z0 = grid.z0 - grid.k_begin * grid.dz;
+  const int nx = grid.ranks ? grid.nx_all : grid.nx, nz = grid.ranks ? grid.nz_all : grid.nz;
+  std::vector<double> x, y, z;
+  for (int i = 0; i <= nx; ++i) x.push_back(x0 + i * grid.dx);
+  for (int k = 0; k <= nz; ++k) z.push_back(z0 + k * grid.dz);
+  const auto y_face = on_host(grid.y_face_);
+  for (int j = 0; j <= grid.ny; ++j) y.push_back(y_face(j + 1));
+  write_axis(file, "grid/x", x);
+  write_axis(file, "grid/y", y);
+  write_axis(file, "grid/z", z);
+}
+
+void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
+                               std::span<const NamedField> more) {
+  const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
+  fields_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+    write_flow(file, group, fluid, more);
+  });
+  describe_fields();
+}
+
+void OutputFiles::write_single(const std::string& name, double t, std::int64_t step,
+                               const FrameFile::Preamble& preamble,
+                               const FrameFile::Content& content, Describe describe) const {
+  FrameFile file(folder_ / (name + ".h5"), provenance_, {}, communicator_);  // begins anew
+  file.append(t, step, preamble, content);
+  if (rank_of(communicator_) == 0) {
+    write_atomically(folder_ / (name + ".xdmf"), describe(name + ".h5", file.frames()));
+  }
+}
+
+void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
+                                std::span<const NamedField> fields,
+                                const std::map<std::string, double>& attributes) const {
+  const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid); };
+  const auto content = [&](Hdf5File& h5, const std::string& group) {
+    FieldWriter writer(h5, group, grid);
+    for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
+    for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
+  };
+  write_single("flow_average", t, step, preamble, content, fields_xdmf);
+}
+
+std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
+                                                    const GrainState* grains, double t,
+                                                    std::int64_t step) const {
+  std::vector<std::string> names;
+  if (grains != nullptr) {
+    const Share rows = share_of_rows(static_cast<std::uint64_t>(grains->n), communicator_);
+    const NamedForce contacts{"force_contact", grains->contact_force};
+    const auto preamble = [](Hdf5File&) {};
+    const auto content = [&](Hdf5File& file, const std::string& group) {
+      write_grain_arrays(file, group, *grains, std::span(&contacts, 1), rows);
+    };
+    write_single("failure_grains", t, step, preamble, content, grains_xdmf);
+    names.emplace_back("failure_grains.xdmf");
+  }
+  if (fluid != nullptr) {
+    const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid->grid); };
+    const auto content = [&](Hdf5File& file, const std::string& group) {
+      write_flow(file, group, *fluid, {});
+    };
+    write_single("failure_fields", t, step, preamble, content, fields_xdmf);
+    names.emplace_back("failure_fields.xdmf");
+  }
+  return names;
+}
+
+void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step) {
+  const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
+  const auto n = static_cast<std::size_t>(grains.n);
+  const FrameVectors<float> x("output: track", n);
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
+  const auto preamble = [](Hdf5File&) {};
+  tracks_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+    const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
+    const auto positions = on_host(x);
+    file.write(group + "/id", values_of(id), {n}, "1", rows);
+    file.write(group + "/x", values_of(positions), {n, 3}, "m", share_of(rows, {n, 3}, 0));
+  });
+}
+
+void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
+                               std::span<const NamedForce> forces) {
+  const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
+  const auto preamble = [](Hdf5File&) {};
+  grains_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+    write_grain_arrays(file, group, grains, forces, rows);
+  });
+  describe_grains();
+}
+
+}  // namespace barchan

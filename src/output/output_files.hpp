@@ -1,0 +1,79 @@
+// fields.h5 and grains.h5 with their XDMF descriptions (formats: docs/conventions.md).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/fluid/fluid_state.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/grains/named_force.hpp"
+#include "src/io/frame_file.hpp"
+#include "src/io/provenance.hpp"
+
+namespace barchan {
+
+/// One more cell-centred field of a frame (a mean, a second moment).
+struct NamedField {
+  std::string name, units;
+  const Field* field = nullptr;
+};
+
+/// Appends frames. Each is complete on the disk or not there at all; earlier frames survive a kill
+/// at any moment. Files are open only while a frame is written, so that viewers can look.
+/// Collective over the communicator. Members throw Hdf5Error or std::runtime_error with the reason.
+class OutputFiles {
+ public:
+  /// `restart_time` empty: a new run, files of an earlier one are replaced at the first frame.
+  /// Otherwise frames later than it are dropped and numbering goes on.
+  OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
+              std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF);
+
+  /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
+  /// Upper faces are read from the ghost layer, which must be valid.
+  void write_fields(const FluidState& fluid, double t, std::int64_t step,
+                    std::span<const NamedField> more = {});
+
+  /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
+  void write_grains(const GrainState& grains, double t, std::int64_t step,
+                    std::span<const NamedForce> forces = {});
+
+  /// tracks.h5: ids and positions alone, in single precision.
+  void write_tracks(const GrainState& grains, double t, std::int64_t step);
+
+  /// flow_average.h5: one frame, replaced as a whole. `attributes`: numbers kept with the frame.
+  void write_average(const Grid& grid, double t, std::int64_t step,
+                     std::span<const NamedField> fields,
+                     const std::map<std::string, double>& attributes) const;
+
+  /// failure_fields.h5 and failure_grains.h5, one frame each with its .xdmf: a state that has gone
+  /// wrong, to look at. Either part may be missing. Returns the names to open.
+  std::vector<std::string> write_failure(const FluidState* fluid, const GrainState* grains,
+                                         double t, std::int64_t step) const;
+
+  const std::vector<FrameInfo>& field_frames() const { return fields_.frames(); }
+  const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
+
+ private:
+  static void write_grid(Hdf5File& file, const Grid& grid);
+  using Describe = std::string (*)(const std::string&, const std::vector<FrameInfo>&);
+  /// A file of one frame, replaced as a whole, and its description.
+  void write_single(const std::string& name, double t, std::int64_t step,
+                    const FrameFile::Preamble& preamble, const FrameFile::Content& content,
+                    Describe describe) const;
+  void describe_fields() const;
+  void describe_grains() const;
+
+  std::filesystem::path folder_;
+  Provenance provenance_;
+  MPI_Comm communicator_;
+  FrameFile fields_, grains_, tracks_;
+};
+
+}  // namespace barchan

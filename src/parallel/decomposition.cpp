@@ -1,0 +1,84 @@
+#include "src/parallel/decomposition.hpp"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace barchan {
+
+namespace {
+
+/// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
+/// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
+/// or written six times on its way; some 40 fields whose rims are exchanged; and what a message
+/// costs however short it is, about 400 numbers a row. Measured: docs/performance.md.
+struct Cost {
+  int nx, nz;
+  double of(int along_x, int along_z) const {
+    const double cells = double(nx) * nz / (double(along_x) * along_z);
+    return transposes(along_x, 3, 4, cells) + transposes(along_z, 2, 2, cells) +
+           40 * (rims(along_x, nz, along_z) + rims(along_z, nx, along_x));
+  }
+  static double transposes(int parts, int numbers, int times, double cells) {
+    return parts == 1 ? 0 : 6 * numbers * cells + 400 * times * (parts - 1);
+  }
+  static double rims(int parts, int n_other, int parts_other) {
+    return parts == 1 ? 0 : 2.0 * Split{.n = n_other, .parts = parts_other}.count(0);
+  }
+};
+
+/// Ranks along x, or 0 if `count` of them do not fit.
+int best_count_along_x(int count, int nx, int nz) {
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int along_x = 1; along_x <= count; ++along_x) {
+    const int along_z = count / along_x;
+    if (along_x * along_z != count) continue;
+    if (!Decomposition::is_thick_enough(nx, along_x)) continue;
+    if (!Decomposition::is_thick_enough(nz, along_z)) continue;
+    const double cost = Cost{nx, nz}.of(along_x, along_z);
+    if (cost < least) least = cost, best = along_x;
+  }
+  return best;
+}
+
+[[noreturn]] void refuse(int count, int nx, int nz) {
+  int fewer = count - 1;
+  while (best_count_along_x(fewer, nx, nz) == 0) --fewer;
+  throw std::runtime_error(
+      "--ranks: " + std::to_string(count) + " ranks cannot share " + std::to_string(nx) + " x " +
+      std::to_string(nz) + " columns of cells in pencils at least " +
+      std::to_string(Decomposition::kThinnest) +
+      " cells thick; the next smaller number that can is " + std::to_string(fewer));
+}
+
+RankLine line_of(MPI_Comm all, int colour, int key) {
+  RankLine line;
+  MPI_Comm_split(all, colour, key, &line.communicator);
+  MPI_Comm_size(line.communicator, &line.count);
+  MPI_Comm_rank(line.communicator, &line.place);
+  return line;
+}
+
+}  // namespace
+
+Decomposition::Decomposition(MPI_Comm all, int nx, int nz, int along_x) {
+  int count = 1, rank = 0;
+  MPI_Comm_size(all, &count);
+  MPI_Comm_rank(all, &rank);
+  const int count_x = along_x > 0 ? along_x : best_count_along_x(count, nx, nz);
+  if (count_x == 0) refuse(count, nx, nz);
+  MPI_Comm_dup(all, &all_);
+  x_ = {.n = nx, .parts = count_x};
+  z_ = {.n = nz, .parts = count / count_x};
+  along_x_ = line_of(all_, rank / count_x, rank % count_x);
+  along_z_ = line_of(all_, rank % count_x, rank / count_x);
+}
+
+Decomposition::~Decomposition() {
+  for (MPI_Comm* communicator : {&along_x_.communicator, &along_z_.communicator, &all_}) {
+    if (*communicator != MPI_COMM_NULL) MPI_Comm_free(communicator);
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,64 @@
+// Which rank owns which pencil of the grid.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+
+#include "kernels/fluid/grid.hpp"
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+/// [0, n) in consecutive parts, as equal as can be, the longer ones first.
+struct Split {
+  int n = 1, parts = 1;
+  int begin(int part) const { return part * (n / parts) + std::min(part, n % parts); }
+  int count(int part) const { return begin(part + 1) - begin(part); }
+};
+
+/// The ranks side by side along one periodic direction.
+struct RankLine {
+  MPI_Comm communicator = MPI_COMM_NULL;
+  int count = 1, place = 0;
+  int before() const { return (place + count - 1) % count; }
+  int after() const { return (place + 1) % count; }
+};
+
+/// nx x nz columns of cells, cut into pencils of full height, a rank each. The shape is the one
+/// with the fewest cells along cuts, so results on a number of ranks do not depend on anything
+/// else.
+class Decomposition {
+ public:
+  /// Fewest cells across a pencil along a direction that is cut.
+  static constexpr int kThinnest = 2;
+  /// True if so many cells can be cut into so many parts.
+  static bool is_thick_enough(int cells, int parts) {
+    return parts == 1 || cells / parts >= kThinnest;
+  }
+
+  /// Among all ranks of `all`, which call this together. Throws std::runtime_error if there are too
+  /// many of them for pencils of kThinnest cells; it says how many there may be. `along_x`: so many
+  /// ranks along x, a divisor of their number; 0: as many as cost least.
+  Decomposition(MPI_Comm all, int nx, int nz, int along_x = 0);
+  ~Decomposition();
+  Decomposition(const Decomposition&) = delete;
+  Decomposition& operator=(const Decomposition&) = delete;
+
+  const Split& x() const { return x_; }
+  const Split& z() const { return z_; }
+  /// The ranks that share this one's z, and its x.
+  const RankLine& along_x() const { return along_x_; }
+  const RankLine& along_z() const { return along_z_; }
+  MPI_Comm all() const { return all_; }
+
+ private:
+  Split x_, z_;
+  RankLine along_x_, along_z_;
+  MPI_Comm all_ = MPI_COMM_NULL;
+};
+
+/// Among the ranks of a grid; 0 where one rank has all of it.
+inline int rank_of(const Grid& grid) { return grid.ranks ? rank_of(grid.ranks->all()) : 0; }
+
+}  // namespace barchan

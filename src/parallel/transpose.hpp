@@ -1,0 +1,62 @@
+// Data that ranks side by side hold in shares of one axis, exchanged into shares of another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "src/parallel/messages.hpp"
+
+namespace barchan {
+
+/// An array of three axes: element (i, j, k) at i s0 + j s1 + k s2, of `width` numbers each.
+struct StridedArray {
+  Real* data = nullptr;
+  std::array<std::ptrdiff_t, 3> stride{};
+};
+
+/// "Cut" arrays have a share of the axis `shared` and all of the axis `split` on each rank of a
+/// line, "joined" ones all of `shared` and a share of `split`. Elements are real (width 1) or
+/// complex (2).
+class Transpose {
+ public:
+  /// `whole`: extents with both axes whole.
+  Transpose(const RankLine& line, std::array<int, 3> whole, int shared, int split, int width);
+
+  /// With one rank in the line both arrays are the same, and nobody has to move anything.
+  bool is_trivial() const { return line_.count == 1; }
+  std::array<int, 3> cut_extents() const { return cut_; }
+  std::array<int, 3> joined_extents() const { return joined_; }
+  void join(const StridedArray& cut, const StridedArray& joined) const;
+  void cut(const StridedArray& joined, const StridedArray& cut) const;
+
+ private:
+  /// The block of a cut array that the rank at `place` has in its joined one, or the other way
+  /// round.
+  struct Block {
+    std::array<int, 3> begin{}, end{};
+  };
+  struct Side {
+    std::vector<Block> blocks;  // a rank of the line each
+    std::vector<int> counts;    // numbers in them
+    MessageBuffer buffer;
+  };
+  Side make_side(const std::array<int, 3>& extents, int axis, const Split& split,
+                 const char* label) const;
+  void move(const Side& from, const StridedArray& source, const Side& to,
+            const StridedArray& target) const;
+  template <bool pack>
+  void copy(const Side& side, const StridedArray& array) const;
+
+  RankLine line_;
+  int width_;
+  std::array<int, 3> cut_, joined_;
+  Side cut_side_, joined_side_;
+};
+
+/// Strides of a contiguous array, the first axis fastest.
+inline StridedArray contiguous(Real* data, const std::array<int, 3>& extents) {
+  return {data, {1, extents[0], static_cast<std::ptrdiff_t>(extents[0]) * extents[1]}};
+}
+
+}  // namespace barchan

@@ -1,0 +1,127 @@
+#include "src/run/command_line.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "src/config/section.hpp"
+
+namespace barchan {
+namespace {
+
+void add_overrides(CLI::App& command, CommandLine& line) {
+  command.add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml
+}
+
+CLI::App* add_run(CLI::App& app, CommandLine& line) {
+  CLI::App* run = app.add_subcommand("run", "run a case");
+  run->add_option("CONFIG", line.file, "the case, a TOML file")->required();
+  add_overrides(*run, line);
+  run->add_option("--out", line.out, "run folder (default: runs/<config name>)")->type_name("DIR");
+  run->add_option("--restart", line.restart, "go on from this restart file")->type_name("FILE");
+  run->add_option("--threads", line.threads, "threads per rank (default: all)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  run->add_option("--patience", line.patience,
+                  "wall time without progress after which several ranks give up (default: 600, "
+                  "0: never)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0, 1'000'000));
+  run->add_flag("--dry-run", line.dry_run,
+                "check the case and show its numbers; nothing is run or written");
+  run->add_flag("--starts-only", line.starts_only,
+                "run the cases this one starts from where their results are missing, then stop");
+  run->add_flag("--quiet", line.quiet, "no live line on the terminal");
+  return run;
+}
+
+CLI::App* add_check(CLI::App& app, CommandLine& line) {
+  CLI::App* check =
+      app.add_subcommand("check", "validate a case; print it resolved, with derived numbers");
+  check->add_option("CONFIG", line.file, "the case, a TOML file")->required();
+  add_overrides(*check, line);
+  return check;
+}
+
+CLI::App* add_info(CLI::App& app, CommandLine& line) {
+  CLI::App* info = app.add_subcommand("info", "what a result or restart file holds");
+  info->add_option("FILE", line.file, "an HDF5 file")->required();
+  return info;
+}
+
+CommandLine bad_usage(const std::string& complaint) {
+  CommandLine line;
+  line.exit_code = 2;
+  line.text = complaint;
+  return line;
+}
+
+/// Empty when the first word is a command or an option. CLI11 alone would say that a subcommand is
+/// missing, not that this one is unknown.
+std::string unknown_command(int argc, const char* const* argv) {
+  const std::vector<std::string> commands{"run", "check", "info"};
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
+  const std::string close = nearest(word, commands);
+  return fmt::format("unknown command \"{}\"{}; there are {}\n", word,
+                     close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+                     fmt::join(commands, ", "));
+}
+
+/// What CLI11 lists as "not expected", in order, with the option it may have been meant for.
+std::string not_expected(const CLI::App& app, const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (std::string word : app.remaining(true)) {
+    if (const auto equals = word.find('='); equals != word.npos) word.resize(equals);
+    if (!word.starts_with("-")) continue;
+    if (word == "--ranks") {
+      return "--ranks is an option of the launcher, ./barchan run; with the program itself start "
+             "ranks by mpirun -np N\n";
+    }
+    const std::string close = nearest(word, names);
+    return fmt::format("unknown option {}{}; {} --help lists them\n", word,
+                       close.empty() ? "" : fmt::format(" (did you mean {}?)", close),
+                       command.get_name());
+  }
+  return {};
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+  const std::string complaint = unknown_command(argc, argv);
+  if (!complaint.empty()) return bad_usage(complaint);
+  CommandLine line;
+  CLI::App app{"Barchan: subaqueous dunes, every grain followed, the flow by large-eddy simulation",
+               "barchan"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version);
+  const CLI::App* run = add_run(app, line);
+  const CLI::App* check = add_check(app, line);
+  const CLI::App* info = add_info(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& stop) {
+    const CLI::App& command = run->parsed() ? *run : check->parsed() ? *check : *info;
+    const std::string found = not_expected(app, command);
+    return bad_usage(found.empty() ? std::string(stop.what()) + "\n" : found);
+  } catch (const CLI::ParseError& stop) {
+    std::ostringstream out, err;
+    if (app.exit(stop, out, err) != 0) return bad_usage(err.str());
+    CommandLine shown;
+    shown.text = out.str();
+    return shown;
+  }
+  line.command = run->parsed() ? Command::run : check->parsed() ? Command::check : Command::info;
+  return line;
+}
+
+}  // namespace barchan

@@ -1,0 +1,117 @@
+#include "src/run/info.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+
+#include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
+#include "src/io/seal.hpp"
+
+namespace barchan {
+
+namespace {
+
+std::string type_name(ElementType type) {
+  switch (type) {
+    case ElementType::float32:
+      return "float32";
+    case ElementType::float64:
+      return "float64";
+    case ElementType::int64:
+      return "int64";
+    case ElementType::other:
+      break;
+  }
+  return "other";
+}
+
+std::string describe_array(const Hdf5File& file, const std::string& path,
+                           const std::string& label) {
+  const auto info = file.info(path);
+  const std::string units =
+      file.has_attribute(path, "units") ? file.text_attribute(path, "units") : std::string("?");
+  return fmt::format("  {:<24} {:<18} {:<8} [{}]\n", label, to_string(info.extents),
+                     type_name(info.type), units);
+}
+
+// Deeper than any group of ours: links of a foreign file may lead in circles.
+constexpr int deepest_group = 4;
+// More than any of our files holds below "/" or "grid": the text stays readable, and within memory.
+constexpr std::size_t longest_listing = 100000;
+
+/// Arrays below a group, with the groups below it.
+std::string describe_group(const Hdf5File& file, const std::string& group, int depth = 0) {
+  std::string text;
+  for (const auto& name : file.children(group)) {
+    if (text.size() > longest_listing) return text + "  ...\n";
+    const std::string path = group == "/" ? name : group + "/" + name;
+    if (!file.is_group(path)) {
+      text += describe_array(file, path, path);
+    } else if (depth < deepest_group) {
+      text += describe_group(file, path, depth + 1);
+    } else {
+      text += fmt::format("  {:<24} a group, not looked into\n", path);
+    }
+  }
+  return text;
+}
+
+std::string describe_origin(const Provenance& origin) {
+  const auto known = [](const std::string& text) { return text.empty() ? "unknown" : text; };
+  return fmt::format("title    {}\nwritten  by barchan {} ({}), {}\n", known(origin.title),
+                     known(origin.version), known(origin.git_hash), known(origin.backend));
+}
+
+std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& frames) {
+  if (frames.empty()) return "frames   none yet\n";
+  const auto &first = frames.front(), &last = frames.back();
+  std::string text =
+      fmt::format("frames   {}: {} ... {}, t = {:.6g} s (step {}) ... {:.6g} s (step {})\n",
+                  frames.size(), first.name, last.name, first.t, first.step, last.t, last.step);
+  text += "arrays of the last frame:\n";
+  for (const auto& array : last.arrays) {
+    text += describe_array(file, last.name + "/" + array.name, array.name);
+  }
+  if (file.exists("grid")) text += "grid:\n" + describe_group(file, "grid");
+  return text;
+}
+
+}  // namespace
+
+std::string describe_file(const std::filesystem::path& path) {
+  std::optional<CheckpointReader> restart;
+  if (has_seal(path)) restart.emplace(path);  // the seal is checked before anything else is opened
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  if (!file.has_attribute("/", "git_hash") || !file.has_attribute("/", "config")) {
+    throw std::runtime_error(path.string() + " is an HDF5 file, but not one that barchan wrote");
+  }
+  std::string text = fmt::format("{}\n", path.string());
+  const Provenance origin = read_provenance(file);
+  if (file.has_attribute("/", "kind")) {
+    if (!restart) restart.emplace(path);
+    text += fmt::format("kind     restart file of step {}\n", restart->step());
+    text += describe_origin(origin);
+    if (restart->has("t")) text += fmt::format("time     {:.10g} s\n", restart->real("t"));
+    text += "arrays:\n" + describe_group(file, "/");
+  } else {
+    text += fmt::format("kind     results ({})\n", file.exists("grid") ? "flow" : "grains");
+    text += describe_origin(origin) + describe_frames(file, list_frames(file));
+  }
+  return text + "The configuration is in the attribute \"config\" of the file.\n";
+}
+
+int run_info(const std::filesystem::path& file) {
+  try {
+    fmt::print("{}", describe_file(file));
+    return 0;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "{}\n", problem.what());
+    return 2;
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,109 @@
+#include "src/run/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/errors.hpp"
+#include "src/config/load.hpp"
+#include "src/config/start.hpp"
+#include "src/config/validate.hpp"
+#include "src/fluid/domain.hpp"
+#include "src/fluid/initial_flow.hpp"
+#include "src/grains/grain_files.hpp"
+#include "src/grains/pour.hpp"
+#include "src/output/state_file.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// A flow that was computed in another domain or on other rows would be taken for one in this.
+void check_flow_file(const Config& config, const CheckpointReader& file) {
+  const std::string resolved = file.provenance().config;
+  if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
+  for (const Finding& f : check_start(config, config_as_written(resolved, file.path()), true)) {
+    throw InputError(fmt::format("{}: as initial.fluid it {}", file.path().string(), f.message));
+  }
+}
+
+FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
+                         const Decomposition* pencils) {
+  FluidState fluid = make_fluid_state(make_grid(config, pencils));
+  if (!file.empty()) {
+    const CheckpointReader flow(file, pencils ? pencils->all() : MPI_COMM_SELF);
+    check_flow_file(config, flow);
+    load_flow(flow, fluid);
+    fluid.time = 0;
+    // The precursor's fluid step may be another one, and grains now push the water aside.
+    fluid.has_history = false;
+    return fluid;
+  }
+  if (config.initial.fluid == "turbulent") set_turbulent_flow(config, fluid);
+  return fluid;
+}
+
+/// Grains that left through a periodic side since the file's last list rebuild come back on the
+/// other; what would have to move by more than the domain is left for check_inside.
+void wrap(InitialGrains& grains, const Config& config) {
+  const auto into = [](double& x, double length) {
+    if (x < 0 && x >= -length) x += length;
+    if (x > length && x <= 2 * length) x -= length;
+  };
+  for (Vec3& x : grains.x) {
+    if (config.grains->boundary_x == GrainBoundaryX::periodic) into(x.x, config.size[0]);
+    if (config.grains->boundary_z == GrainBoundaryZ::periodic) into(x.z, config.size[2]);
+  }
+}
+
+/// Refuses grains that the domain does not hold.
+void check_inside(const InitialGrains& grains, const Config& config, const std::string& source) {
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vec3& x = grains.x[g];
+    const double r = grains.diameter[g] / 2;
+    const bool inside = x.x >= 0 && x.x <= config.size[0] && x.y >= -r && x.y <= config.size[1] &&
+                        x.z >= 0 && x.z <= config.size[2];
+    if (!inside) {
+      const bool far_out = norm(x) > 10 * (config.size[0] + config.size[1] + config.size[2]);
+      throw InputError(
+          fmt::format("{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to "
+                      "({:.6g}, {:.6g}, "
+                      "{:.6g}) m (domain.size){}",
+                      source, grains.id[g], x.x, x.y, x.z, config.size[0], config.size[1],
+                      config.size[2], far_out ? "; lengths are in m, not mm" : ""));
+    }
+  }
+}
+
+/// What the configuration alone did not show: whether the steps and the domain suit these grains.
+void check_sizes(const InitialGrains& grains, const Config& config, const std::string& source) {
+  const auto [least, most] = std::minmax_element(grains.diameter.begin(), grains.diameter.end());
+  for (const Finding& f : check_grain_sizes(config, {{*least, 1}, {*most, 1}})) {
+    if (f.severity != Finding::Severity::error) continue;
+    throw InputError(fmt::format("{}: with these grains {} {}", source, f.keys.front(), f.message));
+  }
+}
+
+}  // namespace
+
+SystemState make_initial_state(const Config& config, const InitialFiles& files, MPI_Comm ranks,
+                               const Decomposition* pencils) {
+  SystemState state;
+  if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
+  if (config.grains) {
+    const bool poured = config.initial.pour.has_value();
+    InitialGrains grains =
+        poured ? pour_grains(*config.initial.pour, config.grains->sizes, config.size)
+               : read_grains(files.grains);
+    const std::string source = poured ? "initial.grains.pour" : files.grains.string();
+    if (grains.size() == 0) throw InputError(source + " holds no grains");
+    check_sizes(grains, config, source);
+    wrap(grains, config);
+    check_inside(grains, config, source);
+    state.grains = make_grain_state(grains, config.grains->density, ranks);
+  }
+  return state;
+}
+
+}  // namespace barchan
