@@ -218,7 +218,7 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.i, "pairs: i", list.n_pairs);
   reserve(list.j, "pairs: j", list.n_pairs);
   reserve(list.other_slot, "pairs: other slot", list.n_crossing);
-  reserve(list.line, "pairs: line", list.n_crossing);
+  reserve(list.pair_force, "pairs: force of a crossing pair", list.n_crossing);
   reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "chunks: slack", list.chunks.count());
