@@ -20,8 +20,7 @@ CaseFacts describe(const RunningCase& c) {
 }
 
 void count_contacts(benchmark::State& run, RunningCase& c) {
-  run.counters["contacts"] =
-      static_cast<double>(c.step->grain_solver()->contacts(*c.state.grains).n_contacts);
+  run.counters["contacts"] = static_cast<double>(c.step->contacts(c.state).n_contacts);
   run.counters["pairs"] = c.state.grains->list.n_pairs;
 }
 
@@ -70,10 +69,12 @@ void count_events(benchmark::State& run, CaseFacts& f, const EventCounts& events
 
 void run_case(benchmark::State& run, const CaseSpec& spec) {
   RunningCase& c = running_case(spec);
-  GrainSolver* grains = c.step->grain_solver();
+  const auto rebuilds_so_far = [&c]() -> std::int64_t {
+    return c.state.grains ? c.step->neighbor_list().rebuilds() : 0;
+  };
   // The peers' unit, where there is no flow: one step of the grains.
   const int steps_at_once = c.state.fluid ? 1 : c.step->substeps();
-  const std::int64_t rebuilds_before = grains != nullptr ? grains->rebuilds() : 0;
+  const std::int64_t rebuilds_before = rebuilds_so_far();
   double iterations = 0;
   CaseFacts f = describe(c);
   const EventCounter events;
@@ -84,8 +85,8 @@ void run_case(benchmark::State& run, const CaseSpec& spec) {
   }
   const EventCounts& counted = events.counts();
   double rebuilds = 0;
-  if (grains != nullptr) {
-    rebuilds = static_cast<double>(grains->rebuilds() - rebuilds_before);
+  if (c.state.grains) {
+    rebuilds = static_cast<double>(rebuilds_so_far() - rebuilds_before);
     run.counters["rebuilds_per_step"] = rebuilds / static_cast<double>(run.iterations());
     count_contacts(run, c);
   }

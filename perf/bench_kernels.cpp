@@ -14,8 +14,7 @@ namespace barchan {
 
 namespace {
 
-constexpr double grain_step = 2.5e-6, fluid_step = 2.5e-4;  // [s]
-constexpr int n_substeps = 100;
+constexpr int n_substeps = 100;  // of the cases below
 
 using Action = std::function<void()>;
 
@@ -68,16 +67,14 @@ void add_kernel(const Kernel& kernel) {
 double pairs_of(const RunningCase& c) { return c.per_grain(c.state.grains->list.n_pairs); }
 
 Action move_grains(RunningCase& c) {
-  return [&c] { c.step->grain_solver()->advance(*c.state.grains, n_substeps, grain_step); };
+  return [&c] { c.step->move_grains(c.state); };
 }
 
 Action build_list(RunningCase& c) {
-  return [&c] { c.step->grain_solver()->start(*c.state.grains); };
+  return [&c] { c.step->neighbor_list().rebuild(*c.state.grains, true); };
 }
 
-double contacts_of(RunningCase& c) {
-  return c.per_grain(c.step->grain_solver()->contacts(*c.state.grains).n_contacts);
-}
+double contacts_of(RunningCase& c) { return c.per_grain(c.step->contacts(c.state).n_contacts); }
 
 Work pair_force_work(RunningCase& c) {
   return work::integrate(false) + work::pair_forces(pairs_of(c), contacts_of(c), false);
@@ -120,7 +117,7 @@ void register_grain_kernels() {
 
 Action solve_once(RunningCase& c, Real mass, Real diffusion) {
   const Grid& grid = c.state.fluid->grid;
-  const auto fft = c.step->fluid_solver()->fft();
+  const auto fft = std::make_shared<const PlaneFft>(grid);
   const auto solver = std::make_shared<const PoissonFft>(grid, fft, mass, diffusion);
   const Field in("bench: right-hand side", grid), out("bench: solution", grid);
   Kokkos::deep_copy(in.storage, c.state.fluid->u.x.storage);
@@ -133,7 +130,7 @@ Work solve_work(RunningCase& c) {
 }
 
 Action advance_flow(RunningCase& c) {
-  return [&c] { c.step->fluid_solver()->advance(*c.state.fluid, nullptr, fluid_step); };
+  return [&c] { c.step->advance_fluid(c.state); };
 }
 
 void register_flow_kernels() {
@@ -157,11 +154,11 @@ void register_flow_kernels() {
 }
 
 Action deposit(RunningCase& c) {
-  return [&c] { c.step->coupling()->deposit(*c.state.grains, *c.state.fluid, fluid_step); };
+  return [&c] { c.step->deposit(c.state); };
 }
 
 Action gather(RunningCase& c) {
-  return [&c] { c.step->coupling()->gather(*c.state.fluid, *c.state.grains, fluid_step); };
+  return [&c] { c.step->gather(c.state); };
 }
 
 void register_coupling_kernels() {

@@ -125,14 +125,14 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
   step = std::make_unique<CoupledStep>(config, state);
   step->start(state);
   // The list and the rows have two sets of memory, taken in the first two rebuilds.
-  if (state.grains) step->grain_solver()->start(*state.grains);
+  if (state.grains) step->neighbor_list().rebuild(*state.grains, true);
   for (int n = 0; n < spec.untimed_steps; ++n) advance();
   bytes_ = array_bytes();
 }
 
 void RunningCase::advance() {
-  // start() is a rebuild that keeps the contact history, as after the loss of a grain.
-  if (spec.rebuild_each_step) step->grain_solver()->start(*state.grains);
+  // A rebuild that keeps the contact history, as after the loss of a grain.
+  if (spec.rebuild_each_step) step->neighbor_list().rebuild(*state.grains, true);
   step->advance(state);
 }
 

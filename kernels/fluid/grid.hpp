@@ -11,7 +11,7 @@ namespace barchan {
 /// Cell (i,j,k) has its x-face (i,j,k) at x = x0 + i dx, its y-face at y_face(j), its z-face at
 /// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
 /// stretched in y. The geometry of ghost rows mirrors the first row inside.
-/// `Rows` holds the heights: a Kokkos view (Grid) or a bare pointer (GridRef).
+/// `Rows` holds the heights: a Kokkos view (src/parallel/grid.hpp) or a bare pointer (GridRef).
 template <class Rows>
 struct BasicGrid {
   int nx = 0, ny = 0, nz = 0;
@@ -62,38 +62,9 @@ struct BasicGrid {
   }
 };
 
-/// The grid as kernels see it: trivially copyable, valid while its Grid lives.
+/// The grid as kernels see it: trivially copyable, valid while the grid lives that
+/// it was made from.
 using GridRef = BasicGrid<const Real*>;
-
-class Decomposition;  // src/parallel/decomposition.hpp
-
-/// The grid with its memory: the part that one rank owns.
-struct Grid : BasicGrid<Kokkos::View<Real*>> {
-  int nx_all = 0, nz_all = 0;            // cells of all ranks together
-  const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
-
-  /// All x-z columns times the height of the domain [m].
-  Real height_of_all_columns() const { return ly * nx_all * nz_all; }
-  // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
-  KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
-    return {nx,
-            ny,
-            nz,
-            dx,
-            dz,
-            x0,
-            z0,
-            lx,
-            ly,
-            lz,
-            i_begin,
-            k_begin,
-            lx_all,
-            lz_all,
-            y_face_.data(),
-            y_centre_.data()};
-  }
-};
 
 /// A field as kernels see it: trivially copyable, so that a compiler can keep it in registers.
 struct FieldRef {
@@ -122,7 +93,7 @@ struct Field {
         stride_z(values.extent_int(0) * values.extent_int(1)) {
     origin = storage.data() + 1 + stride_y + stride_z;
   }
-  Field(const char* label, const Grid& grid)
+  Field(const char* label, const GridRef& grid)
       : Field(Storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
   KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
     // The row first: its address does not depend on i, and compilers then see plain strides.

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

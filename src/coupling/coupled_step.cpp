@@ -5,31 +5,6 @@
 
 namespace barchan {
 
-namespace {
-
-template <class Action, class... Arrays>
-void for_each(const Action& action, Arrays&... arrays) {
-  (action(arrays), ...);
-}
-
-// What the two sides of the exchange need of a grain, and what they leave with it.
-constexpr auto gather_needs = [](GrainState& s, const auto& action) {
-  for_each(action, s.kin, s.fluid.u_f, s.exchange.fluid_force, s.exchange.carried_impulse);
-};
-constexpr auto gather_gives = [](GrainState& s, const auto& action) {
-  for_each(action, s.fluid.u_f, s.fluid.beta, s.fluid.steady_force, s.fluid.added_mass,
-           s.exchange.added_mass_force, s.exchange.fluid_force, s.exchange.carried_impulse);
-};
-constexpr auto deposit_needs = [](GrainState& s, const auto& action) {
-  for_each(action, s.kin, s.fluid.beta, s.fluid.added_mass, s.fluid.drag_impulse, s.fluid.u_start,
-           s.exchange.added_mass_force, s.exchange.carried_impulse);
-};
-constexpr auto carry_gives = [](GrainState& s, const auto& action) {
-  action(s.exchange.carried_impulse);
-};
-
-}  // namespace
-
 CoupledStep::CoupledStep(const Config& config, SystemState& state)
     : dt_(config.time.fluid_step), n_substeps_(grain_substeps(config.time)) {
   if (state.fluid) fluid_ = std::make_unique<FluidSolver>(config, state.fluid->grid);
@@ -63,72 +38,73 @@ void CoupledStep::start(SystemState& state) {
   }
   if (grains_) grains_->start(*state.grains);
   if (coupling_)
-    coupling_->start(fluid_side_.to_fluid_ranks(*state.grains, deposit_needs), *state.fluid);
+    coupling_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
   if (fluid_) fluid_->fill_ghosts(*state.fluid);
 }
 
 void CoupledStep::advance(SystemState& state) {
-  if (coupling_) {
-    advance_coupled(*state.fluid, *state.grains);
-  } else if (fluid_) {
+  gather(state);
+  move_grains(state);
+  deposit(state);
+  advance_fluid(state);
+  carry(state);
+}
+
+void CoupledStep::gather(SystemState& state) {
+  if (!grains_) return;
+  GrainState& grains = *state.grains;
+  const PhaseTimer timer(phases_, coupling_ ? "exchange" : "grains");
+  if (!coupling_) {
+    still_.grains = grains.kin;
+    still_.on_grains = grains.fluid;
+    Kokkos::parallel_for("grains: still fluid", grains.n, still_);
+    return;
+  }
+  coupling_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
+  fluid_side_.to_grain_ranks(grains, kGatherWrites);
+  if (fluid_side_.is_cut())  // what was gathered for are copies
+    Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
+                         BeginFluidStep{grains.kin, grains.fluid});
+}
+
+void CoupledStep::move_grains(SystemState& state) {
+  if (!grains_) return;
+  GrainState& grains = *state.grains;
+  const PhaseTimer timer(phases_, "grains");
+  if (!frozen_) {
+    grains_->advance(grains, n_substeps_, dt_ / n_substeps_);
+  } else if (!grains.fluid.none) {
+    Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
+                         DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
+  }
+}
+
+void CoupledStep::deposit(SystemState& state) {
+  if (!coupling_) return;
+  const PhaseTimer timer(phases_, "deposit");
+  coupling_->deposit(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid, dt_);
+}
+
+void CoupledStep::advance_fluid(SystemState& state) {
+  if (fluid_) {
     const PhaseTimer timer(phases_, "fluid");
-    fluid_report_ = fluid_->advance(*state.fluid, nullptr, dt_);
-  } else {
-    advance_grains(*state.grains);
+    fluid_report_ =
+        fluid_->advance(*state.fluid, coupling_ ? &coupling_->on_faces() : nullptr, dt_);
   }
   phases_["fluid"] -= fluid_report_.seconds_pressure;
   phases_["pressure"] += fluid_report_.seconds_pressure;
 }
 
-/// t -> t + dt: the grains move through the flow of time t, then the flow answers.
-void CoupledStep::advance_coupled(FluidState& fluid, GrainState& grains) {
-  {
-    const PhaseTimer timer(phases_, "exchange");
-    GrainState& there = fluid_side_.to_fluid_ranks(grains, gather_needs);
-    coupling_->gather(fluid, there, dt_);  // u_f, drag coefficient, steady forces at the grains
-    fluid_side_.to_grain_ranks(grains, gather_gives);
-    if (fluid_side_.is_cut())
-      Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
-                           BeginFluidStep{grains.kin, grains.fluid});
+void CoupledStep::carry(SystemState& state) {
+  if (!grains_) return;
+  GrainState& grains = *state.grains;
+  const PhaseTimer timer(phases_, coupling_ ? "exchange" : "grains");
+  if (coupling_) {
+    coupling_->carry(*state.fluid, fluid_side_.on_fluid_ranks(grains), dt_);
+    fluid_side_.to_grain_ranks(grains, kCarryWrites);
+    ledger_.close_step(coupling_->ledger(), grains);
   }
-  {
-    const PhaseTimer timer(phases_, "grains");
-    move_grains(grains);  // sub-steps; the drag follows the grain at fixed u_f
-  }
-  GrainState* there = nullptr;
-  {
-    const PhaseTimer timer(phases_, "deposit");
-    there = &fluid_side_.to_fluid_ranks(grains, deposit_needs);
-    coupling_->deposit(*there, fluid, dt_);  // alpha_f; -impulse and its implicit part on faces
-  }
-  {
-    const PhaseTimer timer(phases_, "fluid");
-    fluid_report_ = fluid_->advance(fluid, &coupling_->on_faces(), dt_);  // WALE, u*, p, u
-  }
-  const PhaseTimer timer(phases_, "exchange");
-  coupling_->carry(fluid, *there, dt_);  // what the implicit drag moved goes to the grains next
-  fluid_side_.to_grain_ranks(grains, carry_gives);
-  ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);
-}
-
-void CoupledStep::advance_grains(GrainState& grains) {
-  const PhaseTimer timer(phases_, "grains");
-  still_.grains = grains.kin;
-  still_.on_grains = grains.fluid;
-  Kokkos::parallel_for("grains: still fluid", grains.n, still_);
-  move_grains(grains);
-  grains_->remove_left(grains);
-}
-
-void CoupledStep::move_grains(GrainState& grains) {
-  if (frozen_) {
-    if (grains.fluid.none) return;
-    Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
-                         DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
-  } else {
-    grains_->advance(grains, n_substeps_, dt_ / n_substeps_);
-  }
 }
 
 }  // namespace barchan

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "src/base/stopwatch.hpp"
@@ -29,13 +30,27 @@ class CoupledStep {
 
   /// First neighbour list and fluid fraction of a new run.
   void start(SystemState& state);
-  /// t -> t + fluid_step.
+  /// t -> t + fluid_step: the grains move through the flow of time t, then the flow answers.
   void advance(SystemState& state);
+
+  // The parts of a step in their order. What a state does not have, they leave out.
+
+  /// u_f, drag coefficient and steady forces at the grains, of the flow or of still fluid.
+  void gather(SystemState& state);
+  /// The grain steps of one fluid step; the drag follows the grain at fixed u_f.
+  void move_grains(SystemState& state);
+  /// alpha_f; on faces the reaction to the grains' impulse and its implicit part.
+  void deposit(SystemState& state);
+  /// WALE, u*, p, u.
+  void advance_fluid(SystemState& state);
+  /// What the implicit drag took from the fluid, for the grains' next step; the conservation
+  /// ledger; grains beyond the outlet leave.
+  void carry(SystemState& state);
 
   /// Forces on the grains over the last step by name [N], rows as in the state: drag, pressure
   /// gradient, stress, added mass (with the impulse carried from the implicit exchange), contact
   /// normal and tangential, and total, the resultant with weight and buoyancy.
-  std::vector<NamedForce> grain_forces(SystemState& state);
+  std::vector<NamedForce> grain_forces(const SystemState& state);
   /// The last of them alone.
   Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
   /// Its mean over the last step, what changed the grains' momentum in water; without, the same as
@@ -43,19 +58,32 @@ class CoupledStep {
   Kokkos::View<Vec3*> mean_resultant_force(const GrainState& grains) const;
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
+  /// What changed sides in the last step, and since the run began.
+  const ExchangeLedger& exchange() const { return coupling_->ledger(); }
   const Ledger& ledger() const { return ledger_; }
   const Phases& phases() const { return phases_; }
-  FluidSolver* fluid_solver() { return fluid_.get(); }
-  GrainSolver* grain_solver() const { return grains_.get(); }
-  Coupling* coupling() { return coupling_.get(); }
   int substeps() const { return n_substeps_; }
 
+  /// Of a state with a flow, see FluidSolver.
+  Real friction_velocity(const SystemState& s) const { return fluid_->friction_velocity(*s.fluid); }
+  Real bulk_velocity(const SystemState& s) const { return fluid_->bulk_velocity(*s.fluid); }
+  Real kinetic_energy_of_fluid(const SystemState& s) const {
+    return fluid_->kinetic_energy(*s.fluid);
+  }
+  /// Those that hold nothing between two steps; see FluidSolver::Idle.
+  std::vector<Field> scratch_fields() const { return fluid_->idle().for_anything(); }
+  /// After the flow was set by hand.
+  void fill_ghosts(const SystemState& state) const { fluid_->fill_ghosts(*state.fluid); }
+
+  /// Of a state with grains.
+  ContactSummary contacts(const SystemState& s) const { return grains_->contacts(*s.grains); }
+  std::span<const Plane> walls() const { return grains_->walls(); }
+  NeighborList& neighbor_list() { return grains_->list(); }
+  const NeighborList& neighbor_list() const { return grains_->list(); }
+
  private:
-  void advance_coupled(FluidState& fluid, GrainState& grains);
-  void advance_grains(GrainState& grains);
-  void move_grains(GrainState& grains);
   Kokkos::View<Vec3*> fluid_force_now(const char* name, const FluidForces& which,
-                                      SystemState& state);
+                                      const SystemState& state);
 
   double dt_ = 0;
   int n_substeps_ = 1;

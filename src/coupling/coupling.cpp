@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "src/config/load.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
@@ -95,7 +95,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       skip_relaxation_(always_skips_relaxation_),
       periodic_x_(config.grains->boundary_x == GrainBoundaryX::periodic),
       stencil_(make_deposit_stencil(config, grid, grains.r_max)),
-      rims_(grid),
+      halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
@@ -236,7 +236,7 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   Kokkos::parallel_for(
       "coupling: deposit", items(grains.n),
       DepositGrain{.stencil = stencil_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
-  rims_.add(deposits_);
+  halo_.scatter_add(deposits_.sum);
 
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   const Field alpha = fluid.alpha_f;

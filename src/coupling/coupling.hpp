@@ -7,7 +7,6 @@
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/interphase.hpp"
 #include "src/config/config.hpp"
-#include "src/coupling/deposit_rims.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/poisson_fft.hpp"
@@ -77,7 +76,7 @@ class Coupling {
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
   bool periodic_x_ = false;
   DepositStencil stencil_;
-  DepositRims rims_;
+  Halo halo_;
   Real rho_f_ = 0, nu_ = 0;
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // valid around the grains; room of the flow solver

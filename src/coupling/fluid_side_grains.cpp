@@ -20,20 +20,20 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
              .lx = grid.lx_all,
              .lz = grid.lz_all,
              .periodic_x = periodic_x};
-  visitors_ = make_grain_rows(0, ranks_);
-  add_fluid(visitors_);
-  add_exchange(visitors_);
+  copies_ = make_grain_rows(0, ranks_);
+  add_fluid(copies_);
+  add_exchange(copies_);
   count_ =
       Kokkos::View<int*>("fluid-side grains: count", static_cast<std::size_t>(rank_count(ranks_)));
 }
 
 /// Fills row_, in the order of the owners, and counts_.
-void FluidSideGrains::find_owners(const GrainState& home) {
-  const int n = home.n;
+void FluidSideGrains::find_owners(const GrainState& grains) {
+  const int n = grains.n;
   reserve_rows(owner_, n);
   reserve_rows(row_, n);
   Kokkos::deep_copy(count_, 0);
-  const auto kin = home.kin;
+  const auto kin = grains.kin;
   const auto owner = owner_, row = row_, count = count_;
   const PencilOwners owner_of = owners_;
   Kokkos::parallel_for(
@@ -55,41 +55,53 @@ void FluidSideGrains::find_owners(const GrainState& home) {
           ++sum;
         });
   }
-  counts_ = announce(ranks_, std::move(to));
+  counts_ = exchange_counts(ranks_, std::move(to));
 }
 
-void FluidSideGrains::wrap_visitors() const {
-  const auto kin = visitors_.kin;
+void FluidSideGrains::wrap_copies() const {
+  const auto kin = copies_.kin;
   const PencilOwners owners = owners_;
   Kokkos::parallel_for(
-      "fluid-side grains: wrap", items(visitors_.n),
+      "fluid-side grains: wrap", items(copies_.n),
       KOKKOS_LAMBDA(int g) { kin(g).x = owners.into_domain(kin(g).x); });
 }
 
-void FluidSideGrains::send(const RecordLayout& layout, const RecordCounts& counts,
-                           const Kokkos::View<const int*>& row) {
-  const int n = counts.n_to();
-  send_.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(layout.width));
-  Kokkos::parallel_for("fluid-side grains: pack", items(n),
-                       PackRecords{layout, row, send_.data(), layout.width});
-  exchange(counts, layout.width, send_, receive_);
+void FluidSideGrains::copy_to_fluid_ranks(const GrainState& grains, unsigned uses) {
+  if (!is_cut_) return;
+  find_owners(grains);
+  exchange_.exchange(counts_, layout_of(grains, uses), row_);
+  for (std::size_t e = copies_.extra.size(); e < grains.extra.size(); ++e)
+    add_extra(copies_, grains.extra[e].name, grains.extra[e].unit, grains.extra[e].uses);
+  copies_.n = counts_.n_from();
+  reserve_rows(copies_, copies_.n, kFluidSide);
+  exchange_.unpack(layout_of(copies_, uses), 0);
+  wrap_copies();
 }
 
-void FluidSideGrains::take(const RecordLayout& layout, const RecordCounts& counts,
-                           const Kokkos::View<const int*>& row) const {
-  Kokkos::parallel_for("fluid-side grains: unpack", items(counts.n_from()),
-                       UnpackRecords{layout, row, 0, receive_.data(), layout.width});
+GrainState& FluidSideGrains::to_fluid_ranks(GrainState& grains, unsigned uses) {
+  copy_to_fluid_ranks(grains, uses);
+  return is_cut_ ? copies_ : grains;
 }
 
-void FluidSideGrains::to_grain_ranks(const Kokkos::View<Vec3*>& of_visitors,
-                                     const Kokkos::View<Vec3*>& home) {
-  const auto layout_of = [](const Kokkos::View<Vec3*>& vectors) {
-    RecordLayout layout;
-    grain_columns_detail::add_to(layout, vectors);
-    return layout;
-  };
-  send(layout_of(of_visitors), counts_.back(), {});
-  take(layout_of(home), counts_.back(), row_);
+const GrainState& FluidSideGrains::to_fluid_ranks(const GrainState& grains, unsigned uses) {
+  copy_to_fluid_ranks(grains, uses);
+  return is_cut_ ? copies_ : grains;
+}
+
+void FluidSideGrains::to_grain_ranks(GrainState& grains, unsigned uses) {
+  if (!is_cut_) return;
+  exchange_.exchange(counts_.back(), layout_of(copies_, uses));
+  exchange_.unpack(layout_of(grains, uses), row_);
+}
+
+Kokkos::View<Vec3*> FluidSideGrains::to_grain_ranks(const Kokkos::View<Vec3*>& of_copies, int n) {
+  if (!is_cut_) return of_copies;
+  const Kokkos::View<Vec3*> of_grains(of_copies.label(), static_cast<std::size_t>(n));
+  PackLayout packed, unpacked;
+  packed.add(of_copies), unpacked.add(of_grains);
+  exchange_.exchange(counts_.back(), packed);
+  exchange_.unpack(unpacked, row_);
+  return of_grains;
 }
 
 }  // namespace barchan

@@ -13,17 +13,14 @@ Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
 
 /// Evaluated where the flow is.
 Kokkos::View<Vec3*> CoupledStep::fluid_force_now(const char* name, const FluidForces& which,
-                                                 SystemState& state) {
-  const Kokkos::View<Vec3*> force = grain_vector(name, state.grains->n);
-  const auto places = [](GrainState& s, const auto& action) { action(s.kin); };
-  const GrainState& there = fluid_side_.to_fluid_ranks(*state.grains, places);
-  const auto force_there = fluid_side_.is_cut() ? grain_vector(name, there.n) : force;
-  coupling_->single_force(which, *state.fluid, there, force_there);
-  if (fluid_side_.is_cut()) fluid_side_.to_grain_ranks(force_there, force);
-  return force;
+                                                 const SystemState& state) {
+  const GrainState& there = fluid_side_.to_fluid_ranks(*state.grains, kForceReads);
+  const Kokkos::View<Vec3*> force = grain_vector(name, there.n);
+  coupling_->single_force(which, *state.fluid, there, force);
+  return fluid_side_.to_grain_ranks(force, state.grains->n);
 }
 
-std::vector<NamedForce> CoupledStep::grain_forces(SystemState& state) {
+std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "kernels/coupling/state_checks.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
@@ -25,15 +26,18 @@ struct WorstGrains {
 };
 
 /// Of this rank's grains. Frozen grains may lie as they like.
-WorstGrains worst_of(const GrainState& grains, const GrainSolver& solver, Real dt) {
+WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt) {
   WorstGrains worst;
-  Kokkos::parallel_reduce(
-      "state checks: pairs", items(grains.list.n_pairs),
-      PairOverlap{
-          .box = solver.box(), .list = grains.list, .grains = grains.kin, .n_owned = grains.n},
-      WorstOf(worst.pair));
-  GrainLimits limits{.grains = grains.kin, .plane = {}, .n_walls = solver.n_walls(), .dt = dt};
-  for (int w = 0; w < limits.n_walls; ++w) limits.plane[w] = solver.wall(w);
+  Kokkos::parallel_reduce("state checks: pairs", items(grains.list.n_pairs),
+                          PairOverlap{.box = step.neighbor_list().box(),
+                                      .list = grains.list,
+                                      .grains = grains.kin,
+                                      .n_owned = grains.n},
+                          WorstOf(worst.pair));
+  const auto walls = step.walls();
+  GrainLimits limits{
+      .grains = grains.kin, .plane = {}, .n_walls = static_cast<int>(walls.size()), .dt = dt};
+  std::copy(walls.begin(), walls.end(), limits.plane);
   Kokkos::parallel_reduce("state checks: grains", items(grains.n), limits, WorstOf(worst.in_wall),
                           WorstOf(worst.way));
   return worst;
@@ -90,11 +94,11 @@ const char* name_of(const Plane& wall) {
 }
 
 /// The wall that a grain is deepest in, and how far its centre is inside the domain [m].
-std::pair<Plane, Real> deepest_wall(const GrainSolver& solver, const Vec3& x) {
-  const auto inside = [&](int w) { return dot(solver.wall(w).normal, x) - solver.wall(w).offset; };
-  int deepest = 0;
-  for (int w = 1; w < solver.n_walls(); ++w) deepest = inside(w) < inside(deepest) ? w : deepest;
-  return {solver.wall(deepest), inside(deepest)};
+std::pair<Plane, Real> deepest_wall(std::span<const Plane> walls, const Vec3& x) {
+  const auto inside = [&](const Plane& wall) { return dot(wall.normal, x) - wall.offset; };
+  const Plane& deepest = *std::min_element(walls.begin(), walls.end(),
+                                           [&](auto& a, auto& b) { return inside(a) < inside(b); });
+  return {deepest, inside(deepest)};
 }
 
 /// Reported values of what is not finite.
@@ -111,9 +115,8 @@ constexpr const char* softer =
 
 std::string StateChecks::grain_problem(const GrainState& grains, const CoupledStep& step,
                                        const std::vector<Real>& worst, bool at_start) const {
-  const GrainSolver& solver = *step.grain_solver();
   const Real limit = config_.grains->max_overlap;
-  const WorstGrains mine = worst_of(grains, solver, true_grain_step(config_.time));
+  const WorstGrains mine = worst_of(grains, step, true_grain_step(config_.time));
   // A rank without grains or pairs has Kokkos' identity for a worst item: its place is none.
   const auto tell = [&](const WorstItem& item, auto words) {
     return of_the_worst(ranks_, item.val, item.val > 0 ? words(item.loc) : std::string());
@@ -136,7 +139,7 @@ std::string StateChecks::grain_problem(const GrainState& grains, const CoupledSt
   }
   if (worst[1] > limit) {
     return tell(mine.in_wall, [&](int g) {
-      const auto [wall, inside] = deepest_wall(solver, element(grains.kin, g).x);
+      const auto [wall, inside] = deepest_wall(step.walls(), element(grains.kin, g).x);
       if (inside < 0) {
         return fmt::format("{} has gone through {}{}", grain_at(grains, g), name_of(wall),
                            at_start ? ""
@@ -201,8 +204,7 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
   const Real limit = config_.grains ? config_.grains->max_overlap : 0;
   std::vector<Real> worst(4, 0.0);  // overlap of a pair, with a wall; way; fluid fraction
   if (grains_move) {
-    const WorstGrains mine =
-        worst_of(*state.grains, *step.grain_solver(), true_grain_step(config_.time));
+    const WorstGrains mine = worst_of(*state.grains, step, true_grain_step(config_.time));
     worst = {mine.pair.val, mine.in_wall.val, mine.way.val, 0};
   }
   if (state.fluid && state.grains) {

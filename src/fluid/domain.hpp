@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "kernels/fluid/grid.hpp"
 #include "src/config/config.hpp"
 #include "src/parallel/decomposition.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 

@@ -1,8 +1,8 @@
 // Real Fourier transforms over x and z of every row of a grid field, whichever ranks own it.
 #pragma once
 
-#include "kernels/fluid/grid.hpp"
 #include "src/fluid/line_fft.hpp"
+#include "src/parallel/grid.hpp"
 #include "src/parallel/transpose.hpp"
 
 namespace barchan {

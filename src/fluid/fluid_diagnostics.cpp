@@ -3,7 +3,7 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

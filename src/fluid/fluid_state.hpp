@@ -1,7 +1,7 @@
 // Everything the fluid remembers from one step to the next.
 #pragma once
 
-#include "kernels/fluid/grid.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/config/derived.hpp"
-#include "src/parallel/messages.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "kernels/fluid/pressure.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

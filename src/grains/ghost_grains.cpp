@@ -5,17 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/grains/pack.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
 
 namespace {
-
-constexpr int kWhole = 13;  // kinematics and id
-constexpr int kMotion = 9;  // position, velocity, spin
-using Kinematics = Kokkos::View<GrainKinematics*>;
 
 template <class View>
 View room(const char* label, int n) {
@@ -25,13 +20,14 @@ View room(const char* label, int n) {
 
 }  // namespace
 
-/// Fills sent_row_, in the order of the ranks that get the records, and counts_.
-void GhostGrains::choose(const GrainState& grains, const Kinematics& kin,
-                         const SearchColumns& columns, const GrainOwners& owners, MPI_Comm ranks) {
+/// Fills sent_row_ and counts_.
+void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
+                         const GrainOwners& owners, MPI_Comm ranks) {
+  const auto kin = grains.kin;
   const int n = grains.n, n_ranks = static_cast<int>(owners.start.extent(0));
-  const auto first = room<Kokkos::View<int*>>("ghosts: first record", n);
+  const auto first = room<Kokkos::View<int*>>("ghosts: first copy", n);
   Kokkos::parallel_for(
-      "ghosts: count records", items(n),
+      "ghosts: count copies", items(n),
       KOKKOS_LAMBDA(int g) { first(g) = GhostDestinations(columns, owners, kin(g).x).n; });
   const auto border = room<Kokkos::View<int*>>("ghosts: border", n);
   int n_border = 0;
@@ -45,7 +41,7 @@ void GhostGrains::choose(const GrainState& grains, const Kinematics& kin,
       n_border);
   int total = 0;
   Kokkos::parallel_scan(
-      "ghosts: first records", items(n_border),
+      "ghosts: first copies", items(n_border),
       KOKKOS_LAMBDA(int b, int& sum, bool final) {
         const int count = first(border(b));
         if (final) first(border(b)) = sum;
@@ -55,7 +51,7 @@ void GhostGrains::choose(const GrainState& grains, const Kinematics& kin,
   const auto rank = room<Kokkos::View<int*>>("ghosts: rank", total);
   const auto row = room<Kokkos::View<int*>>("ghosts: row", total);
   Kokkos::parallel_for(
-      "ghosts: list records", items(n_border), KOKKOS_LAMBDA(int b) {
+      "ghosts: list copies", items(n_border), KOKKOS_LAMBDA(int b) {
         const int g = border(b);
         const GhostDestinations destinations(columns, owners, kin(g).x);
         for (int q = 0; q < destinations.n; ++q) {
@@ -78,80 +74,50 @@ void GhostGrains::choose(const GrainState& grains, const Kinematics& kin,
     for (const int g : rows) sorted(p++) = g;
   }
   Kokkos::deep_copy(sent_row_, sorted);
-  counts_ = announce(ranks, std::move(to));
+  counts_ = exchange_counts(ranks, std::move(to));
 }
 
-/// Takes what was received into the rows after the owned ones, in the order of the columns.
-void GhostGrains::place(GrainState& grains, Kinematics& kin, const SearchColumns& columns) {
+/// What was received, into the rows after the owned ones, in the order of the columns.
+void GhostGrains::unpack(GrainState& grains, const SearchColumns& columns) {
   const int n = grains.n, n_ghosts = count();
   grains.n_ghosts = n_ghosts;
-  reserve_rows(kin, n + n_ghosts);
-  reserve_rows(grains.id, n + n_ghosts);
+  reserve_rows(grains, n + n_ghosts, kGhosts);
   const auto key = room<Kokkos::View<std::uint64_t*>>("ghosts: key", n_ghosts);
   const auto order = room<Kokkos::View<int*>>("ghosts: order", n_ghosts);
-  const Real* const received = receive_.data();
+  const PackLayout layout = layout_of(grains, kGhosts);
+  const Real* const received = exchange_.received() + layout.offset_of(grains.kin.data());
+  const int width = exchange_.width();
   Kokkos::parallel_for(
       "ghosts: keys", items(n_ghosts), KOKKOS_LAMBDA(int p) {
-        Vec3 x;
-        take_words(received + std::ptrdiff_t{kWhole} * p, x);
-        key(p) = columns.key_of(x);
+        const Real* x = received + std::ptrdiff_t{width} * p;
+        key(p) = columns.key_of({x[0], x[1], x[2]});
         order(p) = p;
       });
   Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, order);
   row_ = room<Kokkos::View<int*>>("ghosts: row", n_ghosts);
   const auto row = row_;
-  const auto id = grains.id;
-  const Kinematics to = kin;
+  const UnpackRows unpack = exchange_.unpacking(layout, {}, n);
   Kokkos::parallel_for(
-      "ghosts: take", items(n_ghosts), KOKKOS_LAMBDA(int q) {
-        const Real* from = received + std::ptrdiff_t{kWhole} * order(q);
+      "ghosts: unpack", items(n_ghosts), KOKKOS_LAMBDA(int q) {
         row(order(q)) = n + q;
-        GrainKinematics& grain = to(n + q);
-        take_words(from, grain.x), take_words(from + 3, grain.r);
-        take_words(from + 4, grain.u), take_words(from + 7, grain.m);
-        take_words(from + 8, grain.omega), take_words(from + 11, grain.padding);
-        take_words(from + 12, id(n + q));
+        unpack.unpack(order(q), n + q);
       });
 }
 
-void GhostGrains::find(GrainState& grains, Kinematics& kin, const SearchColumns& columns,
-                       const GrainOwners& owners, MPI_Comm ranks) {
-  choose(grains, kin, columns, owners, ranks);
-  send_.reserve(static_cast<std::size_t>(counts_.n_to()) * kWhole);
-  Real* const sent = send_.data();
-  const auto row = sent_row_;
-  const auto id = grains.id;
-  const Kinematics from = kin;
-  Kokkos::parallel_for(
-      "ghosts: copy", items(counts_.n_to()), KOKKOS_LAMBDA(int p) {
-        const GrainKinematics& grain = from(row(p));
-        Real* to = sent + std::ptrdiff_t{kWhole} * p;
-        put_words(to, grain.x_r()), put_words(to + 4, grain.u_m());
-        put_words(to + 8, grain.spin()), put_words(to + 12, id(row(p)));
-      });
-  exchange(counts_, kWhole, send_, receive_);
-  place(grains, kin, columns);
+void GhostGrains::find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners,
+                       MPI_Comm ranks) {
+  choose(grains, columns, owners, ranks);
+  exchange_.exchange(counts_, layout_of(grains, kGhosts), sent_row_);
+  unpack(grains, columns);
 }
 
-void GhostGrains::update(const Kinematics& kin) {
-  Real* const sent = send_.data();
-  const auto sent_row = sent_row_;
-  Kokkos::parallel_for(
-      "ghosts: send motion", items(counts_.n_to()), KOKKOS_LAMBDA(int p) {
-        const GrainKinematics& grain = kin(sent_row(p));
-        Real* to = sent + std::ptrdiff_t{kMotion} * p;
-        put_words(to, grain.x), put_words(to + 3, grain.u), put_words(to + 6, grain.omega);
-      });
-  exchange(counts_, kMotion, send_, receive_);
-  const Real* const received = receive_.data();
-  const auto row = row_;
-  Kokkos::parallel_for(
-      "ghosts: take motion", items(counts_.n_from()), KOKKOS_LAMBDA(int p) {
-        GrainKinematics& grain = kin(row(p));
-        const Real* from = received + std::ptrdiff_t{kMotion} * p;
-        take_words(from, grain.x), take_words(from + 3, grain.u);
-        take_words(from + 6, grain.omega);
-      });
+void GhostGrains::update(const Kokkos::View<GrainKinematics*>& kin) {
+  PackLayout motion;
+  motion.add(kin, &GrainKinematics::x);
+  motion.add(kin, &GrainKinematics::u);
+  motion.add(kin, &GrainKinematics::omega);
+  exchange_.exchange(counts_, motion, sent_row_);
+  exchange_.unpack(motion, row_);
 }
 
 }  // namespace barchan

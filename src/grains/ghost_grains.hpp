@@ -3,7 +3,7 @@
 
 #include "kernels/grains/grain_owners.hpp"
 #include "src/grains/grain_state.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/pack.hpp"
 
 namespace barchan {
 
@@ -11,26 +11,26 @@ namespace barchan {
 /// which ones there are changes with the neighbour list, where they are in every sub-step.
 class GhostGrains {
  public:
-  /// Copies every grain beside another rank's columns to that rank; `kin` and grains.id are given
-  /// room for the ghosts, which follow the grains.n owned ones. All ranks together.
-  void find(GrainState& grains, Kokkos::View<GrainKinematics*>& kin, const SearchColumns& columns,
-            const GrainOwners& owners, MPI_Comm ranks);
+  /// Copies every grain beside another rank's columns to that rank; the arrays that ghosts have are
+  /// given room for them behind the grains.n owned rows. All ranks together.
+  void find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners,
+            MPI_Comm ranks);
   /// Position, velocity and spin of the ghosts as their owners have them now. All ranks together.
   void update(const Kokkos::View<GrainKinematics*>& kin);
 
   int count() const { return counts_.n_from(); }
-  const RecordCounts& counts() const { return counts_; }
+  const ExchangeCounts& counts() const { return counts_; }
 
   // Public only because nvcc takes no device lambda from a private function.
-  void choose(const GrainState& grains, const Kokkos::View<GrainKinematics*>& kin,
-              const SearchColumns& columns, const GrainOwners& owners, MPI_Comm ranks);
-  void place(GrainState& grains, Kokkos::View<GrainKinematics*>& kin, const SearchColumns& columns);
+  void choose(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners,
+              MPI_Comm ranks);
+  void unpack(GrainState& grains, const SearchColumns& columns);
 
  private:
-  RecordCounts counts_;
-  Kokkos::View<int*> sent_row_;  // of each record that is sent
-  Kokkos::View<int*> row_;       // of each record that is received
-  MessageBuffer send_{"ghosts: send", 0}, receive_{"ghosts: receive", 0};
+  ExchangeCounts counts_;
+  Kokkos::View<int*> sent_row_;  // in the order of the ranks they are sent to
+  Kokkos::View<int*> row_;       // of each ghost, in the order they are received
+  RowExchange exchange_{"ghosts"};
 };
 
 }  // namespace barchan

@@ -1,82 +1,58 @@
-// All that belongs to a grain, column by column: for what reorders, moves or copies grains.
+// The table of all arrays that a grain has, for what allocates, sorts, moves, copies or saves them.
 #pragma once
 
-#include <type_traits>
-
-#include "kernels/grains/pack.hpp"
 #include "src/grains/grain_state.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/pack.hpp"
 
 namespace barchan {
 
-/// Calls action(array) for every per-grain array that the state has.
-template <class Action>
-void for_each_array(GrainState& s, const Action& action) {
-  action(s.kin);
-  action(s.id);
-  for (Kokkos::View<Vec3*>* array :
-       {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.u_f, &s.fluid.steady_force,
-        &s.fluid.drag_impulse, &s.fluid.u_start, &s.exchange.added_mass_force,
-        &s.exchange.fluid_force, &s.exchange.carried_impulse}) {
-    if (array->extent(0) > 0) action(*array);
-  }
-  for (Kokkos::View<Real*>* array : {&s.fluid.beta, &s.fluid.added_mass}) {
-    if (array->extent(0) > 0) action(*array);
-  }
-  for (auto* history : {&s.wall_xi_t, &s.wall_torque}) {
-    if (history->extent(1) > 0) action(*history);
-  }
-  action(s.wall_touching);
+/// Calls action(GrainArray, array) for each array of a grain, in the order of restart files. A new
+/// array of a grain is a member of GrainState and a line here.
+template <class State, class Action>
+void for_each_grain_array(State& s, const Action& action) {
+  using enum Allocated;
+  auto& f = s.fluid;
+  auto& e = s.exchange;
+  const auto add = [&](auto& array, const char* name, const char* unit, Allocated allocated,
+                       unsigned uses = 0) {
+    action(GrainArray{name, unit, allocated, uses}, array);
+  };
+  // clang-format off
+  add(s.id,               "id",               "1",    always,     kRestart | kGhosts);
+  add(s.kin,              "kin",              "SI",   always,     kRestart | kGhosts | kGatherReads |
+                                                               kDepositReads | kForceReads);
+  add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
+  add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
+  add(s.x_reference,      "x_reference",      "m",    always,     kRestart);
+  add(f.u_f,              "u_f",              "m/s",  with_fluid, kRestartWithFlow | kGather);
+  add(e.fluid_force,      "fluid_force",      "N",    with_flow,  kRestart | kGather);
+  add(e.carried_impulse,  "carried_impulse",  "N s",  with_flow,  kRestart | kGather | kDepositReads |
+                                                               kCarryWrites);
+  add(s.wall_xi_t,        "wall_xi_t",        "m",    by_solver,  kRestart);
+  add(s.wall_torque,      "wall_torque",      "N m",  by_solver,  kRestart);
+  add(s.wall_touching,    "wall_touching",    "1",    always,     kRestart);
+  add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
+  add(f.steady_force,     "steady_force",     "N",    always,     kGatherWrites);
+  add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites | kDepositReads);
+  add(f.drag_impulse,     "drag_impulse",     "N s",  with_fluid, kDepositReads);
+  add(f.u_start,          "u_start",          "m/s",  with_fluid, kDepositReads);
+  add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
+  // clang-format on
+  for (auto& x : s.extra) add(x.values, x.name.c_str(), x.unit.c_str(), always, x.uses);
 }
 
-namespace grain_columns_detail {
-
-template <class T, class Action>
-void for_each_column_of(const Kokkos::View<T*>& array, const Action& action) {
-  action(array);
-}
-template <class Action>
-void for_each_column_of(const Kokkos::View<GrainKinematics*>& kin, const Action& action) {
-  using Parts = Kokkos::View<Quad* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
-  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Quad));
-  const Parts parts(reinterpret_cast<Quad*>(kin.data()), kin.extent(0));
-  for (int part = 0; part < 3; ++part) action(Kokkos::subview(parts, Kokkos::ALL(), part));
-}
-template <class Action>
-void for_each_column_of(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history,
-                        const Action& action) {
-  for (std::size_t w = 0; w < history.extent(1); ++w)
-    action(Kokkos::subview(history, Kokkos::ALL(), w));
+/// The same for the arrays that the state has and that are put to one of these uses.
+template <class State, class Action>
+void for_each_grain_array(State& s, unsigned uses, const Action& action) {
+  for_each_grain_array(s, [&](const GrainArray& about, auto& array) {
+    if (array.size() > 0 && ((about.uses & uses) != 0 || uses == kAnyUse)) action(about, array);
+  });
 }
 
-}  // namespace grain_columns_detail
-
-/// Calls action(column) for every column of them; none is wider than a Quad.
-template <class Action>
-void for_each_column(GrainState& s, const Action& action) {
-  for_each_array(
-      s, [&](const auto& array) { grain_columns_detail::for_each_column_of(array, action); });
-}
-
-namespace grain_columns_detail {
-
-template <class T>
-void add_to(RecordLayout& layout, const Kokkos::View<T*>& array) {
-  // NOLINTNEXTLINE(bugprone-sizeof-expression): T may be Real itself
-  layout.add(array.data(), sizeof(T), sizeof(T) / sizeof(Real));
-}
-inline void add_to(RecordLayout& layout, const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history) {
-  for (std::size_t w = 0; w < history.extent(1); ++w)
-    layout.add(history.data() + w * history.stride(1), sizeof(Vec3), sizeof(Vec3) / sizeof(Real));
-}
-
-}  // namespace grain_columns_detail
-
-/// What of a grain travels together. `arrays` calls an action for each array of a state that does.
-template <class Arrays>
-RecordLayout record_layout(GrainState& state, const Arrays& arrays) {
-  RecordLayout layout;
-  arrays(state, [&](auto& array) { grain_columns_detail::add_to(layout, array); });
+/// What of a grain is packed together for a use, or all of it.
+inline PackLayout layout_of(const GrainState& s, unsigned uses = kAnyUse) {
+  PackLayout layout;
+  for_each_grain_array(s, uses, [&](const auto&, const auto& array) { layout.add(array); });
   return layout;
 }
 

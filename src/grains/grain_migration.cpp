@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/grains/pack.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/launch.hpp"
 
@@ -25,24 +24,15 @@ Rows to_device(const char* label, const std::vector<int>& values) {
   return rows;
 }
 
-/// What a contact remembers, as a record.
-RecordLayout layout_of(const ContactHistory& kept) {
-  RecordLayout layout;
-  const auto add = [&layout](const auto& column) {
-    if (column.extent(0) > 0) grain_columns_detail::add_to(layout, column);
+/// What is kept of a contact.
+PackLayout layout_of(const ContactHistory& history) {
+  PackLayout layout;
+  const auto add = [&layout](const auto& array) {
+    if (array.extent(0) > 0) layout.add(array);
   };
-  add(kept.partner), add(kept.xi_t), add(kept.rolling), add(kept.force);
+  add(history.partner), add(history.xi_t), add(history.rolling), add(history.force);
   return layout;
 }
-/// The last word of a grain's record: how many contacts follow it.
-struct PackContactCounts {
-  Kokkos::View<const int*> first, row;
-  Real* records;
-  int width;
-  KOKKOS_FUNCTION void operator()(int p) const {
-    records[(p + 1) * width - 1] = first(row(p) + 1) - first(row(p));
-  }
-};
 
 template <class View>
 View of_size(const char* label, const View& like, int n) {
@@ -92,15 +82,21 @@ void GrainMigration::choose(const GrainState& grains, const SearchColumns& colum
 }
 
 /// Tells the ranks how many grains and contacts they will get.
-void GrainMigration::count(const GrainState& grains, const ContactHistory& kept,
+void GrainMigration::count(const GrainState& grains, const ContactHistory& history,
                            const GrainOwners& owners) {
   const int n = static_cast<int>(leaving_.extent(0));
   const Rows contacts = make_rows("migration: contacts", n);
+  n_contacts_ = Kokkos::View<Real*>(
+      Kokkos::view_alloc("migration: contacts of a grain", Kokkos::WithoutInitializing),
+      static_cast<std::size_t>(n > 0 ? grains.n : 0));
   const auto row = leaving_;
-  const auto first = kept.first;
+  const auto first = history.first;
+  const auto of_grain = n_contacts_;
   Kokkos::parallel_for(
-      "migration: count contacts", items(n),
-      KOKKOS_LAMBDA(int p) { contacts(p) = first(row(p) + 1) - first(row(p)); });
+      "migration: count contacts", items(n), KOKKOS_LAMBDA(int p) {
+        contacts(p) = first(row(p) + 1) - first(row(p));
+        of_grain(row(p)) = contacts(p);
+      });
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, contacts);
   std::vector<int> starts, to;
   int p = 0, total = 0;
@@ -113,50 +109,46 @@ void GrainMigration::count(const GrainState& grains, const ContactHistory& kept,
     to.push_back(total - before);
   }
   first_ = to_device("migration: first contact", starts);
-  grains_ = announce(grains.ranks, std::move(grains_.to));
-  contacts_ = announce(grains.ranks, std::move(to));
+  grains_ = exchange_counts(grains.ranks, std::move(grains_.to));
+  contacts_ = exchange_counts(grains.ranks, std::move(to));
 }
 
-void GrainMigration::send_contacts(const ContactHistory& kept) {
-  const RecordLayout layout = layout_of(kept);
+void GrainMigration::send_contacts(const ContactHistory& history) {
   const Rows contact = make_rows("migration: contacts that leave", contacts_.n_to());
   const auto row = leaving_, first = first_;
   Kokkos::parallel_for(
       "migration: contacts that leave", items(grains_.n_to()), KOKKOS_LAMBDA(int p) {
         int at = first(p);
-        for (int k = kept.first(row(p)); k < kept.first(row(p) + 1); ++k) contact(at++) = k;
+        for (int k = history.first(row(p)); k < history.first(row(p) + 1); ++k) contact(at++) = k;
       });
-  send_contacts_.reserve(static_cast<std::size_t>(contacts_.n_to()) *
-                         static_cast<std::size_t>(layout.width));
-  Kokkos::parallel_for("migration: pack contacts", items(contacts_.n_to()),
-                       PackRecords{layout, contact, send_contacts_.data(), layout.width});
-  exchange(contacts_, layout.width, send_contacts_, receive_contacts_);
+  exchange_contacts_.exchange(contacts_, layout_of(history), contact);
 }
 
 /// New contacts: of the rows that stayed, then what was received.
-void GrainMigration::take_contacts(ContactHistory& kept, int words) const {
+void GrainMigration::receive_contacts(ContactHistory& history) const {
   const int n_stay = n_stay_, n = n_stay + grains_.n_from();
   // Zero at first; then each row writes the start of the next one alone. If it wrote its own as
   // well, two threads would write the one between them.
   const Rows first = make_rows("contact history: first", n + 1);
-  const ContactHistory old = kept;
+  const ContactHistory old = history;
   const Rows row = row_;
-  const Real* const grain_records = receive_.data();
+  const Real* const received = exchange_.received();
+  const int width = exchange_.width();  // the last number of a row: its contacts
   int total = 0;
   Kokkos::parallel_scan(
       "migration: starts of contacts", items(n),
       KOKKOS_LAMBDA(int g, int& sum, bool final) {
         sum += g < n_stay ? old.first(row(g) + 1) - old.first(row(g))
-                          : static_cast<int>(grain_records[(g - n_stay + 1) * words - 1]);
+                          : static_cast<int>(received[(g - n_stay + 1) * width - 1]);
         if (final) first(g + 1) = sum;
       },
       total);
-  kept = {.first = first,
-          .partner = of_size("contact history: partner", old.partner, total),
-          .xi_t = of_size("contact history: xi_t", old.xi_t, total),
-          .rolling = of_size("contact history: rolling", old.rolling, total),
-          .force = of_size("contact history: force", old.force, total)};
-  const ContactHistory now = kept;
+  history = {.first = first,
+             .partner = of_size("contact history: partner", old.partner, total),
+             .xi_t = of_size("contact history: xi_t", old.xi_t, total),
+             .rolling = of_size("contact history: rolling", old.rolling, total),
+             .force = of_size("contact history: force", old.force, total)};
+  const ContactHistory now = history;
   Kokkos::parallel_for(
       "migration: contacts that stay", items(n_stay), KOKKOS_LAMBDA(int g) {
         for (int k = now.first(g); k < now.first(g + 1); ++k) {
@@ -167,37 +159,25 @@ void GrainMigration::take_contacts(ContactHistory& kept, int words) const {
           if (now.has_force()) now.force(k) = old.force(from);
         }
       });
-  const RecordLayout layout = layout_of(now);
-  const int n_come = contacts_.n_from();
-  Kokkos::parallel_for(
-      "migration: take contacts", items(n_come),
-      UnpackRecords{layout, {}, total - n_come, receive_contacts_.data(), layout.width});
+  exchange_contacts_.unpack(layout_of(now), total - contacts_.n_from());
 }
 
-void GrainMigration::operator()(GrainState& grains, ContactHistory& kept,
+void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
                                 const SearchColumns& columns, const GrainOwners& owners,
                                 const Kokkos::View<Quad*>& room) {
   choose(grains, columns, owners);
-  count(grains, kept, owners);
+  count(grains, history, owners);
   const int n_to = grains_.n_to(), n_from = grains_.n_from();
   if (n_to == 0 && n_from == 0) return;
-  const auto everything = [](GrainState& s, const auto& action) { for_each_array(s, action); };
-  const RecordLayout layout = record_layout(grains, everything);
-  const int width = layout.width + 1;  // and the number of contacts
-  send_.reserve(static_cast<std::size_t>(n_to) * static_cast<std::size_t>(width));
-  Kokkos::parallel_for("migration: pack", items(n_to),
-                       PackRecords{layout, leaving_, send_.data(), width});
-  Kokkos::parallel_for("migration: pack counts", items(n_to),
-                       PackContactCounts{kept.first, leaving_, send_.data(), width});
-  exchange(grains_, width, send_, receive_);
-  send_contacts(kept);
-  take_contacts(kept, width);
+  PackLayout layout = layout_of(grains);
+  layout.add(n_contacts_);
+  exchange_.exchange(grains_, layout, leaving_);
+  send_contacts(history);
+  receive_contacts(history);
 
   permute(grains, row_, n_stay_, room);
   reserve_rows(grains, n_stay_ + n_from);
-  Kokkos::parallel_for(
-      "migration: unpack", items(n_from),
-      UnpackRecords{record_layout(grains, everything), {}, n_stay_, receive_.data(), width});
+  exchange_.unpack(layout_of(grains), n_stay_);
   grains.n = n_stay_ + n_from;
 }
 

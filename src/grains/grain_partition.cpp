@@ -6,8 +6,7 @@
 
 #include "src/base/report.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/launch.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

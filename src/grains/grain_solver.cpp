@@ -7,8 +7,7 @@
 #include "kernels/grains/contact_parts.hpp"
 #include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/pair_forces.hpp"
-#include "src/parallel/launch.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 

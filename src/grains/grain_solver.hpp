@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <variant>
 
 #include "kernels/grains/contact_law.hpp"
@@ -27,7 +28,7 @@ struct ContactSummary {
 class GrainSolver {
  public:
   /// Sets up laws, walls and their history. Then call start() or, for rows read from a restart,
-  /// restore_list().
+  /// list().restore().
   GrainSolver(const Config& config, GrainState& grains);
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }
@@ -43,13 +44,10 @@ class GrainSolver {
   /// std::logic_error without output.grain_forces.
   void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
                       const Kokkos::View<Vec3*>& tangential) const;
-  /// The list as the last rebuild left it, from the x_reference of a restart; the history of its
-  /// slots is then to be read.
-  void restore_list(GrainState& grains) { list_.restore(grains); }
   NeighborList& list() { return list_; }
+  const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
-  int n_walls() const { return n_walls_; }
-  const Plane& wall(int w) const { return plane_[w]; }
+  std::span<const Plane> walls() const { return {plane_, static_cast<std::size_t>(n_walls_)}; }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.

@@ -1,6 +1,7 @@
 #include "src/grains/grain_state.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/communicator.hpp"
@@ -11,23 +12,47 @@ namespace barchan {
 
 namespace {
 
-template <class View>
-View rows(const char* label, int n) {
-  return View(label, static_cast<std::size_t>(std::max(n, 1)));  // it exists even without grains
+/// Allocates the arrays that are there on this occasion.
+void allocate(GrainState& s, Allocated when) {
+  for_each_grain_array(s, [&](const GrainArray& about, auto& array) {
+    using View = std::remove_reference_t<decltype(array)>;
+    if constexpr (View::rank() == 1) {  // others are the solver's; this one exists without grains
+      if (about.allocated == when)
+        array = View(std::string(about.name), static_cast<std::size_t>(std::max(s.n, 1)));
+    }
+  });
 }
 
-/// Reorders the n first of a column of values; any column fits the room.
-template <class Column>
-void take_rows(const Column& column, const Kokkos::View<int*>& row, int n,
+/// Reorders the n first rows of an array with entries no wider than a Quad.
+template <class Rows>
+void take_rows(const Rows& rows, const Kokkos::View<int*>& row, int n,
                const Kokkos::View<Quad*>& room) {
-  using Value = typename Column::non_const_value_type;
+  using Value = typename Rows::non_const_value_type;
   static_assert(sizeof(Value) <= sizeof(Quad) && alignof(Value) <= alignof(Quad));
   const Kokkos::View<Value*, Kokkos::MemoryUnmanaged> copy(reinterpret_cast<Value*>(room.data()),
                                                            room.extent(0));
   Kokkos::parallel_for(
-      "grains: reorder", items(n), KOKKOS_LAMBDA(int g) { copy(g) = column(row(g)); });
+      "grains: reorder", items(n), KOKKOS_LAMBDA(int g) { copy(g) = rows(row(g)); });
   Kokkos::parallel_for(
-      "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { column(g) = copy(g); });
+      "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { rows(g) = copy(g); });
+}
+
+/// Calls action(rows) for the parts of an array that are no wider than a Quad.
+template <class T, class Action>
+void for_each_part(const Kokkos::View<T*>& array, const Action& action) {
+  action(array);
+}
+template <class Action>
+void for_each_part(const Kokkos::View<GrainKinematics*>& kin, const Action& action) {
+  using Parts = Kokkos::View<Quad* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
+  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Quad));
+  const Parts parts(reinterpret_cast<Quad*>(kin.data()), kin.extent(0));
+  for (int part = 0; part < 3; ++part) action(Kokkos::subview(parts, Kokkos::ALL(), part));
+}
+template <class Action>
+void for_each_part(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history, const Action& action) {
+  for (std::size_t w = 0; w < history.extent(1); ++w)
+    action(Kokkos::subview(history, Kokkos::ALL(), w));
 }
 
 }  // namespace
@@ -36,13 +61,7 @@ GrainState make_grain_rows(int n, MPI_Comm ranks) {
   GrainState s;
   s.n = n;
   s.ranks = ranks;
-  s.kin = rows<decltype(s.kin)>("grain kinematics", n);
-  s.id = rows<decltype(s.id)>("grain id", n);
-  for (Kokkos::View<Vec3*>* array :
-       {&s.contact_force, &s.contact_torque, &s.x_reference, &s.fluid.steady_force}) {
-    *array = rows<Kokkos::View<Vec3*>>("grain vector", n);
-  }
-  s.wall_touching = rows<Kokkos::View<std::uint8_t*>>("wall touching", n);
+  allocate(s, Allocated::always);
   return s;
 }
 
@@ -79,28 +98,28 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   return s;
 }
 
-void reserve_rows(GrainState& s, int n) {
-  for_each_array(s, [n](auto& array) { reserve_rows(array, n); });
+void reserve_rows(GrainState& s, int n, unsigned uses) {
+  for_each_grain_array(s, uses, [n](const auto&, auto& array) { reserve_rows(array, n); });
 }
 
 void add_fluid(GrainState& s) {
   s.fluid.none = false;
-  for (Kokkos::View<Vec3*>* array : {&s.fluid.u_f, &s.fluid.drag_impulse, &s.fluid.u_start}) {
-    *array = rows<Kokkos::View<Vec3*>>("grain vector", s.n);
-  }
-  s.fluid.beta = rows<Kokkos::View<Real*>>("drag coefficient", s.n);
-  s.fluid.added_mass = rows<Kokkos::View<Real*>>("added mass", s.n);
+  allocate(s, Allocated::with_fluid);
 }
 
-void add_exchange(GrainState& s) {
-  for (Kokkos::View<Vec3*>* array :
-       {&s.exchange.added_mass_force, &s.exchange.fluid_force, &s.exchange.carried_impulse}) {
-    *array = rows<Kokkos::View<Vec3*>>("grain vector", s.n);
-  }
+void add_exchange(GrainState& s) { allocate(s, Allocated::with_flow); }
+
+Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std::string& unit,
+                              unsigned uses) {
+  const Kokkos::View<Real*> values(name, s.kin.extent(0));
+  s.extra.push_back({name, unit, uses, values});
+  return values;
 }
 
 void permute(GrainState& s, const Kokkos::View<int*>& row, int n, const Kokkos::View<Quad*>& room) {
-  for_each_column(s, [&](const auto& column) { take_rows(column, row, n, room); });
+  for_each_grain_array(s, kAnyUse, [&](const auto&, const auto& array) {
+    for_each_part(array, [&](const auto& rows) { take_rows(rows, row, n, room); });
+  });
   s.n = n;
 }
 

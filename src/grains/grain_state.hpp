@@ -4,6 +4,9 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "kernels/coupling/interphase.hpp"
 #include "kernels/grains/grain.hpp"
@@ -11,6 +14,37 @@
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
+
+/// When an array of a grain is allocated.
+enum class Allocated { always, with_fluid, with_flow, by_solver };
+
+/// What is done with an array of a grain, besides that it is sorted with its grain and goes with it
+/// to another rank.
+enum GrainUse : unsigned {
+  kRestart = 1,          // in restart files
+  kRestartWithFlow = 2,  // in restart files of runs that compute the flow
+  kGhosts = 4,           // copied to the ghosts when these are found
+  kGatherReads = 8,      // goes to the fluid ranks before the gather,
+  kGatherWrites = 16,    // and comes back from it
+  kDepositReads = 32,    // goes to the fluid ranks before the deposit
+  kCarryWrites = 64,     // comes back with the impulse carried from the implicit exchange
+  kForceReads = 128,     // goes to the fluid ranks for the output of single forces
+  kGather = kGatherReads | kGatherWrites,
+  kFluidSide = kGather | kDepositReads | kCarryWrites | kForceReads,
+};
+
+/// An array of a grain: its name (also in restart files), unit and uses.
+struct GrainArray {
+  std::string_view name, unit;
+  Allocated allocated;
+  unsigned uses;  // of GrainUse
+};
+/// A number of each grain beside those that the model needs.
+struct ExtraGrainArray {
+  std::string name, unit;
+  unsigned uses;
+  Kokkos::View<Real*> values;
+};
 
 /// Grains [0, n) of this rank. Rows are in spatial order, which a list rebuild changes; `id` never
 /// changes. Arrays may have room for more rows. Behind the rows of `kin` and `id` stand ghosts,
@@ -27,6 +61,7 @@ struct GrainState {
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall / 2), see Walls [m]
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
   Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
+  std::vector<ExtraGrainArray> extra;                    // see add_extra()
   PairList list;                                         // neighbours and their contact history
   Real r_max = 0, r_min = 0;                             // [m], of the initial grains of all ranks
   Real sauter_diameter = 0;                              // sum d^3 / sum d^2 of the same [m]
@@ -36,16 +71,21 @@ struct GrainState {
 
 /// Rows for n grains of this rank, to be filled.
 GrainState make_grain_rows(int n, MPI_Comm ranks);
-/// Grains at rest in the list's eyes: no history, no fluid. density [kg/m^3]. Each rank takes an
-/// equal share of the rows; the first neighbour list then gives them to those who own the place.
+/// Grains without contact history and fluid. density [kg/m^3]. Each rank takes an equal share of
+/// the rows; the first neighbour list then gives them to the ranks that own their columns.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
 void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains);
+/// An array of one number for each grain, zero at first; `uses` as in GrainUse.
+Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
+                              unsigned uses);
 
-/// Room for n rows in all arrays, some more where it grows; what they hold stays.
-void reserve_rows(GrainState& grains, int n);
+/// Room for n rows in the arrays that have one of the uses, an eighth more where it grows; what
+/// they hold stays.
+inline constexpr unsigned kAnyUse = ~0u;
+void reserve_rows(GrainState& grains, int n, unsigned uses = kAnyUse);
 
 /// Takes the rows in the order of `row` (new row -> old row) and keeps the first n of them. `room`:
 /// as many as there are grains, overwritten.

@@ -29,12 +29,12 @@ class NeighborList {
   Real limit() const { return skin_ * skin_ / 4; }
   /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
   void rebuild(GrainState& grains, bool drop);
-  /// Searches again from x_reference in the present order: the list as the last rebuild left it,
-  /// with the contacts that were kept. All ranks together, on as many as there were.
+  /// Searches again from x_reference in the present order: the list of the last rebuild, with its
+  /// contact history. All ranks together, on as many as there were.
   void restore(GrainState& grains);
   /// The contacts that the next rebuild or restore carries over, as a restart file has them, under
   /// rows of `grains` as they are now.
-  void set_kept(const ContactHistory& kept) { kept_ = kept, has_kept_ = true; }
+  void set_history(const ContactHistory& history) { history_ = history, has_history_ = true; }
   /// Brings the ghosts to where their owners have moved them. All ranks together.
   void update_ghosts(const GrainState& grains) const;
   /// None where one rank has all grains.
@@ -44,28 +44,26 @@ class NeighborList {
   /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
   Real largest_margin() const { return skin_ / 10; }
   std::int64_t rebuilds() const { return rebuilds_; }
-  /// Memory that nobody else uses during a call of rebuild or restore: those take it for what they
-  /// need only meanwhile, as far as it goes.
+  /// Memory that nobody else uses during a call of rebuild or restore: those take it, as far as it
+  /// goes, for what they need only until they return.
   void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
   bool with_rolling = false;  // keep a rolling torque per pair
   bool with_force = false;    // keep the force of each pair in the last sub-step
   const PeriodicBox& box() const { return box_; }
 
   // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
-  void keep_contacts(const GrainState& grains);
+  void collect_history(const GrainState& grains);
   void redistribute(GrainState& grains);
   void sort(GrainState& grains, bool drop);
   Windows find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n);
   void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin);
-  void find_ghosts(GrainState& grains, Kokkos::View<GrainKinematics*>& kin);
+  void find_ghosts(GrainState& grains);
   void reserve_pairs(PairList& list) const;
   void register_others(const PairList& list, int n);
   void check_positions(const GrainState& grains) const;
   void wrap(GrainState& grains) const;
 
  private:
-  template <class T>
-  void take_scratch(Kokkos::View<T*>& view, const char* label, int n);
   void take_room(const GrainState& grains);
   void reserve_room(int n);
 
@@ -84,9 +82,9 @@ class NeighborList {
   std::int64_t rebuilds_ = 0;
   OccupiedColumns occupied_;
   std::unique_ptr<Ranks> ranks_;
-  ContactHistory kept_;
-  bool has_kept_ = false;
-  Kokkos::View<int*> row_;  // row of each grain in kept_; before, the next free place there
+  ContactHistory history_;
+  bool has_history_ = false;
+  Kokkos::View<int*> row_;  // row of each grain in history_; before, the next free slot there
   // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
   // then the next free place of other slots.
   Kokkos::View<Quad*> room_;

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "kernels/fluid/grid.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 

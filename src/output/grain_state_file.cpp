@@ -12,41 +12,32 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
+#include "src/grains/grain_arrays.hpp"
 #include "src/io/row_share.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
 namespace {
 
-/// The first n rows of a per-grain array.
-template <class T>
-auto first_rows(const Kokkos::View<T*>& v, int n) {
-  return Kokkos::subview(v, std::pair<int, int>(0, n));
-}
-template <class T>
-auto first_rows(const Kokkos::View<T**, Kokkos::LayoutLeft>& v, int n) {
-  return Kokkos::subview(v, std::pair<int, int>(0, n), Kokkos::ALL());
+/// The first n rows of an array of a grain.
+template <class View>
+auto first_rows(const View& v, int n) {
+  const std::pair<int, int> rows(0, n);
+  if constexpr (View::rank() == 2) return Kokkos::subview(v, rows, Kokkos::ALL());
+  if constexpr (View::rank() == 1) return Kokkos::subview(v, rows);
 }
 
-/// Calls f(name, array) for every per-grain array that the next step reads.
+/// Calls f(name, array) for every array of a grain that the next step reads.
 template <class F>
-void for_each_grain_array(const GrainState& s, const F& f) {
-  f("grains/id", s.id);
-  f("grains/kin", s.kin);
-  f("grains/contact_force", s.contact_force);
-  f("grains/contact_torque", s.contact_torque);
-  f("grains/x_reference", s.x_reference);
-  if (s.exchange.fluid_force.extent(0) > 0) {
-    f("grains/u_f", s.fluid.u_f);
-    f("grains/fluid_force", s.exchange.fluid_force);
-    f("grains/carried_impulse", s.exchange.carried_impulse);
-  }
-  f("grains/wall_xi_t", s.wall_xi_t);
-  if (s.wall_torque.extent(0) > 0) f("grains/wall_torque", s.wall_torque);
-  f("grains/wall_touching", s.wall_touching);
+void for_each_saved_array(const GrainState& s, const F& f) {
+  const bool with_flow = s.exchange.fluid_force.extent(0) > 0;
+  for_each_grain_array(s, with_flow ? kRestart | kRestartWithFlow : kRestart,
+                       [&](const GrainArray& about, const auto& array) {
+                         f("grains/" + std::string(about.name), array);
+                       });
 }
 
 /// In the file the first index of an array, its rows, runs fastest but for components.
@@ -167,11 +158,10 @@ ContactTable contacts_of(const CheckpointReader& file, const GrainState& s, bool
       if (!is_mine(some.first[k]) && !is_mine(some.second[k])) continue;
       all.first.push_back(some.first[k]);
       all.second.push_back(some.second[k]);
-      const auto at = static_cast<std::ptrdiff_t>(3 * k);
-      all.xi_t.insert(all.xi_t.end(), some.xi_t.begin() + at, some.xi_t.begin() + at + 3);
-      if (!some.rolling.empty())
-        all.rolling.insert(all.rolling.end(), some.rolling.begin() + at,
-                           some.rolling.begin() + at + 3);
+      for (std::size_t q = 3 * k; q < 3 * k + 3; ++q) {
+        all.xi_t.push_back(some.xi_t[q]);
+        if (!some.rolling.empty()) all.rolling.push_back(some.rolling[q]);
+      }
     }
   }
   return all;
@@ -189,18 +179,16 @@ struct Piece {
 std::optional<Piece> my_piece(const CheckpointReader& file, const std::string& name,
                               std::uint64_t n, MPI_Comm ranks) {
   const auto counts = file.array<std::int64_t>(name);
-  std::uint64_t sum = 0;
+  std::vector<std::uint64_t> starts{0};
+  bool fits = true;
   for (const std::int64_t count : counts) {
-    sum += static_cast<std::uint64_t>(count);
-    if (count < 0 || sum > n) refuse(file, name + " does not fit the rows it counts");
+    starts.push_back(starts.back() + static_cast<std::uint64_t>(count));
+    fits = fits && count >= 0 && starts.back() <= n;
   }
-  if (sum != n) refuse(file, name + " does not fit the rows it counts");
-  const auto me = static_cast<std::size_t>(rank_of(ranks));
+  if (!fits || starts.back() != n) refuse(file, name + " does not fit the rows it counts");
   if (counts.size() != static_cast<std::size_t>(rank_count(ranks))) return {};
-  Piece piece;
-  for (std::size_t r = 0; r < me; ++r) piece.begin += static_cast<std::uint64_t>(counts[r]);
-  piece.end = piece.begin + static_cast<std::uint64_t>(counts[me]);
-  return piece;
+  const auto me = static_cast<std::size_t>(rank_of(ranks));
+  return Piece{starts[me], starts[me + 1]};
 }
 
 std::uint64_t rows_of(const CheckpointReader& file, const std::string& name) {
@@ -215,17 +203,16 @@ Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
     refuse(file, fmt::format("it holds {} grains, more than this version can count", n));
   if (const auto piece = my_piece(file, "grains/of_rank", n, ranks)) return *piece;
   const Split split{.n = static_cast<int>(n), .parts = rank_count(ranks)};
-  const int me = rank_of(ranks);
-  return {static_cast<std::uint64_t>(split.begin(me)),
-          static_cast<std::uint64_t>(split.begin(me + 1))};
+  const auto begin = [&](int rank) { return static_cast<std::uint64_t>(split.begin(rank)); };
+  return {begin(rank_of(ranks)), begin(rank_of(ranks) + 1)};
 }
 
-/// A number of every rank, on all of them.
-std::vector<std::int64_t> of_every_rank(MPI_Comm ranks, std::int64_t mine) {
+void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Comm ranks,
+                        std::int64_t mine) {
   std::vector<std::int64_t> all(static_cast<std::size_t>(rank_count(ranks)));
   all[static_cast<std::size_t>(rank_of(ranks))] = mine;
   sum_over(ranks, all);
-  return all;
+  file.array(name, std::span<const std::int64_t>(all));
 }
 
 void save_contacts(CheckpointWriter& file, const GrainState& s) {
@@ -240,15 +227,14 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   if (s.list.has_rolling())
     file.array("contacts/rolling", std::span<const double>(table.rolling), vectors,
                share_of(rows, vectors, 0));
-  const auto of_rank = of_every_rank(s.ranks, static_cast<std::int64_t>(table.size()));
-  file.array("contacts/of_rank", std::span<const std::int64_t>(of_rank));
+  save_of_every_rank(file, "contacts/of_rank", s.ranks, static_cast<std::int64_t>(table.size()));
 }
 
 }  // namespace
 
-void save_grains(CheckpointWriter& file, const GrainState& s, GrainSolver& solver) {
+void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList& list) {
   const Share rows = share_of_rows(static_cast<std::uint64_t>(s.n), s.ranks);
-  for_each_grain_array(s, [&](const std::string& name, const auto& array) {
+  for_each_saved_array(s, [&](const std::string& name, const auto& array) {
     const auto mine = first_rows(array, s.n);
     const auto numbers = checkpoint_detail::to_numbers(mine);
     const Extents extents = checkpoint_detail::file_extents(mine);
@@ -256,9 +242,8 @@ void save_grains(CheckpointWriter& file, const GrainState& s, GrainSolver& solve
                share_of(rows, extents, row_dimension<decltype(mine)>));
   });
   save_contacts(file, s);
-  const auto of_rank = of_every_rank(s.ranks, s.n);
-  file.array("grains/of_rank", std::span<const std::int64_t>(of_rank));
-  if (const GrainPartition* partition = solver.list().partition()) {
+  save_of_every_rank(file, "grains/of_rank", s.ranks, s.n);
+  if (const GrainPartition* partition = list.partition()) {
     const auto starts = partition->starts();
     file.array("grains/columns_of_rank", std::span<const std::int64_t>(starts));
     file.scalar("grains/imbalance_at_cut", partition->imbalance_at_cut());
@@ -283,10 +268,10 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
   return s;
 }
 
-void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solver) {
+void load_grains(const CheckpointReader& file, GrainState& s, NeighborList& list) {
   const Piece rows = my_rows(file, s.ranks);
   const std::uint64_t n_all = rows_of(file, "grains/id");
-  for_each_grain_array(s, [&](const std::string& name, const auto& array) {
+  for_each_saved_array(s, [&](const std::string& name, const auto& array) {
     const auto mine = first_rows(array, s.n);
     using View = decltype(mine);
     using Number = typename checkpoint_detail::Stored<typename View::non_const_value_type>::type;
@@ -296,12 +281,11 @@ void load_grains(const CheckpointReader& file, GrainState& s, GrainSolver& solve
     first[row_dimension<View>] = rows.begin;
     checkpoint_detail::from_numbers(file.part<Number>(name, whole, first, extents), mine);
   });
-  NeighborList& list = solver.list();
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;
   const auto piece = my_piece(file, "contacts/of_rank", rows_of(file, "contacts/first"), s.ranks);
   const ContactTable contacts =
       piece ? read_contacts(file, piece->begin, piece->end, rolls) : contacts_of(file, s, rolls);
-  list.set_kept(under_rows(contacts, s, both, rolls));
+  list.set_history(under_rows(contacts, s, both, rolls));
   if (!piece) {
     list.rebuild(s, false);
     return;

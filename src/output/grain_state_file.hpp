@@ -2,14 +2,14 @@
 // grains. Any number of ranks can go on from a file; the same number goes on with the same bits.
 #pragma once
 
-#include "src/grains/grain_solver.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/grains/neighbor_list.hpp"
 #include "src/io/checkpoint.hpp"
 
 namespace barchan {
 
 /// All ranks together.
-void save_grains(CheckpointWriter& file, const GrainState& grains, GrainSolver& solver);
+void save_grains(CheckpointWriter& file, const GrainState& grains, const NeighborList& list);
 
 /// This rank's rows of a restart file without their history, to size the state: those it wrote if
 /// as many ranks did, else an equal share.
@@ -17,6 +17,6 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks);
 
 /// All that save_grains() wrote, into `grains` from grains_in_file(). On another number of ranks
 /// the neighbour list is built anew. All ranks together.
-void load_grains(const CheckpointReader& file, GrainState& grains, GrainSolver& solver);
+void load_grains(const CheckpointReader& file, GrainState& grains, NeighborList& list);
 
 }  // namespace barchan

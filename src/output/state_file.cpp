@@ -27,7 +27,7 @@ void for_each_field(const FluidState& s, const F& f) {
 
 }  // namespace
 
-void save_state(CheckpointWriter& file, const SystemState& state, CoupledStep& step) {
+void save_state(CheckpointWriter& file, const SystemState& state, const CoupledStep& step) {
   if (state.fluid) {
     const FluidState& s = *state.fluid;
     for_each_field(
@@ -39,7 +39,7 @@ void save_state(CheckpointWriter& file, const SystemState& state, CoupledStep& s
     file.scalar("fluid/bulk_at_start", s.bulk_at_start);
     file.scalar("fluid/flow_missed", s.flow_missed);
   }
-  if (state.grains) save_grains(file, *state.grains, *step.grain_solver());
+  if (state.grains) save_grains(file, *state.grains, step.neighbor_list());
 }
 
 void load_flow(const CheckpointReader& file, FluidState& fluid) {
@@ -56,7 +56,7 @@ void load_flow(const CheckpointReader& file, FluidState& fluid) {
 
 void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step) {
   if (state.fluid) load_flow(file, *state.fluid);
-  if (state.grains) load_grains(file, *state.grains, *step.grain_solver());
+  if (state.grains) load_grains(file, *state.grains, step.neighbor_list());
 }
 
 }  // namespace barchan

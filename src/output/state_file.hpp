@@ -9,7 +9,7 @@
 namespace barchan {
 
 /// Writes all of `state` that the next step depends on.
-void save_state(CheckpointWriter& file, const SystemState& state, CoupledStep& step);
+void save_state(CheckpointWriter& file, const SystemState& state, const CoupledStep& step);
 
 /// Fills `state`, which has the grid and the rows of the file (grains_in_file), and
 /// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.

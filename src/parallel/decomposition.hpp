@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "kernels/fluid/grid.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 

@@ -1,6 +1,8 @@
 #include "src/parallel/halo.hpp"
 
-#include "src/parallel/launch.hpp"
+#include <algorithm>
+
+#include "src/parallel/pack.hpp"
 
 namespace barchan {
 
@@ -24,78 +26,70 @@ struct WrapZ {
   }
 };
 
-template <bool pack>
-KOKKOS_FORCEINLINE_FUNCTION void copy(Real& cell, Real& message) {
-  if constexpr (pack) {
-    message = cell;
-  } else {
-    cell = message;
-  }
-}
+/// Two planes of one shape, towards the rank before and the one after.
+template <class T>
+using Planes = std::array<T*, 2>;
 
-/// The planes i = first and i = last to or from two buffers, rows j = -1 .. rows - 2.
-template <bool pack>
-struct CopyPlanesX {
-  FieldRef f;
-  int first, last, rows;
-  Real *before, *after;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int j, int, int k) const {
-    const int at = j + 1 + rows * k;
-    copy<pack>(f(first, j, k), before[at]);
-    copy<pack>(f(last, j, k), after[at]);
-  }
-};
-
-/// The planes k = first and k = last, i = -1 .. length - 2 with the ghosts in x.
-template <bool pack>
-struct CopyPlanesZ {
-  FieldRef f;
-  int first, last, length;
-  Real *before, *after;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int) const {
-    const int at = i + 1 + length * (j + 1);
-    copy<pack>(f(i, j, first), before[at]);
-    copy<pack>(f(i, j, last), after[at]);
-  }
-};
-
-Rims make_rims(int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return {MessageBuffer("halo: to before", size), MessageBuffer("halo: to after", size),
-          MessageBuffer("halo: from before", size), MessageBuffer("halo: from after", size)};
+/// Planes at the sides of a pencil to the neighbours, and theirs into the planes `to`.
+template <BoxCopy take, class T>
+void exchange_planes(const RankLine& line, const HaloBuffers& buffers, const BoxShape& plane,
+                     const Planes<T>& from, const Planes<T>& to) {
+  copy_boxes<BoxCopy::pack>("halo: pack", plane, from,
+                            Planes<Real>{buffers.to_before.data(), buffers.to_after.data()});
+  exchange(line, buffers, plane.size());
+  copy_boxes<take>(take == BoxCopy::add ? "halo: add" : "halo: unpack", plane, to,
+                   Planes<Real>{buffers.from_before.data(), buffers.from_after.data()});
 }
 
 }  // namespace
 
-Halo::Halo(const Grid& grid) : grid_(grid) {
+Halo::Halo(const Grid& grid, int n_sums) : grid_(grid) {
   if (!grid.ranks) return;
-  if (grid.ranks->along_x().count > 1) x_ = make_rims((grid.ny + 2) * grid.nz);
-  if (grid.ranks->along_z().count > 1) z_ = make_rims((grid.nx + 2) * (grid.ny + 2));
+  const auto of_rows = [&](int columns, int columns_of_sums) {
+    return HaloBuffers(static_cast<std::size_t>(
+        std::max((grid.ny + 2) * columns, grid.ny * columns_of_sums * n_sums)));
+  };
+  if (grid.ranks->along_x().count > 1) x_ = of_rows(grid.nz, grid.nz + 2);
+  if (grid.ranks->along_z().count > 1) z_ = of_rows(grid.nx + 2, grid.nx);
 }
 
 void Halo::fill(const Field& f) const {
-  const int nx = grid_.nx, nz = grid_.nz, rows = grid_.ny + 2, length = nx + 2;
-  // The functor for x takes j as the inner index: one row of the launch is one plane's rim.
-  const CellRange across_x{-1, grid_.ny + 1, 0, 1, 0, nz};
-  if (x_.to_after.size() == 0) {
-    for_each_cell("halo: wrap x", across_x, WrapX{f, nx});
+  const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz;
+  if (!x_.is_cut()) {  // j is the inner index
+    for_each_cell("halo: wrap x", CellRange{-1, ny + 1, 0, 1, 0, nz}, WrapX{f, nx});
   } else {
-    for_each_cell("halo: pack x", across_x,
-                  CopyPlanesX<true>{f, 0, nx - 1, rows, x_.to_before.data(), x_.to_after.data()});
-    exchange(grid_.ranks->along_x(), x_);
-    for_each_cell("halo: unpack x", across_x,
-                  CopyPlanesX<false>{f, -1, nx, rows, x_.from_before.data(), x_.from_after.data()});
+    const BoxShape plane{.n = {ny + 2, 1, nz}, .stride = {f.stride_y, 0, f.stride_z}};
+    const auto at = [&](int i) { return &f(i, -1, 0); };
+    exchange_planes<BoxCopy::unpack>(grid_.ranks->along_x(), x_, plane,
+                                     Planes<Real>{at(0), at(nx - 1)}, Planes<Real>{at(-1), at(nx)});
   }
-  const CellRange across_z{-1, nx + 1, -1, grid_.ny + 1, 0, 1};
-  if (z_.to_after.size() == 0) {
-    for_each_cell("halo: wrap z", across_z, WrapZ{f, nz});
+  if (!z_.is_cut()) {
+    for_each_cell("halo: wrap z", CellRange{-1, nx + 1, -1, ny + 1, 0, 1}, WrapZ{f, nz});
   } else {
-    for_each_cell("halo: pack z", across_z,
-                  CopyPlanesZ<true>{f, 0, nz - 1, length, z_.to_before.data(), z_.to_after.data()});
-    exchange(grid_.ranks->along_z(), z_);
-    for_each_cell(
-        "halo: unpack z", across_z,
-        CopyPlanesZ<false>{f, -1, nz, length, z_.from_before.data(), z_.from_after.data()});
+    const BoxShape plane{.n = {nx + 2, ny + 2, 1}, .stride = {1, f.stride_y, 0}};
+    const auto at = [&](int k) { return &f(-1, -1, k); };
+    exchange_planes<BoxCopy::unpack>(grid_.ranks->along_z(), z_, plane,
+                                     Planes<Real>{at(0), at(nz - 1)}, Planes<Real>{at(-1), at(nz)});
+  }
+}
+
+void Halo::scatter_add(const CellSums& sums) const {
+  using Sum = std::int64_t;
+  const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz, n_sums = sums.extent_int(1);
+  const std::ptrdiff_t stride_y = nx + 2, stride_z = stride_y * ny;
+  const auto stride_q = static_cast<std::ptrdiff_t>(sums.stride(1));
+  const auto at = [&](int i, int k) { return sums.data() + i + 1 + stride_z * (k + 1); };
+  if (x_.is_cut()) {  // the corners go on along z
+    const BoxShape plane{.n = {nz + 2, ny, n_sums}, .stride = {stride_z, stride_y, stride_q}};
+    exchange_planes<BoxCopy::add>(grid_.ranks->along_x(), x_, plane,
+                                  Planes<Sum>{at(-1, -1), at(nx, -1)},
+                                  Planes<Sum>{at(0, -1), at(nx - 1, -1)});
+  }
+  if (z_.is_cut()) {
+    const BoxShape plane{.n = {nx, ny, n_sums}, .stride = {1, stride_y, stride_q}};
+    exchange_planes<BoxCopy::add>(grid_.ranks->along_z(), z_, plane,
+                                  Planes<Sum>{at(0, -1), at(0, nz)},
+                                  Planes<Sum>{at(0, 0), at(0, nz - 1)});
   }
 }
 

@@ -1,24 +1,36 @@
 // Ghost cells in x and z.
 #pragma once
 
-#include "kernels/fluid/grid.hpp"
-#include "src/parallel/messages.hpp"
+#include <cstdint>
+
+#include "src/parallel/exchange.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 
 /// Fills the ghosts of grid fields from the cells that own them: of this rank, across the periodic
-/// seams, or of the ranks around it.
+/// sides, or of the ranks around it; and adds ghosts to their owners.
 class Halo {
  public:
-  explicit Halo(const Grid& grid);
+  /// (cells with ghosts in x and z, quantities), cell (i, j, k) at i + 1 + (nx + 2) (j + ny (k +
+  /// 1)).
+  using CellSums = Kokkos::View<std::int64_t**, Kokkos::LayoutLeft>;
+
+  /// `n_sums`: quantities for scatter_add(); 0 where it is not used.
+  explicit Halo(const Grid& grid, int n_sums = 0);
 
   /// Makes the ghosts of `f` in x and z valid, rows -1 and ny and the corners included; the rows
   /// behind the walls are taken as they are. All ranks together.
   void fill(const Field& f) const;
 
+  /// The adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies
+  /// of, first along x, then along z. Integers, so the order does not matter. Nothing happens where
+  /// the grid is not cut. All ranks together.
+  void scatter_add(const CellSums& sums) const;
+
  private:
   Grid grid_;
-  Rims x_, z_;  // empty where this rank has the whole width
+  HaloBuffers x_, z_;  // empty where this rank has the whole width
 };
 
 }  // namespace barchan

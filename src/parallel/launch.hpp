@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "kernels/fluid/grid.hpp"
-#include "src/parallel/messages.hpp"
 
 namespace barchan {
 
@@ -14,7 +13,10 @@ namespace barchan {
 struct CellRange {
   int i0, i1, j0, j1, k0, k1;
 };
-inline CellRange owned_cells(const Grid& grid) { return {0, grid.nx, 0, grid.ny, 0, grid.nz}; }
+template <class Rows>
+CellRange owned_cells(const BasicGrid<Rows>& grid) {
+  return {0, grid.nx, 0, grid.ny, 0, grid.nz};
+}
 
 inline constexpr bool runs_on_host =
     std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
@@ -34,17 +36,17 @@ inline Items policy(const CellRange& r) {
 }
 
 /// Index of a row (host) or of a cell (device) back to i, j, k.
-struct Place {
+struct CellOfItem {
   int i, j, k;
-  KOKKOS_INLINE_FUNCTION static Place of_row(const CellRange& r, int row) {
+  KOKKOS_INLINE_FUNCTION static CellOfItem of_row(const CellRange& r, int row) {
     const int rows_y = r.j1 - r.j0;
     return {r.i0, r.j0 + row % rows_y, r.k0 + row / rows_y};
   }
-  KOKKOS_INLINE_FUNCTION static Place of_cell(const CellRange& r, int cell) {
+  KOKKOS_INLINE_FUNCTION static CellOfItem of_cell(const CellRange& r, int cell) {
     const int length = r.i1 - r.i0;
-    Place place = of_row(r, cell / length);
-    place.i += cell % length;
-    return place;
+    CellOfItem at = of_row(r, cell / length);
+    at.i += cell % length;
+    return at;
   }
 };
 
@@ -55,12 +57,12 @@ struct Loop {
   KOKKOS_FUNCTION void operator()(int index) const {
     if constexpr (runs_on_host) {
       const Functor body = functor;  // a local copy: its members stay in registers
-      const Place at = Place::of_row(range, index);
+      const CellOfItem at = CellOfItem::of_row(range, index);
       const int end = range.i1;
 #pragma omp simd
       for (int i = at.i; i < end; ++i) body(i, at.j, at.k);
     } else {
-      const Place at = Place::of_cell(range, index);
+      const CellOfItem at = CellOfItem::of_cell(range, index);
       functor(at.i, at.j, at.k);
     }
   }
@@ -73,14 +75,14 @@ struct SumLoop {
   KOKKOS_FUNCTION void operator()(int index, Real& sum) const {
     if constexpr (runs_on_host) {
       const Functor body = functor;
-      const Place at = Place::of_row(range, index);
+      const CellOfItem at = CellOfItem::of_row(range, index);
       const int end = range.i1;
       Real row_sum = 0;
 #pragma omp simd reduction(+ : row_sum)
       for (int i = at.i; i < end; ++i) row_sum += body(i, at.j, at.k);
       sum += row_sum;
     } else {
-      const Place at = Place::of_cell(range, index);
+      const CellOfItem at = CellOfItem::of_cell(range, index);
       sum += functor(at.i, at.j, at.k);
     }
   }
@@ -93,7 +95,7 @@ struct MaxLoop {
   KOKKOS_FUNCTION void operator()(int index, Real& largest) const {
     if constexpr (runs_on_host) {
       const Functor body = functor;
-      const Place at = Place::of_row(range, index);
+      const CellOfItem at = CellOfItem::of_row(range, index);
       const int end = range.i1;
       Real row_max = largest, row_sum = 0;
 #pragma omp simd reduction(max : row_max) reduction(+ : row_sum)
@@ -104,7 +106,7 @@ struct MaxLoop {
       }
       largest = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
     } else {
-      const Place at = Place::of_cell(range, index);
+      const CellOfItem at = CellOfItem::of_cell(range, index);
       const Real value = functor(at.i, at.j, at.k);
       const Real known = value == value ? value : Kokkos::Experimental::infinity_v<Real>;
       largest = known > largest ? known : largest;
@@ -120,32 +122,9 @@ void for_each_cell(const char* label, const CellRange& range, const Functor& fun
   Kokkos::parallel_for(label, launch_detail::policy(range),
                        launch_detail::Loop<Functor>{functor, range});
 }
-template <class Functor>
-void for_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+template <class Rows, class Functor>
+void for_each_cell(const char* label, const BasicGrid<Rows>& grid, const Functor& functor) {
   for_each_cell(label, owned_cells(grid), functor);
-}
-
-/// Sum of functor(i, j, k), which may also write, over the cells of all ranks. The order of
-/// additions depends only on the grid and the numbers of threads and ranks.
-template <class Functor>
-Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) {
-  Real sum = 0;
-  const CellRange range = owned_cells(grid);
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::SumLoop<Functor>{functor, range}, sum);
-  return sum_over_ranks(grid, sum);
-}
-
-/// Largest functor(i, j, k) over the cells of all ranks, for values that are not negative; infinity
-/// if one is not a number.
-template <class Functor>
-Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
-  Real largest = 0;
-  const CellRange range = owned_cells(grid);
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::MaxLoop<Functor>{functor, range},
-                          Kokkos::Max<Real>(largest));
-  return max_over_ranks(grid, largest);
 }
 
 }  // namespace barchan

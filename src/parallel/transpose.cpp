@@ -1,35 +1,12 @@
 #include "src/parallel/transpose.hpp"
 
-#include "src/parallel/launch.hpp"
+#include "src/parallel/pack.hpp"
 
 namespace barchan {
 
 namespace {
 
 int extent(int begin, int end) { return end - begin; }
-
-/// Elements of a block to or from their places in a message.
-template <bool pack>
-struct CopyBlock {
-  Real* array;
-  std::ptrdiff_t stride_x, stride_y, stride_z;
-  int x0, y0, z0, nx, ny;  // of the block
-  int width;
-  Real* message;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    Real* element = array + width * (i * stride_x + j * stride_y + k * stride_z);
-    const std::ptrdiff_t place =
-        i - x0 + nx * (j - y0 + static_cast<std::ptrdiff_t>(ny) * (k - z0));
-    Real* in_message = message + width * place;
-    for (int c = 0; c < width; ++c) {
-      if constexpr (pack) {
-        in_message[c] = element[c];
-      } else {
-        element[c] = in_message[c];
-      }
-    }
-  }
-};
 
 }  // namespace
 
@@ -65,17 +42,21 @@ Transpose::Side Transpose::make_side(const std::array<int, 3>& extents, int axis
   return side;
 }
 
-template <bool pack>
+template <BoxCopy how>
 void Transpose::copy(const Side& side, const StridedArray& array) const {
   std::ptrdiff_t start = 0;
   for (std::size_t p = 0; p < side.blocks.size(); ++p) {
     const auto& [begin, end] = side.blocks[p];
-    const CellRange range{begin[0], end[0], begin[1], end[1], begin[2], end[2]};
+    BoxShape box{.width = width_};
+    std::ptrdiff_t first = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.n[a] = extent(begin[a], end[a]);
+      box.stride[a] = width_ * array.stride[a];
+      first += begin[a] * box.stride[a];
+    }
     if (side.counts[p] > 0) {
-      for_each_cell(pack ? "transpose: pack" : "transpose: unpack", range,
-                    CopyBlock<pack>{array.data, array.stride[0], array.stride[1], array.stride[2],
-                                    begin[0], begin[1], begin[2], extent(begin[0], end[0]),
-                                    extent(begin[1], end[1]), width_, side.buffer.data() + start});
+      copy_boxes<how>(how == BoxCopy::pack ? "transpose: pack" : "transpose: unpack", box,
+                      std::array{array.data + first}, std::array{side.buffer.data() + start});
     }
     start += side.counts[p];
   }
@@ -83,9 +64,9 @@ void Transpose::copy(const Side& side, const StridedArray& array) const {
 
 void Transpose::move(const Side& from, const StridedArray& source, const Side& to,
                      const StridedArray& target) const {
-  copy<true>(from, source);
+  copy<BoxCopy::pack>(from, source);
   exchange_all(line_, from.buffer, from.counts, to.buffer, to.counts);
-  copy<false>(to, target);
+  copy<BoxCopy::unpack>(to, target);
 }
 
 void Transpose::join(const StridedArray& cut, const StridedArray& joined) const {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/parallel/messages.hpp"
+#include "src/parallel/pack.hpp"
 
 namespace barchan {
 
@@ -45,7 +45,7 @@ class Transpose {
                  const char* label) const;
   void move(const Side& from, const StridedArray& source, const Side& to,
             const StridedArray& target) const;
-  template <bool pack>
+  template <BoxCopy how>
   void copy(const Side& side, const StridedArray& array) const;
 
   RankLine line_;

@@ -16,7 +16,7 @@
 #include "src/output/grain_state_file.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 #include "src/run/run_identity.hpp"
 #include "src/run/watchdog.hpp"
 

@@ -15,7 +15,7 @@
 #include "src/diagnostics/force_map.hpp"
 #include "src/output/output_files.hpp"
 #include "src/parallel/decomposition.hpp"
-#include "src/parallel/messages.hpp"
+#include "src/parallel/exchange.hpp"
 #include "src/run/initial_state.hpp"
 #include "src/run/run_folder.hpp"
 

@@ -6,7 +6,8 @@
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/exchange.hpp"
+#include "src/parallel/reduce.hpp"
 #include "src/run/run_identity.hpp"
 #include "src/run/simulation.hpp"
 #include "src/run/watchdog.hpp"
@@ -35,11 +36,10 @@ void Simulation::write_history() {
   row.t = time();
   row.step = step_;
   if (state_.fluid) {
-    const FluidSolver& solver = *coupled_step_.fluid_solver();
-    row.u_star = solver.friction_velocity(*state_.fluid);
-    row.bulk_velocity = solver.bulk_velocity(*state_.fluid);
+    row.u_star = coupled_step_.friction_velocity(state_);
+    row.bulk_velocity = coupled_step_.bulk_velocity(state_);
     row.pressure_gradient = state_.fluid->drive * config_.fluid->density;
-    row.fluid_kinetic_energy = solver.kinetic_energy(*state_.fluid);
+    row.fluid_kinetic_energy = coupled_step_.kinetic_energy_of_fluid(state_);
     row.cfl = interval_.courant;
     row.continuity_residual = interval_.continuity_residual;
     row.pressure_iterations = interval_.steps > 0 ? static_cast<double>(interval_.iterations) /
@@ -47,7 +47,7 @@ void Simulation::write_history() {
                                                   : 0;
   }
   if (state_.grains) {
-    const ContactSummary contacts = coupled_step_.grain_solver()->contacts(*state_.grains);
+    const ContactSummary contacts = coupled_step_.contacts(state_);
     row.grain_kinetic_energy = kinetic_energy(*state_.grains);
     row.n_grains = n_grains_;
     row.n_contacts = contacts.n_contacts;
@@ -149,7 +149,7 @@ std::map<std::string, double> Simulation::communication() const {
   c["reductions"] = static_cast<double>(now.reductions - messages_at_start_.reductions) / steps;
   c["all_to_alls"] = static_cast<double>(now.all_to_alls - messages_at_start_.all_to_alls) / steps;
   if (!state_.grains) return c;
-  const NeighborList& list = coupled_step_.grain_solver()->list();
+  const NeighborList& list = coupled_step_.neighbor_list();
   c["grains"] = state_.grains->n;
   c["ghost_grains"] = state_.grains->n_ghosts;
   c["grain_imbalance"] = list.partition()->imbalance();

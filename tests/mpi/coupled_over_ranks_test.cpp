@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "src/coupling/deposit_rims.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/run/initial_state.hpp"
@@ -142,12 +141,8 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     add_fluid(grains);
     add_exchange(grains);
     give_each_its_own(grains);
-    FluidSideGrains visits(grid, false);
-    const auto needs = [](GrainState& s, const auto& action) {
-      action(s.kin);
-      action(s.fluid.beta);
-    };
-    GrainState& there = visits.to_fluid_ranks(grains, needs);
+    FluidSideGrains fluid_side(grid, false);
+    GrainState& there = fluid_side.to_fluid_ranks(grains, kDepositReads);
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
     Kokkos::deep_copy(there.fluid.added_mass, 0.0);
     Kokkos::deep_copy(there.exchange.carried_impulse, Vec3{});
@@ -160,7 +155,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     Kokkos::parallel_for(
         "test: scatter", there.n,
         DepositGrain{.stencil = stencil, .of_grain = of_grain, .deposits = deposits});
-    DepositRims(grid).add(deposits);
+    Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     const Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
       return test::noise(i + grid.i_begin, j, k + grid.k_begin);
@@ -179,8 +174,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     sum_over(MPI_COMM_WORLD, at_grains);
     EXPECT_GT(std::abs(at_grains[0]), 1e-3);
     EXPECT_NEAR(in_cells / at_grains[0], 1, 1e-11);
-    visits.to_grain_ranks(
-        grains, [](GrainState& s, const auto& action) { action(s.exchange.carried_impulse); });
+    fluid_side.to_grain_ranks(grains, kCarryWrites);
     EXPECT_NEAR(sum_over(MPI_COMM_WORLD, carried_x(grains)) / at_grains[0], 1, 1e-12);
   }
 }

@@ -7,7 +7,7 @@
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/fluid/local_correction.hpp"
-#include "src/parallel/messages.hpp"
+#include "src/parallel/exchange.hpp"
 #include "tests/support/shared_grid.hpp"
 
 namespace barchan {

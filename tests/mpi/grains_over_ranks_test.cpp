@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/parallel/particle_exchange.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/pair_marks.hpp"
 #include "tests/support/shared_grains.hpp"

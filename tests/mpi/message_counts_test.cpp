@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "src/coupling/coupled_step.hpp"
-#include "src/parallel/messages.hpp"
+#include "src/parallel/exchange.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"
@@ -101,7 +103,7 @@ MessageCounts flow_step_around_grains(const Grid& grid, int correctors, int iter
 // --- the exchange ------------------------------------------------------------------------------
 
 /// Sums of five quantities in the ghosts, those in x with the corners.
-MessageCounts deposit_rims(const Grid& grid) {
+MessageCounts scatter_add(const Grid& grid) {
   const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
   return numbers_sent(2 * cut_x + 2 * cut_z,
                       5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
@@ -110,7 +112,7 @@ MessageCounts deposit_rims(const Grid& grid) {
 /// Forces on six components and the extent of the grains in five numbers; eight fields smoothed,
 /// all of them filled; totals three times, volume, six sums over faces.
 MessageCounts exchange(const Grid& grid) {
-  return 14 * fill(grid) + 8 * fft_solve(grid) + deposit_rims(grid) + reductions(5 + 1 + 1 + 1 + 6);
+  return 14 * fill(grid) + 8 * fft_solve(grid) + scatter_add(grid) + reductions(5 + 1 + 1 + 1 + 6);
 }
 
 /// Grains of this rank in the pencil of each rank.
@@ -129,29 +131,29 @@ std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& gra
   }
   return n;
 }
-/// A record of so many words to every other rank for each of its grains.
-MessageCounts records(const std::vector<int>& n, int words) {
+/// So many numbers to every other rank for each of its grains.
+MessageCounts rows(const std::vector<int>& n, int width) {
   MessageCounts sum;
   for (int r = 0; r < n_ranks(); ++r) {
     const int count = n[static_cast<std::size_t>(r)];
-    if (r != rank_of(MPI_COMM_WORLD) && count > 0) sum = sum + numbers_sent(1, count * words);
+    if (r != rank_of(MPI_COMM_WORLD) && count > 0) sum = sum + numbers_sent(1, count * width);
   }
   return sum;
 }
-/// Grains visit the flow with `needs` words and go home with `gives`.
-MessageCounts visit(const std::vector<int>& n, int needs, int gives) {
-  std::vector<int> visitors(n.size());
-  MPI_Alltoall(n.data(), 1, MPI_INT, visitors.data(), 1, MPI_INT, MPI_COMM_WORLD);
-  return records(n, needs) + records(visitors, gives) + all_to_alls(1);
+/// Grains go to the fluid ranks with `reads` numbers and come back with `writes`.
+MessageCounts to_fluid_and_back(const std::vector<int>& n, int reads, int writes) {
+  std::vector<int> copies(n.size());
+  MPI_Alltoall(n.data(), 1, MPI_INT, copies.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  return rows(n, reads) + rows(copies, writes) + all_to_alls(1);
 }
 
 // --- the grains --------------------------------------------------------------------------------
 
-/// Position, velocity and spin of the ghosts, and the largest way.
-MessageCounts sub_step(const RecordCounts& ghosts) { return records(ghosts.to, 9) + reductions(1); }
-/// Ghosts whole; the balance; grains, contacts, ghosts announced.
-MessageCounts rebuild(const RecordCounts& ghosts) {
-  return records(ghosts.to, 13) + reductions(2) + all_to_alls(3);
+/// Position, velocity and spin of the ghosts, and the largest displacement.
+MessageCounts sub_step(const ExchangeCounts& ghosts) { return rows(ghosts.to, 9) + reductions(1); }
+/// Ghosts whole; the balance; numbers of grains, contacts and ghosts.
+MessageCounts rebuild(const ExchangeCounts& ghosts) {
+  return rows(ghosts.to, 13) + reductions(2) + all_to_alls(3);
 }
 
 /// Grains on the floor of a shallow channel, cut in one of all shapes.
@@ -205,10 +207,10 @@ TEST(MessageCounts, ACoupledStep) {
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);
     SmallCase c(along_x, true);
-    const NeighborList& list = c.step->grain_solver()->list();
+    const NeighborList& list = std::as_const(*c.step).neighbor_list();
     const std::int64_t rebuilds = list.rebuilds();
-    const std::vector<int> visitors = grains_in_pencils(c.grid, *c.state.grains);
-    const RecordCounts ghosts = list.ghosts() ? list.ghosts()->counts() : RecordCounts{};
+    const std::vector<int> grains_before = grains_in_pencils(c.grid, *c.state.grains);
+    const ExchangeCounts ghosts = list.ghosts() ? list.ghosts()->counts() : ExchangeCounts{};
     const MessageCounts before = message_counts();
     c.step->advance(c.state);
     const MessageCounts counted = since(before);
@@ -218,8 +220,8 @@ TEST(MessageCounts, ACoupledStep) {
 
     MessageCounts expected =
         flow_step_around_grains(c.grid.mine, c.config.solver.correctors, iterations) +
-        exchange(c.grid.mine) + visit(visitors, 21, 17) +
-        visit(grains_in_pencils(c.grid, *c.state.grains), 26, 3) +
+        exchange(c.grid.mine) + to_fluid_and_back(grains_before, 21, 17) +
+        to_fluid_and_back(grains_in_pencils(c.grid, *c.state.grains), 26, 3) +
         reductions(2);  // the ledger's number of grains; whether one has passed the outlet
     if (n_ranks() > 1) expected = expected + sub_steps * sub_step(ghosts);
     expect_equal(counted, expected);
@@ -248,7 +250,7 @@ void move_along_x(const GrainState& grains, Real way) {
       "test: move", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += way; });
 }
 
-/// Every grain goes on by one column, some to another rank: 30 words each, and no contacts.
+/// Every grain goes on by one column, some to another rank: 30 numbers each, and no contacts.
 TEST(MessageCounts, AMigration) {
   const Config c = periodic_box();
   testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);

@@ -114,8 +114,7 @@ class FlatBed {
   /// Of the water [N s/m2].
   double momentum_per_area() {
     const double area = config_.size[0] * config_.size[2];
-    return kDensity * step_.fluid_solver()->bulk_velocity(*state_.fluid) *
-           (config_.size[1] - solid_ / area);
+    return kDensity * step_.bulk_velocity(state_) * (config_.size[1] - solid_ / area);
   }
 
   Config config_;

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

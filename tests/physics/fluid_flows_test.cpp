@@ -6,7 +6,7 @@
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/initial_flow.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "kernels/fluid/flow_sums.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 
@@ -35,7 +35,7 @@ double drag_at(const Vec3& x, double bulk, double shear) {
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid,
                   [&](int, int j, int) { return bulk + shear * h.y(j); });
-  run.step.fluid_solver()->fill_ghosts(*run.state.fluid);
+  run.step.fill_ghosts(run.state);
   run.advance();
   return test::force_on_first(run, "force_drag").x;
 }
@@ -167,7 +167,7 @@ TEST(GrainOnMesh, MomentumIsConserved) {
   for (int n = 1; n <= steps; ++n) {
     run.advance();
     const Momentum now = momentum(run);
-    const ExchangeLedger& ledger = run.step.coupling()->ledger();
+    const ExchangeLedger& ledger = run.step.exchange();
     const FaceSums sums = face_sums(*run.state.fluid);
     const double rate = n == 1 ? sums.rate : 1.5 * sums.rate - 0.5 * previous_rate;
     const double shared = dt * (1000 * rate - sums.pressure);

@@ -93,7 +93,7 @@ void a_long_run(std::int64_t grain_steps) {
   for (std::int64_t n = 1; n <= steps; ++n) {
     step.advance(state);
     ASSERT_NO_THROW(health.check(state, step)) << "step " << n;
-    const ExchangeLedger& l = step.coupling()->ledger();
+    const ExchangeLedger& l = step.exchange();
     sums.given += norm(l.given_to_grains);
     sums.largest_volume_mismatch =
         std::max(sums.largest_volume_mismatch, std::abs(l.deposited_volume / l.grain_volume - 1));
@@ -101,7 +101,7 @@ void a_long_run(std::int64_t grain_steps) {
     if (random() % 25 != 0) continue;
     ++looks;
     sums.way += 25 * config.time.fluid_step * mean_speed(*state.grains);
-    const Pairs now = against_all_pairs(*state.grains, step.grain_solver()->box());
+    const Pairs now = against_all_pairs(*state.grains, step.neighbor_list().box());
     pairs.touching += now.touching;
     pairs.missed += now.missed;
   }
@@ -117,7 +117,7 @@ void a_long_run(std::int64_t grain_steps) {
       "%lld grain steps, %lld list rebuilds; %d looks at all pairs: %zu touching, %zu missed; "
       "memory %+.3f %% since a tenth of the way; ledger off by %.2g of what was exchanged; volume "
       "%.2g; a grain went %.3g m\n",
-      static_cast<long long>(grain_steps), static_cast<long long>(step.grain_solver()->rebuilds()),
+      static_cast<long long>(grain_steps), static_cast<long long>(step.neighbor_list().rebuilds()),
       looks, pairs.touching, pairs.missed, 100 * growth, sums.ledger_error / sums.given,
       sums.largest_volume_mismatch, sums.way);
   EXPECT_EQ(pairs.missed, 0u);

@@ -7,7 +7,7 @@
 
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/pressure_solver.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -9,7 +9,7 @@
 
 #include "kernels/fluid/wale.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/flow_errors.hpp"
 #include "tests/support/saved_results.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/coupling/coupled_step.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 
@@ -104,11 +104,11 @@ std::vector<Real> owned_values(const FluidState& fluid) {
 TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
   Coupled a(coupled_config()), b(coupled_config());
   a.advance(3), b.advance(3);
-  for (const Field& field : b.step.fluid_solver()->idle().for_anything()) {
+  for (const Field& field : b.step.scratch_fields()) {
     Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
   for (Coupled* c : {&a, &b}) {
-    c->step.fluid_solver()->advance(*c->state.fluid, &c->step.coupling()->on_faces(), 2.5e-4);
+    c->step.advance_fluid(c->state);
   }
   EXPECT_EQ(owned_values(*a.state.fluid), owned_values(*b.state.fluid));
 }
@@ -116,7 +116,7 @@ TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
 TEST(Coupling, BulkVelocityIsHeld) {
   Coupled c(coupled_config());
   c.advance(40);
-  EXPECT_NEAR(c.step.fluid_solver()->bulk_velocity(*c.state.fluid), 0.2, 2e-4);
+  EXPECT_NEAR(c.step.bulk_velocity(c.state), 0.2, 2e-4);
 }
 
 /// One heavy grain falls in still water: buoyancy, drag and added mass alone decide.

@@ -5,7 +5,7 @@
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/wale.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {

@@ -2,42 +2,18 @@
 // these on several ranks, the unit tests on one.
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/output/output_files.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/shared_folder.hpp"
 
 namespace barchan {
 namespace {
 
 const MPI_Comm world = MPI_COMM_WORLD;
-
-/// A folder that rank 0 makes and all ranks know.
-class SharedFolder {
- public:
-  SharedFolder() {
-    std::array<char, 512> name{};
-    if (rank_of(world) == 0) {
-      own_.emplace();
-      own_->path().string().copy(name.data(), name.size() - 1);
-    }
-    MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, world);
-    path_ = name.data();
-  }
-  ~SharedFolder() { MPI_Barrier(world); }
-  SharedFolder(const SharedFolder&) = delete;
-  SharedFolder& operator=(const SharedFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::optional<TemporaryFolder> own_;
-  std::filesystem::path path_;
-};
 
 constexpr int nx = 3, ny = 2, nz = 2;  // of each rank; the ranks follow each other along x
 
@@ -74,7 +50,7 @@ GrainState grains_of(int rank) {
 
 TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   const int ranks = rank_count(world), rank = rank_of(world);
-  const SharedFolder folder;
+  const testing::SharedFolder folder;
   const Decomposition pencils(world, nx * ranks, nz);
   {
     OutputFiles output(folder.path(), {.title = "parallel"}, {}, world);
@@ -104,7 +80,7 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
 TEST(ParallelFiles, ARestartFileHoldsTheSharesOfAllRanks) {
   const auto ranks = static_cast<std::uint64_t>(rank_count(world));
   const auto rank = static_cast<std::uint64_t>(rank_of(world));
-  const SharedFolder folder;
+  const testing::SharedFolder folder;
   const std::vector<double> mine(2, static_cast<double>(rank));
   CheckpointWriter writer(folder.path(), 5, {}, world);
   writer.scalar("t", 0.25);

@@ -1,11 +1,12 @@
-// What ranks tell each other: every message of a step goes through here and is counted.
+// Every message of a step: exchanged and counted here.
 #pragma once
+
+#include <mpi.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "kernels/fluid/grid.hpp"
 #include "src/parallel/decomposition.hpp"
 
 namespace barchan {
@@ -19,12 +20,9 @@ struct MessageCounts {
 };
 const MessageCounts& message_counts();
 
-namespace message_detail {
-/// One more of this rank: a message of so many words, or what all ranks take part in.
-void count_message(std::size_t words);
+namespace exchange_detail {
 void count_reduction();
-void count_all_to_all();
-}  // namespace message_detail
+}  // namespace exchange_detail
 
 /// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
 /// MPI library says so. Otherwise messages pass through the host.
@@ -34,7 +32,7 @@ bool mpi_reaches_device();
 class MessageBuffer {
  public:
   MessageBuffer() = default;
-  MessageBuffer(const char* label, std::size_t n);
+  MessageBuffer(std::string label, std::size_t n);
   /// For kernels.
   Real* data() const { return numbers_.data(); }
   std::size_t size() const { return numbers_.extent(0); }
@@ -53,32 +51,42 @@ class MessageBuffer {
   Kokkos::View<Real*, Kokkos::HostSpace> staged_;  // empty where MPI reaches the numbers
 };
 
-/// Sends a rim to the rank before and one to the rank after, and takes theirs.
-struct Rims {
+/// Messages to and from the two neighbours along a direction; none where it is not cut.
+struct HaloBuffers {
   MessageBuffer to_before, to_after, from_before, from_after;
-};
-void exchange(const RankLine& line, const Rims& rims);
 
-/// Piece p of `send`, counts[p] numbers one after the other, goes to the rank at place p of the
-/// line.
+  HaloBuffers() = default;
+  /// Room for n numbers in each.
+  explicit HaloBuffers(std::size_t n);
+  bool is_cut() const { return to_after.size() > 0; }
+};
+/// Sends n numbers to the rank before and as many to the one after, and receives theirs.
+void exchange(const RankLine& line, const HaloBuffers& buffers, std::size_t n);
+
+/// Block p of `send`, counts[p] numbers one after the other, goes to the p-th rank of the line.
 void exchange_all(const RankLine& line, const MessageBuffer& send,
                   const std::vector<int>& send_counts, const MessageBuffer& receive,
                   const std::vector<int>& receive_counts);
 
-/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
-void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers);
-std::int64_t sum_over(MPI_Comm ranks, std::int64_t number);
-inline std::int64_t sum_over(MPI_Comm ranks, int number) {
-  return sum_over(ranks, std::int64_t{number});
-}
-Real sum_over(MPI_Comm ranks, Real number);
-void sum_over(MPI_Comm ranks, std::vector<Real>& numbers);
-Real max_over(MPI_Comm ranks, Real number);
-void max_over(MPI_Comm ranks, std::vector<Real>& numbers);
+/// Rows (of grains, ghosts, contacts) that this rank sends to each rank of a communicator, and
+/// receives from it.
+struct ExchangeCounts {
+  MPI_Comm ranks = MPI_COMM_SELF;
+  std::vector<int> to, from;
 
-/// Over the ranks that share the grid, the same bits on all of them.
-Real sum_over_ranks(const Grid& grid, Real mine);
-void sum_over_ranks(const Grid& grid, std::vector<Real>& numbers);
-Real max_over_ranks(const Grid& grid, Real mine);
+  int n_to() const;
+  int n_from() const;
+  /// The same rows sent back.
+  ExchangeCounts back() const { return {ranks, from, to}; }
+};
+
+/// Tells each rank how many rows it will receive. All ranks together.
+ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to);
+
+/// Sends rows of `width` numbers, those for rank 0 first, and receives those for this rank in the
+/// order of their senders; `receive` grows as needed. Ranks without rows for each other exchange no
+/// message; a rank's rows for itself are copied.
+void exchange(const ExchangeCounts& counts, int width, const MessageBuffer& send,
+              MessageBuffer& receive);
 
 }  // namespace barchan

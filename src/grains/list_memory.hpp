@@ -1,0 +1,51 @@
+// Memory of a neighbour list, which serves again from rebuild to rebuild.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "src/fluid/scratch_memory.hpp"
+
+namespace barchan {
+
+/// n entries, or a few, and a sixteenth more.
+inline std::size_t with_slack(int n) {
+  return static_cast<std::size_t>(n) + static_cast<std::size_t>(n / 16) + 64;
+}
+
+/// Room for n entries, kept between rebuilds; grows by more than asked.
+template <class View>
+void reserve(View& view, const char* label, int n) {
+  if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
+    view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), with_slack(n));
+  }
+}
+
+/// Scratch memory if there is enough, else as reserve() does.
+template <class T>
+void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* label, int n) {
+  const auto taken = scratch.take<T>(with_slack(n));
+  if (taken.extent(0) > 0) {
+    view = taken;
+    return;
+  }
+  if (view.use_count() == 0) view = {};  // scratch memory of an earlier rebuild
+  reserve(view, label, n);
+}
+
+/// Turns counts in [0, n) into starts from `begin` on, the end at n. Returns the end.
+inline int counts_to_starts(const Kokkos::View<int*>& a, int n, int begin = 0) {
+  int total = 0;
+  Kokkos::parallel_scan(
+      "neighbors: prefix sum", n,
+      KOKKOS_LAMBDA(int i, int& sum, bool final) {
+        const int count = a(i);
+        if (final) a(i) = begin + sum;
+        sum += count;
+      },
+      total);
+  Kokkos::deep_copy(Kokkos::subview(a, n), begin + total);
+  return begin + total;
+}
+
+}  // namespace barchan

@@ -1,0 +1,38 @@
+// The part of the grid that this rank owns.
+#pragma once
+
+#include "kernels/fluid/grid.hpp"
+
+namespace barchan {
+
+class Decomposition;
+
+/// The grid with its memory.
+struct Grid : BasicGrid<Kokkos::View<Real*>> {
+  int nx_all = 0, nz_all = 0;            // cells of all ranks together
+  const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
+
+  /// All x-z columns times the height of the domain [m].
+  Real height_of_all_columns() const { return ly * nx_all * nz_all; }
+  // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
+  KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
+    return {nx,
+            ny,
+            nz,
+            dx,
+            dz,
+            x0,
+            z0,
+            lx,
+            ly,
+            lz,
+            i_begin,
+            k_begin,
+            lx_all,
+            lz_all,
+            y_face_.data(),
+            y_centre_.data()};
+  }
+};
+
+}  // namespace barchan

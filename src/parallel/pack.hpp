@@ -1,0 +1,204 @@
+// Into messages and out of them, bit for bit: rows of arrays, and boxes of strided arrays.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "src/parallel/exchange.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+/// Which entries of a row are packed together: those of some arrays, one after the other. A message
+/// consists of numbers of eight bytes.
+struct PackLayout {
+  static constexpr int kMost = 28;  // more would not fit a kernel's arguments
+  struct Array {
+    char* data;
+    std::int16_t stride;   // from row to row [bytes]
+    std::int16_t numbers;  // 0: a single byte, a number in the message
+  };
+  Array array[kMost];
+  int n = 0, width = 0;  // arrays; numbers of a row
+
+  /// An entry of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on.
+  /// Throws std::length_error beyond kMost.
+  void add(void* data, std::size_t stride, std::size_t bytes) {
+    if (n == kMost) throw std::length_error("PackLayout: too many arrays");
+    const std::size_t numbers = bytes / sizeof(Real);
+    array[n++] = {static_cast<char*>(data), static_cast<std::int16_t>(stride),
+                  static_cast<std::int16_t>(numbers)};
+    width += numbers > 0 ? static_cast<int>(numbers) : 1;
+  }
+  template <class T>
+  void add(const Kokkos::View<T*>& rows) {
+    static_assert(sizeof(T) == 1 || sizeof(T) % sizeof(Real) == 0);
+    add(rows.data(), sizeof(T), sizeof(T));
+  }
+  template <class T>
+  void add(const Kokkos::View<T**, Kokkos::LayoutLeft>& columns) {
+    for (std::size_t c = 0; c < columns.extent(1); ++c)
+      add(columns.data() + c * columns.stride(1), sizeof(T), sizeof(T));
+  }
+  /// One member of each row.
+  template <class T, class Member>
+  void add(const Kokkos::View<T*>& rows, Member T::*member) {
+    add(&(rows.data()->*member), sizeof(T), sizeof(Member));
+  }
+
+  /// Where in a packed row the entry of an array begins.
+  int offset_of(const void* data) const {
+    int offset = 0;
+    for (int a = 0; a < n && array[a].data != data; ++a)
+      offset += array[a].numbers > 0 ? array[a].numbers : 1;
+    return offset;
+  }
+};
+
+/// Packs rows one after the other.
+struct PackRows {
+  PackLayout layout;
+  Kokkos::View<const int*> row;  // that are packed; none: 0, 1, ...
+  Real* message;
+
+  KOKKOS_FUNCTION void operator()(int p) const {
+    const std::ptrdiff_t r = row.extent(0) > 0 ? row(p) : p;
+    Real* to = message + std::ptrdiff_t{layout.width} * p;
+    for (int a = 0; a < layout.n; ++a) {
+      const PackLayout::Array& array = layout.array[a];
+      const char* from = array.data + r * array.stride;
+      if (array.numbers == 0) *to++ = *reinterpret_cast<const std::uint8_t*>(from);
+      for (int q = 0; q < array.numbers; ++q, from += sizeof(Real))
+        std::memcpy(to++, from, sizeof(Real));
+    }
+  }
+};
+/// Unpacks them to other rows.
+struct UnpackRows {
+  PackLayout layout;
+  Kokkos::View<const int*> row;  // that are filled; none: first_row and those after it
+  int first_row;
+  const Real* message;
+  int width;  // of a packed row, which may hold more than the layout
+
+  KOKKOS_FUNCTION void unpack(int p, std::ptrdiff_t r) const {
+    const Real* from = message + std::ptrdiff_t{width} * p;
+    for (int a = 0; a < layout.n; ++a) {
+      const PackLayout::Array& array = layout.array[a];
+      char* to = array.data + r * array.stride;
+      if (array.numbers == 0)
+        *reinterpret_cast<std::uint8_t*>(to) = static_cast<std::uint8_t>(*from++);
+      for (int q = 0; q < array.numbers; ++q, to += sizeof(Real))
+        std::memcpy(to, from++, sizeof(Real));
+    }
+  }
+  KOKKOS_FUNCTION void operator()(int p) const {
+    unpack(p, row.extent(0) > 0 ? row(p) : first_row + p);
+  }
+};
+
+/// Rows packed, exchanged and unpacked, in buffers that serve again.
+class RowExchange {
+ public:
+  /// `name` heads the labels of kernels and memory.
+  explicit RowExchange(const std::string& name)
+      : pack_(name + ": pack"),
+        unpack_(name + ": unpack"),
+        send_(name + ": send", 0),
+        receive_(name + ": receive", 0) {}
+
+  /// Packs the rows for rank 0 first (none given: 0, 1, ...) and exchanges them. All ranks
+  /// together.
+  void exchange(const ExchangeCounts& counts, const PackLayout& layout,
+                const Kokkos::View<const int*>& row = {}) {
+    send_.reserve(static_cast<std::size_t>(counts.n_to()) * static_cast<std::size_t>(layout.width));
+    Kokkos::parallel_for(pack_, items(counts.n_to()), PackRows{layout, row, send_.data()});
+    barchan::exchange(counts, layout.width, send_, receive_);
+    width_ = layout.width;
+    n_received_ = counts.n_from();
+  }
+  /// What was received, into the rows of a list, or into `first_row` and those after it.
+  void unpack(const PackLayout& layout, const Kokkos::View<const int*>& row) const {
+    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, row, 0));
+  }
+  void unpack(const PackLayout& layout, int first_row) const {
+    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, {}, first_row));
+  }
+  UnpackRows unpacking(const PackLayout& layout, const Kokkos::View<const int*>& row,
+                       int first_row) const {
+    return {layout, row, first_row, receive_.data(), width_};
+  }
+  /// (rows) of width() numbers.
+  const Real* received() const { return receive_.data(); }
+  int width() const { return width_; }
+
+ private:
+  std::string pack_, unpack_;
+  MessageBuffer send_, receive_;
+  int width_ = 0, n_received_ = 0;
+};
+
+/// Extents of a box in an array of numbers of eight bytes, and the distances between neighbours.
+struct BoxShape {
+  std::array<int, 3> n{};
+  std::array<std::ptrdiff_t, 3> stride{};  // in numbers
+  int width = 1;                           // numbers side by side: 1, or 2 if complex
+  std::size_t size() const {
+    return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+           static_cast<std::size_t>(n[2]) * static_cast<std::size_t>(width);
+  }
+};
+enum class BoxCopy { pack, unpack, add };
+
+/// `count` boxes of one shape, each to or from its message; the first direction is packed fastest.
+template <BoxCopy copy, class T, int count, int width>
+struct CopyBoxes {
+  std::ptrdiff_t stride_0, stride_1, stride_2;
+  int n_0, n_1;
+  T* first[count];
+  std::conditional_t<copy == BoxCopy::pack, Real, const Real>* message[count];
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const std::ptrdiff_t from = i * stride_0 + j * stride_1 + k * stride_2,
+                         to = i + n_0 * (j + static_cast<std::ptrdiff_t>(n_1) * k);
+    for (int b = 0; b < count; ++b) {
+      for (int c = 0; c < width; ++c) {
+        T& element = first[b][from + c];
+        if constexpr (copy == BoxCopy::pack) {
+          message[b][width * to + c] = Kokkos::bit_cast<Real>(element);
+        } else if constexpr (copy == BoxCopy::unpack) {
+          element = Kokkos::bit_cast<T>(message[b][width * to + c]);
+        } else {
+          element += Kokkos::bit_cast<T>(message[b][width * to + c]);
+        }
+      }
+    }
+  }
+};
+
+/// Copies boxes, or adds them, in one launch: box b begins at first[b] and is message[b].
+template <BoxCopy copy, class T, std::size_t count, class Number>
+void copy_boxes(const char* label, const BoxShape& shape, const std::array<T*, count>& first,
+                const std::array<Number*, count>& message) {
+  static_assert(sizeof(T) == sizeof(Real));
+  const auto& [n, stride, width] = shape;
+  const CellRange range{0, n[0], 0, n[1], 0, n[2]};
+  const auto run = [&](auto functor) {
+    for (std::size_t b = 0; b < count; ++b)
+      functor.first[b] = first[b], functor.message[b] = message[b];
+    for_each_cell(label, range, functor);
+  };
+  constexpr int n_boxes = static_cast<int>(count);
+  if (width == 1) {
+    run(CopyBoxes<copy, T, n_boxes, 1>{stride[0], stride[1], stride[2], n[0], n[1], {}, {}});
+  } else {
+    run(CopyBoxes<copy, T, n_boxes, 2>{stride[0], stride[1], stride[2], n[0], n[1], {}, {}});
+  }
+}
+
+}  // namespace barchan
