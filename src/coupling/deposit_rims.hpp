@@ -2,7 +2,7 @@
 // the adjoint of filling them.
 #pragma once
 
-#include "kernels/coupling/interphase.hpp"
+#include "kernels/coupling/deposit.hpp"
 #include "src/parallel/messages.hpp"
 
 namespace barchan {

@@ -17,9 +17,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
              .z = {pencils.z().n, pencils.z().parts},
              .dx = grid.dx,
              .dz = grid.dz,
-             .lx = grid.lx_all,
-             .lz = grid.lz_all,
-             .periodic_x = periodic_x};
+             .box = {.lx = periodic_x ? grid.lx_all : 0, .lz = grid.lz_all}};
   visitors_ = make_grain_rows(0, ranks_);
   add_fluid(visitors_);
   add_exchange(visitors_);
@@ -60,10 +58,10 @@ void FluidSideGrains::find_owners(const GrainState& home) {
 
 void FluidSideGrains::wrap_visitors() const {
   const auto kin = visitors_.kin;
-  const PencilOwners owners = owners_;
+  const PeriodicBox box = owners_.box;
   Kokkos::parallel_for(
       "fluid-side grains: wrap", items(visitors_.n),
-      KOKKOS_LAMBDA(int g) { kin(g).x = owners.into_domain(kin(g).x); });
+      KOKKOS_LAMBDA(int g) { kin(g).x = box.wrap(kin(g).x); });
 }
 
 void FluidSideGrains::send(const RecordLayout& layout, const RecordCounts& counts,

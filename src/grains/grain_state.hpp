@@ -5,8 +5,7 @@
 
 #include <cstdint>
 
-#include "kernels/coupling/interphase.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/grain_motion.hpp"
 #include "src/grains/initial_grains.hpp"
 

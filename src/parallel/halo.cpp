@@ -73,7 +73,7 @@ Halo::Halo(const Grid& grid) : grid_(grid) {
   if (grid.ranks->along_z().count > 1) z_ = make_rims((grid.nx + 2) * (grid.ny + 2));
 }
 
-void Halo::fill(const Field& f) const {
+void Halo::fill(Field& f) const {
   const int nx = grid_.nx, nz = grid_.nz, rows = grid_.ny + 2, length = nx + 2;
   // The functor for x takes j as the inner index: one row of the launch is one plane's rim.
   const CellRange across_x{-1, grid_.ny + 1, 0, 1, 0, nz};

@@ -14,7 +14,7 @@ class Halo {
 
   /// Makes the ghosts of `f` in x and z valid, rows -1 and ny and the corners included; the rows
   /// behind the walls are taken as they are. All ranks together.
-  void fill(const Field& f) const;
+  void fill(Field& f) const;
 
  private:
   Grid grid_;
