@@ -119,9 +119,9 @@ Action solve_once(RunningCase& c, Real mass, Real diffusion) {
   const Grid& grid = c.state.fluid->grid;
   const auto fft = std::make_shared<const PlaneFft>(grid);
   const auto solver = std::make_shared<const PoissonFft>(grid, fft, mass, diffusion);
-  const Field in("bench: right-hand side", grid), out("bench: solution", grid);
+  Field in("bench: right-hand side", grid), out("bench: solution", grid);
   Kokkos::deep_copy(in.storage, c.state.fluid->u.x.storage);
-  return [solver, in, out] { solver->solve(in, out); };
+  return [solver, in, out]() mutable { solver->solve(in, out); };
 }
 
 Work solve_work(RunningCase& c) {

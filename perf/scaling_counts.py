@@ -139,9 +139,9 @@ def pressure_solve(p):
     return 2 * fill(p) + 2 * fill(p, ny=1) + Counts(reductions=4)
 
 
-def flow_step_around_grains(p, iterations, correctors=1):
+def flow_step_around_grains(p, iterations):
     """FluidSolver::advance() with an exchange."""
-    return (18 * fill(p) + correctors * pressure_solve(p) + iterations * pressure_iteration(p)
+    return (18 * fill(p) + pressure_solve(p) + iterations * pressure_iteration(p)
             + Counts(reductions=6))
 
 
@@ -191,10 +191,10 @@ def rebuild(b):
     return sent(b.ghost_ranks, GHOST * b.ghosts) + Counts(reductions=2, all_to_alls=3)
 
 
-def coupled_step(p, b, iterations, sub_steps, rebuilds, correctors=1):
+def coupled_step(p, b, iterations, sub_steps, rebuilds):
     """CoupledStep::advance_coupled() and the count of grains; a rebuild takes the place of an update."""
     updates = sub_steps - rebuilds
-    return (flow_step_around_grains(p, iterations, correctors) + exchange(p) + visits(b)
+    return (flow_step_around_grains(p, iterations) + exchange(p) + visits(b)
             + updates * sub_step(b) + rebuilds * (rebuild(b) + Counts(reductions=1))
             + Counts(reductions=4))  # Ledger::close_step(), remove_left(), Simulation::count_grains(), Health
 

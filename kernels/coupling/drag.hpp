@@ -16,15 +16,25 @@ struct LocalFlow {
   Real d_p = 0;      // grain diameter [m]
 };
 
-KOKKOS_FORCEINLINE_FUNCTION Real stokes_coefficient(const LocalFlow& flow) {
-  return 3 * std::numbers::pi_v<Real> * flow.mu_f * flow.d_p;
+/// Re = alpha_f d slip / nu of the superficial velocity [-].
+KOKKOS_FORCEINLINE_FUNCTION Real reynolds_number(const LocalFlow& f, Real alpha_f, Real d) {
+  return alpha_f * f.rho_f * d * f.slip / f.mu_f;
 }
 
-/// Schiller & Naumann (1935): C_d = 24/Re (1 + 0.15 Re^0.687), one grain alone; for Re < 1000.
+/// Stokes (1851): 3 pi mu d.
+KOKKOS_FORCEINLINE_FUNCTION Real stokes_coefficient(const LocalFlow& f, Real d) {
+  return 3 * std::numbers::pi_v<Real> * f.mu_f * d;
+}
+
+/// Schiller & Naumann (1935) at a Reynolds number: C_d = 24/Re (1 + 0.15 Re^0.687); for Re < 1000.
+KOKKOS_FORCEINLINE_FUNCTION Real schiller_naumann(const LocalFlow& f, Real reynolds) {
+  return stokes_coefficient(f, f.d_p) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687)));
+}
+
+/// One grain alone.
 struct SchillerNaumann {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
-    const Real reynolds = f.rho_f * f.d_p * f.slip / f.mu_f;
-    return stokes_coefficient(f) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687)));
+    return schiller_naumann(f, reynolds_number(f, 1, f.d_p));
   }
 };
 
@@ -34,8 +44,7 @@ struct SchillerNaumann {
 struct Gidaspow {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     if (f.alpha_f > Real(0.8)) {
-      const Real reynolds = f.alpha_f * f.rho_f * f.d_p * f.slip / f.mu_f;
-      return stokes_coefficient(f) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687))) *
+      return schiller_naumann(f, reynolds_number(f, f.alpha_f, f.d_p)) *
              Kokkos::pow(f.alpha_f, Real(-2.65));
     }
     return sphere_volume(f.d_p / 2) *
@@ -65,7 +74,7 @@ struct KochHill {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real alpha = f.alpha_f > Real(0.4) ? f.alpha_f : Real(0.4);
     const Real s = 1 - alpha > Real(1e-12) ? 1 - alpha : Real(1e-12);
-    const Real reynolds = alpha * f.rho_f * f.d_p * f.slip / f.mu_f;
+    const Real reynolds = reynolds_number(f, alpha, f.d_p);
     const Real f0 = s < Real(0.4) ? (1 + 3 * Kokkos::sqrt(s / 2) +
                                      Real(135.0 / 64) * s * Kokkos::log(s) + Real(16.14) * s) /
                                         (1 + s * (Real(0.681) + s * (Real(-8.48) + s * Real(8.16))))
@@ -85,15 +94,23 @@ KOKKOS_INLINE_FUNCTION Real terminal_velocity_ratio(Real alpha_f, Real reynolds)
   return (a1 - b + Kokkos::sqrt(b * b + 2 * b * (2 * a2 - a1) + a1 * a1)) / 2;
 }
 
-/// Syamlal & O'Brien (1987); Re = d slip / nu without alpha_f.
+/// V_r of a grain and sqrt(C_d slip), C_d of Dalla Valle (1948) at Re / V_r; Re = d slip / nu
+/// without alpha_f.
+struct TerminalDrag {
+  Real v_r, root;
+};
+KOKKOS_INLINE_FUNCTION TerminalDrag terminal_drag(const LocalFlow& f) {
+  const Real re_per_slip = f.rho_f * f.d_p / f.mu_f;
+  const Real v_r = terminal_velocity_ratio(f.alpha_f, re_per_slip * f.slip);
+  return {v_r, Real(0.63) * Kokkos::sqrt(f.slip) + Real(4.8) * Kokkos::sqrt(v_r / re_per_slip)};
+}
+
+/// Syamlal & O'Brien (1987).
 struct SyamlalOBrien {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
-    const Real re_per_slip = f.rho_f * f.d_p / f.mu_f;
-    const Real v_r = terminal_velocity_ratio(f.alpha_f, re_per_slip * f.slip);
-    const Real root =
-        Real(0.63) * Kokkos::sqrt(f.slip) + Real(4.8) * Kokkos::sqrt(v_r / re_per_slip);
-    return sphere_volume(f.d_p / 2) * Real(0.75) * root * root * f.rho_f * f.alpha_f /
-           (v_r * v_r * f.d_p);
+    const TerminalDrag d = terminal_drag(f);
+    return sphere_volume(f.d_p / 2) * Real(0.75) * d.root * d.root * f.rho_f * f.alpha_f /
+           (d.v_r * d.v_r * f.d_p);
   }
 };
 
@@ -101,11 +118,8 @@ struct SyamlalOBrien {
 /// No published program evaluates this mixture; offered for comparison.
 struct PaperRepaired {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
-    const Real re_per_slip = f.rho_f * f.d_p / f.mu_f;
-    const Real v_r = terminal_velocity_ratio(f.alpha_f, re_per_slip * f.slip);
-    const Real root =
-        Real(0.63) * Kokkos::sqrt(f.slip) + Real(4.8) * Kokkos::sqrt(v_r / re_per_slip);
-    return sphere_volume(f.d_p / 2) * Real(0.75) * root * root * f.rho_f *
+    const TerminalDrag d = terminal_drag(f);
+    return sphere_volume(f.d_p / 2) * Real(0.75) * d.root * d.root * f.rho_f *
            Kokkos::pow(f.alpha_f, Real(-1.65)) / f.d_p;
   }
 };
@@ -117,7 +131,7 @@ struct Beetstra {
   Real d_mean = 0;  // sum n d^3 / sum n d^2 of all grains [m]
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real a = f.alpha_f, s = 1 - a, y = f.d_p / d_mean;
-    const Real reynolds = a * f.rho_f * d_mean * f.slip / f.mu_f + Real(1e-12);
+    const Real reynolds = reynolds_number(f, a, d_mean) + Real(1e-12);
     const Real viscous = 10 * s / (a * a) + a * a * (1 + Real(1.5) * Kokkos::sqrt(s));
     const Real inertial =
         Real(0.413) * reynolds / (24 * a * a) *
@@ -125,7 +139,7 @@ struct Beetstra {
         (1 + Kokkos::pow(Real(10), 3 * s) * Kokkos::pow(reynolds, -(1 + 4 * s) / 2));
     const Real mixture = a * y + s * y * y + Real(0.064) * a * y * y * y;
     // F scales the Stokes drag of the mean grain at the superficial slip.
-    return 3 * std::numbers::pi_v<Real> * f.mu_f * d_mean * a * (viscous + inertial) * mixture;
+    return stokes_coefficient(f, d_mean) * a * (viscous + inertial) * mixture;
   }
 };
 

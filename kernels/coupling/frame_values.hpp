@@ -10,7 +10,7 @@ using FrameField = Kokkos::View<float***, Kokkos::LayoutLeft>;
 
 /// A cell-centred field without its ghosts.
 struct CopyToFrame {
-  Field field;
+  ConstFieldRef field;
   FrameField out;
   KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
     out(i, j, k) = static_cast<float>(field(i, j, k));
@@ -19,7 +19,7 @@ struct CopyToFrame {
 
 /// Mean of the two faces of a cell; `di, dj, dk` is the step from the lower to the upper one.
 struct AverageToFrame {
-  Field face;
+  ConstFieldRef face;
   int di = 0, dj = 0, dk = 0;
   FrameField out;
   KOKKOS_FUNCTION void operator()(int i, int j, int k) const {

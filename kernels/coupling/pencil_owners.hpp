@@ -1,8 +1,8 @@
 // Which rank has the cells around a grain.
 #pragma once
 
-#include "kernels/coupling/void_fraction.hpp"
 #include "kernels/fluid/grid.hpp"
+#include "kernels/math/periodic_box.hpp"
 
 namespace barchan {
 
@@ -16,24 +16,19 @@ struct PartOfCell {
   }
 };
 
-/// Ranks by pencil, x running fastest. A position along a periodic direction is first brought into
-/// the domain, one beyond another end belongs to the last pencil there.
+/// Ranks by pencil, x running fastest. A position beyond an end that is not periodic belongs to the
+/// last pencil there.
 struct PencilOwners {
   PartOfCell x, z;
-  Real dx = 1, dz = 1, lx = 0, lz = 0;  // of a cell, of the domain [m]
-  bool periodic_x = false;
+  Real dx = 1, dz = 1;  // of a cell [m]
+  PeriodicBox box;
 
-  KOKKOS_FUNCTION Vec3 into_domain(Vec3 p) const {
-    if (periodic_x) p.x -= lx * Kokkos::floor(p.x / lx);
-    p.z -= lz * Kokkos::floor(p.z / lz);
-    return p;
-  }
   KOKKOS_FUNCTION static int cell(Real at, Real spacing, int n) {
-    const int i = static_cast<int>(Kokkos::floor(at * (1 / spacing)));
+    const int i = GridRef::cell_along(at, spacing);
     return i < 0 ? 0 : (i >= n ? n - 1 : i);
   }
   KOKKOS_FUNCTION int operator()(const Vec3& position) const {
-    const Vec3 p = into_domain(position);
+    const Vec3 p = box.wrap(position);
     return x(cell(p.x, dx, x.n)) + x.parts * z(cell(p.z, dz, z.n));
   }
 };

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "kernels/fluid/time_step_limits.hpp"
-#include "kernels/grains/grain.hpp"
-#include "kernels/grains/wall_contact.hpp"
+#include "kernels/grains/contact_geometry.hpp"
 
 namespace barchan {
 
@@ -18,8 +17,8 @@ KOKKOS_FORCEINLINE_FUNCTION void take_worse(WorstItem& worst, Real value, int at
   if (value > worst.val) worst = {value, at};
 }
 
-/// Overlap of a listed pair over its mean diameter, 1 - |x_i - x_j| / (r_i + r_j) [-]; negative
-/// while it does not touch. Pairs whose first grain is a ghost are looked at where it is at home.
+/// Relative overlap of a listed pair [-]. Pairs whose first grain is a ghost are checked on the
+/// rank that owns it.
 struct PairOverlap {
   PeriodicBox box;
   PairList list;
@@ -28,37 +27,35 @@ struct PairOverlap {
 
   KOKKOS_FUNCTION void operator()(int p, WorstItem& worst) const {
     if (list.i(p) >= n_owned) return;
-    const GrainKinematics &a = grains(list.i(p)), &b = grains(list.j(p));
-    take_worse(worst, or_infinity(1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r)), p);
+    const Real overlap = relative_overlap(box, grains(list.i(p)), grains(list.j(p)));
+    take_worse(worst, or_infinity(overlap), p);
   }
 };
 
-/// Of a grain: its overlap with walls over its diameter, and its way in a grain step over its
-/// radius
-/// [-]; infinite where it has no place or no speed.
+/// Of a grain: its overlap with walls over its diameter, and its displacement in a grain step over
+/// its radius [-]; infinite where its position or velocity is not finite.
 struct GrainLimits {
   Kokkos::View<const GrainKinematics*> grains;
-  Plane plane[kMaxWalls];
-  int n_walls;
+  WallPlanes walls;
   Real dt;  // grain step [s]
 
-  KOKKOS_FUNCTION void operator()(int g, WorstItem& in_wall, WorstItem& way) const {
+  KOKKOS_FUNCTION void operator()(int g, WorstItem& in_wall, WorstItem& displacement) const {
     const GrainKinematics& grain = grains(g);
     Real overlap = 0;
-    for (int w = 0; w < n_walls; ++w) {
-      const Real inside = dot(plane[w].normal, grain.x) - plane[w].offset;
-      overlap = Kokkos::max(overlap, or_infinity((grain.r - inside) / (2 * grain.r)));
+    for (int w = 0; w < walls.n; ++w) {
+      overlap = Kokkos::max(overlap, or_infinity(walls[w].overlap(grain) / (2 * grain.r)));
     }
     take_worse(in_wall, overlap, g);
     const Real speed = norm(grain.u) + grain.r * norm(grain.omega);
-    take_worse(way, or_infinity(dt * speed / grain.r + 0 * (grain.x.x + grain.x.y + grain.x.z)), g);
+    const Real finite = 0 * (grain.x.x + grain.x.y + grain.x.z);  // zero, or not a number
+    take_worse(displacement, or_infinity(dt * speed / grain.r + finite), g);
   }
 };
 
 /// Courant number of a cell with the velocities of its lower faces [-].
 struct CourantOfCell {
   GridRef grid;
-  FaceRef u;
+  ConstFaceRef u;
   Real dt;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return courant_number({u.x(i, j, k), u.y(i, j, k), u.z(i, j, k)},
@@ -68,7 +65,7 @@ struct CourantOfCell {
 
 /// How far the fluid fraction lies outside (0, 1] [-]; negative or zero inside.
 struct FractionOutside {
-  FieldRef alpha;
+  ConstFieldRef alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real a = alpha(i, j, k);
     return a > 0 ? a - 1 : 1 - a;

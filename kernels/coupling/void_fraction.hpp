@@ -6,6 +6,7 @@
 
 #include "kernels/fluid/grid.hpp"
 #include "kernels/grains/grain.hpp"
+#include "kernels/math/periodic_box.hpp"
 
 namespace barchan {
 
@@ -47,10 +48,10 @@ KOKKOS_INLINE_FUNCTION constexpr PointsAtHeight divided_height(int q) {
   return {q % 2 == 1 ? height : -height, at_end ? 1 : 4};
 }
 
-/// A cell by its place, owned or a ghost beside an owned one.
+/// Indices of a cell, owned or a ghost beside an owned one.
 struct CellIndex {
   int i = 0, j = 0, k = 0;
-  /// Its place among the owned cells and the ghosts around them in x and z.
+  /// Its number among the owned cells and the ghosts around them in x and z.
   KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
     return i + 1 + std::int64_t{grid.nx + 2} * (j + std::int64_t{grid.ny} * (k + 1));
   }
@@ -93,8 +94,8 @@ enum class PointSet { divided, centre, cfdem };
 struct DepositStencil {
   GridRef grid;
   PointSet points = PointSet::divided;
-  bool wrap_x = false, wrap_z = true;  // periodic, and not cut
-  int i_low = 0, i_high = 0;           // a point beyond belongs to these
+  PeriodicBox box;            // directions that are periodic and not cut
+  int i_low = 0, i_high = 0;  // a point beyond belongs to these
   int k_low = 0, k_high = 0;
 
   /// Index from 0 to n - 1 along a periodic direction, of one that is rarely a period off.
@@ -103,12 +104,11 @@ struct DepositStencil {
     if (i >= -n && i < 2 * n) return i < 0 ? i + n : i - n;
     return ((i % n) + n) % n;
   }
-  /// Counted over the whole domain first: the same cell on any number of ranks.
   KOKKOS_INLINE_FUNCTION int column_x(Real x) const {
-    return static_cast<int>(Kokkos::floor((x - grid.x_first()) * (1 / grid.dx))) - grid.i_begin;
+    return grid.cell_along(x, grid.dx) - grid.i_begin;
   }
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
-    return static_cast<int>(Kokkos::floor((z - grid.z_first()) * (1 / grid.dz))) - grid.k_begin;
+    return grid.cell_along(z, grid.dz) - grid.k_begin;
   }
   /// Row of a height near a row; what is beyond a wall is mirrored back.
   KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
@@ -118,10 +118,10 @@ struct DepositStencil {
   /// The cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
     int i = column_x(p.x);
-    if (wrap_x) i = wrap(i, grid.nx);
+    if (box.lx > 0) i = wrap(i, grid.nx);
     i = i < i_low ? i_low : (i > i_high ? i_high : i);
     int k = column_z(p.z);
-    if (wrap_z) k = wrap(k, grid.nz);
+    if (box.lz > 0) k = wrap(k, grid.nz);
     k = k < k_low ? k_low : (k > k_high ? k_high : k);
     return {i, row_of(p.y, row_nearby), k};
   }
@@ -130,17 +130,11 @@ struct DepositStencil {
     return column_x(x.x - reach) == column_x(x.x + reach) &&
            column_z(x.z - reach) == column_z(x.z + reach);
   }
-  /// Into the domain along periodic directions, as grains are that visit another rank.
-  KOKKOS_INLINE_FUNCTION Vec3 into_domain(Vec3 x) const {
-    if (wrap_x) x.x -= grid.lx_all * Kokkos::floor((x.x - grid.x_first()) / grid.lx_all);
-    if (wrap_z) x.z -= grid.lz_all * Kokkos::floor((x.z - grid.z_first()) / grid.lz_all);
-    return x;
-  }
   KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
 
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
     GrainCells cells;
-    const Vec3 x = into_domain(g.x);
+    const Vec3 x = box.wrap(g.x);
     const int row = grid.row_of(x.y);
     const CellIndex own = cell_of(x, row);
     const bool keeps_outside = points == PointSet::cfdem;
@@ -164,11 +158,10 @@ struct DepositStencil {
 };
 
 /// On a grid that is not cut.
-inline DepositStencil deposit_stencil_in(const GridRef& grid, PointSet points, bool wrap_x) {
+inline DepositStencil deposit_stencil_in(const GridRef& grid, PointSet points, bool periodic_x) {
   return {.grid = grid,
           .points = points,
-          .wrap_x = wrap_x,
-          .wrap_z = true,
+          .box = {.lx = periodic_x ? grid.lx_all : 0, .lz = grid.lz_all},
           .i_low = 0,
           .i_high = grid.nx - 1,
           .k_low = 0,

@@ -44,7 +44,7 @@ struct ColumnPlaces {
 
 /// Height of a column up to its highest cell with a face where c is below `threshold`.
 struct FindColumns {
-  FaceRef c;  // with periodic ghosts
+  ConstFaceRef c;  // with periodic ghosts
   int ny;
   Real threshold;
   ColumnHeights height;
@@ -82,7 +82,7 @@ struct WidenColumns {
 ///   D_j z_j - E_j z_{j-1} - E_{j+1} z_{j+1} = dy_j (r_j + what the neighbours' z add).
 struct ColumnEquations {
   GridRef grid;
-  FaceRef c;
+  ConstFaceRef c;
 
   KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {  // E_j [1/m]
     return c.y(i, j, k) / grid.dy_centre(j);
@@ -113,7 +113,8 @@ struct RelaxColumns {
   ColumnEquations equations;
   ColumnPlaces places;
   ColumnHeights height;
-  FieldRef pivot, r, z;
+  ConstFieldRef pivot, r;
+  FieldRef z;
   int colour;
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
@@ -121,7 +122,7 @@ struct RelaxColumns {
     const int rows = height(i, k);
     if (rows == 0) return;
     if (places.colour(i, k) != colour) return;
-    const FaceRef& c = equations.c;
+    const ConstFaceRef& c = equations.c;
     const int left = places.left(i), right = places.right(i);
     const int back = places.back(k), front = places.front(k);
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
@@ -151,9 +152,10 @@ struct ClearColumns {
 /// Before the global solve: r becomes r - A z in the columns and around them; the old r is kept.
 struct SubtractLocal {
   GridRef grid;
-  FaceRef c;
+  ConstFaceRef c;
   ColumnHeights height;  // with one layer more than z has
-  FieldRef z, r, kept;
+  ConstFieldRef z;
+  FieldRef r, kept;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
       kept(i, j, k) = r(i, j, k);
@@ -164,7 +166,8 @@ struct SubtractLocal {
 /// After it: r as before, and the local z added to the global one.
 struct AddLocal {
   ColumnHeights height;  // the same
-  FieldRef local, kept, r, z;
+  ConstFieldRef local, kept;
+  FieldRef r, z;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
       r(i, j, k) = kept(i, j, k);

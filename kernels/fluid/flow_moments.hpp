@@ -1,8 +1,7 @@
 // Sums over time of the flow and its products in every cell, for averages on the grid.
 #pragma once
 
-#include "kernels/fluid/grid.hpp"
-#include "kernels/math/vec3.hpp"
+#include "kernels/fluid/stencil.hpp"
 
 namespace barchan {
 
@@ -25,22 +24,16 @@ enum FlowMoment : int {
 
 using FlowSums = Kokkos::Array<FieldRef, n_flow_moments>;
 
-/// The velocity at a cell's centre.
-KOKKOS_FORCEINLINE_FUNCTION Vec3 centre_velocity(const FaceRef& u, int i, int j, int k) {
-  return {(u.x(i, j, k) + u.x(i + 1, j, k)) / 2, (u.y(i, j, k) + u.y(i, j + 1, k)) / 2,
-          (u.z(i, j, k) + u.z(i, j, k + 1)) / 2};
-}
-
 /// Adds one instant. Products are of deviations from the flow at the first sample, so that a long
 /// mean does not drown small fluctuations.
 struct AddFlowMoments {
-  FaceRef u;
-  FieldRef p, alpha_f, nu_t;
+  ConstFaceRef u;
+  ConstFieldRef p, alpha_f, nu_t;
   FlowSums sum;
-  FieldRef first_u, first_v, first_w;
+  ConstFieldRef first_u, first_v, first_w;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Vec3 now = centre_velocity(u, i, j, k);
+    const Vec3 now = velocity_at_cell(u, i, j, k);
     const Real a = now.x - first_u(i, j, k), b = now.y - first_v(i, j, k),
                c = now.z - first_w(i, j, k);
     const Real value[n_flow_moments] = {
@@ -52,10 +45,10 @@ struct AddFlowMoments {
 
 /// Writes it for all cells.
 struct CentreVelocity {
-  FaceRef u;
+  ConstFaceRef u;
   FieldRef x, y, z;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Vec3 now = centre_velocity(u, i, j, k);
+    const Vec3 now = velocity_at_cell(u, i, j, k);
     x(i, j, k) = now.x, y(i, j, k) = now.y, z(i, j, k) = now.z;
   }
 };
@@ -63,7 +56,7 @@ struct CentreVelocity {
 /// Means from the sums, and central second moments <a'b'> = <ab> - <a><b>, both to `result`.
 struct FlowMeans {
   FlowSums sum, result;
-  FieldRef first_u, first_v, first_w;
+  ConstFieldRef first_u, first_v, first_w;
   Real per_sample = 0;  // 1 / number of samples
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {

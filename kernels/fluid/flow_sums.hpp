@@ -8,7 +8,7 @@ namespace barchan {
 /// A cell field weighted with the height of its row.
 struct HeightSum {
   GridRef grid;
-  FieldRef a;
+  ConstFieldRef a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * grid.dy(j);
   }
@@ -17,7 +17,7 @@ struct HeightSum {
 /// alpha u_x dy on x-faces [m^2/s].
 struct FlowRate {
   GridRef grid;
-  FieldRef u, alpha;
+  ConstFieldRef u, alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return cell_to_xface(alpha, i, j, k) * u(i, j, k) * grid.dy(j);
   }
@@ -27,8 +27,8 @@ struct FlowRate {
 /// conserves. Ghosts of alpha must be valid.
 struct KineticEnergy {
   GridRef grid;
-  FaceRef u;
-  FieldRef alpha;
+  ConstFaceRef u;
+  ConstFieldRef alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real x = u.x(i, j, k), y = u.y(i, j, k), z = u.z(i, j, k);
     const Real horizontal =
@@ -42,7 +42,7 @@ struct KineticEnergy {
 /// moves with u_wall [m/s].
 struct WallShear {
   GridRef grid;
-  FieldRef u;
+  ConstFieldRef u;
   int row;
   Real u_wall;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {

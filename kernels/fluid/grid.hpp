@@ -10,7 +10,8 @@ namespace barchan {
 /// Owned cells 0..n-1 in each direction, one ghost layer (-1 and n) around them.
 /// Cell (i,j,k) has its x-face (i,j,k) at x = x0 + i dx, its y-face at y_face(j), its z-face at
 /// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
-/// stretched in y. The geometry of ghost rows mirrors the first row inside.
+/// stretched in y. The corner of the domain is the origin. The geometry of ghost rows mirrors the
+/// first row inside.
 /// `Rows` holds the heights: a Kokkos view (src/parallel/grid.hpp) or a bare pointer (GridRef).
 template <class Rows>
 struct BasicGrid {
@@ -29,9 +30,6 @@ struct BasicGrid {
   KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
   KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
   KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
-  /// Corner of the domain, bit for bit the same on all ranks [m].
-  KOKKOS_FORCEINLINE_FUNCTION Real x_first() const { return x0 - i_begin * dx; }
-  KOKKOS_FORCEINLINE_FUNCTION Real z_first() const { return z0 - k_begin * dz; }
   /// Height of row j [m].
   KOKKOS_FORCEINLINE_FUNCTION Real dy(int j) const { return y_face_[j + 2] - y_face_[j + 1]; }
   /// Distance between the centres on either side of y-face j [m].
@@ -39,6 +37,10 @@ struct BasicGrid {
     return y_centre_[j + 1] - y_centre_[j];
   }
   KOKKOS_FORCEINLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
+  /// Index along x or z among the cells of all ranks, the same bits on each of them.
+  KOKKOS_FORCEINLINE_FUNCTION static int cell_along(Real x, Real spacing) {
+    return static_cast<int>(Kokkos::floor(x * (1 / spacing)));
+  }
 
   /// The same as row_of(y), found from a row nearby.
   KOKKOS_INLINE_FUNCTION int row_near(Real y, int row) const {
@@ -66,20 +68,44 @@ struct BasicGrid {
 /// it was made from.
 using GridRef = BasicGrid<const Real*>;
 
-/// A field as kernels see it: trivially copyable, so that a compiler can keep it in registers.
+namespace grid_detail {
+/// Value at (i, j, k); the row first: its address does not depend on i, and compilers then see
+/// plain strides.
+template <class Value>
+KOKKOS_FORCEINLINE_FUNCTION Value& at(Value* origin, int stride_y, int stride_z, int i, int j,
+                                      int k) {
+  return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                    static_cast<std::ptrdiff_t>(stride_z) * k))[i];
+}
+}  // namespace grid_detail
+
+/// A field that kernels read: trivially copyable, so that a compiler can keep it in registers.
+struct ConstFieldRef {
+  const Real* origin = nullptr;
+  int stride_y = 0, stride_z = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION const Real& operator()(int i, int j, int k) const {
+    return grid_detail::at(origin, stride_y, stride_z, i, j, k);
+  }
+};
+
+/// A field that kernels write.
 struct FieldRef {
   Real* origin = nullptr;
   int stride_y = 0, stride_z = 0;
 
   KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
-    // The row first: its address does not depend on i, and compilers then see plain strides.
-    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
-                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
+    return grid_detail::at(origin, stride_y, stride_z, i, j, k);
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
+  KOKKOS_FORCEINLINE_FUNCTION operator ConstFieldRef() const {
+    return {origin, stride_y, stride_z};
   }
 };
 
 /// A scalar on the grid with its ghost layer; x runs fastest in memory on every backend.
-/// Indexing is by cell, ghosts at -1 and n. The raw origin keeps inner loops vectorisable.
+/// Indexing is by cell, ghosts at -1 and n. The raw origin keeps inner loops vectorisable. Copies
+/// share their values; a const Field can only be read.
 struct Field {
   using Storage = Kokkos::View<Real***, Kokkos::LayoutLeft>;
   Storage storage;  // (nx + 2, ny + 2, nz + 2)
@@ -95,25 +121,33 @@ struct Field {
   }
   Field(const char* label, const GridRef& grid)
       : Field(Storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
-  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
-    // The row first: its address does not depend on i, and compilers then see plain strides.
-    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
-                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
-  }
   // NOLINTNEXTLINE(google-explicit-constructor): a Field is one
-  KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() const { return {origin, stride_y, stride_z}; }
+  KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() { return {origin, stride_y, stride_z}; }
+  // NOLINTNEXTLINE(google-explicit-constructor): a const Field is one
+  KOKKOS_FORCEINLINE_FUNCTION operator ConstFieldRef() const {
+    return {origin, stride_y, stride_z};
+  }
 };
 
-/// A vector on the faces as kernels see it.
+/// A vector on the faces that kernels read.
+struct ConstFaceRef {
+  ConstFieldRef x, y, z;
+};
+
+/// A vector on the faces that kernels write.
 struct FaceRef {
   FieldRef x, y, z;
+  // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
+  KOKKOS_FORCEINLINE_FUNCTION operator ConstFaceRef() const { return {x, y, z}; }
 };
 
 /// A vector on the faces: x component on x-faces, y on y-faces, z on z-faces.
 struct FaceVector {
   Field x, y, z;
   // NOLINTNEXTLINE(google-explicit-constructor): they are
-  KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() const { return {x, y, z}; }
+  KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() { return {x, y, z}; }
+  // NOLINTNEXTLINE(google-explicit-constructor): they are
+  KOKKOS_FORCEINLINE_FUNCTION operator ConstFaceRef() const { return {x, y, z}; }
 };
 
 }  // namespace barchan

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
+#include "kernels/math/periodic_box.hpp"
 
 namespace barchan {
 
@@ -12,19 +13,14 @@ struct LinearStencil {
 };
 
 /// Interpolation weights of one point in a column of this rank for each staggering. The point is
-/// brought into the domain first: wrapped along z, and along x either wrapped or held at the ends.
-/// Near a wall the ghost row takes part, so the boundary condition decides the value (a no-slip
-/// velocity vanishes there).
+/// brought into the domain first, wrapped or held at the ends. Near a wall the ghost row takes
+/// part, so the boundary condition decides the value (a no-slip velocity vanishes there).
 struct PointStencil {
   LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
 
-  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const Vec3& point, bool wrap_x) {
-    Real x = point.x - g.x_first();
-    if (wrap_x) x -= g.lx_all * Kokkos::floor(x / g.lx_all);
-    x = x < 0 ? 0 : (x > g.lx_all ? g.lx_all : x);
-    const Real from_first = point.z - g.z_first();
-    const Real z = from_first - g.lz_all * Kokkos::floor(from_first / g.lz_all);
-    const Real y = point.y < 0 ? 0 : (point.y > g.ly ? g.ly : point.y);
+  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point) {
+    const Vec3 inside = box.wrap(point);
+    const Real x = clamp(inside.x, g.lx_all), y = clamp(inside.y, g.ly), z = inside.z;
     x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
     x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
     z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
@@ -36,6 +32,9 @@ struct PointStencil {
   }
 
  private:
+  KOKKOS_INLINE_FUNCTION static Real clamp(Real a, Real most) {
+    return a < 0 ? 0 : (a > most ? most : a);
+  }
   /// The weight is counted over the whole domain: the same bits on any number of ranks.
   KOKKOS_INLINE_FUNCTION static LinearStencil uniform(Real s, int begin, int low, int high) {
     int i = static_cast<int>(Kokkos::floor(s)) - begin;
@@ -45,7 +44,7 @@ struct PointStencil {
 };
 
 /// Value of `f` from its eight surrounding nodes; exact for linear fields.
-KOKKOS_INLINE_FUNCTION Real interpolate(const FieldRef& f, const LinearStencil& x,
+KOKKOS_INLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const LinearStencil& x,
                                         const LinearStencil& y, const LinearStencil& z) {
   const auto along_x = [&](int j, int k) {
     return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k);
@@ -56,10 +55,10 @@ KOKKOS_INLINE_FUNCTION Real interpolate(const FieldRef& f, const LinearStencil& 
   return (1 - z.t) * in_plane(z.i) + z.t * in_plane(z.i + 1);
 }
 
-KOKKOS_INLINE_FUNCTION Real interpolate_cell(const FieldRef& f, const PointStencil& s) {
+KOKKOS_INLINE_FUNCTION Real interpolate_cell(const ConstFieldRef& f, const PointStencil& s) {
   return interpolate(f, s.x_centre, s.y_centre, s.z_centre);
 }
-KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const FaceRef& f, const PointStencil& s) {
+KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const ConstFaceRef& f, const PointStencil& s) {
   return {interpolate(f.x, s.x_face, s.y_centre, s.z_centre),
           interpolate(f.y, s.x_centre, s.y_face, s.z_centre),
           interpolate(f.z, s.x_centre, s.y_centre, s.z_face)};

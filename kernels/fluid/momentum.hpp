@@ -11,11 +11,11 @@ namespace barchan {
 /// when alpha = 1 and div u = 0 (Verstappen & Veldman, J. Comput. Phys. 187, 343 (2003)).
 struct Convection {
   GridRef grid;
-  FaceRef u;     // velocity [m/s], with ghosts
-  FaceRef flux;  // alpha u [m/s], with ghosts
+  ConstFaceRef u;     // velocity [m/s], with ghosts
+  ConstFaceRef flux;  // alpha u [m/s], with ghosts
 
   KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
-    const FieldRef &q = u.x, &fx = flux.x, &fy = flux.y, &fz = flux.z;
+    const ConstFieldRef &q = u.x, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real c = q(i, j, k);
     const Real ex = (fx(i, j, k) + fx(i + 1, j, k)) * (c + q(i + 1, j, k)) -
                     (fx(i - 1, j, k) + fx(i, j, k)) * (q(i - 1, j, k) + c);
@@ -28,7 +28,7 @@ struct Convection {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
-    const FieldRef &q = u.y, &fx = flux.x, &fy = flux.y, &fz = flux.z;
+    const ConstFieldRef &q = u.y, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real below = grid.dy(j - 1), above = grid.dy(j);
     const Real per_height = 1 / (below + above);  // the momentum cell is half of that high
     const Real c = q(i, j, k);
@@ -43,7 +43,7 @@ struct Convection {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
-    const FieldRef &q = u.z, &fx = flux.x, &fy = flux.y, &fz = flux.z;
+    const ConstFieldRef &q = u.z, &fx = flux.x, &fy = flux.y, &fz = flux.z;
     const Real c = q(i, j, k);
     const Real ex = (fx(i + 1, j, k - 1) + fx(i + 1, j, k)) * (c + q(i + 1, j, k)) -
                     (fx(i, j, k - 1) + fx(i, j, k)) * (q(i - 1, j, k) + c);
@@ -61,9 +61,9 @@ struct Convection {
 /// there, free slip leaves no tangential stress.
 struct StressDivergence {
   GridRef grid;
-  FaceRef u;      // with ghosts
-  FieldRef nu_t;  // [m^2/s], with ghosts
-  Real nu;        // [m^2/s]
+  ConstFaceRef u;      // with ghosts
+  ConstFieldRef nu_t;  // [m^2/s], with ghosts
+  Real nu;             // [m^2/s]
 
   /// Components of 2 (nu + nu_t) S [m^2/s^2]: xx, yy, zz at cells, xy at the edge of x-face i and
   /// y-face j, and so on.
@@ -112,9 +112,9 @@ struct StressDivergence {
   }
 };
 
-/// What the grains do to the fluid in one step, as the kernels see it.
+/// What the grains do to the fluid in one step, as kernels read it.
 struct ExchangeRef {
-  FaceRef impulse, implicit;
+  ConstFaceRef impulse, implicit;
 };
 
 /// What the grains do to the fluid in one step, on faces. Wall faces and ghosts are not read.
@@ -140,7 +140,7 @@ struct Predict {
   GridRef grid;
   Convection convection;
   StressDivergence stress;
-  FieldRef alpha, alpha_new;
+  ConstFieldRef alpha, alpha_new;
   FaceRef rate, u_star;
   ExchangeRef exchange;
   AdamsBashforth weight;
@@ -157,14 +157,14 @@ struct Predict {
       return explicit_part / alpha_here;
     }
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Real at(const FieldRef& f, int i, int j, int k) {
+  KOKKOS_FORCEINLINE_FUNCTION static Real at(const ConstFieldRef& f, int i, int j, int k) {
     if constexpr (with_exchange) return f(i, j, k);
     return 0;
   }
 
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const FaceRef &u = convection.u, &flux = convection.flux;
+    const ConstFaceRef &u = convection.u, &flux = convection.flux;
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
@@ -206,8 +206,8 @@ struct CloseFaces {
 /// flux = alpha u on faces [m/s]; to be called on ghost faces, too.
 struct MassFlux {
   GridRef grid;
-  FaceRef u;
-  FieldRef alpha;
+  ConstFaceRef u;
+  ConstFieldRef alpha;
   FaceRef flux;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {

@@ -34,12 +34,12 @@ struct PlaneSums {
 /// Values of one place of the row; j = ny is the top boundary: its faces count, its cells do not.
 struct PlaneSample {
   GridRef grid;
-  FaceRef u_;
-  FieldRef p_, nu_t_;
+  ConstFaceRef u_;
+  ConstFieldRef p_, nu_t_;
   StressDivergence stress_;
 
   KOKKOS_FORCEINLINE_FUNCTION void add(int i, int j, int k, PlaneSums& sums) const {
-    const FieldRef &x = u_.x, &y = u_.y;
+    const ConstFieldRef &x = u_.x, &y = u_.y;
     if (j < grid.ny) {
       const Real z = u_.z(i, j, k);
       sums[PlaneSums::u] += x(i, j, k);

@@ -11,9 +11,9 @@ namespace barchan {
 /// fluid. One without grains. Zero on the wall below; the wall above is never written.
 struct UpdateMobility {
   GridRef grid;
-  FieldRef alpha;
-  FaceRef implicit;  // [kg/m^3]
-  Real per_density;  // 1 / rho
+  ConstFieldRef alpha;
+  ConstFaceRef implicit;  // [kg/m^3]
+  Real per_density;       // 1 / rho
   FaceRef c;
 
   KOKKOS_FORCEINLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
@@ -33,8 +33,8 @@ struct UpdateMobility {
 };
 
 /// -div(c grad p) in a cell; c vanishes on walls, so ghosts of p behind them do not matter.
-KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const FaceRef& c,
-                                                   const FieldRef& p, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const ConstFaceRef& c,
+                                                   const ConstFieldRef& p, int i, int j, int k) {
   const Real centre = p(i, j, k);
   const Real x =
       c.x(i, j, k) * (centre - p(i - 1, j, k)) + c.x(i + 1, j, k) * (centre - p(i + 1, j, k));
@@ -46,8 +46,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const Fa
 }
 
 /// Diagonal of the operator above [1/m^2].
-KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const FaceRef& c, int i,
-                                                   int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const ConstFaceRef& c,
+                                                   int i, int j, int k) {
   return (c.x(i, j, k) + c.x(i + 1, j, k)) * (1 / (grid.dx * grid.dx)) +
          (c.y(i, j, k) / grid.dy_centre(j) + c.y(i, j + 1, k) / grid.dy_centre(j + 1)) *
              (1 / grid.dy(j)) +
@@ -57,11 +57,12 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const Fa
 // Steps of the conjugate gradients; inner products are sums over cells weighted with their height
 // (dx dz is the same everywhere), in which the operator is self-adjoint.
 
-/// r = b - A p, in the place of b.
+/// r = b - A p, which replaces b.
 struct InitialResidual {
   GridRef grid;
-  FaceRef c;
-  FieldRef p, r;
+  ConstFaceRef c;
+  ConstFieldRef p;
+  FieldRef r;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = r(i, j, k) - pressure_operator(grid, c, p, i, j, k);
     r(i, j, k) = value;
@@ -71,8 +72,9 @@ struct InitialResidual {
 /// q = A d; adds up <d, q>.
 struct ApplyOperator {
   GridRef grid;
-  FaceRef c;
-  FieldRef d, q;
+  ConstFaceRef c;
+  ConstFieldRef d;
+  FieldRef q;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = pressure_operator(grid, c, d, i, j, k);
     q(i, j, k) = value;
@@ -82,7 +84,8 @@ struct ApplyOperator {
 /// p += a d, r -= a q; adds up <r, r>.
 struct AdvanceIterate {
   GridRef grid;
-  FieldRef d, q, p, r;
+  ConstFieldRef d, q;
+  FieldRef p, r;
   Real a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     p(i, j, k) += a * d(i, j, k);
@@ -93,7 +96,8 @@ struct AdvanceIterate {
 };
 /// d = z + b d.
 struct NextDirection {
-  FieldRef z, d;
+  ConstFieldRef z;
+  FieldRef d;
   Real b;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     d(i, j, k) = z(i, j, k) + b * d(i, j, k);
@@ -102,7 +106,7 @@ struct NextDirection {
 /// Adds up <a, b>.
 struct InnerProduct {
   GridRef grid;
-  FieldRef a, b;
+  ConstFieldRef a, b;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * b(i, j, k) * grid.dy(j);
   }
@@ -112,20 +116,12 @@ struct Subtract {
   Real constant;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
 };
-/// A first guess: the line through the last two pressures, in the place of the older one.
+/// A first guess: linear in time through the last two pressures; replaces the older one.
 struct ExtrapolatePressure {
-  FieldRef last, before;
+  ConstFieldRef last;
+  FieldRef before;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     before(i, j, k) = 2 * last(i, j, k) - before(i, j, k);
-  }
-};
-/// z = r / diagonal.
-struct ScaleByDiagonal {
-  GridRef grid;
-  FaceRef c;
-  FieldRef r, z;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    z(i, j, k) = r(i, j, k) / pressure_diagonal(grid, c, i, j, k);
   }
 };
 
@@ -135,9 +131,9 @@ struct ScaleByDiagonal {
 template <bool with_grains>
 struct PressureSource {
   GridRef grid;
-  FaceRef u;
-  FieldRef alpha, alpha_before;
-  FaceRef c;
+  ConstFaceRef u;
+  ConstFieldRef alpha, alpha_before;
+  ConstFaceRef c;
   Real drive_dt;  // f dt [m/s]
   Real density, dt;
   FieldRef b;
@@ -171,15 +167,16 @@ struct ContinuityResidual {
 template <bool with_grains>
 struct CorrectVelocity {
   GridRef grid;
-  FaceRef u_star;
-  FieldRef p;  // with ghosts
-  FieldRef alpha;
-  FaceRef implicit;
+  ConstFaceRef u_star;
+  ConstFieldRef p;  // with ghosts
+  ConstFieldRef alpha;
+  ConstFaceRef implicit;
   Real per_density;
   Real drive_dt, dt;
   FaceRef u, du_dt;
 
-  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const FieldRef& m, int i, int j, int k) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const ConstFieldRef& m, int i, int j,
+                                         int k) const {
     if constexpr (!with_grains) return 1;
     return a / (a + per_density * m(i, j, k));
   }

@@ -8,43 +8,43 @@ namespace barchan {
 
 // Cell field to faces. The mean is weighted with volume, so that the sum of face value times
 // face volume over all faces of one direction equals the cells' own (walls apart).
-KOKKOS_FORCEINLINE_FUNCTION Real cell_to_xface(const FieldRef& f, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real cell_to_xface(const ConstFieldRef& f, int i, int j, int k) {
   return Real(0.5) * (f(i - 1, j, k) + f(i, j, k));
 }
-KOKKOS_FORCEINLINE_FUNCTION Real cell_to_yface(const GridRef& grid, const FieldRef& f, int i, int j,
-                                               int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real cell_to_yface(const GridRef& grid, const ConstFieldRef& f, int i,
+                                               int j, int k) {
   const Real below = grid.dy(j - 1), above = grid.dy(j);
   const Real share = 1 / (below + above);
   return (below * share) * f(i, j - 1, k) + (above * share) * f(i, j, k);
 }
-KOKKOS_FORCEINLINE_FUNCTION Real cell_to_zface(const FieldRef& f, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real cell_to_zface(const ConstFieldRef& f, int i, int j, int k) {
   return Real(0.5) * (f(i, j, k - 1) + f(i, j, k));
 }
 
 // Gradient of a cell field on its faces [f/m].
-KOKKOS_FORCEINLINE_FUNCTION Real ddx_at_xface(const GridRef& grid, const FieldRef& f, int i, int j,
-                                              int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real ddx_at_xface(const GridRef& grid, const ConstFieldRef& f, int i,
+                                              int j, int k) {
   return (f(i, j, k) - f(i - 1, j, k)) * (1 / grid.dx);
 }
-KOKKOS_FORCEINLINE_FUNCTION Real ddy_at_yface(const GridRef& grid, const FieldRef& f, int i, int j,
-                                              int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real ddy_at_yface(const GridRef& grid, const ConstFieldRef& f, int i,
+                                              int j, int k) {
   return (f(i, j, k) - f(i, j - 1, k)) * (1 / grid.dy_centre(j));
 }
-KOKKOS_FORCEINLINE_FUNCTION Real ddz_at_zface(const GridRef& grid, const FieldRef& f, int i, int j,
-                                              int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real ddz_at_zface(const GridRef& grid, const ConstFieldRef& f, int i,
+                                              int j, int k) {
   return (f(i, j, k) - f(i, j, k - 1)) * (1 / grid.dz);
 }
 
 /// Divergence of a face vector in a cell [f/m].
-KOKKOS_FORCEINLINE_FUNCTION Real div_at_cell(const GridRef& grid, const FaceRef& f, int i, int j,
-                                             int k) {
+KOKKOS_FORCEINLINE_FUNCTION Real div_at_cell(const GridRef& grid, const ConstFaceRef& f, int i,
+                                             int j, int k) {
   return (f.x(i + 1, j, k) - f.x(i, j, k)) * (1 / grid.dx) +
          (f.y(i, j + 1, k) - f.y(i, j, k)) * (1 / grid.dy(j)) +
          (f.z(i, j, k + 1) - f.z(i, j, k)) * (1 / grid.dz);
 }
 
 /// Velocity at a cell centre.
-KOKKOS_FORCEINLINE_FUNCTION Vec3 velocity_at_cell(const FaceRef& u, int i, int j, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Vec3 velocity_at_cell(const ConstFaceRef& u, int i, int j, int k) {
   return {Real(0.5) * (u.x(i, j, k) + u.x(i + 1, j, k)),
           Real(0.5) * (u.y(i, j, k) + u.y(i, j + 1, k)),
           Real(0.5) * (u.z(i, j, k) + u.z(i, j, k + 1))};
@@ -59,7 +59,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real ddy_of_three(Real low, Real mid, Real high, Rea
 }
 
 /// Velocity gradient at a cell centre [1/s]; second order, ghosts at the walls included.
-KOKKOS_FORCEINLINE_FUNCTION Mat3 gradient_at_cell(const GridRef& grid, const FaceRef& u, int i,
+KOKKOS_FORCEINLINE_FUNCTION Mat3 gradient_at_cell(const GridRef& grid, const ConstFaceRef& u, int i,
                                                   int j, int k) {
   const Real rx = 1 / grid.dx, ry = 1 / grid.dy(j), rz = 1 / grid.dz;
   const Real below = grid.dy_centre(j), above = grid.dy_centre(j + 1);

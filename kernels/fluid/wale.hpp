@@ -38,7 +38,7 @@ struct FilterWidth {
 /// nu_t of the cells.
 struct UpdateEddyViscosity {
   GridRef grid;
-  FaceRef u;  // with ghosts
+  ConstFaceRef u;  // with ghosts
   FieldRef nu_t;
   const Real* c_w_delta;  // by row: C_w times the filter width [m]
 

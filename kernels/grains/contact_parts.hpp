@@ -1,13 +1,12 @@
 // Normal and tangential parts of the contact forces of one grain, for output.
 #pragma once
 
-#include "kernels/grains/grain.hpp"
-#include "kernels/grains/wall_contact.hpp"
+#include "kernels/grains/contact_geometry.hpp"
 
 namespace barchan {
 
 /// Splits contact_force(g) [N] of the last sub-step. Pairs: F_t = F - (F.n) n, with n from the
-/// positions, which have not changed since. Walls: what is left over the pairs, along and across
+/// positions, which have not changed since. Walls: the rest, along and across
 /// the normal of the first wall that the grain touches.
 struct SplitContacts {
   PeriodicBox box;
@@ -15,7 +14,7 @@ struct SplitContacts {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Vec3*> contact_force;
   Kokkos::View<const std::uint8_t*> wall_touching;
-  Plane plane[kMaxWalls];
+  WallPlanes walls;
   Kokkos::View<Vec3*> normal, tangential;  // results [N]
 
   /// Takes the force of one pair into the sums that `normal` (all of it) and `tangential` hold.
@@ -46,7 +45,7 @@ struct SplitContacts {
     const Vec3 wall = contact_force(g) - normal(g);
     Vec3 wall_normal;
     for (int w = kMaxWalls - 1; w >= 0; --w) {
-      if (wall_touching(g) >> w & 1) wall_normal = dot(wall, plane[w].normal) * plane[w].normal;
+      if (wall_touching(g) >> w & 1) wall_normal = dot(wall, walls[w].normal) * walls[w].normal;
     }
     tangential(g) += wall - wall_normal;
     normal(g) = contact_force(g) - tangential(g);

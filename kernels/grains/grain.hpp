@@ -1,13 +1,14 @@
-// A grain as its neighbours see it, the box it moves in, and the pairs it may touch.
+// A grain as its neighbours see it, and the pairs it may touch.
 #pragma once
 
 #include <cstdint>
 
+#include "kernels/math/periodic_box.hpp"
 #include "kernels/math/vec3.hpp"
 
 namespace barchan {
 
-/// Three components and a spare number, taken from and to memory at once.
+/// Three components and a spare number, loaded and stored together.
 struct alignas(32) Quad {
   Real x, y, z, w;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 vec() const { return {x, y, z}; }
@@ -49,33 +50,19 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch([[maybe_unused]] const T& a) {
                          __builtin_prefetch(begin + line);))
 }
 
-/// Lets a sub-step go ahead while the list still covers the way that the grains have come. A host
-/// that waits for a device only now and then launches sub-steps ahead of that knowledge; those
-/// behind a stale list then do nothing.
+/// Lets a sub-step go ahead while the list still covers the displacement of all grains. A host that
+/// waits for a device only now and then launches sub-steps ahead of that knowledge; those behind a
+/// stale list then do nothing.
 struct ListValidity {
-  Kokkos::View<const Real*> moved;  // largest squared distance from the list's positions [m^2] ...
-  int before = 0;                   // ... as this sub-step begins: in this place
-  Real limit = 0;                   // [m^2]
-  KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return moved(before) <= limit; }
+  Kokkos::View<const Real*> displacement2;  // largest squared displacement since the list [m^2] ...
+  int before = 0;                           // ... as this sub-step begins: in this element
+  Real limit = 0;                           // [m^2]
+  KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return displacement2(before) <= limit; }
 };
 
 /// Sum of the contact forces [N] and torques [N m] on a grain.
 struct ContactSum {
   Quad force, torque;
-};
-
-/// Periodic extents: zero where a direction is not periodic.
-struct PeriodicBox {
-  Real lx = 0, lz = 0;  // [m]
-
-  /// Nearest image of a separation between two grains of the box.
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 nearest_image(Vec3 s) const {
-    s.x -= s.x > lx / 2 ? lx : Real(0);
-    s.x += s.x < -lx / 2 ? lx : Real(0);
-    s.z -= s.z > lz / 2 ? lz : Real(0);
-    s.z += s.z < -lz / 2 ? lz : Real(0);
-    return s;
-  }
 };
 
 /// Most rows of a chunk: on a CPU they stay in its L2 cache, on a GPU every row is a chunk.
@@ -136,10 +123,10 @@ struct PairList {
   Kokkos::View<int*> first, inner_first, other_first;  // (n + 1)
   Kokkos::View<int*> i, j;                             // (n_pairs)
   Kokkos::View<int*> other_slot;                       // (n_crossing)
-  Kokkos::View<int*> active;              // (inner pairs) slots of a chunk's active pairs ...
-  Kokkos::View<int*> n_active;            // (chunks) ... this many, from its first inner pair on
-  Kokkos::View<Real*> slack;              // (chunks) relative way left until others may touch [m]
-  Kokkos::View<Real*> margin;             // (chunks) from contact, for the next active pairs [m]
+  Kokkos::View<int*> active;    // (inner pairs) slots of a chunk's active pairs ...
+  Kokkos::View<int*> n_active;  // (chunks) ... this many, from its first inner pair on
+  Kokkos::View<Real*> slack;    // (chunks) relative displacement left until others may touch [m]
+  Kokkos::View<Real*> margin;   // (chunks) from contact, for the next active pairs [m]
   Kokkos::View<std::uint8_t*> near_wall;  // (n) 1: may touch a wall until then
   Kokkos::View<PairForce*> pair_force;    // (n_crossing)
   Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]

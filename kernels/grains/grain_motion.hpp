@@ -2,7 +2,7 @@
 // contacts, kick, and drift into the next sub-step.
 #pragma once
 
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/pair_forces.hpp"
 #include "kernels/grains/sphere.hpp"
 #include "kernels/grains/velocity_verlet.hpp"
@@ -10,23 +10,12 @@
 
 namespace barchan {
 
-/// What acts on the grains besides contacts, constant over the sub-steps of a fluid step.
-struct FluidOnGrains {
-  Kokkos::View<Vec3*> u_f;           // [m/s]
-  Kokkos::View<Real*> beta;          // [kg/s]
-  Kokkos::View<Vec3*> steady_force;  // weight, buoyancy, pressure gradient, ... [N]
-  Kokkos::View<Real*> added_mass;    // [kg]
-  Kokkos::View<Vec3*> drag_impulse;  // sum over the sub-steps of the drag on the grain [N s]
-  Kokkos::View<Vec3*> u_start;       // velocity as the fluid step began [m/s]
-  bool none = true;                  // no fluid: nothing but steady_force is there
-};
-
-/// What the line of a crossing pair does to its first grain (sign 1) or second grain (-1).
+/// Adds what a crossing pair does to its first grain (sign 1) or second grain (-1).
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
                                                 Real radius, bool has_rolling, ContactSum& sum) {
-  const PairForce& line = list.pair_force(slot);
-  sum.force = fused(sign, line.force_overlap(), sum.force);
-  sum.torque = fused(line.delta_n / 2 - radius, line.n_cross_f_t_quad(), sum.torque);
+  const PairForce& pair = list.pair_force(slot);
+  sum.force = fused(sign, pair.force_overlap(), sum.force);
+  sum.torque = fused(pair.delta_n / 2 - radius, pair.n_cross_f_t_quad(), sum.torque);
   if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
 }
 
@@ -36,8 +25,8 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
   prefetch(list.j(list.other_slot(s)));
 }
 
-/// Sums of the crossing contacts of the rows [begin, end) from the pair lines, of each row its own
-/// slots first, then the others.
+/// Sums of the crossing contacts of the rows [begin, end), of each row its own slots first, then
+/// the others.
 KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
                                               const Kokkos::View<GrainKinematics*>& grains,
                                               int begin, int end, bool has_rolling,
@@ -81,11 +70,11 @@ struct KickAndDrift {
                                                   Real& largest) const {
     const Quad impulse = kick(f, u, omega);
     x = fused(dt, u, x);
-    const Vec3 moved = x.vec() - x_reference(g);
-    const Real distance2 = dot(moved, moved);
+    const Vec3 displacement = x.vec() - x_reference(g);
+    const Real squared = dot(displacement, displacement);
     // What is not a number counts as infinitely far: the next rebuild meets and reports it.
-    if (!(distance2 <= largest))
-      largest = distance2 > largest ? distance2 : Kokkos::Experimental::infinity_v<Real>;
+    if (!(squared <= largest))
+      largest = squared > largest ? squared : Kokkos::Experimental::infinity_v<Real>;
     return impulse;
   }
 
@@ -96,7 +85,7 @@ struct KickAndDrift {
     if (!fluid.none) fluid.drag_impulse(g) += impulse.vec();
   }
 
-  /// Reduces the largest squared distance from the reference positions [m^2].
+  /// Reduces the largest squared displacement from the reference positions [m^2].
   KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
     const GrainKinematics& grain = grains(g);
     Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
@@ -128,14 +117,7 @@ struct SumKickDrift {
     ContactSum sums[kLargestChunk];
     sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
     if constexpr (kLargestChunk > 1) {
-      Real& slack = pairs.list.slack(chunk);
-      if (!(slack >= 0)) {
-        const Real margin = pairs.list.margin(chunk);
-        pairs.find_active(chunk, margin);
-        for (int g = begin; g < end; ++g)
-          pairs.list.near_wall(g) = walls.is_near(g, motion.grains(g), margin);
-        slack = margin;
-      }
+      if (!(pairs.list.slack(chunk) >= 0)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);
     }
     Real fastest = 0;  // squared speed [m^2/s^2]
@@ -144,20 +126,32 @@ struct SumKickDrift {
       fastest = speed2 > fastest ? speed2 : fastest;
     }
     if constexpr (kLargestChunk > 1) {
-      const Real way = 2 * motion.dt * Kokkos::sqrt(fastest);  // of two grains towards each other
-      pairs.list.slack(chunk) -= way;
-      pairs.list.margin(chunk) = next_margin(way);
+      // Largest displacement of two grains towards each other [m].
+      const Real displacement = 2 * motion.dt * Kokkos::sqrt(fastest);
+      pairs.list.slack(chunk) -= displacement;
+      pairs.list.margin(chunk) = next_margin(displacement);
     }
+  }
+
+  /// The pairs, and the grains beside walls, that can come into contact before the slack is used
+  /// up.
+  KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
+    const Real margin = pairs.list.margin(chunk);
+    pairs.find_active(chunk, margin);
+    for (int g = begin; g < end; ++g)
+      pairs.list.near_wall(g) = walls.is_near(g, motion.grains(g), margin);
+    pairs.list.slack(chunk) = margin;
   }
 
   /// Enough for some forty sub-steps: where grains hardly move, hardly more than contacts is
   /// active.
-  KOKKOS_FORCEINLINE_FUNCTION Real next_margin(Real way) const {
-    const Real least = largest_margin / 10, wanted = 40 * way;
+  KOKKOS_FORCEINLINE_FUNCTION Real next_margin(Real displacement) const {
+    const Real least = largest_margin / 10, wanted = 40 * displacement;
     return wanted < least ? least : (wanted < largest_margin ? wanted : largest_margin);
   }
 
-  /// Returns the squared speed of the drift [m^2/s^2].
+  /// Kick, and unless it is the last sub-step kick and drift of the next one. Returns the squared
+  /// speed of the drift [m^2/s^2].
   KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum sum, Real& largest) const {
     const GrainKinematics& grain = motion.grains(g);
     if (kLargestChunk == 1 || pairs.list.near_wall(g)) walls.add(g, grain, motion.dt, sum);

@@ -1,12 +1,11 @@
 // Forces of listed pairs, a block at a time: lay the pairs out side by side, evaluate the law on
-// all of them at once (vectorised on a CPU), hand the results on.
+// the whole block (vectorised on a CPU), hand the results on.
 #pragma once
 
 #include <type_traits>
 
 #include "kernels/grains/contact_force.hpp"
-#include "kernels/grains/grain.hpp"
-#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/contact_geometry.hpp"
 
 namespace barchan {
 
@@ -27,8 +26,8 @@ struct BlockOfVectors {
   }
 };
 
-/// As a kernel, the crossing pairs, kBlock of them per index. Every pair goes through the same full
-/// vectors, so its result does not depend on where in a block it stands.
+/// As a kernel: the crossing pairs, kBlock of them per index. Every pair goes through the same full
+/// vectors, so its result does not depend on its position in the block.
 template <class Stiffness, class Rolling>
 struct PairForces {
   static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
@@ -175,8 +174,8 @@ struct PairForces {
     const Vec3 separation = box.nearest_image(s.separation[q].vec());
     const Real distance = norm(separation);
     const Vec3 normal = (1 / distance) * separation;
-    const Real r_a = s.r_a[q], r_b = s.r_b[q], m_a = s.m_a[q], m_b = s.m_b[q];
-    const Real one_over = 1 / ((r_a + r_b) * (m_a + m_b));  // a division for two
+    const Real r_a = s.r_a[q], r_b = s.r_b[q];
+    const EffectivePair effective = effective_pair(r_a, r_b, s.m_a[q], s.m_b[q]);
     const Real overlap = r_a + r_b - distance;
     const bool touches = overlap > 0;
     const Real delta_n = touches ? overlap : 0;
@@ -191,8 +190,8 @@ struct PairForces {
                                   .delta_n = delta_n,
                                   .slip = contact_slip(s.slip[q].vec(), arm_spin, normal),
                                   .spin_difference = spin_a - spin_b,
-                                  .r_eff = r_a * r_b * (m_a + m_b) * one_over,
-                                  .m_eff = m_a * m_b * (r_a + r_b) * one_over},
+                                  .r_eff = effective.r,
+                                  .m_eff = effective.m},
                       history, dt);
     const Real on = touches ? 1 : 0;
     s.new_force.put(q, on * result.force, delta_n);
@@ -215,10 +214,10 @@ struct PairForces {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_pair_force(const Stage& s, int q, int p) const {
-    PairForce& line = list.pair_force(p);
-    line.force = s.force[q].vec();
-    line.delta_n = s.force[q].w;
-    line.n_cross_f_t = s.n_cross_f_t[q].vec();
+    PairForce& pair = list.pair_force(p);
+    pair.force = s.force[q].vec();
+    pair.delta_n = s.force[q].w;
+    pair.n_cross_f_t = s.n_cross_f_t[q].vec();
   }
 };
 

@@ -18,7 +18,4 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_inertia(Real mass, Real radius
   return Real(0.4) * mass * radius * radius;
 }
 
-/// Harmonic half-sum a b / (a + b): effective radius (A2) [m] or mass (A3) [kg] of a pair.
-KOKKOS_FORCEINLINE_FUNCTION constexpr Real effective(Real a, Real b) { return a * b / (a + b); }
-
 }  // namespace barchan

@@ -4,29 +4,20 @@
 #include <cstdint>
 
 #include "kernels/grains/contact_force.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/contact_geometry.hpp"
 
 namespace barchan {
 
-/// Wall with unit normal into the domain; signed distance of x = normal . x - offset [m].
-struct Plane {
-  Vec3 normal;
-  Real offset = 0;
-};
-
-inline constexpr int kMaxWalls = 6;
-
-/// The walls, their material and every grain's history with them. Walls 2s and 2s + 1 stand
-/// opposite each other, farther apart than a grain is wide, and share the history s.
+/// The walls, their material and every grain's history with them. Walls 2s and 2s + 1, which a
+/// grain cannot touch together, share the history s.
 template <class Stiffness, class Rolling>
 struct Walls {
-  int n = 0;
-  Plane plane[kMaxWalls];
+  WallPlanes planes;
   Stiffness law;
   Rolling rolling;
   Friction friction;
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t,
-      torque;  // (grain, wall / 2): [m], [N m]; torque of rolling springs alone
+  // (grain, wall / 2): [m], [N m]; torque of rolling springs alone
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;
   Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
   KOKKOS_FORCEINLINE_FUNCTION ContactResult remembered(int g, int w) const {
@@ -35,14 +26,11 @@ struct Walls {
     if constexpr (Rolling::has_history) history.rolling = torque(g, w / 2);
     return history;
   }
-  KOKKOS_FORCEINLINE_FUNCTION Real overlap(int w, const GrainKinematics& grain) const {
-    return grain.r - (dot(plane[w].normal, grain.x) - plane[w].offset);
-  }
   /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
   KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, const GrainKinematics& grain,
                                                    Real margin) const {
-    for (int w = 0; w < n; ++w) {
-      if (overlap(w, grain) > -margin) return 1;
+    for (int w = 0; w < planes.n; ++w) {
+      if (planes[w].overlap(grain) > -margin) return 1;
     }
     touching(g) = 0;
     return 0;
@@ -52,10 +40,10 @@ struct Walls {
                                        ContactSum& sum) const {
     const std::uint8_t before = touching(g);
     std::uint8_t now = 0;
-    for (int w = 0; w < n; ++w) {
+    for (int w = 0; w < planes.n; ++w) {
       const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
-      const Vec3& normal = plane[w].normal;
-      const Real delta_n = overlap(w, grain);
+      const Vec3& normal = planes[w].normal;
+      const Real delta_n = planes[w].overlap(grain);
       if (delta_n <= 0) continue;
       ContactResult history;
       if (before & bit) history = remembered(g, w);

@@ -15,6 +15,19 @@ inline double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
+/// Adds the time of its own life to a number of seconds.
+class ScopedSeconds {
+ public:
+  explicit ScopedSeconds(double& seconds) : seconds_(seconds) {}
+  ~ScopedSeconds() { seconds_ += seconds_since(start_); }
+  ScopedSeconds(const ScopedSeconds&) = delete;
+  ScopedSeconds& operator=(const ScopedSeconds&) = delete;
+
+ private:
+  double& seconds_;
+  WallClock::time_point start_ = WallClock::now();
+};
+
 /// Seconds by phase since the run began.
 using Phases = std::map<std::string, double>;
 

@@ -77,7 +77,7 @@ class CoupledStep {
 
   /// Of a state with grains.
   ContactSummary contacts(const SystemState& s) const { return grains_->contacts(*s.grains); }
-  std::span<const Plane> walls() const { return grains_->walls(); }
+  const WallPlanes& walls() const { return grains_->walls(); }
   NeighborList& neighbor_list() { return grains_->list(); }
   const NeighborList& neighbor_list() const { return grains_->list(); }
 

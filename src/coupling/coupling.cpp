@@ -1,11 +1,9 @@
 #include "src/coupling/coupling.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "src/config/load.hpp"
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -32,50 +30,11 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
   return Beetstra{.d_mean = grains.sauter_diameter};
 }
 
-PointSet point_set(VoidFraction v) {
-  switch (v) {
-    case VoidFraction::centre:
-      return PointSet::centre;
-    case VoidFraction::cfdem_faithful:
-      return PointSet::cfdem;
-    case VoidFraction::divided:
-      break;
-  }
-  return PointSet::divided;
-}
-
 FaceVector face_vector(const char* label, const Grid& grid) {
   return {Field(label, grid), Field(label, grid), Field(label, grid)};
 }
 
-constexpr Real kCfdemFloor = 0.1;  // alphaMin of CFDEM's void fraction models
-
 }  // namespace
-
-DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
-  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
-  DepositStencil stencil =
-      deposit_stencil_in(grid, point_set(config.coupling.void_fraction), periodic_x);
-  if (!grid.ranks) return stencil;
-  const Real reach = kOuterShell * r_max;
-  if (reach > std::min(grid.dx, grid.dz)) {
-    throw ConfigError({fmt::format(
-        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
-        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
-        grid.dx, grid.dz, r_max)});
-  }
-  const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
-  if (along_x.count > 1) {
-    stencil.wrap_x = false;
-    if (periodic_x || along_x.place > 0) stencil.i_low = -1;
-    if (periodic_x || along_x.place + 1 < along_x.count) stencil.i_high = grid.nx;
-  }
-  if (along_z.count > 1) {
-    stencil.wrap_z = false;
-    stencil.k_low = -1, stencil.k_high = grid.nz;
-  }
-  return stencil;
-}
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)
@@ -93,7 +52,8 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       smooths_(config.coupling.smoothing_length > 0),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
-      periodic_x_(config.grains->boundary_x == GrainBoundaryX::periodic),
+      box_{.lx = config.grains->boundary_x == GrainBoundaryX::periodic ? grid.lx_all : 0,
+           .lz = grid.lz_all},
       stencil_(make_deposit_stencil(config, grid, grains.r_max)),
       halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
@@ -137,9 +97,8 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
     first = std::clamp(static_cast<int>(begin) - mine, 0, n);
     last = std::clamp(static_cast<int>(end) - mine, first, n);
   };
-  const Real x = grid_.x_first(), z = grid_.z_first();
-  shrink(x0 - x, x1 - x, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
-  shrink(z0 - z, z1 - z, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
+  shrink(x0, x1, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
+  shrink(z0, z1, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
   const auto above = std::upper_bound(y_face_.begin(), y_face_.end(), y1);
   cells.j1 = std::min(grid_.ny, static_cast<int>(above - y_face_.begin()) + 1);
   return cells;
@@ -161,10 +120,9 @@ void Coupling::force_density(const FluidState& fluid, const GrainState& grains,
   for_each_cell("coupling: force density at the walls",
                 CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
                 HoldForceAtWall{force_.y, grid_.ny});
-  for (const FaceVector* f : {&force_, &convective_}) {
-    boundary_.fill(f->x, FieldKind::scalar);
-    boundary_.fill(f->y, FieldKind::scalar);
-    boundary_.fill(f->z, FieldKind::scalar);
+  // Behind both walls constant, too.
+  for (FaceVector* f : {&force_, &convective_}) {
+    for (Field* component : {&f->x, &f->y, &f->z}) boundary_.fill(*component, FieldKind::scalar);
   }
 }
 
@@ -175,6 +133,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),
                              GatherFluid{.drag = law,
                                          .grid = grid_,
+                                         .box = box_,
                                          .u = fluid.u,
                                          .force = force_,
                                          .convective = convective_,
@@ -184,8 +143,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .dt = dt,
                                          .weight = weight_,
                                          .forces = forces_,
-                                         .wrap_x = periodic_x_,
-                                         .at_once = skip_relaxation_,
+                                         .skip_relaxation = skip_relaxation_,
                                          .grains = grains.kin,
                                          .on_grains = grains.fluid,
                                          .exchange = grains.exchange});
@@ -197,15 +155,10 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
 void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
                             const GrainState& grains, const Kokkos::View<Vec3*>& force) {
   force_density(fluid, grains, which);
-  const GridRef grid = grid_;
-  const FaceRef density = force_;
-  const auto kin = grains.kin;
-  const bool wrap_x = periodic_x_;
   Kokkos::parallel_for(
-      "output: one fluid force", grains.n, KOKKOS_LAMBDA(int g) {
-        const PointStencil at(grid, kin(g).x, wrap_x);
-        force(g) = sphere_volume(kin(g).r) * interpolate_faces(density, at);
-      });
+      "output: one fluid force", grains.n,
+      FluidForceOnGrain{
+          .grid = grid_, .box = box_, .density = force_, .grains = grains.kin, .force = force});
 }
 
 void Coupling::choose_scales(const GrainState& grains, Real dt) {
@@ -221,13 +174,18 @@ void Coupling::choose_scales(const GrainState& grains, Real dt) {
   ledger_.given_to_grains = {sum[3], sum[4], sum[5]};
 }
 
-void Coupling::decode(int quantity, const FixedPoint& point, const Field& density) const {
+/// One quantity of the deposits as a density on cells, smoothed.
+void Coupling::decode(int quantity, const FixedPoint& point, Field& density) const {
   for_each_cell("coupling: decode deposit", grid_,
                 DecodeDeposit{.grid = grid_,
                               .deposits = deposits_,
                               .point = point,
                               .quantity = quantity,
                               .density = density});
+  if (quantity == 0 && config_.void_fraction == VoidFraction::cfdem_faithful) {
+    for_each_cell("coupling: drop volume above the limit", grid_, LimitSolidFraction{density});
+  }
+  if (smooths_) smoother_.solve(density, density);
 }
 
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
@@ -237,32 +195,26 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
       "coupling: deposit", items(grains.n),
       DepositGrain{.stencil = stencil_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
   halo_.scatter_add(deposits_.sum);
+  update_fraction(fluid);
+  spread_exchange();
+}
 
+/// alpha_f from the deposited volume.
+void Coupling::update_fraction(FluidState& fluid) {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
-  const Field alpha = fluid.alpha_f;
-  decode(0, deposits_.volume, alpha);
-  if (config_.void_fraction == VoidFraction::cfdem_faithful) {
-    for_each_cell(
-        "coupling: drop volume above the limit", grid_, KOKKOS_LAMBDA(int i, int j, int k) {
-          alpha(i, j, k) = Kokkos::min(alpha(i, j, k), 1 - kCfdemFloor);
-        });
-  }
-  if (smooths_) smoother_.solve(alpha, alpha);
-  const Grid grid = grid_;
-  ledger_.deposited_volume = sum_each_cell(
-      "coupling: solid fraction to fluid fraction", grid, KOKKOS_LAMBDA(int i, int j, int k) {
-        const Real solid = alpha(i, j, k);
-        alpha(i, j, k) = 1 - solid;
-        return solid * grid.cell_volume(j);
-      });
-  boundary_.fill(alpha, FieldKind::scalar);
+  decode(0, deposits_.volume, fluid.alpha_f);
+  ledger_.deposited_volume = sum_each_cell("coupling: solid fraction to fluid fraction", grid_,
+                                           SolidToFluidFraction{grid_, fluid.alpha_f});
+  boundary_.fill(fluid.alpha_f, FieldKind::scalar);
   if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
-    Kokkos::deep_copy(fluid.alpha_f_previous.storage, alpha.storage);
+    Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
   }
+}
 
+/// The exchange on faces from the deposited implicit coefficient and impulse.
+void Coupling::spread_exchange() {
   for (int q = 0; q < 4; ++q) {
     decode(q + 1, q == 0 ? deposits_.implicit : deposits_.impulse, cell_[q]);
-    if (smooths_) smoother_.solve(cell_[q], cell_[q]);
     boundary_.fill(cell_[q], FieldKind::scalar);
   }
   for_each_cell("coupling: spread to faces", grid_,
@@ -271,7 +223,8 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
                               .impulse_x = cell_[1],
                               .impulse_y = cell_[2],
                               .impulse_z = cell_[3],
-                              .exchange = on_faces_});
+                              .a = on_faces_.impulse,
+                              .m = on_faces_.implicit});
 }
 
 void Coupling::start(const GrainState& grains, FluidState& fluid) {
@@ -304,11 +257,9 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                       .x = cell_[1],
                                       .y = cell_[2],
                                       .z = cell_[3]});
-  if (smooths_) {
-    for (int q = 1; q < 4; ++q) smoother_.solve(cell_[q], cell_[q]);
-  }
-  if (grid_.ranks) {  // grains read beyond the pencil's edge
-    for (int q = 1; q < 4; ++q) boundary_.fill(cell_[q], FieldKind::scalar);
+  for (int q = 1; q < 4; ++q) {
+    if (smooths_) smoother_.solve(cell_[q], cell_[q]);
+    if (grid_.ranks) boundary_.fill(cell_[q], FieldKind::scalar);  // grains read beyond the pencil
   }
   std::vector<Real> total(3);
   Kokkos::parallel_reduce("coupling: carry to grains", items(grains.n),

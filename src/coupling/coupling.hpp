@@ -4,8 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "kernels/coupling/drag.hpp"
-#include "kernels/coupling/interphase.hpp"
+#include "kernels/coupling/deposit.hpp"
+#include "kernels/coupling/gather.hpp"
 #include "src/config/config.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"
@@ -27,11 +27,7 @@ struct ExchangeLedger {
   Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
 };
 
-/// How grains up to a radius of r_max [m] find their cells. Where the grid is cut, points of a
-/// grain may lie in ghosts; throws ConfigError if it could reach beyond.
-DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max);
-
-/// Unresolved coupling, model A: gather before the sub-steps, deposit after them, return after the
+/// Unresolved coupling, model A: gather before the sub-steps, deposit after them, carry after the
 /// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil
 /// (FluidSideGrains), and all ranks call every member together.
 class Coupling {
@@ -61,7 +57,9 @@ class Coupling {
   CellRange cells_around(const GrainState& grains) const;
   void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
   void choose_scales(const GrainState& grains, Real dt);
-  void decode(int quantity, const FixedPoint& point, const Field& density) const;
+  void decode(int quantity, const FixedPoint& point, Field& density) const;
+  void update_fraction(FluidState& fluid);
+  void spread_exchange();
   void sum_faces(Real dt, const FluidState& fluid);
   ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
 
@@ -74,7 +72,7 @@ class Coupling {
   bool smooths_ = false;
   bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
-  bool periodic_x_ = false;
+  PeriodicBox box_;
   DepositStencil stencil_;
   Halo halo_;
   Real rho_f_ = 0, nu_ = 0;

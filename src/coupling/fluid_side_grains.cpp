@@ -17,9 +17,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
              .z = {pencils.z().n, pencils.z().parts},
              .dx = grid.dx,
              .dz = grid.dz,
-             .lx = grid.lx_all,
-             .lz = grid.lz_all,
-             .periodic_x = periodic_x};
+             .box = {.lx = periodic_x ? grid.lx_all : 0, .lz = grid.lz_all}};
   copies_ = make_grain_rows(0, ranks_);
   add_fluid(copies_);
   add_exchange(copies_);
@@ -60,10 +58,10 @@ void FluidSideGrains::find_owners(const GrainState& grains) {
 
 void FluidSideGrains::wrap_copies() const {
   const auto kin = copies_.kin;
-  const PencilOwners owners = owners_;
+  const PeriodicBox box = owners_.box;
   Kokkos::parallel_for(
       "fluid-side grains: wrap", items(copies_.n),
-      KOKKOS_LAMBDA(int g) { kin(g).x = owners.into_domain(kin(g).x); });
+      KOKKOS_LAMBDA(int g) { kin(g).x = box.wrap(kin(g).x); });
 }
 
 void FluidSideGrains::copy_to_fluid_ranks(const GrainState& grains, unsigned uses) {

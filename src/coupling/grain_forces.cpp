@@ -1,4 +1,5 @@
 // Each force on every grain separately, for output.
+#include "kernels/coupling/grain_forces.hpp"
 #include "src/coupling/coupled_step.hpp"
 
 namespace barchan {
@@ -24,22 +25,16 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
-  const FluidOnGrains on = grains.fluid;
-  const auto kin = grains.kin;
-  const Real dt = dt_;
-  if (!on.none) {
+  if (!grains.fluid.none) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
-    const auto fluid_force = grains.exchange.fluid_force;
-    const bool computed = coupling_ != nullptr;
-    const SubmergedWeight weight = computed ? coupling_->weight() : still_.weight;
-    Kokkos::parallel_for(
-        "output: forces on grains", n, KOKKOS_LAMBDA(int g) {
-          const Vec3 inertia = (on.added_mass(g) / dt) * (kin(g).u - on.u_start(g));
-          // Of the steady force: what is neither weight nor of the pressure gradient and stress.
-          added(g) = on.steady_force(g) - weight(kin(g)) - inertia;
-          if (computed) added(g) = added(g) - fluid_force(g);
-          drag(g) = (1 / dt) * on.drag_impulse(g);
-        });
+    Kokkos::parallel_for("output: forces on grains", n,
+                         DragAndAddedMass{.grains = grains.kin,
+                                          .on_grains = grains.fluid,
+                                          .weight = coupling_ ? coupling_->weight() : still_.weight,
+                                          .fluid_force = grains.exchange.fluid_force,
+                                          .dt = dt_,
+                                          .drag = drag,
+                                          .added_mass = added});
     forces.push_back({"force_drag", drag});
     forces.push_back({"force_added_mass", added});
   }
@@ -58,29 +53,22 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
 
 Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const {
   const Kokkos::View<Vec3*> total = grain_vector("total", grains.n);
-  const FluidOnGrains on = grains.fluid;
-  const auto kin = grains.kin;
-  const auto contact = grains.contact_force;
-  const Real dt = dt_;
-  Kokkos::parallel_for(
-      "output: resultant force", grains.n, KOKKOS_LAMBDA(int g) {
-        total(g) = contact(g) + on.steady_force(g);
-        if (on.none) return;
-        const Vec3 inertia = (on.added_mass(g) / dt) * (kin(g).u - on.u_start(g));
-        total(g) += (1 / dt) * on.drag_impulse(g) - inertia;
-      });
+  Kokkos::parallel_for("output: resultant force", grains.n,
+                       ResultantForce{.grains = grains.kin,
+                                      .on_grains = grains.fluid,
+                                      .contact_force = grains.contact_force,
+                                      .dt = dt_,
+                                      .total = total});
   return total;
 }
 
 Kokkos::View<Vec3*> CoupledStep::mean_resultant_force(const GrainState& grains) const {
-  const FluidOnGrains on = grains.fluid;
-  if (on.none) return resultant_force(grains);
+  if (grains.fluid.none) return resultant_force(grains);
   const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
-  const auto kin = grains.kin;
-  const Real dt = dt_;
   Kokkos::parallel_for(
       "output: mean resultant force", grains.n,
-      KOKKOS_LAMBDA(int g) { mean(g) = (kin(g).m / dt) * (kin(g).u - on.u_start(g)); });
+      MeanResultantForce{
+          .grains = grains.kin, .u_start = grains.fluid.u_start, .dt = dt_, .mean = mean});
   return mean;
 }
 

@@ -22,7 +22,7 @@ using WorstOf = Kokkos::MaxLoc<Real, int>;
 WorstItem nothing() { return {0, -1}; }
 
 struct WorstGrains {
-  WorstItem pair = nothing(), in_wall = nothing(), way = nothing();
+  WorstItem pair = nothing(), in_wall = nothing(), displacement = nothing();
 };
 
 /// Of this rank's grains. Frozen grains may lie as they like.
@@ -34,12 +34,9 @@ WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt)
                                       .grains = grains.kin,
                                       .n_owned = grains.n},
                           WorstOf(worst.pair));
-  const auto walls = step.walls();
-  GrainLimits limits{
-      .grains = grains.kin, .plane = {}, .n_walls = static_cast<int>(walls.size()), .dt = dt};
-  std::copy(walls.begin(), walls.end(), limits.plane);
-  Kokkos::parallel_reduce("state checks: grains", items(grains.n), limits, WorstOf(worst.in_wall),
-                          WorstOf(worst.way));
+  Kokkos::parallel_reduce("state checks: grains", items(grains.n),
+                          GrainLimits{.grains = grains.kin, .walls = step.walls(), .dt = dt},
+                          WorstOf(worst.in_wall), WorstOf(worst.displacement));
   return worst;
 }
 
@@ -51,20 +48,20 @@ WorstItem worst_cell(const Grid& grid, const Functor& functor) {
   return worst;
 }
 
-/// The words of the rank that has the worst, on all ranks.
-std::string of_the_worst(MPI_Comm ranks, Real mine, const std::string& words) {
-  if (rank_count(ranks) == 1) return words;
+/// The message of the rank that has the worst value, on all ranks.
+std::string of_the_worst(MPI_Comm ranks, Real mine, const std::string& message) {
+  if (rank_count(ranks) == 1) return message;
   struct {
     double value;
     int rank;
   } worst{mine, rank_of(ranks)};
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ranks);
-  auto length = static_cast<int>(words.size());
+  auto length = static_cast<int>(message.size());
   MPI_Bcast(&length, 1, MPI_INT, worst.rank, ranks);
-  std::string said = words;
-  said.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(said.data(), length, MPI_CHAR, worst.rank, ranks);
-  return said;
+  std::string worst_message = message;
+  worst_message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(worst_message.data(), length, MPI_CHAR, worst.rank, ranks);
+  return worst_message;
 }
 
 template <class View>
@@ -74,18 +71,18 @@ auto element(const View& view, int at) {
   return value;
 }
 
-std::string place(const Vec3& x) {
+std::string position(const Vec3& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x, x.y, x.z);
 }
 
 std::string grain_at(const GrainState& grains, int g) {
-  return fmt::format("grain {} at {}", element(grains.id, g), place(element(grains.kin, g).x));
+  return fmt::format("grain {} at {}", element(grains.id, g), position(element(grains.kin, g).x));
 }
 
 std::string cell_at(const Grid& grid, int cell) {
   const int i = cell % grid.nx, j = cell / grid.nx % grid.ny, k = cell / (grid.nx * grid.ny);
   const Vec3 x{grid.x_centre(i), element(grid.y_centre_, j + 1), grid.z_centre(k)};
-  return fmt::format("cell ({}, {}, {}) at {}", grid.i_begin + i, j, grid.k_begin + k, place(x));
+  return fmt::format("cell ({}, {}, {}) at {}", grid.i_begin + i, j, grid.k_begin + k, position(x));
 }
 
 const char* name_of(const Plane& wall) {
@@ -93,12 +90,13 @@ const char* name_of(const Plane& wall) {
   return wall.normal.x != 0 ? "a wall across x" : "a wall across z";
 }
 
-/// The wall that a grain is deepest in, and how far its centre is inside the domain [m].
-std::pair<Plane, Real> deepest_wall(std::span<const Plane> walls, const Vec3& x) {
-  const auto inside = [&](const Plane& wall) { return dot(wall.normal, x) - wall.offset; };
-  const Plane& deepest = *std::min_element(walls.begin(), walls.end(),
-                                           [&](auto& a, auto& b) { return inside(a) < inside(b); });
-  return {deepest, inside(deepest)};
+/// The wall that a grain is deepest in.
+const Plane& deepest_wall(const WallPlanes& walls, const Vec3& x) {
+  int deepest = 0;
+  for (int w = 1; w < walls.n; ++w) {
+    if (walls[w].distance(x) < walls[deepest].distance(x)) deepest = w;
+  }
+  return walls[deepest];
 }
 
 /// Reported values of what is not finite.
@@ -117,12 +115,12 @@ std::string StateChecks::grain_problem(const GrainState& grains, const CoupledSt
                                        const std::vector<Real>& worst, bool at_start) const {
   const Real limit = config_.grains->max_overlap;
   const WorstGrains mine = worst_of(grains, step, true_grain_step(config_.time));
-  // A rank without grains or pairs has Kokkos' identity for a worst item: its place is none.
-  const auto tell = [&](const WorstItem& item, auto words) {
-    return of_the_worst(ranks_, item.val, item.val > 0 ? words(item.loc) : std::string());
+  // A rank without grains or pairs has Kokkos' identity for a worst item: it is nowhere.
+  const auto tell = [&](const WorstItem& item, auto message) {
+    return of_the_worst(ranks_, item.val, item.val > 0 ? message(item.loc) : std::string());
   };
   if (!(worst[2] < kMaxDisplacement)) {
-    return tell(mine.way, [&](int g) {
+    return tell(mine.displacement, [&](int g) {
       const GrainKinematics k = element(grains.kin, g);
       const std::string who = grain_at(grains, g);
       if (!std::isfinite(k.x.x + k.x.y + k.x.z + norm(k.u) + norm(k.omega))) {
@@ -134,13 +132,14 @@ std::string StateChecks::grain_problem(const GrainState& grains, const CoupledSt
       return fmt::format(
           "{} goes {:.2g} of its radius in a grain step (at {:.3g} m/s, spin {:.3g} 1/s; at most "
           "{}): contacts cannot be followed; take a shorter time.grain_step",
-          who, mine.way.val, norm(k.u), norm(k.omega), kMaxDisplacement);
+          who, mine.displacement.val, norm(k.u), norm(k.omega), kMaxDisplacement);
     });
   }
   if (worst[1] > limit) {
     return tell(mine.in_wall, [&](int g) {
-      const auto [wall, inside] = deepest_wall(step.walls(), element(grains.kin, g).x);
-      if (inside < 0) {
+      const Vec3 x = element(grains.kin, g).x;
+      const Plane& wall = deepest_wall(step.walls(), x);
+      if (wall.distance(x) < 0) {
         return fmt::format("{} has gone through {}{}", grain_at(grains, g), name_of(wall),
                            at_start ? ""
                                     : ": it was too fast or pressed too hard; take a "
@@ -202,10 +201,10 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
                                     bool at_start) const {
   const bool grains_move = state.grains && !config_.grains->frozen;
   const Real limit = config_.grains ? config_.grains->max_overlap : 0;
-  std::vector<Real> worst(4, 0.0);  // overlap of a pair, with a wall; way; fluid fraction
+  std::vector<Real> worst(4, 0.0);  // overlap of a pair, with a wall; displacement; fluid fraction
   if (grains_move) {
     const WorstGrains mine = worst_of(*state.grains, step, true_grain_step(config_.time));
-    worst = {mine.pair.val, mine.in_wall.val, mine.way.val, 0};
+    worst = {mine.pair.val, mine.in_wall.val, mine.displacement.val, 0};
   }
   if (state.fluid && state.grains) {
     const Grid& grid = state.fluid->grid;

@@ -11,9 +11,8 @@
 
 namespace barchan {
 
-/// Limits of a sound state. They are far from what a good run shows (overlaps of some per cent, a
+/// Limits of a sound state beside grains.max_overlap. They are far from what a good run shows (a
 /// CFL number of 0.5), and near enough to stop before results are ruined unseen.
-inline constexpr Real kMostOverlap = 0.1;      // of a pair's mean diameter, of a grain's in a wall
 inline constexpr Real kMaxDisplacement = 0.5;  // of a grain in a grain step, in radii
 inline constexpr Real kMostCourant = 1;        // of the flow
 inline constexpr Real kFractionSlack = 1e-9;   // of the fluid fraction around (0, 1]

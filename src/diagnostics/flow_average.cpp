@@ -35,7 +35,7 @@ FlowAverage::FlowAverage(const Grid& grid) : grid_(grid) {
   make(first_, grid);
 }
 
-FlowSums FlowAverage::refs(const std::array<Field, n_flow_moments>& fields) const {
+FlowSums FlowAverage::refs(std::array<Field, n_flow_moments>& fields) {
   FlowSums refs;
   for (int q = 0; q < n_flow_moments; ++q) refs[q] = FieldRef(fields[static_cast<std::size_t>(q)]);
   return refs;

@@ -29,7 +29,7 @@ class FlowAverage {
   void load(const CheckpointReader& file);
 
  private:
-  FlowSums refs(const std::array<Field, n_flow_moments>& fields) const;
+  static FlowSums refs(std::array<Field, n_flow_moments>& fields);
 
   Grid grid_;
   std::array<Field, n_flow_moments> sum_;

@@ -18,7 +18,7 @@ GhostRule ghost_rule(FieldKind kind, WallFlow wall) {
   return GhostRule::same;
 }
 
-void Boundary::fill(const Field& f, FieldKind kind) const {
+void Boundary::fill(Field& f, FieldKind kind) const {
   for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
                 FillWallGhosts{.f = f,
                                .ny = grid_.ny,
@@ -28,13 +28,13 @@ void Boundary::fill(const Field& f, FieldKind kind) const {
   halo_.fill(f);
 }
 
-void Boundary::fill_velocity(const FaceVector& u) const {
+void Boundary::fill_velocity(FaceVector& u) const {
   fill(u.x, FieldKind::velocity_x);
   fill(u.y, FieldKind::velocity_y);
   fill(u.z, FieldKind::velocity_z);
 }
 
-void Boundary::fill_periodic(const FaceVector& f) const {
+void Boundary::fill_periodic(FaceVector& f) const {
   halo_.fill(f.x);
   halo_.fill(f.y);
   halo_.fill(f.z);

@@ -28,10 +28,10 @@ class Boundary {
   Boundary(const Grid& grid, WallFlow bottom, WallFlow top, Real top_velocity = 0)
       : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
-  void fill(const Field& f, FieldKind kind) const;
-  void fill_velocity(const FaceVector& u) const;
+  void fill(Field& f, FieldKind kind) const;
+  void fill_velocity(FaceVector& u) const;
   /// Only x and z, for face vectors that no wall rule applies to.
-  void fill_periodic(const FaceVector& f) const;
+  void fill_periodic(FaceVector& f) const;
   const Halo& halo() const { return halo_; }
   WallFlow bottom() const { return bottom_; }
   WallFlow top() const { return top_; }

@@ -52,33 +52,33 @@ PlaneFft::PlaneFft(const Grid& grid)
   spectrum_ = make_spectrum("fft: spectrum");
 }
 
-PlaneFft::Way PlaneFft::way_to(const Spectrum& modes) const {
+PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
   const Spectrum& planes = columns_.is_trivial() ? modes : modes_of_planes_;
   return {planes_.is_trivial() ? planes : modes_of_rows_, planes};
 }
 
 void PlaneFft::forward(const Field& in, const Spectrum& out) const {
-  const Way way = way_to(out);
+  const Stages stage = stages(out);
   if (rows_.is_trivial()) {
-    lines_.forward_x(in.origin, way.rows.data());
+    lines_.forward_x(in.origin, stage.rows.data());
   } else {
     rows_.join(inside(in), contiguous(lines_of_x_.data(), rows_.joined_extents()));
-    lines_.forward_x(lines_of_x_.data(), way.rows.data());
+    lines_.forward_x(lines_of_x_.data(), stage.rows.data());
   }
-  if (!planes_.is_trivial()) planes_.join(array(way.rows), array(way.planes));
-  lines_.forward_z(way.planes.data());
-  if (!columns_.is_trivial()) columns_.join(array(way.planes), array(out));
+  if (!planes_.is_trivial()) planes_.join(array(stage.rows), array(stage.planes));
+  lines_.forward_z(stage.planes.data());
+  if (!columns_.is_trivial()) columns_.join(array(stage.planes), array(out));
 }
 
-void PlaneFft::backward(const Spectrum& in, const Field& out) const {
-  const Way way = way_to(in);
-  if (!columns_.is_trivial()) columns_.cut(array(in), array(way.planes));
-  lines_.backward_z(way.planes.data());
-  if (!planes_.is_trivial()) planes_.cut(array(way.planes), array(way.rows));
+void PlaneFft::backward(const Spectrum& in, Field& out) const {
+  const Stages stage = stages(in);
+  if (!columns_.is_trivial()) columns_.cut(array(in), array(stage.planes));
+  lines_.backward_z(stage.planes.data());
+  if (!planes_.is_trivial()) planes_.cut(array(stage.planes), array(stage.rows));
   if (rows_.is_trivial()) {
-    lines_.backward_x(way.rows.data(), out.origin);
+    lines_.backward_x(stage.rows.data(), out.origin);
   } else {
-    lines_.backward_x(way.rows.data(), lines_of_x_.data());
+    lines_.backward_x(stage.rows.data(), lines_of_x_.data());
     rows_.cut(contiguous(lines_of_x_.data(), rows_.joined_extents()), inside(out));
   }
 }

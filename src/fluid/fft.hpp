@@ -13,7 +13,8 @@ using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
 /// Both directions without normalisation: backward(forward(f)) = nx nz f, with the nx, nz of all
 /// ranks. All ranks call together.
 ///
-/// Over ranks the lines of x, then of z, then the rows are made whole, three transposes each way:
+/// Over ranks the lines of x, then of z, then the rows are made whole, three transposes in each
+/// direction:
 ///   (x, y, z) -> (x, y', z) -> along x -> (kx, y', z) -> (kx', y', z) -> along z -> (kx', y, kz')
 /// where a prime means a share of the ranks beside each other.
 class PlaneFft {
@@ -24,21 +25,21 @@ class PlaneFft {
     const auto extents = columns_.joined_extents();
     return Spectrum(label, extents[0], extents[1], extents[2]);
   }
-  /// Room for one spectrum, for whoever transforms there and back at once.
+  /// Room for one spectrum, for those who transform there and straight back.
   const Spectrum& spectrum() const { return spectrum_; }
   /// Wave number of the first mode of this rank along x and z.
   int first_mode_x() const { return first_x_; }
   int first_mode_z() const { return first_z_; }
   void forward(const Field& in, const Spectrum& out) const;
   /// Destroys `in`. Ghosts of `out` are left alone.
-  void backward(const Spectrum& in, const Field& out) const;
+  void backward(const Spectrum& in, Field& out) const;
 
  private:
-  /// The spectra on the way; where a transpose has nothing to do, two of them are one.
-  struct Way {
+  /// The spectra between the transposes; where one has nothing to do, two of them are one.
+  struct Stages {
     Spectrum rows, planes;  // (all kx, y', z), (kx', y', all z)
   };
-  Way way_to(const Spectrum& modes) const;
+  Stages stages(const Spectrum& modes) const;
 
   Transpose rows_, planes_, columns_;  // that make the lines of x, the lines of z, the rows whole
   LineFft lines_;

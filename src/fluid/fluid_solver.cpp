@@ -5,13 +5,14 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
 namespace {
 
-/// In one piece, of more use to others while it is idle.
+/// In one piece, of more use as scratch memory while it is idle.
 FaceVector make_faces(const char* label, const Grid& grid) {
   const Kokkos::View<Real****, Kokkos::LayoutLeft> all(label, grid.nx + 2, grid.ny + 2, grid.nz + 2,
                                                        3);
@@ -32,7 +33,7 @@ AdamsBashforth weights(const FluidState& fluid, Real dt) {
 
 FluidSolver::FluidSolver(const Config& config, const Grid& grid)
     : config_(config.fluid.value()),
-      solver_(config.solver),
+      tolerance_(config.solver.pressure_tolerance),
       grid_(grid),
       boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
@@ -42,81 +43,83 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
       c_w_delta_("fluid: filter width", grid.ny) {
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
-  if (config.grains) {
-    flux_ = make_faces("fluid: alpha u", grid);
-    mobility_ = make_faces("fluid: mobility", grid);
-  }
+  if (config.grains) make_coupled_fields();
+}
+
+void FluidSolver::make_coupled_fields() {
+  flux_ = make_faces("fluid: alpha u", grid_);
+  mobility_ = make_faces("fluid: mobility", grid_);
 }
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  report_ = {};
-  if (exchange != nullptr) {
-    boundary_.fill(fluid.alpha_f, FieldKind::scalar);
-    boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
-  }
-  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
-  update_eddy_viscosity(fluid);       // nu_t
-  predict(fluid, exchange, dt);       // u*
-  choose_drive(fluid, exchange, dt);  // f that gives the wanted bulk velocity
-  project(fluid, exchange, dt);       // p, u, du/dt
-
+  begin_step(fluid, exchange != nullptr);
+  update_eddy_viscosity(fluid);                    // nu_t
+  predict(fluid, exchange, dt);                    // u*
+  choose_drive(fluid, exchange, dt);               // f that gives the wanted bulk velocity
+  solve_pressure(fluid, exchange != nullptr, dt);  // p
+  correct(fluid, exchange, dt);                    // u, du/dt
   fluid.has_history = true;
   fluid.dt_previous = dt;
   fluid.time += dt;
   return report_;
 }
 
-void FluidSolver::fill_ghosts(const FluidState& fluid) const {
+void FluidSolver::begin_step(FluidState& fluid, bool coupled) {
+  report_ = {};
+  if (coupled) {
+    boundary_.fill(fluid.alpha_f, FieldKind::scalar);
+    boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
+  }
+  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
+}
+
+void FluidSolver::fill_ghosts(FluidState& fluid) const {
   boundary_.fill_velocity(fluid.u);
-  for (const Field& f : {fluid.p, fluid.p_previous, fluid.alpha_f, fluid.alpha_f_previous}) {
-    boundary_.fill(f, FieldKind::scalar);
+  for (Field* f : {&fluid.p, &fluid.p_previous, &fluid.alpha_f, &fluid.alpha_f_previous}) {
+    boundary_.fill(*f, FieldKind::scalar);
   }
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
-void FluidSolver::update_eddy_viscosity(const FluidState& fluid) {
+void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
   if (config_.turbulence == Turbulence::none) return;
   for_each_cell("fluid: eddy viscosity", grid_,
                 UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_.data()});
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
+/// alpha u of the old time level, with ghosts.
+void FluidSolver::update_mass_flux(const FluidState& fluid) {
+  if (flux_.x.origin == nullptr) make_coupled_fields();
+  // Scratch memory: others may have used these fields since.
+  for_each_cell("fluid: nothing through the walls",
+                CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
+                CloseFaces{flux_, u_star_.y, grid_.ny});
+  for_each_cell("fluid: mass flux", grid_, MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
+  boundary_.fill_periodic(flux_);
+}
+
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const bool coupled = exchange != nullptr;
-  if (coupled) {
-    if (flux_.x.origin == nullptr) {
-      flux_ = make_faces("fluid: alpha u", grid_);
-      mobility_ = make_faces("fluid: mobility", grid_);
-    }
-    // Others may have used these fields since.
-    for_each_cell("fluid: nothing through the walls",
-                  CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
-                  CloseFaces{flux_, u_star_.y, grid_.ny});
-    for_each_cell("fluid: mass flux", grid_,
-                  MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
-    boundary_.fill_periodic(flux_);
-  }
-  const Convection convection{grid_, fluid.u, coupled ? flux_ : fluid.u};
-  const StressDivergence stress{grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity};
-  const AdamsBashforth weight = weights(fluid, dt);
-  const Real per_density = 1 / config_.density;
-  const auto run = [&](auto functor) {
-    flow_rate_ = sum_each_cell("fluid: predict", grid_, functor);
+  const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& alpha,
+                       const ExchangeRef& on_faces) {
+    flow_rate_ = sum_each_cell(
+        "fluid: predict", grid_,
+        Predict<with_exchange>{.grid = grid_,
+                               .convection = {grid_, fluid.u, flux},
+                               .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
+                               .alpha = alpha,
+                               .alpha_new = fluid.alpha_f,
+                               .rate = fluid.rate_previous,
+                               .u_star = u_star_,
+                               .exchange = on_faces,
+                               .weight = weights(fluid, dt),
+                               .per_density = 1 / config_.density});
   };
-  if (coupled) {
-    run(Predict<true>{grid_, convection, stress, fluid.alpha_f_previous, fluid.alpha_f,
-                      fluid.rate_previous, u_star_, *exchange, weight, per_density});
+  if (exchange == nullptr) {
+    run(std::false_type{}, fluid.u, fluid.alpha_f, {});
   } else {
-    run(Predict<false>{grid_,
-                       convection,
-                       stress,
-                       fluid.alpha_f,
-                       fluid.alpha_f,
-                       fluid.rate_previous,
-                       u_star_,
-                       {},
-                       weight,
-                       per_density});
+    update_mass_flux(fluid);
+    run(std::true_type{}, flux_, fluid.alpha_f_previous, *exchange);
   }
 }
 
@@ -127,15 +130,14 @@ Real FluidSolver::target_bulk_velocity(const FluidState& fluid) const {
 }
 
 void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const Real all_height = grid_.height_of_all_columns();
+  Real drive_response = grid_.height_of_all_columns();  // flow rate per unit of drive times dt
+  fluid_height_ = drive_response;
   if (exchange != nullptr) {
-    drive_response_ = sum_each_cell(
+    drive_response = sum_each_cell(
         "fluid: mobility", grid_,
         UpdateMobility{grid_, fluid.alpha_f, exchange->implicit, 1 / config_.density, mobility_});
     boundary_.fill_periodic(mobility_);
     fluid_height_ = sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
-  } else {
-    drive_response_ = fluid_height_ = all_height;
   }
   if (config_.pressure_gradient) {
     fluid.drive = *config_.pressure_gradient / config_.density;
@@ -143,75 +145,82 @@ void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchang
     // A bed takes part of what the drive gives, as the pressure drop over it does; about what it
     // took last.
     const Real wanted = target_bulk_velocity(fluid) * fluid_height_ + fluid.flow_missed;
-    fluid.drive = (wanted - flow_rate_) / (drive_response_ * dt);
+    fluid.drive = (wanted - flow_rate_) / (drive_response * dt);
   } else {
     fluid.drive = 0;
   }
   report_.drive = fluid.drive;
-  flow_rate_ += fluid.drive * dt * drive_response_;
+  flow_rate_ += fluid.drive * dt * drive_response;
   report_.bulk_velocity = flow_rate_ / fluid_height_;
 }
 
-void FluidSolver::project(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  // Total pressure: every step solves for all of it. p_previous becomes the last one.
+/// Total pressure: every step solves for all of it. p_previous becomes the last one.
+void FluidSolver::solve_pressure(FluidState& fluid, bool coupled, Real dt) {
+  const ScopedSeconds timer(report_.seconds_pressure);
   std::swap(fluid.p, fluid.p_previous);
-  const Real drive_dt = fluid.drive * dt;
   boundary_.halo().fill(u_star_.x);
   boundary_.halo().fill(u_star_.z);
-  const Kokkos::Timer timer;
-  if (exchange == nullptr) {
+  PressureReport solved;
+  if (!coupled) {
     for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<false>(u_star_, fluid, drive_dt, dt));
-    add_to_report(pressure_.solve_uniform(source_, fluid.p));
-    report_.seconds_pressure = timer.seconds();
-    correct<false>(fluid, exchange, dt, drive_dt);
+                  pressure_source<false>(u_star_, fluid, fluid.drive, dt));
+    solved = pressure_.solve_uniform(source_, fluid.p);
+  } else {
+    if (fluid.has_history) {
+      for_each_cell("fluid: extrapolate pressure", grid_,
+                    ExtrapolatePressure{fluid.p_previous, fluid.p});
+    } else {
+      Kokkos::deep_copy(fluid.p.storage, fluid.p_previous.storage);
+    }
+    for_each_cell("fluid: pressure source", grid_,
+                  pressure_source<true>(u_star_, fluid, fluid.drive, dt));
+    solved = pressure_.solve(mobility_, source_, fluid.p, tolerance_);
+  }
+  report_.pressure_iterations = solved.iterations;
+  report_.pressure_residual = solved.residual;
+  boundary_.fill(fluid.p, FieldKind::scalar);
+}
+
+template <bool with_grains>
+PressureSource<with_grains> FluidSolver::pressure_source(const FaceVector& u,
+                                                         const FluidState& fluid, Real drive,
+                                                         Real dt) {
+  return {.grid = grid_,
+          .u = u,
+          .alpha = fluid.alpha_f,
+          .alpha_before = with_grains ? fluid.alpha_f_previous : fluid.alpha_f,
+          .c = with_grains ? mobility_ : u,
+          .drive_dt = drive * dt,
+          .density = config_.density,
+          .dt = dt,
+          .b = source_};
+}
+
+void FluidSolver::correct(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
+  if (exchange == nullptr) {
+    correct_velocity<false>(fluid, u_star_, dt);
     return;
   }
-  if (fluid.has_history) {
-    for_each_cell("fluid: extrapolate pressure", grid_,
-                  ExtrapolatePressure{fluid.p_previous, fluid.p});
-  } else {
-    Kokkos::deep_copy(fluid.p.storage, fluid.p_previous.storage);
-  }
-  Real tolerance = 1;
-  for (int corrector = 0; corrector < solver_.correctors; ++corrector) {
-    tolerance *= solver_.pressure_tolerance;
-    for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<true>(u_star_, fluid, drive_dt, dt));
-    add_to_report(pressure_.solve(mobility_, source_, fluid.p, tolerance));
-  }
-  report_.seconds_pressure = timer.seconds();
-  correct<true>(fluid, exchange, dt, drive_dt);
+  correct_velocity<true>(fluid, exchange->implicit, dt);
   const Real flow =
       sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
   fluid.flow_missed = flow_rate_ - flow;
   report_.bulk_velocity = flow / fluid_height_;
 }
 
-void FluidSolver::add_to_report(const PressureReport& solved) {
-  report_.pressure_iterations += solved.iterations;
-  report_.pressure_residual = solved.residual;
-}
-
 template <bool with_grains>
-PressureSource<with_grains> FluidSolver::pressure_source(const FaceVector& u,
-                                                         const FluidState& fluid, Real drive_dt,
-                                                         Real dt) const {
-  const FaceVector& c = with_grains ? mobility_ : u;
-  return {grid_,  u,        fluid.alpha_f,   with_grains ? fluid.alpha_f_previous : fluid.alpha_f,
-          c,      drive_dt, config_.density, dt,
-          source_};
-}
-
-template <bool with_grains>
-void FluidSolver::correct(const FluidState& fluid, const ExchangeOnFaces* exchange, Real dt,
-                          Real drive_dt) {
-  const FaceVector& implicit = with_grains ? exchange->implicit : u_star_;
-  boundary_.fill(fluid.p, FieldKind::scalar);
-  report_.courant = max_each_cell(
-      "fluid: correct velocity", grid_,
-      CorrectVelocity<with_grains>{grid_, u_star_, fluid.p, fluid.alpha_f, implicit,
-                                   1 / config_.density, drive_dt, dt, fluid.u, fluid.du_dt});
+void FluidSolver::correct_velocity(FluidState& fluid, const FaceVector& implicit, Real dt) {
+  report_.courant = max_each_cell("fluid: correct velocity", grid_,
+                                  CorrectVelocity<with_grains>{.grid = grid_,
+                                                               .u_star = u_star_,
+                                                               .p = fluid.p,
+                                                               .alpha = fluid.alpha_f,
+                                                               .implicit = implicit,
+                                                               .per_density = 1 / config_.density,
+                                                               .drive_dt = fluid.drive * dt,
+                                                               .dt = dt,
+                                                               .u = fluid.u,
+                                                               .du_dt = fluid.du_dt});
   boundary_.fill_velocity(fluid.u);
   boundary_.fill_periodic(fluid.du_dt);
   report_.continuity_residual = max_each_cell(

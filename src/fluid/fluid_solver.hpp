@@ -13,8 +13,8 @@
 namespace barchan {
 
 struct FluidStepReport {
-  int pressure_iterations = 0;  // of all corrections together
-  Real pressure_residual = 0;   // of the last, relative to its right-hand side
+  int pressure_iterations = 0;
+  Real pressure_residual = 0;  // relative to the right-hand side
   // max |div(alpha u) + d(alpha)/dt| dt [-]; at least the share of the domain's volume that grains
   // gave back by leaving: a periodic box of incompressible fluid has nowhere to take it from.
   Real continuity_residual = 0;
@@ -30,7 +30,7 @@ struct FluidStepReport {
 ///   d(alpha)/dt + div(alpha u) = 0.
 /// Adams-Bashforth for convection and stress; the part of the exchange that follows the fluid
 /// velocity is implicit and diagonal, so one pressure correction projects exactly, up to the
-/// tolerance of the pressure equation; each further corrector multiplies that tolerance once more.
+/// tolerance of the pressure equation.
 class FluidSolver {
  public:
   FluidSolver(const Config& config, const Grid& grid);
@@ -40,7 +40,7 @@ class FluidSolver {
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
 
   /// Makes all ghosts valid, to be called after a state was set or read.
-  void fill_ghosts(const FluidState& fluid) const;
+  void fill_ghosts(FluidState& fluid) const;
 
   /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
   Real friction_velocity(const FluidState& fluid) const;
@@ -49,8 +49,8 @@ class FluidSolver {
   /// sum(rho alpha |u|^2 V) / 2 [J].
   Real kinetic_energy(const FluidState& fluid) const;
 
-  /// What holds nothing between two calls of advance() of a solver with grains: room for others
-  /// meanwhile, so that a step takes less memory.
+  /// What holds nothing between two calls of advance() of a solver with grains: scratch memory for
+  /// the coupling and the neighbour list.
   struct Idle {
     FaceVector faces[2];
     std::array<Field, 3> cells;  // for finite values: the solver multiplies some of them with zero
@@ -68,20 +68,23 @@ class FluidSolver {
   Real viscosity() const { return config_.kinematic_viscosity; }
 
  private:
-  void update_eddy_viscosity(const FluidState& fluid);
+  void make_coupled_fields();
+  void begin_step(FluidState& fluid, bool coupled);
+  void update_eddy_viscosity(FluidState& fluid) const;
+  void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
   void choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
-  void project(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  void solve_pressure(FluidState& fluid, bool coupled, Real dt);
+  void correct(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
   template <bool with_grains>
-  void correct(const FluidState& fluid, const ExchangeOnFaces* exchange, Real dt, Real drive_dt);
-  void add_to_report(const PressureReport& solved);
+  void correct_velocity(FluidState& fluid, const FaceVector& implicit, Real dt);
   template <bool with_grains>
   PressureSource<with_grains> pressure_source(const FaceVector& u, const FluidState& fluid,
-                                              Real drive_dt, Real dt) const;
+                                              Real drive, Real dt);
   Real target_bulk_velocity(const FluidState& fluid) const;
 
   FluidConfig config_;
-  SolverConfig solver_;
+  Real tolerance_;  // of the pressure equation
   Grid grid_;
   Boundary boundary_;
   std::shared_ptr<const PlaneFft> fft_;
@@ -89,9 +92,8 @@ class FluidSolver {
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  Real flow_rate_ = 0;       // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
-  Real drive_response_ = 0;  // the same of c_x dy: per unit of drive times dt
-  Real fluid_height_ = 0;    // sum of alpha dy over x-faces [m]
+  Real flow_rate_ = 0;     // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
+  Real fluid_height_ = 0;  // sum of alpha dy over x-faces [m]
   FluidStepReport report_;
 };
 

@@ -156,7 +156,7 @@ std::vector<double> mean_profile(const FluidNumbers& numbers, const Profile& pro
 }
 
 template <class Value>
-void set_owned(const Field& f, const Grid& grid, Value value) {
+void set_owned(Field& f, const Grid& grid, Value value) {
   const auto host = Kokkos::create_mirror_view(f.storage);
   for (int k = 0; k < grid.nz; ++k) {
     for (int j = 0; j < grid.ny; ++j) {

@@ -28,8 +28,9 @@ class LineFft {
   LineFft(const LineFft&) = delete;
   LineFft& operator=(const LineFft&) = delete;
 
-  /// Between real lines and modes (n / 2 + 1, rows, planes). The way back destroys the modes.
-  void forward_x(Real* real, Kokkos::complex<Real>* modes) const;
+  /// Between real lines and modes (n / 2 + 1, rows, planes). The backward transform destroys the
+  /// modes.
+  void forward_x(const Real* real, Kokkos::complex<Real>* modes) const;
   void backward_x(Kokkos::complex<Real>* modes, Real* real) const;
   /// In place.
   void forward_z(Kokkos::complex<Real>* modes) const;

@@ -82,7 +82,7 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
 
 LineFft::~LineFft() = default;
 
-void LineFft::forward_x(Real* real, Kokkos::complex<Real>* modes) const {
+void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
   const Library& library = *library_;
   if (library.x_forward == 0) return;
   for_each_cell("fft: pack", library.cells,

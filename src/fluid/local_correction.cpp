@@ -48,12 +48,12 @@ void LocalCorrection::update(const FaceVector& c) {
   each_column("local: factorise", FactoriseColumn{{grid_, c}, height, pivot_});
 }
 
-void LocalCorrection::relax(const Field& r, const Field& z, bool forward) const {
+void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
   const int colours = places_.colours();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int n = 0; n < colours; ++n) {
       const int colour = forward ? n : colours - 1 - n;
-      share(z);
+      if (grid_.ranks) halo_.fill(z);  // the columns of other ranks
       each_column("local: relax", RelaxColumns{.equations = {grid_, c_},
                                                .places = places_,
                                                .height = heights(height_),
@@ -65,11 +65,7 @@ void LocalCorrection::relax(const Field& r, const Field& z, bool forward) const 
   }
 }
 
-void LocalCorrection::share(const Field& z) const {
-  if (grid_.ranks) halo_.fill(z);
-}
-
-void LocalCorrection::apply(const PoissonFft& poisson, const Field& r, const Field& z) const {
+void LocalCorrection::apply(const PoissonFft& poisson, Field& r, Field& z) {
   each_column("local: clear", ClearColumns{heights(around_), local_});
   relax(r, local_, true);
   halo_.fill(local_);

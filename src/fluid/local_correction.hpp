@@ -19,16 +19,14 @@ class LocalCorrection {
   /// Finds the columns of the mobility c; to be called when c changed.
   void update(const FaceVector& c);
 
-  /// z = M^-1 r; r is as before on return.
-  void apply(const PoissonFft& poisson, const Field& r, const Field& z) const;
+  /// z = M^-1 r; r changes meanwhile and is as before on return.
+  void apply(const PoissonFft& poisson, Field& r, Field& z);
 
  private:
   template <class Functor>
   void each_column(const char* label, const Functor& functor) const;
-  void relax(const Field& r, const Field& z, bool forward) const;
-  /// The columns of other ranks are ghosts: to be filled whenever they may have changed.
-  void share(const Field& z) const;
-  static ColumnHeights heights(const Field& f) { return {f}; }
+  void relax(const Field& r, Field& z, bool forward);
+  static ColumnHeights heights(Field& f) { return {f}; }
 
   Grid grid_;
   Halo halo_;

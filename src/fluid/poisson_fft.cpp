@@ -75,7 +75,7 @@ void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
   Kokkos::deep_copy(columns_.pivot, pivot);
 }
 
-void PoissonFft::solve(const Field& in, const Field& out) const {
+void PoissonFft::solve(const Field& in, Field& out) const {
   fft_->forward(in, columns_.modes);
   const int n_modes = columns_.modes.extent_int(0);
   const int planes = n_modes > 0 ? columns_.modes.extent_int(2) : 0;

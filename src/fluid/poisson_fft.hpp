@@ -19,7 +19,7 @@ class PoissonFft {
   PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass, Real diffusion);
 
   /// in and out may be the same field; ghosts of `out` are left alone.
-  void solve(const Field& in, const Field& out) const;
+  void solve(const Field& in, Field& out) const;
 
  private:
   void factorise(const Grid& grid, Real mass, Real diffusion);

@@ -19,31 +19,22 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       direction_("pressure: direction", grid),
       image_("pressure: image", grid) {}
 
-void PressureSolver::remove_mean(const Field& f) {
+void PressureSolver::remove_mean(Field& f) {
   const Real height = grid_.height_of_all_columns();
   const Real mean = sum_each_cell("pressure: mean", grid_, HeightSum{grid_, f}) / height;
   for_each_cell("pressure: remove mean", grid_, Subtract{f, mean});
 }
 
-void PressureSolver::precondition(const FaceVector& c) {
-  switch (config_.preconditioner) {
-    case Preconditioner::local_fft:
-      local_.apply(poisson_, residual_, z_);
-      break;
-    case Preconditioner::fft:
-      poisson_.solve(residual_, z_);
-      break;
-    case Preconditioner::jacobi:
-      for_each_cell("pressure: scale", grid_, ScaleByDiagonal{grid_, c, residual_, z_});
-      break;
-    case Preconditioner::none:
-      Kokkos::deep_copy(z_.storage, residual_.storage);
-      break;
+/// z = M^-1 r.
+void PressureSolver::precondition() {
+  if (config_.preconditioner == Preconditioner::local_fft) {
+    local_.apply(poisson_, residual_, z_);
+  } else {
+    poisson_.solve(residual_, z_);
   }
 }
 
-PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const Field& p,
-                                     Real tolerance) {
+PressureReport PressureSolver::solve(const FaceVector& c, Field& b, Field& p, Real tolerance) {
   remove_mean(b);
   residual_ = b;
   if (config_.preconditioner == Preconditioner::local_fft) local_.update(c);
@@ -54,7 +45,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const 
   Real rz_before = 0;
   PressureReport report;
   while (rr > enough && report.iterations < config_.max_iterations) {
-    precondition(c);
+    precondition();
     const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
     const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
     for_each_cell("pressure: direction", grid_, NextDirection{z_, direction_, b_factor});
@@ -73,7 +64,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const 
   return report;
 }
 
-PressureReport PressureSolver::solve_uniform(const Field& b, const Field& p) {
+PressureReport PressureSolver::solve_uniform(const Field& b, Field& p) {
   poisson_.solve(b, p);
   halo_.fill(p);
   return {.iterations = 1, .residual = 0};

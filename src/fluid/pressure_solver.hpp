@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-
 #include <memory>
 
 #include "src/config/config.hpp"
@@ -24,19 +23,19 @@ class PressureSolver {
   PressureSolver(const Grid& grid, const Halo& halo, std::shared_ptr<const PlaneFft> fft,
                  const SolverConfig& config);
 
-  /// In: c with periodic ghosts, p the first guess; b is overwritten. Out: p with ghosts in x, z.
-  /// Stops at ||r|| <= tolerance ||b|| or after max_iterations.
-  PressureReport solve(const FaceVector& c, const Field& b, const Field& p, Real tolerance);
+  /// c with periodic ghosts; b is overwritten; p holds the first guess and becomes the solution,
+  /// with ghosts in x and z. Stops at ||r|| <= tolerance ||b|| or after max_iterations.
+  PressureReport solve(const FaceVector& c, Field& b, Field& p, Real tolerance);
 
   /// The same for c = 1, directly; the guess is not used.
-  PressureReport solve_uniform(const Field& b, const Field& p);
+  PressureReport solve_uniform(const Field& b, Field& p);
 
   /// Fields that hold nothing between two solves.
   std::array<Field, 3> idle_fields() const { return {z_, direction_, image_}; }
 
  private:
-  void precondition(const FaceVector& c);
-  void remove_mean(const Field& f);
+  void precondition();
+  void remove_mean(Field& f);
 
   Grid grid_;
   Halo halo_;

@@ -1,4 +1,8 @@
-// Memory of fields that hold nothing just now, for others to use meanwhile.
+// Scratch memory: fields of the flow that hold nothing between two fluid steps serve the coupling
+// and the neighbour list. It saves 117 of 702 bytes a grain in a coupled case. Two rules: who takes
+// a piece writes it before reading it and needs it no more when the owner's next step begins; the
+// owner writes each field before it reads it. Fields that are multiplied with zero somewhere must
+// be left with finite values.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +13,7 @@
 
 namespace barchan {
 
-/// Gives out pieces of some fields, which nobody reads before their owner has written them again.
-/// Fields that follow each other in memory count as one.
+/// Gives out pieces of some fields. Fields that follow each other in memory count as one.
 class ScratchMemory {
  public:
   ScratchMemory() = default;
@@ -38,9 +41,9 @@ class ScratchMemory {
     const std::size_t bytes = (n * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
     for (Block& block : blocks_) {
       if (block.size - block.used < bytes) continue;
-      std::byte* const place = block.begin + block.used;
+      std::byte* const begin = block.begin + block.used;
       block.used += bytes;
-      return Kokkos::View<T*>(reinterpret_cast<T*>(place), n);
+      return Kokkos::View<T*>(reinterpret_cast<T*>(begin), n);
     }
     return {};
   }

@@ -6,6 +6,7 @@
 
 #include "kernels/grains/contact_parts.hpp"
 #include "kernels/grains/grain_motion.hpp"
+#include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/pair_forces.hpp"
 #include "src/parallel/reduce.hpp"
 
@@ -65,122 +66,133 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
       throw std::runtime_error("domain.size: " + std::to_string(distance) +
                                " m between two walls, less than the largest grain is wide");
     }
-    plane_[n_walls_++] = {normal, 0};
-    plane_[n_walls_++] = {-normal, -distance};
+    walls_.plane[walls_.n++] = {normal, 0};
+    walls_.plane[walls_.n++] = {-normal, -distance};
   };
   add_walls({0, 1, 0}, config.size[1]);
   if (config.grains->boundary_x == GrainBoundaryX::wall) add_walls({1, 0, 0}, config.size[0]);
   if (config.grains->boundary_z == GrainBoundaryZ::wall) add_walls({0, 0, 1}, config.size[2]);
   using WallHistory = decltype(grains.wall_xi_t);
   const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
-  const auto n_opposite = static_cast<std::size_t>(n_walls_ / 2);
+  const auto n_opposite = static_cast<std::size_t>(walls_.n / 2);
   grains.wall_xi_t = WallHistory("wall xi_t", n, n_opposite);
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
   if (list_.with_rolling) grains.wall_torque = WallHistory("wall torque", n, n_opposite);
   list_.with_force = config.output.grain_forces;
 }
 
-template <class Stiffness, class Rolling>
-void GrainSolver::sub_step(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
-                           const KickAndDrift& motion, int s, bool last) {
-  const PairForces<Stiffness, Rolling> pairs{
-      .law = law,
-      .rolling = rolling,
-      .friction = pair_friction_,
-      .box = list_.box(),
-      .dt = motion.dt,
-      .validity = {.moved = moved_, .before = place(s), .limit = list_.limit()},
-      .grains = grains.kin,
-      .list = grains.list,
-      .keep_force = list_.with_force && last};
-  const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
-  Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
-  SumKickDrift<Stiffness, Rolling> sum{.motion = motion,
-                                       .pairs = pairs,
-                                       .walls = {.n = n_walls_,
-                                                 .plane = {},
-                                                 .law = std::get<Stiffness>(wall_law_),
-                                                 .rolling = rolling,
-                                                 .friction = wall_friction_,
-                                                 .xi_t = grains.wall_xi_t,
-                                                 .torque = grains.wall_torque,
-                                                 .touching = grains.wall_touching},
-                                       .has_rolling = list_.with_rolling,
-                                       .last = last,
-                                       .largest_margin = list_.largest_margin()};
-  for (int w = 0; w < n_walls_; ++w) sum.walls.plane[w] = plane_[w];
-  Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
-                          items(grains.list.chunks.count()), sum, max_displacement(s + 1));
-}
-
-/// Over ranks, before each sub-step: ghosts where their grains are, or a new list as soon as a
-/// grain of any rank has moved too far for it.
-void GrainSolver::bring_together(GrainState& grains, int s) {
-  const auto at = Kokkos::subview(moved_, place(s));
-  Real moved = 0;
-  Kokkos::deep_copy(moved, at);
-  if (max_over(ranks_, moved) <= list_.limit()) {
-    list_.update_ghosts(grains);
-  } else {
-    list_.rebuild(grains, false);
-    Kokkos::deep_copy(at, Real(0));
-  }
-}
-
-template <class Stiffness, class Rolling>
-void GrainSolver::sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n,
-                            Real dt) {
-  const auto motion = [&] {  // a rebuild may move the arrays
-    return KickAndDrift{.dt = dt,
-                        .grains = grains.kin,
-                        .contact_force = grains.contact_force,
-                        .contact_torque = grains.contact_torque,
-                        .x_reference = grains.x_reference,
-                        .fluid = grains.fluid};
-  };
-  if (moved_.extent_int(0) != ahead_ + 1) {
-    moved_ = Kokkos::View<Real*>("way of the grains", static_cast<std::size_t>(ahead_) + 1);
+/// Before the sub-steps: first half kick and drift.
+void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
+  if (displacement2_.extent_int(0) != ahead_ + 1) {
+    displacement2_ =
+        Kokkos::View<Real*>("squared displacement", static_cast<std::size_t>(ahead_) + 1);
+    host_displacement2_ = Kokkos::create_mirror_view(displacement2_);
   }
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(),
+  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt),
                           max_displacement(0));
-  if (list_.partition()) {
-    for (int s = 0; s < n; ++s) {
-      bring_together(grains, s);
-      sub_step(law, rolling, grains, motion(), s, s + 1 == n);
-    }
-    return;
+}
+
+/// A sub-step: forces at the new positions and second half kick, then, unless it is the last one,
+/// the first half kick and drift of the next one.
+template <class Stiffness, class Rolling>
+void GrainSolver::forces_kick_and_drift(const Stiffness& law, const Rolling& rolling,
+                                        const GrainState& grains, const SubStep& step) {
+  const PairForces<Stiffness, Rolling> pairs{.law = law,
+                                             .rolling = rolling,
+                                             .friction = pair_friction_,
+                                             .box = list_.box(),
+                                             .dt = step.dt,
+                                             .validity = {.displacement2 = displacement2_,
+                                                          .before = element(step.s),
+                                                          .limit = list_.limit()},
+                                             .grains = grains.kin,
+                                             .list = grains.list,
+                                             .keep_force = list_.with_force && step.is_last()};
+  const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
+  Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
+  const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, step.dt),
+                                             .pairs = pairs,
+                                             .walls = {.planes = walls_,
+                                                       .law = std::get<Stiffness>(wall_law_),
+                                                       .rolling = rolling,
+                                                       .friction = wall_friction_,
+                                                       .xi_t = grains.wall_xi_t,
+                                                       .torque = grains.wall_torque,
+                                                       .touching = grains.wall_touching},
+                                             .has_rolling = list_.with_rolling,
+                                             .last = step.is_last(),
+                                             .largest_margin = list_.largest_margin()};
+  Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
+                          items(grains.list.chunks.count()), sum, max_displacement(step.s + 1));
+}
+
+KickAndDrift GrainSolver::motion(const GrainState& grains, Real dt) {
+  return {.dt = dt,
+          .grains = grains.kin,
+          .contact_force = grains.contact_force,
+          .contact_torque = grains.contact_torque,
+          .x_reference = grains.x_reference,
+          .fluid = grains.fluid};
+}
+
+void GrainSolver::rebuild(GrainState& grains, int s) {
+  list_.rebuild(grains, false);
+  Kokkos::deep_copy(Kokkos::subview(displacement2_, element(s)), Real(0));
+}
+
+/// Over ranks, before each sub-step: ghosts to where their grains are, or a new list as soon as a
+/// grain of any rank has moved too far for it.
+void GrainSolver::update_ghosts(GrainState& grains, int s) {
+  Real displacement2 = 0;
+  Kokkos::deep_copy(displacement2, Kokkos::subview(displacement2_, element(s)));
+  if (max_over(ranks_, displacement2) <= list_.limit()) {
+    list_.update_ghosts(grains);
+  } else {
+    rebuild(grains, s);
   }
-  const auto moved = Kokkos::create_mirror_view(moved_);
-  for (int s = 0; s < n;) {
-    const int end = std::min(s + ahead_, n);
-    for (int next = s; next < end; ++next)
-      sub_step(law, rolling, grains, motion(), next, next + 1 == n);
-    Kokkos::deep_copy(moved, moved_);
-    const auto is_stale = [&](int step) { return !(moved(place(step)) <= list_.limit()); };
-    while (s < end && !is_stale(s)) ++s;
-    if (s < n && is_stale(s)) {
-      list_.rebuild(grains, false);
-      Kokkos::deep_copy(Kokkos::subview(moved_, place(s)), Real(0));
-    }
-  }
+}
+
+/// On one rank, from sub-step s: as many as are launched ahead. Returns the first one that the list
+/// no longer covered, after a new list for it.
+template <class Launch>
+int GrainSolver::launch_ahead(GrainState& grains, int s, int n, const Launch& launch) {
+  const int end = std::min(s + ahead_, n);
+  for (int next = s; next < end; ++next) launch(next);
+  Kokkos::deep_copy(host_displacement2_, displacement2_);
+  const auto is_stale = [&](int step) {
+    return !(host_displacement2_(element(step)) <= list_.limit());
+  };
+  while (s < end && !is_stale(s)) ++s;
+  if (s < n && is_stale(s)) rebuild(grains, s);
+  return s;
 }
 
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
   if (n == 0 || (grains.n == 0 && !list_.partition())) return;
-  std::visit([&](const auto& law, const auto& rolling) { sub_steps(law, rolling, grains, n, dt); },
-             pair_law_, rolling_);
+  kick_and_drift(grains, dt);
+  const auto launch = [&](int s) {
+    std::visit(
+        [&](const auto& law, const auto& rolling) {
+          forces_kick_and_drift(law, rolling, grains, {.s = s, .n = n, .dt = dt});
+        },
+        pair_law_, rolling_);
+  };
+  for (int s = 0; s < n;) {
+    if (list_.partition()) {
+      update_ghosts(grains, s);
+      launch(s++);
+    } else {
+      s = launch_ahead(grains, s, n, launch);
+    }
+  }
 }
 
 void GrainSolver::remove_left(GrainState& grains) {
   if (!exit_x_) return;
-  const auto kin = grains.kin;
-  const Real lx = lx_;
   int n_outside = 0;
-  Kokkos::parallel_reduce(
-      "grains: count beyond the outlet", grains.n,
-      KOKKOS_LAMBDA(int g, int& count) { count += kin(g).x.x >= 0 && kin(g).x.x <= lx ? 0 : 1; },
-      n_outside);
+  Kokkos::parallel_reduce("grains: count beyond the outlet", grains.n,
+                          CountBeyondOutlet{grains.kin, lx_}, n_outside);
   if (sum_over(ranks_, std::int64_t{n_outside}) > 0) list_.rebuild(grains, true);
 }
 
@@ -189,33 +201,23 @@ void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Ve
   if (!grains.list.has_force()) {
     throw std::logic_error("the forces of pairs were not kept: set output.grain_forces");
   }
-  SplitContacts split{.box = list_.box(),
-                      .list = grains.list,
-                      .grains = grains.kin,
-                      .contact_force = grains.contact_force,
-                      .wall_touching = grains.wall_touching,
-                      .plane = {},
-                      .normal = normal,
-                      .tangential = tangential};
-  for (int w = 0; w < n_walls_; ++w) split.plane[w] = plane_[w];
-  Kokkos::parallel_for("output: split contacts", grains.list.chunks.count(), split);
+  Kokkos::parallel_for("output: split contacts", grains.list.chunks.count(),
+                       SplitContacts{.box = list_.box(),
+                                     .list = grains.list,
+                                     .grains = grains.kin,
+                                     .contact_force = grains.contact_force,
+                                     .wall_touching = grains.wall_touching,
+                                     .walls = walls_,
+                                     .normal = normal,
+                                     .tangential = tangential});
 }
 
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   ContactSummary summary;
-  const PairList list = grains.list;
-  const auto kin = grains.kin;
-  const PeriodicBox box = list_.box();
-  const int n_owned = grains.n;
   Kokkos::parallel_reduce(
-      "grains: contact summary", list.n_pairs,
-      KOKKOS_LAMBDA(int p, std::int64_t& count, Real& overlap) {
-        if (!list.touching(p) || list.i(p) >= n_owned) return;  // counted where the first one is
-        ++count;
-        const GrainKinematics &a = kin(list.i(p)), &b = kin(list.j(p));
-        const Real relative = 1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r);
-        overlap = relative > overlap ? relative : overlap;
-      },
+      "grains: contact summary", grains.list.n_pairs,
+      ContactsOfPairs{
+          .box = list_.box(), .list = grains.list, .grains = grains.kin, .n_owned = grains.n},
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
   if (summary.n_contacts == 0)
     summary.max_overlap = 0;  // the maximum over nothing is minus infinity

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/rolling_resistance.hpp"
-#include "kernels/grains/wall_contact.hpp"
 #include "src/config/config.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/grains/neighbor_list.hpp"
@@ -47,7 +47,7 @@ class GrainSolver {
   NeighborList& list() { return list_; }
   const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
-  std::span<const Plane> walls() const { return {plane_, static_cast<std::size_t>(n_walls_)}; }
+  const WallPlanes& walls() const { return walls_; }
   std::int64_t rebuilds() const { return list_.rebuilds(); }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.
@@ -55,29 +55,39 @@ class GrainSolver {
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  int place(int step) const { return step % (ahead_ + 1); }
-  /// Reduces into the place of a sub-step, without a wait.
+  /// Sub-step s of n, of dt [s].
+  struct SubStep {
+    int s, n;
+    Real dt;
+    bool is_last() const { return s + 1 == n; }
+  };
+  /// Element of displacement2_ for a sub-step.
+  int element(int step) const { return step % (ahead_ + 1); }
+  /// Reduces into the element of a sub-step, without a wait.
   Kokkos::Max<Real, DeviceMemory> max_displacement(int step) const {
     return Kokkos::Max<Real, DeviceMemory>(
-        Kokkos::View<Real, DeviceMemory>(moved_.data() + place(step)));
+        Kokkos::View<Real, DeviceMemory>(displacement2_.data() + element(step)));
   }
+  void kick_and_drift(const GrainState& grains, Real dt);
   template <class Stiffness, class Rolling>
-  void sub_step(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
-                const KickAndDrift& motion, int s, bool last);
-  template <class Stiffness, class Rolling>
-  void sub_steps(const Stiffness& law, const Rolling& rolling, GrainState& grains, int n, Real dt);
-  void bring_together(GrainState& grains, int s);
+  void forces_kick_and_drift(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
+                             const SubStep& step);
+  static KickAndDrift motion(const GrainState& grains, Real dt);
+  void rebuild(GrainState& grains, int s);
+  void update_ghosts(GrainState& grains, int s);
+  template <class Launch>
+  int launch_ahead(GrainState& grains, int s, int n, const Launch& launch);
 
   MPI_Comm ranks_;
   NeighborList list_;
   StiffnessLaw pair_law_, wall_law_;
   RollingLaw rolling_;
   Friction pair_friction_, wall_friction_;
-  Plane plane_[kMaxWalls];
-  int n_walls_ = 0;
+  WallPlanes walls_;
   int ahead_ = kLargestChunk > 1 ? 1 : 16;
-  Kokkos::View<Real*> moved_;  // largest squared distance from the list's positions [m^2]; in the
-                               // place of a sub-step: as that one begins
+  // Largest squared displacement from the list's positions as a sub-step begins [m^2].
+  Kokkos::View<Real*> displacement2_;
+  Kokkos::View<Real*>::host_mirror_type host_displacement2_;
   bool exit_x_ = false;
   Real lx_ = 0;
 };

@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernels/coupling/interphase.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/grain_motion.hpp"
 #include "src/grains/initial_grains.hpp"
 

@@ -39,11 +39,8 @@ void NeighborList::wrap(GrainState& grains) const {
   const auto kin = grains.kin;
   const PeriodicBox box = box_;
   Kokkos::parallel_for(
-      "neighbors: wrap positions", grains.n, KOKKOS_LAMBDA(int g) {
-        Vec3& x = kin(g).x;
-        if (box.lx > 0) x.x -= box.lx * Kokkos::floor(x.x / box.lx);
-        if (box.lz > 0) x.z -= box.lz * Kokkos::floor(x.z / box.lz);
-      });
+      "neighbors: wrap positions", grains.n,
+      KOKKOS_LAMBDA(int g) { kin(g).x = box.wrap(kin(g).x); });
 }
 
 void NeighborList::sort(GrainState& grains, bool drop) {

@@ -53,7 +53,7 @@ Halo::Halo(const Grid& grid, int n_sums) : grid_(grid) {
   if (grid.ranks->along_z().count > 1) z_ = of_rows(grid.nx + 2, grid.nx);
 }
 
-void Halo::fill(const Field& f) const {
+void Halo::fill(Field& f) const {
   const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz;
   if (!x_.is_cut()) {  // j is the inner index
     for_each_cell("halo: wrap x", CellRange{-1, ny + 1, 0, 1, 0, nz}, WrapX{f, nx});

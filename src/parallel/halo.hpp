@@ -21,7 +21,7 @@ class Halo {
 
   /// Makes the ghosts of `f` in x and z valid, rows -1 and ny and the corners included; the rows
   /// behind the walls are taken as they are. All ranks together.
-  void fill(const Field& f) const;
+  void fill(Field& f) const;
 
   /// The adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies
   /// of, first along x, then along z. Integers, so the order does not matter. Nothing happens where

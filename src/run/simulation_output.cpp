@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernels/grains/grain_sums.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -17,15 +18,9 @@ namespace barchan {
 namespace {
 
 double kinetic_energy(const GrainState& grains) {
-  const auto kin = grains.kin;
   double energy = 0;
-  Kokkos::parallel_reduce(
-      "history: kinetic energy of the grains", grains.n,
-      KOKKOS_LAMBDA(int g, Real& sum) {
-        const GrainKinematics& k = kin(g);
-        sum += (k.m * dot(k.u, k.u) + sphere_inertia(k.m, k.r) * dot(k.omega, k.omega)) / 2;
-      },
-      energy);
+  Kokkos::parallel_reduce("history: kinetic energy of the grains", grains.n,
+                          GrainKineticEnergy{grains.kin}, energy);
   return sum_over(grains.ranks, energy);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/run/initial_state.hpp"
@@ -80,7 +81,7 @@ Real carried_x(const GrainState& grains) {
 /// A field times what was deposited of the implicit coefficient.
 struct InCells {
   GridRef grid;
-  FieldRef values;
+  ConstFieldRef values;
   Deposits deposits;
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
     return values(i, j, k) *
@@ -156,7 +157,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
         "test: scatter", there.n,
         DepositGrain{.stencil = stencil, .of_grain = of_grain, .deposits = deposits});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
-    const Field f("f", grid);
+    Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
       return test::noise(i + grid.i_begin, j, k + grid.k_begin);
     });

@@ -25,7 +25,7 @@ TEST(HaloOverRanks, GhostsAreTheCellsAcross) {
   for (const int along_x : test::shapes(kCells)) {
     SCOPED_TRACE(along_x);
     const SharedGrid grid = awkward(along_x);
-    const Field f("f", grid.mine), whole("f", grid.whole);
+    Field f("f", grid.mine), whole("f", grid.whole);
     grid.set(whole, f, [](int i, int j, int k) { return noise(i, j, k); });
     Halo(grid.mine).fill(f);
     const auto got = test::to_host(f);
@@ -44,7 +44,7 @@ TEST(HaloOverRanks, OneMessageToEachSide) {
     SCOPED_TRACE(along_x);
     const SharedGrid grid = awkward(along_x);
     const Halo halo(grid.mine);
-    const Field f("f", grid.mine);
+    Field f("f", grid.mine);
     const MessageCounts before = message_counts();
     halo.fill(f);
     const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
@@ -60,8 +60,8 @@ TEST(PoissonOverRanks, AsOnOneRank) {
     SCOPED_TRACE(along_x);
     const SharedGrid grid = awkward(along_x);
     for (const double mass : {0.0, 1.0}) {
-      const Field f("f", grid.mine), f_whole("f", grid.whole);
-      const Field phi("phi", grid.mine), phi_whole("phi", grid.whole);
+      Field f("f", grid.mine), f_whole("f", grid.whole);
+      Field phi("phi", grid.mine), phi_whole("phi", grid.whole);
       grid.set(f_whole, f, [](int i, int j, int k) { return noise(i, j, k, 2); });
       PoissonFft(grid.whole, std::make_shared<const PlaneFft>(grid.whole), mass, 1e-5)
           .solve(f_whole, phi_whole);
@@ -88,7 +88,7 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     const SharedGrid grid = awkward(along_x);
     const Boundary here(grid.mine, WallFlow::no_slip, WallFlow::free_slip);
     const Boundary there(grid.whole, WallFlow::no_slip, WallFlow::free_slip);
-    const FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
+    FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
     set_heap(grid, [&](auto share) {
       grid.set(c_whole.x, c.x, share);
       grid.set(c_whole.z, c.z, share);
@@ -96,8 +96,7 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     });
     here.fill_periodic(c);
     there.fill_periodic(c_whole);
-    const Field r("r", grid.mine), z("z", grid.mine), r_whole("r", grid.whole),
-        z_whole("z", grid.whole);
+    Field r("r", grid.mine), z("z", grid.mine), r_whole("r", grid.whole), z_whole("z", grid.whole);
     grid.set(r_whole, r, [](int i, int j, int k) { return noise(i, j, k, 3); });
     LocalCorrection local(grid.mine, here.halo()), local_whole(grid.whole, there.halo());
     const PoissonFft poisson(grid.mine, std::make_shared<const PlaneFft>(grid.mine), 0, 1);

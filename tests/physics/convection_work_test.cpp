@@ -17,7 +17,7 @@ struct WorkOfConvection {
   bool magnitude;
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
     const GridRef& grid = convection.grid;
-    const FaceRef& u = convection.u;
+    const ConstFaceRef& u = convection.u;
     const Real x = u.x(i, j, k) * convection.x(i, j, k) * grid.dy(j);
     const Real y = j > 0 ? u.y(i, j, k) * convection.y(i, j, k) * grid.dy_centre(j) : 0;
     const Real z = u.z(i, j, k) * convection.z(i, j, k) * grid.dy(j);

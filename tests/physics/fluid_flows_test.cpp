@@ -229,7 +229,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   set_turbulent_flow(config, fluid);
   solver.fill_ghosts(fluid);
   EXPECT_NEAR(solver.bulk_velocity(fluid), 0.28, 1e-14);
-  const Field rest("rest", grid);
+  Field rest("rest", grid);
   const double divergence =
       max_each_cell("test", grid,
                     ContinuityResidual<false>{

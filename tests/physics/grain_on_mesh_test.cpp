@@ -136,7 +136,7 @@ struct FaceSums {
 };
 FaceSums face_sums(const FluidState& f) {
   const Grid grid = f.grid;
-  const Field p = f.p, alpha = f.alpha_f, rate = f.rate_previous.x;
+  const ConstFieldRef p = f.p, alpha = f.alpha_f, rate = f.rate_previous.x;
   const double area = grid.dx * grid.dz;
   return {area * sum_each_cell(
                      "test: pressure", grid,

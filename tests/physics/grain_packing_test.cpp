@@ -28,7 +28,7 @@ Real mechanical_energy(const HostGrains& h, Real e_eff, const std::array<double,
   h.for_contacts([&](int p) {
     const GrainKinematics &a = h.kin(h.i(p)), &b = h.kin(h.j(p));
     const Real overlap = a.r + b.r - norm(box.nearest_image(a.x - b.x));
-    sum += elastic(effective(a.r, b.r), std::max(Real(0), overlap));
+    sum += elastic(effective_pair(a.r, b.r, a.m, b.m).r, std::max(Real(0), overlap));
   });
   for (int g = 0; g < h.n; ++g) {
     for (const Real gap : {h.kin(g).x.y, size[1] - h.kin(g).x.y}) {

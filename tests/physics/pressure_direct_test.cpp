@@ -71,8 +71,8 @@ double disagreement(std::array<int, 3> n, unsigned seed, bool drag, Precondition
   const double rho = 1000;
   const Grid grid = test::stretched_grid(n, {0.05, 0.025, 0.036}, 0.5 * 0.025 / n[1]);
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
-  const Field alpha("alpha", grid), b("b", grid), p("p", grid);
-  const FaceVector implicit = test::make_faces(grid), c = test::make_faces(grid);
+  Field alpha("alpha", grid), b("b", grid), p("p", grid);
+  FaceVector implicit = test::make_faces(grid), c = test::make_faces(grid);
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto random = [&](const Field& f, double low, double high) {

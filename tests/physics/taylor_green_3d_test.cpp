@@ -116,7 +116,7 @@ class TaylorGreen {
     advance(dt / 32);
     for (int parts = 32; parts > 1; parts /= 2) advance(dt / parts);
   }
-  Record record(double t) const {
+  Record record(double t) {
     for_each_cell("test", grid_, UpdateEddyViscosity{grid_, fluid_.u, nu_t_, c_w_delta_.data()});
     solver_.boundary().fill(nu_t_, FieldKind::eddy_viscosity);
     const double nu = solver_.viscosity();

@@ -31,7 +31,7 @@ test::HostField wale_rate(const Grid& grid, const Velocity& velocity) {
   fill(u.z, [&](int i, int j, int k) { return velocity(h.x(i), h.y(j), h.z_face(k)).z; });
   const Kokkos::View<Real*> one("one", grid.ny);
   Kokkos::deep_copy(one, Real(1));
-  const Field rate("rate", grid);
+  Field rate("rate", grid);
   for_each_cell("test", grid, UpdateEddyViscosity{grid, u, rate, one.data()});
   return test::to_host(rate);
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernels/grains/contact_force.hpp"
+#include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/sphere.hpp"
 
 namespace barchan {
@@ -48,6 +49,44 @@ Impact head_on(const HertzMindlin& hertz, Real v, Real dt) {
   }
   impact.restitution = -approach / v;
   return impact;
+}
+
+TEST(ContactGeometry, EffectiveRadiusAndMassAreHarmonic) {
+  const EffectivePair equal = effective_pair(1e-4, 1e-4, 3e-9, 3e-9);
+  EXPECT_DOUBLE_EQ(equal.r, 5e-5);
+  EXPECT_DOUBLE_EQ(equal.m, 1.5e-9);
+  const EffectivePair pair = effective_pair(1e-4, 3e-4, 2e-9, 8e-9);
+  EXPECT_NEAR(1 / pair.r, 1 / 1e-4 + 1 / 3e-4, 1e-10);
+  EXPECT_NEAR(1 / pair.m, 1 / 2e-9 + 1 / 8e-9, 1e-5);
+  const EffectivePair beside_a_boulder = effective_pair(1e-4, 1e8, 2e-9, 1e20);
+  EXPECT_NEAR(beside_a_boulder.r / 1e-4, 1, 1e-11);
+  EXPECT_NEAR(beside_a_boulder.m / 2e-9, 1, 1e-11);
+}
+
+TEST(ContactGeometry, OverlapsAcrossTheSeamAndWithAWall) {
+  const PeriodicBox box{.lx = 0.01, .lz = 0};
+  GrainKinematics a, b;
+  a.r = 1e-4, b.r = 3e-4;
+  a.x = {0.0001, 0.002, 0.003}, b.x = {0.0098, 0.002, 0.003};  // 0.3 mm apart through the seam
+  EXPECT_NEAR(relative_overlap(box, a, b), 0.25, 1e-12);
+  EXPECT_NEAR(relative_overlap(PeriodicBox{}, a, b), 1 - 9.7e-3 / 4e-4, 1e-10);
+  const Plane top{.normal = {0, -1, 0}, .offset = -0.00205};
+  EXPECT_NEAR(top.distance(a.x), 5e-5, 1e-15);
+  EXPECT_NEAR(top.overlap(a), 5e-5, 1e-15);
+  EXPECT_LT(top.distance({0, 0.0021, 0}), 0);  // beyond it
+}
+
+TEST(PeriodicBox, WrapsPositionsAlongPeriodicDirectionsOnly) {
+  const PeriodicBox box{.lx = 2, .lz = 0};
+  for (const Real x : {-3.5, 0.5, 2.5, 20.5}) {
+    const Vec3 wrapped = box.wrap({x, -7, 9});
+    EXPECT_EQ(wrapped.x, 0.5);
+    EXPECT_EQ(wrapped.y, -7);
+    EXPECT_EQ(wrapped.z, 9);
+  }
+  EXPECT_EQ(box.nearest_image({1.5, 0, 5}).x, -0.5);
+  EXPECT_EQ(box.nearest_image({-1.5, 0, 5}).x, 0.5);
+  EXPECT_EQ(box.nearest_image({-1.5, 0, 5}).z, 5);
 }
 
 TEST(ContactLaw, EffectiveModuliOfEqualMaterials) {

@@ -55,7 +55,7 @@ TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
 
 struct SolidFraction {
   GridRef grid;
-  FieldRef alpha;
+  ConstFieldRef alpha;
   bool times_volume;
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
     return (1 - alpha(i, j, k)) * (times_volume ? grid.cell_volume(j) : Real(1));

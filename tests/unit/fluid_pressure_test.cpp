@@ -27,7 +27,7 @@ double poisson_error(int n) {
   const auto exact = [&](int i, int j, int k) {
     return std::cos(kx * h.x(i)) * std::cos(ky * h.y(j)) * std::sin(kz * h.z(k));
   };
-  const Field f("f", grid), phi("phi", grid);
+  Field f("f", grid), phi("phi", grid);
   const double factor = kx * kx + ky * ky + kz * kz;
   test::set_field(f, grid, [&](int i, int j, int k) { return factor * exact(i, j, k); });
   PoissonFft(grid, std::make_shared<const PlaneFft>(grid), 0, 1).solve(f, phi);
@@ -52,7 +52,7 @@ TEST(FluidPoisson, InvertsTheOperatorOnAwkwardSizes) {
        {std::array{8, 5, 12}, std::array{9, 4, 7}, std::array{6, 3, 1}, std::array{1, 6, 5}}) {
     const Grid grid = test::stretched_grid(n, {0.4, 0.3, 0.9}, 0.2 / n[1]);
     const Halo halo(grid);
-    const Field f("f", grid), phi("phi", grid);
+    Field f("f", grid), phi("phi", grid);
     test::set_random(f, grid, 3);
     const double mean =
         sum_each_cell("test", grid, HeightSum{grid, f}) / (grid.ly * grid.nx * grid.nz);
@@ -71,7 +71,7 @@ TEST(FluidPoisson, InvertsTheOperatorOnAwkwardSizes) {
 TEST(FluidSmoother, KeepsTheIntegralIsSelfAdjointAndMakesNoNewExtrema) {
   const Grid grid = test::stretched_grid({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02);
   const PoissonFft smoother = make_smoother(grid, std::make_shared<const PlaneFft>(grid), 0.13);
-  const Field a("a", grid), b("b", grid), smooth_a("sa", grid), smooth_b("sb", grid);
+  Field a("a", grid), b("b", grid), smooth_a("sa", grid), smooth_b("sb", grid);
   test::set_random(a, grid, 4);
   test::set_random(b, grid, 5);
   smoother.solve(a, smooth_a);
@@ -97,8 +97,8 @@ FaceVector heap_mobility(const Grid& grid, const Boundary& boundary) {
   const HostGrid h(grid);
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(0.35, 0.5);
-  const Field alpha("alpha", grid);
-  const FaceVector implicit = test::make_faces(grid), c = test::make_faces(grid);
+  Field alpha("alpha", grid);
+  FaceVector implicit = test::make_faces(grid), c = test::make_faces(grid);
   test::set_field(alpha, grid, [&](int i, int j, int k) {
     const double r = std::hypot(h.x(i) - 0.3 * grid.lx, h.z(k) - 0.5 * grid.lz);
     const double noise = uniform(engine);
@@ -126,7 +126,7 @@ TEST(FluidPressure, AgreesWithADirectSparseSolve) {
   const Grid grid = test::stretched_grid({12, 7, 9}, {0.05, 0.025, 0.036}, 1e-3);
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
   const FaceVector c = heap_mobility(grid, boundary);
-  const Field b("b", grid), p("p", grid);
+  Field b("b", grid), p("p", grid);
   test::set_random(b, grid, 8);
   const auto host_b = test::to_host(b);
 
@@ -165,8 +165,7 @@ TEST(FluidPressure, AgreesWithADirectSparseSolve) {
   const Eigen::VectorXd exact =
       Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(rhs);
 
-  for (const Preconditioner kind : {Preconditioner::fft, Preconditioner::local_fft,
-                                    Preconditioner::jacobi, Preconditioner::none}) {
+  for (const Preconditioner kind : {Preconditioner::fft, Preconditioner::local_fft}) {
     SolverConfig config;
     config.preconditioner = kind;
     config.max_iterations = 2000;
@@ -189,7 +188,7 @@ TEST(FluidPressure, IterationsForAHeap) {
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
   const FaceVector c = heap_mobility(grid, boundary);
   const auto iterations = [&](Preconditioner kind) {
-    const Field b("b", grid), p("p", grid);
+    Field b("b", grid), p("p", grid);
     test::set_random(b, grid, 9);
     SolverConfig config;
     config.preconditioner = kind;
@@ -210,7 +209,7 @@ TEST(FluidPressure, LocalPreconditionerIsSelfAdjointOnOddSizes) {
   const PoissonFft poisson(grid, std::make_shared<const PlaneFft>(grid), 0, 1);
   LocalCorrection local(grid, boundary.halo());
   local.update(c);
-  const Field a("a", grid), b("b", grid), ma("ma", grid), mb("mb", grid);
+  Field a("a", grid), b("b", grid), ma("ma", grid), mb("mb", grid);
   test::set_random(a, grid, 14);
   test::set_random(b, grid, 15);
   local.apply(poisson, a, ma);
@@ -223,10 +222,10 @@ TEST(FluidPressure, LocalPreconditionerIsSelfAdjointOnOddSizes) {
 TEST(FluidPressure, UniformMobilityTakesOneIteration) {
   const Grid grid = test::stretched_grid({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02);
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
-  const FaceVector c = test::make_faces(grid);
+  FaceVector c = test::make_faces(grid);
   for (const Field& face : {c.x, c.z}) Kokkos::deep_copy(face.storage, Real(1));
   test::set_field(c.y, grid, [](int, int j, int) { return j > 0 ? 1.0 : 0.0; });
-  const Field b("b", grid), p("p", grid);
+  Field b("b", grid), p("p", grid);
   test::set_random(b, grid, 10);
   PressureSolver solver(grid, boundary.halo(), std::make_shared<const PlaneFft>(grid), {});
   const PressureReport report = solver.solve(c, b, p, 1e-10);

@@ -11,6 +11,13 @@
 namespace barchan {
 namespace {
 
+// What is const can be read, not written.
+static_assert(std::is_convertible_v<Field&, FieldRef>);
+static_assert(std::is_convertible_v<const Field&, ConstFieldRef>);
+static_assert(!std::is_convertible_v<const Field&, FieldRef>);
+static_assert(!std::is_convertible_v<const FaceVector&, FaceRef>);
+static_assert(!std::is_convertible_v<ConstFieldRef, FieldRef>);
+
 using test::HostGrid;
 
 Grid awkward_grid() { return test::stretched_grid({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02); }
@@ -79,7 +86,7 @@ struct StoreFaces {
   Grid grid;
   StressDivergence stress;
   ConvectiveAcceleration convective;
-  FaceVector tau, acceleration;
+  FaceRef tau, acceleration;
   KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
     tau.x(i, j, k) = stress.x(i, j, k);
     tau.y(i, j, k) = stress.y(i, j, k);
@@ -93,8 +100,8 @@ struct StoreFaces {
 TEST(FluidStencil, StressOfAParabolaAndConvectionOfALinearFlow) {
   const Grid grid = awkward_grid();
   const HostGrid h(grid);
-  const FaceVector tau = test::make_faces(grid), acceleration = test::make_faces(grid);
-  const Field nu_t("nu_t", grid);
+  FaceVector tau = test::make_faces(grid), acceleration = test::make_faces(grid);
+  Field nu_t("nu_t", grid);
   Kokkos::deep_copy(nu_t.storage, Real(0.25));
   const Mat3 g{.xx = 1, .xy = -2, .xz = 3, .yx = 4, .yy = -5, .yz = 6, .zx = 7, .zy = 8, .zz = 9};
   const FaceVector u = linear_velocity(grid, g, 0);
@@ -128,7 +135,7 @@ TEST(FluidStencil, StressOfAParabolaAndConvectionOfALinearFlow) {
 /// half cells at the walls belong to the lowest and highest face.
 struct FaceContent {
   Grid grid;
-  Field alpha;
+  ConstFieldRef alpha;
   char axis;
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
     if (axis == 'x') return cell_to_xface(alpha, i, j, k) * grid.dy(j);
@@ -143,7 +150,7 @@ struct FaceContent {
 
 TEST(FluidStencil, FaceMeansKeepTheVolume) {
   const Grid grid = awkward_grid();
-  const Field alpha("alpha", grid);
+  Field alpha("alpha", grid);
   test::set_random(alpha, grid, 1);
   Boundary(grid, WallFlow::no_slip, WallFlow::free_slip).fill(alpha, FieldKind::scalar);
   const double cells = sum_each_cell("test", grid, HeightSum{grid, alpha});
@@ -155,7 +162,7 @@ TEST(FluidStencil, FaceMeansKeepTheVolume) {
 TEST(FluidStencil, GhostsFollowTheTable) {
   const Grid grid = awkward_grid();
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
-  const Field f("f", grid);
+  Field f("f", grid);
   const int ny = grid.ny, nx = grid.nx, nz = grid.nz;
   const auto filled = [&](FieldKind kind) {
     test::set_random(f, grid, 2);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/coupling/interphase.hpp"
+#include "kernels/coupling/gather.hpp"
 #include "tests/support/grain_cases.hpp"
 
 namespace barchan {

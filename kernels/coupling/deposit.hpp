@@ -1,0 +1,212 @@
+// Grain to fluid: volume and momentum of the grains as densities on cells, then on faces; and back
+// to the grains what the implicit drag took. Equations: docs/model.md.
+#pragma once
+
+#include "kernels/coupling/void_fraction.hpp"
+#include "kernels/fluid/stencil.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/sphere.hpp"
+
+namespace barchan {
+
+/// Sums on owned cells in fixed point.
+struct Deposits {
+  static constexpr int kQuantities = 5;  // volume, implicit coefficient, impulse x, y, z
+  Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
+  FixedPoint volume, implicit, impulse;
+};
+
+/// What one grain gives to the fluid in one fluid step.
+struct GrainExchange {
+  Real volume;    // [m^3]
+  Real implicit;  // dt beta + added mass [kg]
+  Vec3 impulse;   // drag and added mass on the grain during the sub-steps [N s]
+};
+
+struct ExchangeOfGrain {
+  Real dt = 0;
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  ExchangeOnGrains exchange;
+
+  KOKKOS_INLINE_FUNCTION GrainExchange operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const Real added_mass = on_grains.added_mass(g);
+    return {.volume = sphere_volume(grain.r),
+            .implicit = dt * on_grains.beta(g) + added_mass,
+            .impulse = on_grains.drag_impulse(g) + dt * exchange.added_mass_force(g) -
+                       added_mass * (grain.u - on_grains.u_start(g))};
+  }
+};
+
+/// What all grains together give: volume [m^3], implicit coefficient [kg], sum of |impulse|
+/// components and the impulse itself [N s].
+struct SumExchange {
+  ExchangeOfGrain of_grain;
+  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& implicit, Real& size, Real& x, Real& y,
+                                  Real& z) const {
+    const GrainExchange e = of_grain(g);
+    volume += e.volume;
+    implicit += e.implicit;
+    size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
+    x += e.impulse.x;
+    y += e.impulse.y;
+    z += e.impulse.z;
+  }
+};
+
+/// Deposits the volume and the exchange of each grain in the cells of its points.
+struct DepositGrain {
+  DepositStencil stencil;
+  ExchangeOfGrain of_grain;
+  Deposits deposits;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainCells cells = stencil(of_grain.grains(g));
+    const GrainExchange e = of_grain(g);
+    for (int q = 0; q < cells.n; ++q) {
+      const Real w = cells.weight(q);
+      const std::int64_t cell = cells.cell[q].linear(stencil.grid);
+      const auto add = [&](int quantity, const FixedPoint& point, Real value) {
+        Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
+      };
+      add(0, deposits.volume, e.volume);
+      add(1, deposits.implicit, e.implicit);
+      add(2, deposits.impulse, e.impulse.x);
+      add(3, deposits.impulse, e.impulse.y);
+      add(4, deposits.impulse, e.impulse.z);
+    }
+  }
+};
+
+/// One quantity of the deposits as a density on cells: sum / cell volume.
+struct DecodeDeposit {
+  GridRef grid;
+  Deposits deposits;
+  FixedPoint point;
+  int quantity = 0;
+  FieldRef density;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
+    density(i, j, k) = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
+  }
+};
+
+/// Drops the volume above the largest solid fraction that CFDEM's void fraction models leave.
+struct LimitSolidFraction {
+  FieldRef solid;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const Real most = 1 - Real(0.1);  // alphaMin of CFDEM: 0.1
+    solid(i, j, k) = Kokkos::min(solid(i, j, k), most);
+  }
+};
+
+/// alpha_f = 1 - solid fraction, which it replaces; adds up the volume of the grains [m^3].
+struct SolidToFluidFraction {
+  GridRef grid;
+  FieldRef alpha;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real solid = alpha(i, j, k);
+    alpha(i, j, k) = 1 - solid;
+    return solid * grid.cell_volume(j);
+  }
+};
+
+/// Shares of a cell's content that go to its lower and upper y-face; nothing goes to the walls.
+struct FaceShares {
+  Real lower, upper;
+};
+KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
+  if (ny == 1) return {0, 0};
+  if (j == 0) return {0, 1};
+  return j == ny - 1 ? FaceShares{1, 0} : FaceShares{Real(0.5), Real(0.5)};
+}
+
+/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
+struct SpreadToFaces {
+  GridRef grid;
+  ConstFieldRef implicit, impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
+  FaceRef a, m;  // impulse and implicit coefficient on faces
+
+  KOKKOS_INLINE_FUNCTION Real on_y_face(const ConstFieldRef& f, int i, int j, int k) const {
+    if (j == 0) return 0;
+    return (f(i, j - 1, k) * grid.dy(j - 1) * y_face_shares(j - 1, grid.ny).upper +
+            f(i, j, k) * grid.dy(j) * y_face_shares(j, grid.ny).lower) /
+           grid.dy_centre(j);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    // The fluid gets the opposite of what the grains got.
+    a.x(i, j, k) = -cell_to_xface(impulse_x, i, j, k);
+    a.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
+    a.z(i, j, k) = -cell_to_zface(impulse_z, i, j, k);
+    m.x(i, j, k) = cell_to_xface(implicit, i, j, k);
+    m.y(i, j, k) = on_y_face(implicit, i, j, k);
+    m.z(i, j, k) = cell_to_zface(implicit, i, j, k);
+  }
+};
+
+/// Integrals over the volumes of the faces of one direction, for the ledger: of the impulse
+/// density, and of what the implicit part took while the velocity changed at the rate du_dt
+/// (nothing on the wall).
+struct FaceVolume {
+  GridRef grid;
+  bool y_faces;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int j) const {
+    return grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j));
+  }
+};
+struct SumImpulse {
+  FaceVolume volume;
+  ConstFieldRef impulse;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return impulse(i, j, k) * volume(j);
+  }
+};
+struct SumImplicit {
+  FaceVolume volume;
+  ConstFieldRef implicit, du_dt;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return volume.y_faces && j == 0 ? 0 : implicit(i, j, k) * du_dt(i, j, k) * volume(j);
+  }
+};
+
+/// Change of the fluid velocity within the step on cells: the adjoint of SpreadToFaces.
+struct VelocityChangeOnCells {
+  GridRef grid;
+  ConstFaceRef du_dt;
+  Real dt = 0;
+  FieldRef x, y, z;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const FaceShares share = y_face_shares(j, grid.ny);
+    x(i, j, k) = dt * (du_dt.x(i, j, k) + du_dt.x(i + 1, j, k)) / 2;
+    y(i, j, k) = dt * (share.lower * du_dt.y(i, j, k) + share.upper * du_dt.y(i, j + 1, k));
+    z(i, j, k) = dt * (du_dt.z(i, j, k) + du_dt.z(i, j, k + 1)) / 2;
+  }
+};
+
+/// What the implicit drag took from the fluid within the step beyond the sub-steps' impulse goes
+/// back to the grains, in the weights it was deposited with. Returns the sum over the grains.
+struct CarryToGrain {
+  DepositStencil stencil;
+  ExchangeOfGrain of_grain;
+  ConstFieldRef x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
+  Kokkos::View<Vec3*> carried_impulse;
+
+  KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {
+    const GrainCells cells = stencil(of_grain.grains(g));
+    Vec3 change;
+    for (int q = 0; q < cells.n; ++q) {
+      const auto [i, j, k] = cells.cell[q];
+      change += cells.weight(q) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
+    }
+    const Vec3 carried = of_grain(g).implicit * change;
+    carried_impulse(g) += carried;
+    sum_x += carried.x;
+    sum_y += carried.y;
+    sum_z += carried.z;
+  }
+};
+
+}  // namespace barchan

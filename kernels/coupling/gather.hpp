@@ -1,0 +1,186 @@
+// Fluid to grain: the forces of the flow on each grain. Equations: docs/model.md.
+#pragma once
+
+#include "kernels/coupling/drag.hpp"
+#include "kernels/fluid/convective_acceleration.hpp"
+#include "kernels/fluid/interpolation.hpp"
+#include "kernels/fluid/momentum.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
+
+namespace barchan {
+
+inline constexpr Real kAddedMassCoefficient = 0.5;  // C_m of a sphere
+
+/// C_m rho V [kg].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_added_mass(Real rho_f, Real volume) {
+  return kAddedMassCoefficient * rho_f * volume;
+}
+
+/// Which forces of the fluid act, as numbers to multiply with.
+struct FluidForces {
+  Real drag = 1, pressure_gradient = 1, stress = 1, added_mass = 1, buoyancy = 1;
+};
+
+/// Fluid force per volume of grain on faces, -grad p + rho f e_x + rho div(2 (nu + nu_t) S) [N/m^3]
+/// (Lima et al. 2022, B9 and B10; Set II: the same stress as in the fluid equation), and the
+/// convective acceleration u . grad u [m/s^2] of the added mass.
+struct FluidForceDensity {
+  GridRef grid;
+  ConstFaceRef u;
+  ConstFieldRef p;
+  StressDivergence stress;
+  Real rho_f = 0, drive = 0;
+  FluidForces forces;
+  FaceRef force, convective;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const Real a = -forces.pressure_gradient, b = rho_f * forces.stress;
+    force.x(i, j, k) = a * (ddx_at_xface(grid, p, i, j, k) - rho_f * drive) + b * stress.x(i, j, k);
+    force.y(i, j, k) = a * ddy_at_yface(grid, p, i, j, k) + b * stress.y(i, j, k);
+    force.z(i, j, k) = a * ddz_at_zface(grid, p, i, j, k) + b * stress.z(i, j, k);
+
+    const ConvectiveAcceleration acceleration{grid, u};
+    convective.x(i, j, k) = acceleration.x(i, j, k);
+    convective.y(i, j, k) = j > 0 ? acceleration.y(i, j, k) : Real(0);
+    convective.z(i, j, k) = acceleration.z(i, j, k);
+  }
+};
+
+/// The force density on the lower wall takes the value of the first face inside.
+struct HoldForceAtWall {
+  FieldRef force_y;
+  int ny;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
+    force_y(i, 0, k) = force_y(i, ny > 1 ? 1 : 0, k);
+  }
+};
+
+/// Bounds of the grains' centres, without a lower one for the height [m].
+struct ExtentOfGrains {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION void operator()(int g, Real& left, Real& right, Real& top, Real& front,
+                                  Real& back) const {
+    const Vec3& x = grains(g).x;
+    left = Kokkos::fmin(left, x.x), right = Kokkos::fmax(right, x.x);
+    top = Kokkos::fmax(top, x.y);
+    front = Kokkos::fmin(front, x.z), back = Kokkos::fmax(back, x.z);
+  }
+};
+
+/// Weight less buoyancy [N].
+struct SubmergedWeight {
+  Vec3 gravity;        // [m/s^2]
+  Real displaced = 0;  // density of what a grain displaces [kg/m^3]; 0: no buoyancy
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const GrainKinematics& grain) const {
+    return (grain.m - displaced * sphere_volume(grain.r)) * gravity;
+  }
+};
+
+/// Share by which a grain's view of the flow follows the flow in one fluid step. The exchange lags
+/// one step, and in a dense bed the pore water resists squeezing with beta/alpha^2 and the inertia
+/// of the water that has to leave, r (1 + C_m r) of the grain's own volume of it, r = (1 -
+/// alpha)/alpha. Where that exceeds the grain's inertia, following without relaxation overshoots
+/// more each time (docs/numerics.md, "Dense beds"). About 1 in dilute flow; the delay vanishes with
+/// the step.
+KOKKOS_INLINE_FUNCTION Real exchange_relaxation(Real inertia, Real displaced_mass, Real beta,
+                                                Real alpha_f, Real dt) {
+  const Real r = (1 - alpha_f) / alpha_f;
+  const Real squeezed = displaced_mass * r * (1 + kAddedMassCoefficient * r);
+  return inertia / (inertia + squeezed + beta * dt / (alpha_f * alpha_f));
+}
+
+/// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step.
+/// The drag coefficient is that of the slip at the start; the drag itself follows the grain.
+template <class DragLaw>
+struct GatherFluid {
+  DragLaw drag;
+  GridRef grid;
+  PeriodicBox box;
+  ConstFaceRef u, force, convective;
+  ConstFieldRef alpha_f;
+  Real rho_f = 0, mu_f = 0, dt = 0;
+  SubmergedWeight weight;
+  FluidForces forces;
+  bool skip_relaxation = false;  // the first step, grains that do not move
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  ExchangeOnGrains exchange;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const PointStencil at(grid, box, grain.x);
+    const Real found = interpolate_cell(alpha_f, at);
+    const Vec3 u_f = interpolate_faces(u, at);
+    const Real volume = sphere_volume(grain.r);
+    const Real added_mass = forces.added_mass * sphere_added_mass(rho_f, volume);
+    const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);
+
+    const Real alpha = found < Real(0.1) ? Real(0.1) : (found > 1 ? Real(1) : found);
+    const LocalFlow flow{.alpha_f = alpha,
+                         .rho_f = rho_f,
+                         .mu_f = mu_f,
+                         .slip = norm(u_f - grain.u),
+                         .d_p = 2 * grain.r};
+    const Real beta = forces.drag * drag(flow);
+    const Real share = skip_relaxation ? Real(1)
+                                       : exchange_relaxation(grain.m + added_mass, rho_f * volume,
+                                                             beta, alpha, dt);
+    on_grains.u_f(g) += share * (u_f - on_grains.u_f(g));
+    exchange.fluid_force(g) +=
+        share * (volume * interpolate_faces(force, at) - exchange.fluid_force(g));
+    const Vec3 paid = share * exchange.carried_impulse(g);
+    exchange.carried_impulse(g) = exchange.carried_impulse(g) - paid;
+
+    on_grains.beta(g) = beta;
+    on_grains.added_mass(g) = added_mass;
+    on_grains.steady_force(g) =
+        weight(grain) + exchange.fluid_force(g) + added_mass_force + (1 / dt) * paid;
+    BeginFluidStep{grains, on_grains}(g);
+    exchange.added_mass_force(g) = added_mass_force;
+  }
+};
+
+/// Still, unbounded fluid around grains without a flow solver: weight, buoyancy, Schiller-Naumann
+/// drag, added mass. Without a fluid the weight alone.
+struct GatherStillFluid {
+  Real rho_f = 0, mu_f = 0;
+  SubmergedWeight weight;
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    on_grains.steady_force(g) = weight(grain);
+    if (on_grains.none) return;
+    const LocalFlow flow{
+        .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};
+    on_grains.u_f(g) = Vec3{};
+    on_grains.beta(g) = SchillerNaumann{}(flow);
+    on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
+    BeginFluidStep{grains, on_grains}(g);
+  }
+};
+
+/// Grains that do not move: the drag impulse of a whole fluid step.
+struct DragOnFrozenGrains {
+  Real dt = 0;
+  FluidOnGrains on_grains;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    on_grains.drag_impulse(g) = (dt * on_grains.beta(g)) * on_grains.u_f(g);
+  }
+};
+
+/// Force of a force density [N/m^3] on each grain now [N]; for output.
+struct FluidForceOnGrain {
+  GridRef grid;
+  PeriodicBox box;
+  ConstFaceRef density;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Vec3*> force;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const PointStencil at(grid, box, grains(g).x);
+    force(g) = sphere_volume(grains(g).r) * interpolate_faces(density, at);
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,47 @@
+// What is added up over the grains for reports.
+#pragma once
+
+#include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/sphere.hpp"
+
+namespace barchan {
+
+/// Number of touching pairs and the largest relative overlap [-]. Pairs whose first grain is a
+/// ghost count on the rank that owns it.
+struct ContactsOfPairs {
+  PeriodicBox box;
+  PairList list;
+  Kokkos::View<const GrainKinematics*> grains;
+  int n_owned;
+
+  KOKKOS_FUNCTION void operator()(int p, std::int64_t& count, Real& overlap) const {
+    if (!list.touching(p) || list.i(p) >= n_owned) return;
+    ++count;
+    const Real relative = relative_overlap(box, grains(list.i(p)), grains(list.j(p)));
+    overlap = relative > overlap ? relative : overlap;
+  }
+};
+
+/// Kinetic energy of translation and rotation, (m |u|^2 + I |omega|^2) / 2 [J].
+struct GrainKineticEnergy {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION void operator()(int g, Real& sum) const {
+    const GrainKinematics& k = grains(g);
+    sum += (k.m * dot(k.u, k.u) + sphere_inertia(k.m, k.r) * dot(k.omega, k.omega)) / 2;
+  }
+};
+
+/// Outside 0 .. lx along the flow, or nowhere.
+KOKKOS_FORCEINLINE_FUNCTION bool is_beyond_outlet(const Vec3& x, Real lx) {
+  return !(x.x >= 0 && x.x <= lx);
+}
+
+struct CountBeyondOutlet {
+  Kokkos::View<const GrainKinematics*> grains;
+  Real lx;  // [m]
+  KOKKOS_FUNCTION void operator()(int g, int& count) const {
+    count += is_beyond_outlet(grains(g).x, lx) ? 1 : 0;
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,144 @@
+// Columns for the neighbour search: grains are binned in x-z columns and sorted by height inside a
+// column, so only columns that hold grains exist and empty water costs nothing. Columns are
+// numbered along a Morton curve, so that grains of near rows are near in space.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/grains/grain.hpp"
+
+namespace barchan {
+
+/// Bits of a 16-bit number moved to the even places, and back.
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t spread_bits(std::uint32_t a) {
+  a = (a | (a << 8)) & 0x00ff00ffu;
+  a = (a | (a << 4)) & 0x0f0f0f0fu;
+  a = (a | (a << 2)) & 0x33333333u;
+  return (a | (a << 1)) & 0x55555555u;
+}
+KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t gather_bits(std::uint32_t a) {
+  a &= 0x55555555u;
+  a = (a | (a >> 1)) & 0x33333333u;
+  a = (a | (a >> 2)) & 0x0f0f0f0fu;
+  a = (a | (a >> 4)) & 0x00ff00ffu;
+  return (a | (a >> 8)) & 0x0000ffffu;
+}
+
+/// Columns along one direction, at most.
+inline constexpr int kMaxColumns = 65535;
+
+/// The x-z columns of the domain, each at least one cutoff wide. Their numbers begin with that of
+/// the column at `origin`, those before it follow at the end: the columns of a rank, a piece of the
+/// Morton curve from `origin` on, come before those of others.
+struct SearchColumns {
+  int nx = 1, nz = 1;
+  Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
+  Real height = 0;                                // scale of the y part of the key [m]
+  bool periodic_x = false, periodic_z = false;
+  std::uint32_t origin = 0;  // place on the Morton curve
+
+  KOKKOS_FUNCTION static int clamp(int a, int n) { return a < 0 ? 0 : (a >= n ? n - 1 : a); }
+
+  /// Place of a position on the Morton curve.
+  KOKKOS_FUNCTION std::uint32_t place_of(const Vec3& x) const {
+    const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
+    const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);
+    return code_of(ix, iz);
+  }
+  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const { return place_of(x) - origin; }
+  KOKKOS_FUNCTION static std::uint32_t code_of(int ix, int iz) {
+    return (spread_bits(static_cast<std::uint32_t>(ix)) << 1) |
+           spread_bits(static_cast<std::uint32_t>(iz));
+  }
+  /// Sort key: column, then height. The largest key is kept for grains to be dropped.
+  KOKKOS_FUNCTION std::uint64_t key_of(const Vec3& x) const {
+    Real level = (x.y / height + 1) / 3;  // heights of -1 .. 2 domain heights
+    level = level < 0 ? 0 : (level > 1 ? 1 : level);
+    const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
+    return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
+  }
+  /// Column at an offset of (dx, dz) columns; false outside the domain.
+  KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
+    const std::uint32_t place = column + origin;
+    int ix = static_cast<int>(gather_bits(place >> 1)) + dx;
+    int iz = static_cast<int>(gather_bits(place)) + dz;
+    if (periodic_x) ix = (ix + nx) % nx;
+    if (periodic_z) iz = (iz + nz) % nz;
+    if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
+    result = code_of(ix, iz) - origin;
+    return true;
+  }
+};
+
+inline constexpr std::uint64_t kDroppedKey = ~std::uint64_t{0};
+inline constexpr int kForwardColumns = 4;  // half of the eight columns around one
+
+/// The columns that hold grains, in key order.
+struct OccupiedColumns {
+  int n = 0;
+  Kokkos::View<std::uint32_t*> id;               // (n) ascending
+  Kokkos::View<int*> start;                      // (n + 1) first grain of each
+  Kokkos::View<int*> of_grain;                   // (grains) occupied column of each grain
+  Kokkos::View<int* [kForwardColumns]> forward;  // (n) occupied column or -1
+
+  /// Position of a column id in `id`, or -1.
+  KOKKOS_FUNCTION int find(std::uint32_t column) const {
+    int low = 0, high = n;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (id(middle) < column) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low < n && id(low) == column ? low : -1;
+  }
+};
+
+/// Numbers the occupied columns along grains in key order: `of_grain`, and how many there are.
+struct NumberColumns {
+  SearchColumns columns;
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool opens(int g) const {
+    return g == 0 || columns.column_of(grains(g).x) != columns.column_of(grains(g - 1).x);
+  }
+  KOKKOS_FUNCTION void operator()(int g, int& count, bool final) const {
+    count += opens(g) ? 1 : 0;
+    if (final) occupied.of_grain(g) = count - 1;
+  }
+};
+
+/// Fills `id` and `start` but for its last entry.
+struct StartColumns {
+  SearchColumns columns;
+  Kokkos::View<const GrainKinematics*> grains;
+  OccupiedColumns occupied;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const int c = occupied.of_grain(g);
+    if (g > 0 && occupied.of_grain(g - 1) == c) return;
+    occupied.id(c) = columns.column_of(grains(g).x);
+    occupied.start(c) = g;
+  }
+};
+
+/// Fills `forward`: half of the neighbouring columns, so that each pair is met once.
+struct LinkColumns {
+  SearchColumns columns;
+  OccupiedColumns occupied;
+
+  KOKKOS_FUNCTION void operator()(int c) const {
+    const int dx[kForwardColumns] = {0, 1, 1, 1};
+    const int dz[kForwardColumns] = {1, -1, 0, 1};
+    for (int m = 0; m < kForwardColumns; ++m) {
+      std::uint32_t other = 0;
+      const bool exists = columns.neighbor(occupied.id(c), dx[m], dz[m], other);
+      occupied.forward(c, m) = exists ? occupied.find(other) : -1;
+    }
+  }
+};
+
+}  // namespace barchan

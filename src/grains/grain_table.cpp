@@ -1,0 +1,239 @@
+// Initial grains from a CSV table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "src/base/printable.hpp"
+#include "src/config/section.hpp"
+#include "src/grains/grain_files.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr std::array<std::string_view, 11> columns{"id", "diameter", "x",  "y",  "z", "vx",
+                                                   "vy", "vz",       "wx", "wy", "wz"};
+constexpr std::size_t n_required = 5;
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Takes the text up to the next separator off `rest`.
+std::string_view take(std::string_view& rest, char separator) {
+  const auto end = rest.find(separator);
+  const auto part = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  return part;
+}
+
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, std::string_view file_name) : rest_(text), name_(file_name) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  }
+
+  InitialGrains read() {
+    check_text();
+    if (!next_line()) {
+      fail(std::max<std::size_t>(line_number_, 1),
+           "it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
+    }
+    read_header();
+    // Lines are about this long at least: fewer reallocations.
+    reserve(rest_.size() / 40);
+    while (next_line()) read_row();
+    if (grains_.size() == 0) fail("it has a header but no grains");
+    check_ids();
+    return std::move(grains_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { fail(line_number_, what); }
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
+  }
+
+  /// The next line that holds something; false at the end.
+  bool next_line() {
+    while (!rest_.empty()) {
+      ++line_number_;
+      line_ = trimmed(take(rest_, '\n'));
+      if (!line_.empty() && line_.front() != '#') return true;
+    }
+    return false;
+  }
+
+  void reserve(std::size_t n) {
+    grains_.id.reserve(n);
+    grains_.diameter.reserve(n);
+    grains_.x.reserve(n);
+    grains_.u.reserve(n);
+    grains_.omega.reserve(n);
+    lines_.reserve(n);
+  }
+
+  /// Before lines are looked for: there may be none.
+  void check_text() {
+    const std::string_view start = rest_.substr(0, 4096);
+    line_number_ = 1;
+    if (start.starts_with("\x89HDF")) fail("it is an HDF5 file; give its name the ending .h5");
+    if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) {
+      fail("it is UTF-16 text; save it as UTF-8");
+    }
+    if (start.substr(0, start.find('\n')).find_first_of(std::string_view("\0\1\2\3\4", 5)) !=
+        start.npos) {
+      fail(
+          "it is not text but bytes of another kind; needed is a table with the header "
+          "id,diameter,x,y,z");
+    }
+    if (start.find('\r') != start.npos && start.find('\n') == start.npos) {
+      fail("its line ends are carriage returns alone; save it with newlines");
+    }
+    line_number_ = 0;
+  }
+
+  /// What else the values may be separated by; empty if it is commas.
+  std::string other_separator() const {
+    for (const auto& [mark, name] :
+         {std::pair{';', "semicolons"}, {'\t', "tabs"}, {' ', "spaces"}}) {
+      const bool there = std::count(line_.begin(), line_.end(), mark) >= 2;
+      if (there && line_.find(',') == line_.npos) return name;
+    }
+    return {};
+  }
+
+  void read_header() {
+    constexpr const char* needed = "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz";
+    if (const std::string marks = other_separator(); !marks.empty()) {
+      fail(fmt::format("values are separated by {}; write commas, and decimals with a point",
+                       marks));
+    }
+    if (line_.find_first_of("\"'") != line_.npos) fail("titles stand without quotes");
+    const bool any_letter = std::any_of(line_.begin(), line_.end(), [](unsigned char c) {
+      return std::isalpha(c) != 0 && c != 'e' && c != 'E';
+    });
+    if (!any_letter) fail(fmt::format("the header is missing; {}", needed));
+    std::string_view rest = line_;
+    for (bool more = true; more;) {
+      more = rest.find(',') != rest.npos;
+      const auto title = trimmed(take(rest, ','));
+      if (title.empty()) fail(fmt::format("column {} has no name", order_.size() + 1));
+      const auto found = std::find(columns.begin(), columns.end(), title);
+      if (found == columns.end()) {
+        fail(fmt::format("unknown column \"{}\" in the header{}; {}", printable(title, 60),
+                         suggestion(title), needed));
+      }
+      const auto column = static_cast<std::size_t>(found - columns.begin());
+      if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
+        fail(fmt::format("column \"{}\" appears twice", title));
+      }
+      order_.push_back(column);
+    }
+    for (std::size_t column = 0; column < n_required; ++column) {
+      if (std::find(order_.begin(), order_.end(), column) == order_.end()) {
+        fail(
+            fmt::format("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]));
+      }
+    }
+  }
+
+  /// The column that a title in capitals, with its unit or misspelt was meant for.
+  static std::string suggestion(std::string_view title) {
+    const std::vector<std::string> names(columns.begin(), columns.end());
+    const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
+    std::string close = nearest(word, names);
+    if (word == "radius" || word == "r" || word == "d") close = "diameter";
+    return close.empty() ? close : fmt::format(" (did you mean \"{}\"?)", close);
+  }
+
+  void read_row() {
+    std::array<double, columns.size()> value{};
+    std::int64_t id = 0;
+    std::string_view rest = line_;
+    std::size_t n_fields = 0;
+    for (bool more = true; more; ++n_fields) {
+      more = rest.find(',') != std::string_view::npos;
+      const auto field = trimmed(take(rest, ','));
+      if (n_fields >= order_.size()) continue;
+      const auto column = order_[n_fields];
+      if (column == 0) {
+        id = number<std::int64_t>(field, column);
+      } else {
+        value[column] = number<double>(field, column);
+      }
+    }
+    if (n_fields != order_.size()) {
+      const bool twice = n_fields >= 2 * order_.size() - 1;  // ids are whole
+      fail(fmt::format("{} values, but the header has {} columns{}", n_fields, order_.size(),
+                       twice ? "; are there decimal commas? Decimals need a point" : ""));
+    }
+    if (value[1] <= 0) fail(fmt::format("diameter = {}: must be above 0", value[1]));
+    lines_.push_back(line_number_);
+    grains_.id.push_back(id);
+    grains_.diameter.push_back(value[1]);
+    grains_.x.push_back({value[2], value[3], value[4]});
+    grains_.u.push_back({value[5], value[6], value[7]});
+    grains_.omega.push_back({value[8], value[9], value[10]});
+  }
+
+  template <class T>
+  T number(std::string_view field, std::size_t column) const {
+    T value{};
+    if (field.starts_with('+')) field.remove_prefix(1);  // from_chars knows no plus sign
+    const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error == std::errc::result_out_of_range && std::is_integral_v<T>) {
+      fail(fmt::format("{} = {}: must be at most {}", columns[column], printable(field, 60),
+                       std::numeric_limits<std::int64_t>::max()));
+    }
+    if (error != std::errc() || stop != field.data() + field.size()) {
+      fail(fmt::format("{} = \"{}\": must be {}{}", columns[column], printable(field, 60),
+                       std::is_integral_v<T> ? "a whole number" : "a number",
+                       field.find_first_of("\"'") != field.npos ? ", without quotes" : ""));
+    }
+    if constexpr (!std::is_integral_v<T>) {
+      if (!std::isfinite(value)) {
+        fail(fmt::format("{} = {}: must be finite", columns[column], field));
+      }
+    }
+    return value;
+  }
+
+  void check_ids() const {
+    std::unordered_map<std::int64_t, std::size_t> first_line;
+    first_line.reserve(grains_.size());
+    for (std::size_t p = 0; p < grains_.size(); ++p) {
+      const auto [earlier, is_new] = first_line.emplace(grains_.id[p], lines_[p]);
+      if (!is_new) {
+        fail(lines_[p],
+             fmt::format("id {} was used before, in line {}", grains_.id[p], earlier->second));
+      }
+    }
+  }
+
+  std::string_view rest_, name_, line_;
+  std::size_t line_number_ = 0;
+  std::vector<std::size_t> order_;  // column of each field of a row
+  std::vector<std::size_t> lines_;  // line of each grain
+  InitialGrains grains_;
+};
+
+}  // namespace
+
+InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name) {
+  return CsvReader(text, file_name).read();
+}
+
+}  // namespace barchan
