@@ -73,7 +73,7 @@ class CoupledStep {
   /// Those that hold nothing between two steps; see FluidSolver::Idle.
   std::vector<Field> scratch_fields() const { return fluid_->idle().for_anything(); }
   /// After the flow was set by hand.
-  void fill_ghosts(const SystemState& state) const { fluid_->fill_ghosts(*state.fluid); }
+  void fill_ghosts(SystemState& state) const { fluid_->fill_ghosts(*state.fluid); }
 
   /// Of a state with grains.
   ContactSummary contacts(const SystemState& s) const { return grains_->contacts(*s.grains); }

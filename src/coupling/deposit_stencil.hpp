@@ -3,6 +3,7 @@
 
 #include "kernels/coupling/void_fraction.hpp"
 #include "src/config/config.hpp"
+#include "src/parallel/grid.hpp"
 
 namespace barchan {
 

@@ -55,11 +55,12 @@ Halo::Halo(const Grid& grid, int n_sums) : grid_(grid) {
 
 void Halo::fill(Field& f) const {
   const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz;
+  const FieldRef cell = f;
   if (!x_.is_cut()) {  // j is the inner index
     for_each_cell("halo: wrap x", CellRange{-1, ny + 1, 0, 1, 0, nz}, WrapX{f, nx});
   } else {
     const BoxShape plane{.n = {ny + 2, 1, nz}, .stride = {f.stride_y, 0, f.stride_z}};
-    const auto at = [&](int i) { return &f(i, -1, 0); };
+    const auto at = [&](int i) { return &cell(i, -1, 0); };
     exchange_planes<BoxCopy::unpack>(grid_.ranks->along_x(), x_, plane,
                                      Planes<Real>{at(0), at(nx - 1)}, Planes<Real>{at(-1), at(nx)});
   }
@@ -67,7 +68,7 @@ void Halo::fill(Field& f) const {
     for_each_cell("halo: wrap z", CellRange{-1, nx + 1, -1, ny + 1, 0, 1}, WrapZ{f, nz});
   } else {
     const BoxShape plane{.n = {nx + 2, ny + 2, 1}, .stride = {1, f.stride_y, 0}};
-    const auto at = [&](int k) { return &f(-1, -1, k); };
+    const auto at = [&](int k) { return &cell(-1, -1, k); };
     exchange_planes<BoxCopy::unpack>(grid_.ranks->along_z(), z_, plane,
                                      Planes<Real>{at(0), at(nz - 1)}, Planes<Real>{at(-1), at(nz)});
   }
