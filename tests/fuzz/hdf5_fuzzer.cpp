@@ -1,6 +1,5 @@
 // Bytes as an HDF5 file.
-#include "tests/fuzz/fuzzed.hpp"
-#include "tests/fuzz/hdf5_readers.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barchan;

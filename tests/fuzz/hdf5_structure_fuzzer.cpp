@@ -4,9 +4,7 @@
 #include <string>
 
 #include "src/io/seal.hpp"
-#include "tests/fuzz/hdf5_edits.hpp"
-#include "tests/fuzz/hdf5_readers.hpp"
-#include "tests/fuzz/valid_files.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
 namespace {
 
