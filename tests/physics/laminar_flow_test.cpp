@@ -75,7 +75,7 @@ TEST(FluidLaminar, HalfChannelDriveShearAndProfileAreSecondOrder) {
   expect_order("half channel, profile", coarse.profile, fine.profile, 2, 0.15);
   expect_below("half channel, drive, 24 rows", fine.drive, 2e-3);
   expect_below("half channel, friction velocity, 24 rows", fine.friction, 2e-3);
-  expect_below("half channel, profile over U, 24 rows", fine.profile, 4e-3);
+  expect_below("half channel, profile over U, 24 rows", fine.profile, 1e-3);
 }
 
 /// u = sin(pi y / h) exp(-nu pi^2 t / h^2) between two walls at rest; shear nu pi / h at the walls.
