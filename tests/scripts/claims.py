@@ -6,11 +6,12 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
-NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script\.\w+)`")
+NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script(?:\.nightly)?\.\w+)`")
 
 
 def main():
     tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")} | {"script.parallel_files"}
+    tests |= {f"script.nightly.{path.stem}" for path in ROOT.glob("tests/scripts/nightly/*")}
     for source in ROOT.glob("tests/*/*.cpp"):
         tests |= {".".join(found) for found in DECLARED.findall(source.read_text())}
     text = (ROOT / "docs/validation.md").read_text()
