@@ -14,9 +14,7 @@ def line(name, command, says, **more):
 
 COMMAND_LINE = [
     line("no command", "''", "unknown command | run, check, info"),
-    line("an unknown option", "run case.toml --outt out", "--outt | did you mean --out?"),
     line("--ranks to the program", RUN + " --ranks 2", "--ranks | mpirun"),
-    line("--set without an equals sign", SET + "grains.density", "--set grains.density | key=value"),
     line("--set of a section", SET + "grains=3", "--set grains | must be a section, [grains]"),
     line("--set below a value", SET + "time.end.s=3", '--set time.end.s | "time.end" is not a section'),
     line("--set 60000 parts deep", SET + ".".join(["a"] * 60_000) + "=1", "--set a.a.a | unknown key"),
@@ -25,7 +23,6 @@ COMMAND_LINE = [
          env={"OMP_NUM_THREADS": "many", "OMP_THREAD_LIMIT": "1"}),
     line("KOKKOS_NUM_THREADS of rubbish", RUN, "KOKKOS_NUM_THREADS | many | --threads", env={"KOKKOS_NUM_THREADS": "many"}),
     line("a locale that is not there", RUN, "", edits=SHORT, env={"LC_ALL": "xx_XX.UTF-9"}, code=0),
-    line("--help", "run --help", "--restart", code=0),
     line("--dry-run writes nothing", RUN + " --dry-run", "nothing was run", code=0),
 ]
 
@@ -92,7 +89,6 @@ SCRIPTS = [
     launcher("run case.toml --ranks=-2", "--ranks needs a number | -2"),
     launcher("plot", "needs a run folder"),
     study("not TOML", "[study\n", "study.toml | not TOML | line 1"),
-    study("a case for a study", DUNE, "study.toml | case"),
     study("base missing", STUDY.replace("case.toml", "gone.toml") + VARY, "gone.toml | No such file"),
     study("no cases", STUDY, "study.toml | no cases | [vary]"),
     study("a value, not a list", STUDY + "[vary]\ngrains.rolling_friction = 0.1\n", "must be a list"),
@@ -102,10 +98,8 @@ SCRIPTS = [
           "grains.density has no value in the base case"),
     study("misspelt key set", STUDY + "[set]\ngrains.restitutoin = 0.2\n" + VARY, 'did you mean "restitution"'),
     study("value out of range", STUDY + "[vary]\ngrains.restitution = [7.0]\n", "grains.restitution"),
-    study("misspelt key varied", STUDY + "[grid]\ngrains.rolling_frictoin = [0.1]\n", 'did you mean "rolling_friction"'),
     study("a million million cases", STUDY + "[grid]\n" + "".join(f"grains.k{n} = {list(range(100))}\n" for n in range(6)),
           "[grid] makes 1000000000000 cases | fewer"),
-    plot("unknown figure", "out topvews", 'no figure "topvews" | did you mean "topviews"'),
     plot("a time that is none", "out horns --time soon", "--time | soon"),
     plot("broken grains.h5", "out topviews", "grains.h5", grains_h5="hello\n"),
     plot("broken study.json", "out", "study.json", study_json="{"),
