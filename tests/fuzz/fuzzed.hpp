@@ -38,18 +38,6 @@ inline void demand(bool holds, std::string_view property, std::string_view detai
   if (!holds) violated(property, detail);
 }
 
-/// A library that is not instrumented: what it complains of stands for the places it has been to.
-inline void mark(std::size_t place) {
-#ifdef BARCHAN_LIBFUZZER
-  constexpr std::size_t n = 1 << 13;
-  __attribute__((used, section("__libfuzzer_extra_counters"))) static std::uint8_t counters[n];
-  auto& counter = counters[place % n];
-  if (counter < 255) ++counter;
-#else
-  static_cast<void>(place);
-#endif
-}
-
 /// True if the call returns. It may refuse by a `Refusal` with a sentence for the user; any other
 /// exception (an allocation that failed, an index out of range) means that something was believed
 /// unchecked.

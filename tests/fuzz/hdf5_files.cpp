@@ -1,7 +1,6 @@
 #include "tests/fuzz/hdf5_files.hpp"
 
 #include <fstream>
-#include <functional>
 #include <numeric>
 #include <string_view>
 #include <vector>
@@ -9,7 +8,6 @@
 #include "src/grains/grain_files.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/io/hdf5_handle.hpp"
 #include "src/run/info.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -34,15 +32,6 @@ constexpr StateArray state_arrays[] = {
     {"fluid/u_x", false, 0},          {"fluid/p", false, 0}};
 constexpr const char* state_numbers[] = {"grains/r_max", "grains/r_min", "fluid/time", "t"};
 constexpr const char* state_integers[] = {"step", "grains/n_initial", "grains/n_left"};
-
-herr_t mark_complaint(unsigned, const H5E_error2_t* entry, void*) {
-  mark(std::hash<std::string_view>{}(entry->func_name) + std::size_t{31} * entry->line);
-  return 0;
-}
-herr_t mark_complaints(hid_t stack, void*) {
-  H5Ewalk2(stack, H5E_WALK_DOWNWARD, mark_complaint, nullptr);
-  return 0;
-}
 
 /// Every array below a group, as the type it says it has; `depth` against links in circles.
 void read_arrays(const Hdf5File& file, const std::string& group, int depth) {
@@ -127,15 +116,6 @@ void write_input(const fs::path& file, const void* data, std::size_t size) {
   stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
   stream.close();
   demand(stream.good(), "the input is on the disk");
-}
-
-void watch_library() {
-  static const bool watched = [] {
-    hdf5::start_library();
-    H5Eset_auto2(H5E_DEFAULT, mark_complaints, nullptr);
-    return true;
-  }();
-  static_cast<void>(watched);
 }
 
 void read_as_everything(const fs::path& file) {

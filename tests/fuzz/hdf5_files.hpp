@@ -20,8 +20,6 @@ std::filesystem::path write_frames(const std::filesystem::path& folder);
 /// Applies edits until the tape is empty: what the library refuses to do is skipped.
 void edit(const std::filesystem::path& file, Tape tape);
 
-/// Lets the library's complaints guide the fuzzer, as the library itself is not instrumented.
-void watch_library();
 /// Reads the file as grains to start from, as results, as a restart file, and describes it.
 void read_as_everything(const std::filesystem::path& file);
 

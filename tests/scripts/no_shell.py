@@ -19,7 +19,8 @@ STARTERS = {"subprocess." + name for name in ("run", "Popen", "call", "check_cal
 # In C++ nothing starts a program: what runs over ranks, draws or sweeps is started by the launcher.
 CPP = re.compile(r"\b(system|popen|wordexp|exec[lv]p?e?|posix_spawnp?) *\(")
 # `eval`, and a text for `sh -c` into which something is expanded; "\$@" and '...' are for the inner shell.
-SHELL = re.compile(r"""(^|[;&|(] *|\b(then|do|else) +)eval\b|\b(ba|da)?sh +(-[a-z]+ +)*-[a-z]*c +([^ '"]|"([^"\\$`]|\\.)*[$`])""")
+SHELL = re.compile(r"""(^|[;&|(] *|\b(then|do|else) +)eval\b|"""
+                   r"""\b(ba|da)?sh +(-[a-z]+ +)*-[a-z]*c +([^ '"]|"([^"\\$`]|\\.)*[$`])""")
 
 
 def files(folders, *ends):
@@ -43,26 +44,30 @@ def findings(node):
         yield f"{name} is not allowed"
     if name in STARTERS and node.args and isinstance(node.args[0], (ast.Constant, ast.JoinedStr, ast.BinOp)):
         yield f"{name} of a text: give a list of arguments"
-    if any(k.arg == "shell" and not (isinstance(k.value, ast.Constant) and k.value.value is False) for k in node.keywords):
+    if any(k.arg == "shell" and getattr(k.value, "value", True) is not False for k in node.keywords):
         yield "shell= is not allowed"
 
 
 def main():
     found = []
-    sources, pythons = files(("kernels", "src", "perf", "tests"), ".hpp", ".cpp"), files(("analysis", "scripts", "perf", "tests"), ".py")
+    sources = files(("kernels", "src", "perf", "tests"), ".hpp", ".cpp")
+    pythons = files(("analysis", "scripts", "perf", "tests"), ".py")
     shells = [*files(("scripts", "tests", ".ci"), ".sh"), ROOT / "barchan"]
     for paths, pattern in ((sources, CPP), (shells, SHELL)):
         for path in paths:
-            found += [f"{path}:{n}: {line}" for n, line in enumerate(path.read_text().splitlines(), 1) if pattern.search(line)]
+            lines = enumerate(path.read_text().splitlines(), 1)
+            found += [f"{path}:{n}: {line}" for n, line in lines if pattern.search(line)]
     for path in pythons:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))):
             found += [f"{path}:{node.lineno}: {text}" for text in findings(node)]
     if shutil.which("shellcheck"):
-        done = subprocess.run(["shellcheck", *(str(path.relative_to(ROOT)) for path in shells)], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+        names = [str(path.relative_to(ROOT)) for path in shells]
+        done = subprocess.run(["shellcheck", *names], cwd=ROOT, stdout=subprocess.PIPE, text=True)
         found += [done.stdout] if done.returncode != 0 else []
     else:
         print("no shellcheck: scripts not looked at")
-    print(*found, f"{len(sources)} C++, {len(pythons)} Python and {len(shells)} shell files, {len(found)} problems", sep="\n")
+    print(*found, sep="\n")
+    print(f"{len(sources)} C++, {len(pythons)} Python and {len(shells)} shell files, {len(found)} problems")
     return 1 if found else 0
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""As many fluid steps as a day on two cores gives the paper's dune (BARCHAN_SOAK_STEPS: 80,000, of 100 grain steps) with a heap small enough for minutes, in one go and, beside it, in pieces that end by a
-signal, a kill or the wall-clock limit and go on from restart files. Both must end with the same bits;
-memory stays flat, the ledger closes and no grain is lost."""
+"""As many fluid steps as a day on two cores gives the paper's dune (BARCHAN_SOAK_STEPS: 80,000, of 100 grain steps each)
+with a heap small enough for minutes, in one go and, beside it, in pieces that end by a signal, a kill or the
+wall-clock limit and go on from restart files. Both must end with the same bits; memory stays flat, the ledger closes
+and no grain is lost."""
 import os
 import pathlib
 import random
