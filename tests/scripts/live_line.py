@@ -19,7 +19,7 @@ def shown_on_terminal(folder, *options):
     child, terminal = pty.fork()
     if child == 0:
         fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", 20, 40, 0, 0))
-        os.execv(faults.PROGRAM, [faults.PROGRAM, "run", str(faults.CASE), "--set", "time.end=0.8", "--threads", "1",
+        os.execv(faults.PROGRAM, [faults.PROGRAM, "run", str(faults.CASE), "--set", "time.end=0.2", "--threads", "1",
                                   "--out", str(folder), *options])
     shown = b""
     try:
