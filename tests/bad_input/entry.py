@@ -1,4 +1,4 @@
-"""One row of the corpus: a good case, what is wrong with it, and how the program must end."""
+"""One row of the tables: a good case, what is wrong with it, and how the program must end."""
 
 import re
 from dataclasses import dataclass, field
@@ -12,65 +12,74 @@ radius = 0.0018
 '''
 # The same with grains from a table beside it.
 TABLE = DUNE.replace(POUR, "").replace('fluid = "turbulent"', 'fluid = "turbulent"\ngrains = "grains.csv"')
-# The same without water: quick to start.
+# The same without water, and without grains.
 DRY = re.sub(r"\[fluid\].*?(?=\[grains\])", "", DUNE, flags=re.S).replace('fluid = "turbulent"\n', "")
-RUN = "run case.toml --out out --quiet"
+WET = DUNE[: DUNE.index("[grains]")] + '[initial]\nfluid = "turbulent"\n'
+SHORT = "[time] end = 5e-4"  # for what is good and must run
+
+
+def edited(text, edits):
+    """`text` after edits, separated by " ;; ": "[section] key = value" replaces the line of that key or adds it to the
+    section, "-[section] key" removes it, and "old => new" replaces text that must be there."""
+    for edit in filter(None, edits.split(" ;; ")):
+        old, arrow, new = edit.partition(" => ")
+        if not arrow:
+            section, line = re.match(r"-?(\[.*?\]) (.*)", edit, re.S).groups()
+            key = line.partition(" = ")[0]
+            new = "" if edit.startswith("-") else line + "\n"
+            head = f"{section}\n"
+            if head not in text:
+                text += head
+            start = text.index(head) + len(head)
+            body = re.match(r"(?:(?!\[).*\n)*", text[start:])[0]
+            found = re.search(rf"^{re.escape(key)} = .*\n", body, re.M)
+            if found:
+                text = text[: start + found.start()] + new + text[start + found.end():]
+            else:
+                text = text[:start] + new + text[start:]
+        elif old in text:
+            text = text.replace(old, new, 1)
+        else:
+            raise ValueError(f"the good case has no {old!r}")
+    return text
 
 
 def grains_csv(rows=None, header="id,diameter,x,y,z"):
-    """A table of grains that float apart from each other."""
-    if rows is None:
-        rows = [(n, 2e-4, 0.004 + 3e-4 * (n % 5), 4e-4 + 3e-4 * (n // 5), 0.003) for n in range(20)]
-        rows = [(row[0] + 1, *row[1:]) for row in rows]  # ids from 1: line 2 is grain 1
-    lines = [",".join(f"{value:.10g}" if isinstance(value, float) else str(value) for value in row) for row in rows]
-    return "\n".join([header, *lines, ""])
+    """A table of grains that float apart from each other; ids from 1: line 2 is grain 1."""
+    rows = rows or [(n + 1, 2e-4, 0.004 + 3e-4 * (n % 5), 4e-4 + 3e-4 * (n // 5), 0.003) for n in range(20)]
+    return "\n".join([header, *(",".join(f"{value:.10g}" for value in row) for row in rows), ""])
 
 
 @dataclass
 class Entry:
-    """`edits` replace text of `base` (each must be there) or `text` is the whole case.toml; `files` are further files
-    by name: text, bytes, or a function of the path that makes one. `given` names what is copied from the good runs.
-    `says`: words that must be in the message; "@text" stands for "case.toml:N:" of the first line of case.toml that
-    starts with `text`. `problems`: lines of the message that name one. `code` 0 marks what is strange but good.
+    """`edits` change `base`, or `text` is the whole case.toml; `files` are further files by name: text, bytes, or a
+    function of the path that makes one. `given` names what is copied from the good runs. `says`: words that must be
+    in the message, separated by " | "; "@text" stands for "case.toml:N:" of the first line that starts with `text`.
+    `problems`: how many the message names. Exit code 0 marks what is strange but good, 1 what fails on the way.
     """
 
     name: str
-    says: list
-    edits: dict = field(default_factory=dict)
+    edits: str = ""
+    says: str = ""
     base: str = DUNE
     text: object = None
     files: dict = field(default_factory=dict)
     given: tuple = ()
-    command: str = RUN
+    command: str = "run case.toml --out out --quiet"
     code: int = 2
     problems: int = 1
     ranks: int = 1
     env: dict = field(default_factory=dict)
-    limit: float = 20  # seconds
-    place: str = ""  # "read-only", "full" or "nobody": where or as whom it runs
-    library_fault: bool = False  # the HDF5 library itself goes astray, and src/hdf5_guard ends that
-    writes: bool = False  # an exit code of 2 that may leave a file: never without a reason beside the entry
+    under: str = ""  # "nobody", "tmpfs SIZE" or "prlimit BYTES": as whom or where it runs
 
     def config(self):
-        """The bytes of case.toml; None for none."""
-        if self.text is not None:
-            return self.text if isinstance(self.text, bytes) else self.text.encode()
-        text = self.base
-        for old, new in self.edits.items():
-            if text.count(old) < 1:
-                raise ValueError(f"{self.name}: the good case has no {old!r}")
-            text = text.replace(old, new, 1)
-        return text.encode()
+        """The bytes of case.toml."""
+        text = self.text if self.text is not None else edited(self.base, self.edits)
+        return text if isinstance(text, bytes) else text.encode()
 
-    def words(self):
-        """`says` with line numbers filled in."""
-        lines = (self.config() or b"").decode(errors="replace").splitlines()
-        words = []
-        for word in self.says:
-            if word.startswith("@"):
-                at = [n for n, line in enumerate(lines, 1) if line.startswith(word[1:])]
-                if not at:
-                    raise ValueError(f"{self.name}: no line starts with {word[1:]!r}")
-                word = f"case.toml:{at[0]}:"
-            words.append(word)
-        return words
+    def expected(self):
+        """`says` in parts, with line numbers filled in."""
+        lines = self.config().decode(errors="replace").splitlines()
+        line_of = lambda start: next(n for n, line in enumerate(lines, 1) if line.startswith(start))
+        return [f"case.toml:{line_of(part[1:])}:" if part.startswith("@") else part
+                for part in filter(None, self.says.split(" | "))]

@@ -1,6 +1,6 @@
 // Bytes as the table of initial.grains.
 #include "src/grains/grain_files.hpp"
-#include "tests/fuzz/sound_grains.hpp"
+#include "tests/fuzz/fuzzed.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barchan;

@@ -1,11 +1,12 @@
-#include "tests/fuzz/hdf5_edits.hpp"
-
+// A little program that edits an HDF5 file through the library.
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "src/io/hdf5_handle.hpp"
-#include "tests/fuzz/hdf5_types.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
 namespace barchan::fuzz {
 
@@ -13,60 +14,72 @@ using hdf5::Handle;
 
 namespace {
 
-/// Names that mean something to the readers, and some that do not.
-constexpr std::array names{"/",
-                           "grains",
-                           "contacts",
-                           "fluid",
-                           "scalars",
-                           "scalars/grains",
-                           "scalars/fluid",
-                           "statistics",
-                           "scalars/statistics",
-                           "grains/id",
-                           "grains/kin",
-                           "grains/x_reference",
-                           "grains/contact_force",
-                           "grains/fluid_force",
-                           "grains/wall_touching",
-                           "grains/wall_xi_t",
-                           "grains/of_rank",
-                           "contacts/first",
-                           "contacts/second",
-                           "contacts/xi_t",
-                           "contacts/rolling",
-                           "contacts/of_rank",
-                           "dunes",
-                           "fluid/u_x",
-                           "fluid/p",
-                           "fluid/alpha_f",
-                           "statistics/sums",
-                           "statistics/force_map",
-                           "grid",
-                           "frame_000000",
-                           "frame_000001",
-                           "frame_000002",
-                           "frame_999999",
-                           "frame_000001/id",
-                           "frame_000001/d",
-                           "frame_000001/x",
-                           "frame_000001/u",
-                           "frame_000001/omega",
-                           "frame_000000/id",
-                           "grid/x",
-                           "grid/y",
-                           "new",
-                           "new/new",
-                           "grains/new",
-                           "frame_000001/new",
-                           "frame_1",
-                           "frame_-1",
-                           "frame_4294967296",
-                           "."};
-constexpr std::array attribute_names{
-    "kind",     "format",  "step",        "time",        "title", "config",          "version",
-    "git_hash", "backend", "units",       "r_max",       "r_min", "sauter_diameter", "n_initial",
-    "n_left",   "t",       "has_history", "dt_previous", "drive", "n_samples",       "new"};
+Handle copy_of(hid_t type) { return {H5Tcopy(type), H5Tclose}; }
+
+Handle text(std::size_t size) {
+  Handle string = copy_of(H5T_C_S1);
+  H5Tset_size(string.get(), size);
+  return string;
+}
+
+/// Types of numbers, texts and structures that a file of somebody else may hold.
+Handle any_type(Tape& tape) {
+  const std::array plain{H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_IEEE_F32LE, H5T_IEEE_F64BE,
+                         H5T_STD_U64LE,  H5T_STD_I8LE,  H5T_STD_I64BE,  H5T_NATIVE_LDOUBLE};
+  const std::size_t kind = tape.pick(20);
+  if (kind < plain.size()) return copy_of(plain[kind]);
+  if (kind == 8) return text(H5T_VARIABLE);
+  if (kind == 9) return text(1 + tape.byte());
+  if (kind == 10) return text(std::size_t{1} << tape.pick(28));
+  if (kind == 11) return {H5Tcreate(H5T_OPAQUE, 1 + tape.byte()), H5Tclose};
+  if (kind == 12) {
+    Handle pair(H5Tcreate(H5T_COMPOUND, 16), H5Tclose);
+    H5Tinsert(pair.get(), "a", 0, H5T_IEEE_F64LE);
+    H5Tinsert(pair.get(), "b", 8, H5T_STD_I64LE);
+    return pair;
+  }
+  if (kind == 13) {
+    const hsize_t many = tape.extent() % 100000 + 1;
+    return {H5Tarray_create2(H5T_IEEE_F64LE, 1, &many), H5Tclose};
+  }
+  if (kind == 14) return {H5Tvlen_create(H5T_IEEE_F64LE), H5Tclose};
+  if (kind == 15) return copy_of(H5T_STD_REF_OBJ);
+  if (kind == 16) {
+    Handle names_of_numbers(H5Tenum_create(H5T_STD_I64LE), H5Tclose);
+    const std::int64_t one = 1;
+    H5Tenum_insert(names_of_numbers.get(), "one", &one);
+    return names_of_numbers;
+  }
+  if (kind == 17) return copy_of(H5T_STD_B64LE);
+  if (kind == 18) {  // a real number of odd size
+    Handle real = copy_of(H5T_IEEE_F64LE);
+    H5Tset_precision(real.get(), 40);
+    H5Tset_fields(real.get(), 39, 28, 11, 0, 28);
+    H5Tset_size(real.get(), 5);
+    return real;
+  }
+  return copy_of(H5T_UNIX_D64LE);
+}
+
+std::vector<std::string> split(const std::string& words) {
+  std::istringstream in(words);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// Names that mean something to the readers, and some that do not. Their order is what the bytes of
+/// the inputs kept in corpus/ mean: add at the end.
+const std::vector<std::string> names = split(
+    "/ grains contacts fluid scalars scalars/grains scalars/fluid statistics "
+    "scalars/statistics grains/id grains/kin grains/x_reference grains/contact_force "
+    "grains/fluid_force grains/wall_touching grains/wall_xi_t grains/of_rank contacts/first "
+    "contacts/second contacts/xi_t contacts/rolling contacts/of_rank dunes fluid/u_x "
+    "fluid/p fluid/alpha_f statistics/sums statistics/force_map grid frame_000000 "
+    "frame_000001 frame_000002 frame_999999 frame_000001/id frame_000001/d frame_000001/x "
+    "frame_000001/u frame_000001/omega frame_000000/id grid/x grid/y new new/new grains/new "
+    "frame_000001/new frame_1 frame_-1 frame_4294967296 .");
+const std::vector<std::string> attribute_names = split(
+    "kind format step time title config version git_hash backend units r_max r_min "
+    "sauter_diameter n_initial n_left t has_history dt_previous drive n_samples new");
 
 class Editor {
  public:
@@ -74,61 +87,30 @@ class Editor {
       : file_(file), tape_(tape), other_file_(folder / "other_file") {}
 
   void one_edit() {
-    switch (tape_.pick(14)) {
-      case 0:
-        remove();
-        break;
-      case 1:
-        rename();
-        break;
-      case 2:
-        put_array();
-        break;
-      case 3:
-        put_attribute();
-        break;
-      case 4:
-        change_value();
-        break;
-      case 5:
-        remove_attribute();
-        break;
-      case 6:
-        put_group();
-        break;
-      case 7:
-        put_soft_link();
-        break;
-      case 8:
-        put_external_link();
-        break;
-      case 9:
-        put_hard_link();
-        break;
-      case 10:
-        put_type();
-        break;
-      case 11:
-        resize();
-        break;
-      case 12:
-        nest();
-        break;
-      default:
-        crowd();
-        break;
-    }
+    constexpr std::array edits{
+        &Editor::remove,        &Editor::rename,        &Editor::put_array,
+        &Editor::put_attribute, &Editor::change_value,  &Editor::remove_attribute,
+        &Editor::put_group,     &Editor::put_soft_link, &Editor::put_external_link,
+        &Editor::put_hard_link, &Editor::put_type,      &Editor::resize,
+        &Editor::nest,          &Editor::crowd};
+    (this->*edits[tape_.pick(edits.size())])();
   }
 
  private:
-  const char* name() { return tape_.one_of(names); }
+  const char* name() { return names[tape_.pick(names.size())].c_str(); }
 
-  void remove() { H5Ldelete(file_, name(), H5P_DEFAULT); }
+  /// A name under which there is nothing any more.
+  const char* free_name() {
+    const char* at = name();
+    H5Ldelete(file_, at, H5P_DEFAULT);
+    return at;
+  }
+
+  void remove() { free_name(); }
 
   void rename() {
     const char* from = name();
-    const char* to = name();
-    H5Ldelete(file_, to, H5P_DEFAULT);
+    const char* to = free_name();
     H5Lmove(file_, from, file_, to, links().get(), H5P_DEFAULT);
   }
 
@@ -153,7 +135,7 @@ class Editor {
 
   /// Fill values only, so that an array of any extents takes little room.
   void put_array() {
-    const char* at = name();
+    const char* at = free_name();
     const Handle of_type = any_type(tape_);
     const auto whole = extents();
     const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -189,7 +171,6 @@ class Editor {
     H5Pset_alloc_time(list.get(), pieces ? H5D_ALLOC_TIME_INCR : H5D_ALLOC_TIME_LATE);
     const double fill = tape_.number();
     H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &fill);
-    H5Ldelete(file_, at, H5P_DEFAULT);
     const bool nothing = whole.empty() && tape_.pick(2) == 1;
     const Handle space = nothing ? Handle(H5Screate(H5S_NULL), H5Sclose) : space_of(whole, grows);
     const Handle array(
@@ -228,7 +209,7 @@ class Editor {
 
   void put_attribute() {
     const char* at = name();
-    const char* called = tape_.one_of(attribute_names);
+    const char* called = attribute_names[tape_.pick(attribute_names.size())].c_str();
     const Handle of_type = any_type(tape_);
     const auto whole = extents();
     if (whole.size() > 2) return;
@@ -257,7 +238,8 @@ class Editor {
 
   void remove_attribute() {
     const char* at = name();
-    H5Adelete_by_name(file_, at, tape_.one_of(attribute_names), H5P_DEFAULT);
+    H5Adelete_by_name(file_, at, attribute_names[tape_.pick(attribute_names.size())].c_str(),
+                      H5P_DEFAULT);
   }
 
   void change_value() {
@@ -289,37 +271,32 @@ class Editor {
   }
 
   void put_group() {
-    const char* at = name();
-    H5Ldelete(file_, at, H5P_DEFAULT);
+    const char* at = free_name();
     const Handle group(H5Gcreate2(file_, at, links().get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   }
 
   void put_soft_link() {
-    const char* at = name();
+    const char* at = free_name();
     const char* to = name();
-    H5Ldelete(file_, at, H5P_DEFAULT);
     H5Lcreate_soft(to, file_, at, links().get(), H5P_DEFAULT);
   }
 
   void put_external_link() {
-    const char* at = name();
+    const char* at = free_name();
     const char* to = name();
     const std::array<const char*, 4> files{"input.h5", "missing.h5", "/dev/null", "."};
-    H5Ldelete(file_, at, H5P_DEFAULT);
     H5Lcreate_external(tape_.one_of(files), to, file_, at, links().get(), H5P_DEFAULT);
   }
 
   void put_hard_link() {
-    const char* at = name();
+    const char* at = free_name();
     const char* to = name();
-    H5Ldelete(file_, at, H5P_DEFAULT);
     H5Lcreate_hard(file_, to, file_, at, links().get(), H5P_DEFAULT);
   }
 
   void put_type() {
-    const char* at = name();
+    const char* at = free_name();
     const Handle of_type = any_type(tape_);
-    H5Ldelete(file_, at, H5P_DEFAULT);
     H5Tcommit2(file_, at, of_type.get(), links().get(), H5P_DEFAULT, H5P_DEFAULT);
   }
 

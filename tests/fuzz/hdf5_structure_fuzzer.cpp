@@ -4,9 +4,7 @@
 #include <string>
 
 #include "src/io/seal.hpp"
-#include "tests/fuzz/hdf5_edits.hpp"
-#include "tests/fuzz/hdf5_readers.hpp"
-#include "tests/fuzz/valid_files.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
 namespace {
 
@@ -23,7 +21,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto file = fuzz::input_file("input.h5");
   static const std::string restart = content(fuzz::write_restart(file.parent_path()));
   static const std::string frames = content(fuzz::write_frames(file.parent_path()));
-  fuzz::watch_library();
   fuzz::Tape tape({data, size});
   const std::string& valid = tape.pick(2) == 0 ? restart : frames;
   fuzz::write_input(file, valid.data(), valid.size());

@@ -15,8 +15,7 @@
 #include "src/io/checkpoint.hpp"
 #include "src/io/seal.hpp"
 #include "src/run/simulation.hpp"
-#include "tests/fuzz/hdf5_edits.hpp"
-#include "tests/fuzz/hdf5_readers.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
 namespace {
 

@@ -21,15 +21,8 @@ Config bed_config() { return load_config(BARCHAN_SOURCE_DIR "/configs/validation
 
 /// Grains of 0.15 to 0.25 mm, settled from a loose lattice in still water.
 InitialGrains settled_bed() {
-  Config c = bed_config();
-  c.fluid.reset();
-  c.grains->ambient.emplace();
-  test::CoupledRun pour(c, lattice_packing(kGrains, c.size, 0.01));
-  pour.advance(300);
-  InitialGrains grains;
-  const auto kin = host_copy(pour.state.grains->kin);
-  for (int g = 0; g < pour.state.grains->n; ++g) add_grain(grains, 2 * kin(g).r, kin(g).x);
-  return grains;
+  const Config c = bed_config();
+  return test::settled(c, lattice_packing(kGrains, c.size, 0.01), 300);
 }
 
 /// The flow over the bed held in place, from the log law on: turbulence develops.

@@ -1,15 +1,11 @@
 // The clear-water channel of the paper's Fig. 2 and Table I against DNS: configs/validation/
 // channel-mesh-1.toml, about 45 minutes on one core. BARCHAN_CHANNEL_RUN names a finished run to
 // judge instead of making one.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "src/config/load.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/finished_run.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {
@@ -63,19 +59,13 @@ Profiles statistics(const std::filesystem::path& scratch) {
   return {test::table(scratch / "statistics.csv"), "y_plus"};
 }
 
-void expect_within(const std::string& claim, double value, double reference, double tolerance) {
-  std::printf("[ measured ] %s: %.5g, %+.1f %% (reference %.5g, tolerance %g %%)\n", claim.c_str(),
-              value, 100 * (value / reference - 1), reference, 100 * tolerance);
-  EXPECT_NEAR(value / reference, 1, tolerance) << claim;
-}
-
 TEST(ChannelNightly, MeanFlowAndStressesAreThoseOfTheDns) {
   const testing::ScratchFolder scratch("barchan-channel");
   const Profiles run = statistics(scratch / "run");
   const Profiles dns{test::reference_table("dns_channel_mkm1999_chan395.csv"), "yplus"};
   const double depth = 0.025, nu = 1e-6;
   const double u_star = number(run.rows[0], "y_plus") / number(run.rows[0], "y") * nu;
-  expect_within("u*", u_star, 0.0160, 0.05);
+  testing::expect_relative("u*", u_star, 0.0160, 0.05);
 
   double mean = 0, linear = 0;
   for (const auto& row : run.rows) {
@@ -84,17 +74,15 @@ TEST(ChannelNightly, MeanFlowAndStressesAreThoseOfTheDns) {
       mean = std::max(mean, std::abs(number(row, "U_plus") / dns.at("U", y_plus) - 1));
     linear = std::max(linear, std::abs(number(row, "total_stress") / (u_star * u_star) - (1 - y)));
   }
-  std::printf("[ measured ] U+ off by %.2f %% (tolerance 5), total stress by %.2f %% (2)\n",
-              100 * mean, 100 * linear);
-  EXPECT_LT(mean, 0.05);
-  EXPECT_LT(linear, 0.02);
+  testing::expect_below("largest error of U+ in y+ > 5", mean, 0.05);
+  testing::expect_below("largest error of the total stress", linear, 0.02);
 
   for (const std::string stress : {"uu", "vv", "ww", "uv", "k"}) {
     const double sign = stress == "uv" ? -1 : 1;
     const Profiles::Peak got = run.peak(stress, sign / (u_star * u_star));
     const Profiles::Peak reference = dns.peak(stress, sign);
-    expect_within(stress + ", peak", got.value, reference.value, 0.2);
-    expect_within(stress + ", y+ of the peak", got.y_plus, reference.y_plus, 0.2);
+    testing::expect_relative(stress + ", peak", got.value, reference.value, 0.2);
+    testing::expect_relative(stress + ", y+ of the peak", got.y_plus, reference.y_plus, 0.2);
   }
 }
 

@@ -1,12 +1,9 @@
 // One grain on the paper's mesh: does it notice the cells, and is its momentum the fluid's loss?
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
+#include "tests/support/measured.hpp"
 
 namespace barchan {
 namespace {
@@ -59,10 +56,7 @@ Range along(const Vec3& from, const Vec3& to, const Value& value) {
 }
 
 void check(const char* what, const Range& r) {
-  std::printf(
-      "[ measured ] drag of a grain that crosses cells, %s: varies by %.3f %% (tolerance 5 %%)\n",
-      what, 100 * r.variation());
-  EXPECT_LT(r.variation(), 0.05) << what;
+  testing::expect_below(std::string("variation of the drag, ") + what, r.variation(), 0.05);
 }
 
 TEST(GrainOnMesh, DragIsSteadyAcrossCellsInUniformFlow) {
@@ -96,17 +90,12 @@ TEST(GrainOnMesh, DragIsSteadyOnAFreeGrain) {
     InitialGrains grain;
     testing::add_grain(grain, kDiameter, {0.5 * kDx, height, 2.3 * kDz});
     CoupledRun run(c, grain);
-    Range speed, drag;
+    Range drag;
     for (int n = 1; n <= 700; ++n) {
       run.advance();
       if (n <= 300) continue;  // 75 ms, more than ten response times; then 1.4 cells
-      speed.add(run.velocity_of(1).x);
       drag.add(test::force_on_first(run, "force_drag").x);
     }
-    std::printf(
-        "[ measured ] free grain at y = %g mm on the paper's mesh: %.5f to %.5f m/s (alone "
-        "0.02291683)\n",
-        1e3 * height, speed.low, speed.high);
     check(height < 1e-3 ? "free at the floor" : "free in the middle", drag);
   }
 }
@@ -120,13 +109,10 @@ struct Momentum {
 Momentum momentum(const CoupledRun& run) {
   const FluidState& f = *run.state.fluid;
   const Grid grid = f.grid;
-  const auto host = [](const auto& v) {
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, v)(0);
-  };
-  const GrainKinematics grain = host(run.state.grains->kin);
+  const GrainKinematics grain = testing::host_copy(run.state.grains->kin)(0);
   return {1000 * grid.dx * grid.dz *
               sum_each_cell("test: momentum", grid, FlowRate{grid, f.u.x, f.alpha_f}),
-          grain.m * grain.u.x, host(run.state.grains->exchange.carried_impulse).x};
+          grain.m * grain.u.x, testing::host_copy(run.state.grains->exchange.carried_impulse)(0).x};
 }
 
 /// Sums over the x-faces of the last step: alpha dp/dx, and the explicit rate (stress and, summing
@@ -177,13 +163,11 @@ TEST(GrainOnMesh, MomentumIsConserved) {
     last = now;
   }
   const double given = weight * steps * dt;
-  const double drift = (last.total() - start.total() - given) / given;
-  std::printf(
-      "[ measured ] fluid momentum that neither exchange nor shared forces explain: %.2e of the "
-      "weight's impulse per step; total off the impulse given: %.3g\n",
-      unexplained / (weight * dt), drift);
-  EXPECT_LT(unexplained, 1e-9 * weight * dt);
-  EXPECT_LT(std::abs(drift), 1e-3);
+  testing::expect_below(
+      "momentum that neither exchange nor shared forces explain, over the weight's",
+      unexplained / (weight * dt), 1e-9);
+  testing::expect_relative("momentum of all parts, impulse of the weight [N s]",
+                           last.total() - start.total(), given, 1e-3);
 }
 
 }  // namespace

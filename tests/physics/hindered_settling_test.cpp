@@ -1,9 +1,6 @@
 // A suspension settles in a closed column: the force balance of the drag law decides how fast.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/support/lattice.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/saved_results.hpp"
 
 namespace barchan {
@@ -68,18 +65,15 @@ double settle_column(DragLaw law, double alpha) {
 
 void check(const char* name, DragLaw code, const Law& law, double alpha) {
   const double reference = settling_velocity(law, alpha), measured = settle_column(code, alpha);
-  const auto exponent = [&](double v) { return std::log(v / kAlone) / std::log(alpha); };
-  std::printf(
-      "[ measured ] %s, alpha %.2f: %.6g m/s (force balance %.6g, off %.3f %%, tolerance 2 %%); "
-      "exponent %.2f, Richardson-Zaki 3.82 gives %.6g m/s\n",
-      name, alpha, measured, reference, 100 * (measured / reference - 1), exponent(measured),
-      kAlone * std::pow(alpha, 3.821568));
   test::save_result("hindered_settling", {{"law", std::string(name)},
                                           {"alpha", alpha},
                                           {"v", measured},
                                           {"force_balance", reference},
                                           {"alone", kAlone}});
-  EXPECT_NEAR(measured / reference, 1, 0.02) << name << " " << alpha;
+  const std::string claim = std::string(name) + ", alpha " + std::to_string(alpha);
+  testing::expect_relative(claim + ", force balance [m/s]", measured, reference, 0.02);
+  testing::print_measured(claim + ", Richardson-Zaki exponent",
+                          std::log(measured / kAlone) / std::log(alpha), 3.821568, 1);
 }
 
 /// Gidaspow's law jumps at 0.8: Wen-Yu just above, Ergun just below.

@@ -1,8 +1,6 @@
 // A million grain steps: no pair is missed, nothing leaks, nothing drifts.
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <fstream>
 #include <random>
 #include <set>
@@ -11,6 +9,8 @@
 #include "src/coupling/state_checks.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
+#include "tests/support/grain_cases.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/sanitized.hpp"
 
 namespace barchan {
@@ -24,19 +24,14 @@ double resident() {
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-template <class View>
-auto on_host(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-}
-
 struct Pairs {
   std::size_t touching = 0, missed = 0;
 };
 
 /// Every pair of grains is looked at; those that touch must be in the list.
 Pairs against_all_pairs(const GrainState& s, const PeriodicBox& box) {
-  const auto kin = on_host(s.kin);
-  const auto i = on_host(s.list.i), j = on_host(s.list.j);
+  const auto kin = testing::host_copy(s.kin);
+  const auto i = testing::host_copy(s.list.i), j = testing::host_copy(s.list.j);
   std::set<std::pair<int, int>> listed;
   for (int p = 0; p < s.list.n_pairs; ++p) listed.insert(std::minmax(i(p), j(p)));
   Pairs pairs;
@@ -67,12 +62,12 @@ Config moving_heap() {
 
 struct Sums {
   double ledger_error = 0, given = 0;  // [N s]
-  double way = 0;                      // of a grain along the flow, mean [m]
+  double displacement = 0;             // of a grain along the flow, mean [m]
   double largest_volume_mismatch = 0;
 };
 
 Real mean_speed(const GrainState& s) {
-  const auto kin = on_host(s.kin);
+  const auto kin = testing::host_copy(s.kin);
   Real sum = 0;
   for (int g = 0; g < s.n; ++g) sum += kin(g).u.x;
   return sum / s.n;
@@ -83,7 +78,7 @@ void a_long_run(std::int64_t grain_steps) {
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);
   step.start(state);
-  const StateChecks health(config, MPI_COMM_SELF);
+  const StateChecks checks(config, MPI_COMM_SELF);
   std::mt19937_64 random(7);
   const std::int64_t steps = grain_steps / step.substeps();
   Sums sums;
@@ -92,7 +87,7 @@ void a_long_run(std::int64_t grain_steps) {
   int looks = 0;
   for (std::int64_t n = 1; n <= steps; ++n) {
     step.advance(state);
-    ASSERT_NO_THROW(health.check(state, step)) << "step " << n;
+    ASSERT_NO_THROW(checks.check(state, step)) << "step " << n;
     const ExchangeLedger& l = step.exchange();
     sums.given += norm(l.given_to_grains);
     sums.largest_volume_mismatch =
@@ -100,7 +95,7 @@ void a_long_run(std::int64_t grain_steps) {
     if (n == steps / 10) early = resident();
     if (random() % 25 != 0) continue;
     ++looks;
-    sums.way += 25 * config.time.fluid_step * mean_speed(*state.grains);
+    sums.displacement += 25 * config.time.fluid_step * mean_speed(*state.grains);
     const Pairs now = against_all_pairs(*state.grains, step.neighbor_list().box());
     pairs.touching += now.touching;
     pairs.missed += now.missed;
@@ -114,20 +109,19 @@ void a_long_run(std::int64_t grain_steps) {
   }
   const double growth = resident() / early - 1;
   std::printf(
-      "%lld grain steps, %lld list rebuilds; %d looks at all pairs: %zu touching, %zu missed; "
-      "memory %+.3f %% since a tenth of the way; ledger off by %.2g of what was exchanged; volume "
-      "%.2g; a grain went %.3g m\n",
+      "[ measured ] %lld grain steps, %lld list rebuilds, %zu pairs seen touching, %zu missed\n",
       static_cast<long long>(grain_steps), static_cast<long long>(step.neighbor_list().rebuilds()),
-      looks, pairs.touching, pairs.missed, 100 * growth, sums.ledger_error / sums.given,
-      sums.largest_volume_mismatch, sums.way);
+      pairs.touching, pairs.missed);
   EXPECT_EQ(pairs.missed, 0u);
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
-  EXPECT_LT(testing::kSanitized ? 0 : growth, 0.01);
+  testing::expect_below("growth of memory after a tenth of the run",
+                        testing::kSanitized ? 0 : growth, 0.01);
   // Each step rounds its sums to some 1e-15 of what it exchanges, and adds them to sums that grow.
-  EXPECT_LT(sums.ledger_error, 1e-13 * sums.given);
-  EXPECT_LT(sums.largest_volume_mismatch, 1e-13);
+  testing::expect_below("ledger, over what was exchanged", sums.ledger_error / sums.given, 1e-13);
+  testing::expect_below("deposited volume over the grains' - 1", sums.largest_volume_mismatch,
+                        1e-13);
   EXPECT_EQ(state.grains->n, 500);
-  EXPECT_GT(sums.way, 0.002 * static_cast<double>(steps) * config.time.fluid_step)
+  EXPECT_GT(sums.displacement, 0.002 * static_cast<double>(steps) * config.time.fluid_step)
       << "the heap is meant to move";
 }
 

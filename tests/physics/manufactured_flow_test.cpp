@@ -1,21 +1,19 @@
 // Order of accuracy of the volume-averaged equations from manufactured solutions.
 #include "tests/support/manufactured_flow.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
 #include <memory>
 #include <span>
 
-#include "src/fluid/fluid_solver.hpp"
 #include "tests/support/flow_errors.hpp"
+#include "tests/support/flow_run.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/saved_results.hpp"
 
 namespace barchan {
 namespace {
 
+using namespace testing;
 using test::FlowErrors;
-using test::HostGrid;
 using test::ManufacturedFlow;
 
 /// The flow at one time, in the form the error norms ask for.
@@ -30,18 +28,14 @@ struct AtTime {
 
 /// The solver with the manufactured body force on n x (2/3) n x (2/3) n cells, rows stretched so
 /// that the last is 2.5 times the first.
-class Run {
+class Run : public test::FlowRun {
  public:
   Run(const ManufacturedFlow& flow, int n)
-      : flow_(flow),
-        config_(make_config(flow, n)),
-        grid_(make_grid(config_)),
-        h_(grid_),
-        fluid_(make_fluid_state(grid_)),
-        force_{test::make_faces(grid_), test::make_faces(grid_)},
-        solver_(config_, grid_) {
-    test::set_velocity(fluid_, AtTime{flow_, 0});
-    solver_.fill_ghosts(fluid_);
+      : FlowRun(make_config(flow, n)),
+        flow_(flow),
+        force_{test::make_faces(grid), test::make_faces(grid)} {
+    test::set_velocity(fluid, AtTime{flow_, 0});
+    solver.fill_ghosts(fluid);
     project();
   }
 
@@ -51,9 +45,9 @@ class Run {
       // Convection and stress are extrapolated to the middle of the step (Adams-Bashforth) and the
       // pressure solved for is that of the middle: so the force belongs there, too.
       if (s == 0 || !flow_.steady || flow_.wave_speed != 0) set_impulse((s + 0.5) * dt, dt);
-      set_alpha(fluid_.alpha_f_previous, s * dt);
-      set_alpha(fluid_.alpha_f, (s + 1) * dt);
-      const FluidStepReport report = solver_.advance(fluid_, &force_, dt);
+      set_alpha(fluid.alpha_f_previous, s * dt);
+      set_alpha(fluid.alpha_f, (s + 1) * dt);
+      advance(dt, &force_);
       ASSERT_LT(report.courant, 1);
       ASSERT_LT(report.pressure_residual, 1e-9);
     }
@@ -62,18 +56,15 @@ class Run {
   }
 
   FlowErrors errors() const {
-    return test::flow_errors(fluid_, AtTime{flow_, end_}, AtTime{flow_, end_ - 0.5 * dt_});
+    return test::flow_errors(fluid, AtTime{flow_, end_}, AtTime{flow_, end_ - 0.5 * dt_});
   }
-  const FluidState& fluid() const { return fluid_; }
 
  private:
   static Config make_config(const ManufacturedFlow& flow, int n) {
     const int rows = 2 * n / 3;
-    Config config =
-        test::flow_config({n, rows, rows}, flow.size, test::first_row(flow.size[1], rows, 2.5));
-    config.fluid->kinematic_viscosity = flow.nu;
+    Config config = test::smooth_flow_config({n, rows, rows}, flow.size,
+                                             test::first_row(flow.size[1], rows, 2.5), flow.nu);
     config.fluid->density = flow.rho;
-    config.fluid->turbulence = Turbulence::none;
     config.fluid->bottom = flow.bottom;
     config.fluid->top = flow.top;
     config.solver.pressure_tolerance = 1e-9;
@@ -84,37 +75,32 @@ class Run {
   /// which shows as an error of h^2 dt.
   void project() {
     const double instant = 1e-9;
-    set_alpha(fluid_.alpha_f_previous, -instant);
-    set_alpha(fluid_.alpha_f, 0);
-    solver_.advance(fluid_, &force_, instant);
-    fluid_.has_history = false;
-    fluid_.time = 0;
-    for (const Field& p : {fluid_.p, fluid_.p_previous}) Kokkos::deep_copy(p.storage, Real(0));
+    set_alpha(fluid.alpha_f_previous, -instant);
+    set_alpha(fluid.alpha_f, 0);
+    advance(instant, &force_);
+    fluid.has_history = false;
+    fluid.time = 0;
+    for (const Field& p : {fluid.p, fluid.p_previous}) Kokkos::deep_copy(p.storage, Real(0));
   }
-  void set_alpha(const Field& alpha, double t) const {
-    test::set_field(alpha, grid_,
-                    [&](int i, int j, int k) { return flow_.alpha(h_.x(i), h_.y(j), h_.z(k), t); });
+  void set_alpha(Field& alpha, double t) {
+    test::set_field(alpha, grid,
+                    [&](int i, int j, int k) { return flow_.alpha(h.x(i), h.y(j), h.z(k), t); });
   }
-  void set_impulse(double t, double dt) const {
+  void set_impulse(double t, double dt) {
     const double scale = flow_.rho * dt;
-    test::set_field(force_.impulse.x, grid_, [&](int i, int j, int k) {
-      return scale * flow_.force(0, h_.x_face(i), h_.y(j), h_.z(k), t);
+    test::set_field(force_.impulse.x, grid, [&](int i, int j, int k) {
+      return scale * flow_.force(0, h.x_face(i), h.y(j), h.z(k), t);
     });
-    test::set_field(force_.impulse.y, grid_, [&](int i, int j, int k) {
-      return scale * flow_.force(1, h_.x(i), h_.y_face(j), h_.z(k), t);
+    test::set_field(force_.impulse.y, grid, [&](int i, int j, int k) {
+      return scale * flow_.force(1, h.x(i), h.y_face(j), h.z(k), t);
     });
-    test::set_field(force_.impulse.z, grid_, [&](int i, int j, int k) {
-      return scale * flow_.force(2, h_.x(i), h_.y(j), h_.z_face(k), t);
+    test::set_field(force_.impulse.z, grid, [&](int i, int j, int k) {
+      return scale * flow_.force(2, h.x(i), h.y(j), h.z_face(k), t);
     });
   }
 
   const ManufacturedFlow flow_;
-  Config config_;
-  Grid grid_;
-  HostGrid h_;
-  FluidState fluid_;
   ExchangeOnFaces force_;
-  FluidSolver solver_;
   double end_ = 0, dt_ = 0;
 };
 
@@ -157,18 +143,13 @@ void expect_second_order_in_space(ManufacturedFlow flow, std::span<const Walls> 
       Run run(flow, n);
       run.advance_to(kEnd, steps_for(n, power));
       e[level] = run.errors();
-      std::printf("[ measured ] %s, %d cells: u L2 %.3e max %.3e m/s, p L2 %.3e max %.3e Pa\n",
-                  what, n, e[level].u, e[level].u_max, e[level].p, e[level].p_max);
       save("manufactured_" + std::to_string(coarse_n), what, flow, n, e[level]);
     }
-    const double u = std::log2(e[0].u / e[1].u), p = std::log2(e[0].p / e[1].p);
-    std::printf(
-        "[ measured ] order in space, %s, %s / %s: u %.3f, p %.3f, in the maximum u %.3f, p %.3f "
-        "(reference 2, tolerance 0.15)\n",
-        what, name(flow.bottom), name(flow.top), u, p, std::log2(e[0].u_max / e[1].u_max),
-        std::log2(e[0].p_max / e[1].p_max));
-    EXPECT_NEAR(u, 2, 0.15) << what << " " << name(flow.bottom) << " " << name(flow.top);
-    EXPECT_NEAR(p, 2, 0.15) << what << " " << name(flow.bottom) << " " << name(flow.top);
+    const std::string claim = std::string(what) + ", " + name(flow.bottom) + " / " + name(flow.top);
+    expect_order(claim + ", u", e[0].u, e[1].u, 2, 0.15);
+    expect_order(claim + ", p", e[0].p, e[1].p, 2, 0.15);
+    print_measured("order, " + claim + ", largest error of p", std::log2(e[0].p_max / e[1].p_max),
+                   2, 0.15);
   }
 }
 
@@ -221,9 +202,8 @@ double difference(const FluidState& a, const FluidState& b) {
   double sum = 0;
   const auto add = [&](const Field& f, const Field& g) {
     const auto p = test::to_host(f), q = test::to_host(g);
-    for (int k = 0; k < grid.nz; ++k)
-      for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i) sum += std::pow(p(i, j, k) - q(i, j, k), 2);
+    test::for_owned_cells(
+        grid, [&](int i, int j, int k) { sum += std::pow(p(i, j, k) - q(i, j, k), 2); });
   };
   add(a.u.x, b.u.x);
   add(a.u.y, b.u.y);
@@ -231,27 +211,21 @@ double difference(const FluidState& a, const FluidState& b) {
   return std::sqrt(sum / (grid.nx * grid.ny * grid.nz));
 }
 
-double order_in_time(const ManufacturedFlow& flow) {
+void expect_order_in_time(const char* what, const ManufacturedFlow& flow, double order) {
   std::array<std::unique_ptr<Run>, 3> runs;
   for (std::size_t n = 0; n < 3; ++n) {
     runs[n] = std::make_unique<Run>(flow, 12);
     runs[n]->advance_to(kEnd, 40 << n);
   }
-  const double coarse = difference(runs[0]->fluid(), runs[1]->fluid());
-  const double fine = difference(runs[1]->fluid(), runs[2]->fluid());
-  return std::log2(coarse / fine);
+  expect_order(what, difference(runs[0]->fluid, runs[1]->fluid),
+               difference(runs[1]->fluid, runs[2]->fluid), order, 0.15);
 }
 
 TEST(FluidManufactured, OrderInTimeIsTwoForAFixedFractionAndOneForAMovingOne) {
   ManufacturedFlow fixed_fraction;
   fixed_fraction.steady = false;
-  const double fixed = order_in_time(fixed_fraction), moving = order_in_time(moving_fraction());
-  std::printf("[ measured ] order in time, fixed fraction: %.3f (reference 2, tolerance 0.15)\n",
-              fixed);
-  std::printf("[ measured ] order in time, moving fraction: %.3f (reference 1, tolerance 0.15)\n",
-              moving);
-  EXPECT_NEAR(fixed, 2, 0.15);
-  EXPECT_NEAR(moving, 1, 0.15);
+  expect_order_in_time("in time, fixed fraction", fixed_fraction, 2);
+  expect_order_in_time("in time, moving fraction", moving_fraction(), 1);
 }
 
 }  // namespace

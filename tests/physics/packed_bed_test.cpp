@@ -1,9 +1,6 @@
 // Flow through a bed of grains: pressure drop, and when it carries the bed.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/support/lattice.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/saved_results.hpp"
 
@@ -64,17 +61,15 @@ void check_ergun(const Bed& bed) {
   EXPECT_NEAR(alpha, bed.alpha, 1e-3);
   const double measured = frozen.gradient(12, 15);
   const double ergun = test::ergun_gradient(bed.alpha, superficial, kDiameter);
-  std::printf(
-      "[ measured ] Ergun, alpha %.2f, U %.4g m/s, L %g mm: %.6g Pa/m (reference %.6g, off "
-      "%.3f %%, tolerance 3 %%); U off its target %.2f %%\n",
-      bed.alpha, superficial, 1e3 * bed.smoothing, measured, ergun, 100 * (measured / ergun - 1),
-      100 * (superficial / bed.superficial - 1));
   test::save_result("packed_bed", {{"alpha", bed.alpha},
                                    {"superficial", superficial},
                                    {"smoothing", bed.smoothing},
                                    {"gradient", measured},
                                    {"ergun", ergun}});
-  EXPECT_NEAR(measured / ergun, 1, 0.03);
+  testing::expect_relative("Ergun, alpha " + std::to_string(bed.alpha) + " [Pa/m]", measured, ergun,
+                           0.03);
+  testing::print_measured("superficial velocity over its target", superficial / bed.superficial, 1,
+                          1);
 }
 
 TEST(PackedBed, PressureDropIsErguns) {
@@ -93,12 +88,11 @@ Lift lift_in_bed(const Bed& bed) {
   FrozenBed frozen(bed);
   frozen.run.advance(60);
   const FluidState& f = *frozen.run.state.fluid;
-  const auto rows =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, frozen.run.state.grains->kin);
+  const auto rows = testing::host_copy(frozen.run.state.grains->kin);
   double force = 0, weight = 0;
   for (const NamedForce& part : frozen.run.step.grain_forces(frozen.run.state)) {
     if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
-    const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, part.values);
+    const auto values = testing::host_copy(part.values);
     for (std::size_t g = 0; g < rows.extent(0); ++g) {
       if (std::abs(rows(g).x.x / f.grid.dx - 14) < 2) force += values(g).x;
     }
@@ -123,11 +117,7 @@ TEST(PackedBed, LiftReachesTheWeightAtErgunsOnset) {
   for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
     if (test::number(row, "d") == kDiameter) reference = test::number(row, "umf_ergun");
   }
-  std::printf(
-      "[ measured ] onset of fluidisation: %.6g m/s (reference %.6g, off %.2f %%, tolerance "
-      "5 %%)\n",
-      onset, reference, 100 * (onset / reference - 1));
-  EXPECT_NEAR(onset / reference, 1, 0.05);
+  testing::expect_relative("onset of fluidisation [m/s]", onset, reference, 0.05);
 }
 
 /// A bed that floats without touching anything: once the drive carries it, it is its submerged
@@ -145,12 +135,8 @@ TEST(PackedBed, FloatingBedTakesItsSubmergedWeight) {
     run.advance();
     drop += 1000 * run.state.fluid->drive / 40;
   }
-  const double weight = (1 - alpha) * 1500 * 9.81;
-  std::printf(
-      "[ measured ] drop of a floating bed: %.6g Pa/m (submerged weight %.6g, off %.3f %%, "
-      "tolerance 1 %%)\n",
-      drop, weight, 100 * (drop / weight - 1));
-  EXPECT_NEAR(drop / weight, 1, 0.01);
+  testing::expect_relative("drop of a floating bed, submerged weight [Pa/m]", drop,
+                           (1 - alpha) * 1500 * 9.81, 0.01);
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 // The forces in the output against Newton's second law: without contacts the resultant is what
 // changed the grain's momentum over the step, and the parts add up to it.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
+#include "tests/support/measured.hpp"
 
 namespace barchan {
 namespace {
@@ -30,17 +27,14 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
     const Vec3 total = test::force_on_first(run, "force_total");
     worst = std::max(worst, norm(total - rate) / norm(rate));
     if (displaced_density == 0) continue;
-    const Vec3 mean = Kokkos::create_mirror_view_and_copy(
-        Kokkos::HostSpace{}, run.step.mean_resultant_force(*run.state.grains))(0);
+    const Vec3 mean = testing::host_copy(run.step.mean_resultant_force(*run.state.grains))(0);
     EXPECT_LT(norm(mean - rate), 1e-12 * norm(rate)) << what;
     const double parts = weight + test::force_on_first(run, "force_drag").y +
                          test::force_on_first(run, "force_added_mass").y;
     if (!c.fluid) worst_parts = std::max(worst_parts, std::abs(parts - total.y) / norm(rate));
   }
-  std::printf("[ measured ] resultant force against m du/dt, %s: %.1e off, parts %.1e\n", what,
-              worst, worst_parts);
-  EXPECT_LT(worst, 1e-10) << what;
-  EXPECT_LT(worst_parts, 1e-10) << what;
+  testing::expect_below(std::string("resultant force, m du/dt, ") + what, worst, 1e-10);
+  testing::expect_below(std::string("its parts, ") + what, worst_parts, 1e-10);
 }
 
 TEST(ResultantForce, IsWhatMovesTheGrain) {

@@ -1,10 +1,7 @@
 // One grain settles: terminal velocity and transient, in still water and two-way coupled.
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
+#include "tests/support/measured.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/saved_results.hpp"
 
@@ -81,50 +78,61 @@ Config in_flowing_water(const Sphere& s, double cell, double step) {
   return config;
 }
 
-void check(const char* what, const Outcome& got, double reference) {
-  std::printf(
-      "[ measured ] %s: terminal %.7g m/s (reference %.7g, off %.3f %%, tolerance 0.5 %%), "
-      "transient off %.3f %% (tolerance 1 %%)\n",
-      what, got.terminal, reference, 100 * (got.terminal / reference - 1),
-      100 * got.transient_error);
-  EXPECT_NEAR(got.terminal / reference, 1, 0.005) << what;
-  EXPECT_LT(got.transient_error, 0.01) << what;
+void check(const std::string& what, const Outcome& got, double reference) {
+  testing::expect_relative(what + ", terminal velocity [m/s]", got.terminal, reference, 0.005);
+  testing::expect_below(what + ", transient", got.transient_error, 0.01);
 }
 
-TEST(Settling, TableTwoGrainsInStillWater) {
-  for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
-    const Sphere grain{.d = test::number(row, "d")};
-    const Outcome got = settle(in_still_fluid(grain, 2.5e-5), grain, 10);
-    check(("still water, d = " + row.at("d")).c_str(), got, test::number(row, "v_SN"));
+/// Each of Table II's grains, or of ten Cate's spheres.
+template <class Check>
+void for_spheres(const std::string& table, const Check& check_row) {
+  for (const auto& row : test::reference_table(table)) {
+    if (row.contains("case")) {
+      check_row(
+          Sphere{
+              0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}, row.at("case")},
+          test::number(row, "u_SN"));
+    } else {
+      check_row(Sphere{.d = test::number(row, "d"), .label = "d = " + row.at("d")},
+                test::number(row, "v_SN"));
+    }
   }
+}
+
+void expect_settling_alone(Sphere s, double step, double reference) {
+  const std::string claim = "still, " + std::exchange(s.label, "");
+  check(claim, settle(in_still_fluid(s, step), s, 10), reference);
 }
 
 /// Cells 40 diameters wide: what the grain stirs up is then small against its own velocity.
+void expect_settling_coupled(const Sphere& s, double step, double times, double reference) {
+  check("coupled, " + s.label, settle(in_flowing_water(s, 40 * s.d, step), s, times), reference);
+}
+
+double response_time(const Sphere& s) {
+  return SettlingSphere(s.d, s.rho_p, s.water).response_time();
+}
+
+TEST(Settling, TableTwoGrainsInStillWater) {
+  for_spheres("seed_grain_derived_numbers.csv",
+              [](const Sphere& s, double v) { expect_settling_alone(s, 2.5e-5, v); });
+}
+
 TEST(Settling, TableTwoGrainsCoupled) {
-  for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
-    const Sphere grain{.d = test::number(row, "d"), .label = "d = " + row.at("d")};
-    const Outcome got = settle(in_flowing_water(grain, 40 * grain.d, 1e-4), grain, 10);
-    check(("coupled, d = " + row.at("d")).c_str(), got, test::number(row, "v_SN"));
-  }
+  for_spheres("seed_grain_derived_numbers.csv",
+              [](const Sphere& s, double v) { expect_settling_coupled(s, 1e-4, 10, v); });
 }
 
 TEST(Settling, TenCatesSphereInStillFluid) {
-  for (const auto& row : test::reference_table("settling_ten_cate2002.csv")) {
-    const Sphere sphere{0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}};
-    const double tau = SettlingSphere(sphere.d, sphere.rho_p, sphere.water).response_time();
-    const Outcome got = settle(in_still_fluid(sphere, tau / 400), sphere, 10);
-    check(("ten Cate still " + row.at("case")).c_str(), got, test::number(row, "u_SN"));
-  }
+  for_spheres("settling_ten_cate2002.csv", [](const Sphere& s, double v) {
+    expect_settling_alone(s, response_time(s) / 400, v);
+  });
 }
 
 TEST(Settling, TenCatesSphereCoupled) {
-  for (const auto& row : test::reference_table("settling_ten_cate2002.csv")) {
-    const Sphere sphere{
-        0.015, 1120, {test::number(row, "rho_f"), test::number(row, "mu_f")}, row.at("case")};
-    const double tau = SettlingSphere(sphere.d, sphere.rho_p, sphere.water).response_time();
-    const Outcome got = settle(in_flowing_water(sphere, 40 * sphere.d, tau / 100), sphere, 8);
-    check(("ten Cate coupled " + row.at("case")).c_str(), got, test::number(row, "u_SN"));
-  }
+  for_spheres("settling_ten_cate2002.csv", [](const Sphere& s, double v) {
+    expect_settling_coupled(s, response_time(s) / 100, 8, v);
+  });
 }
 
 /// A point force in smaller cells drags its water along and falls faster; the excess must vanish as
@@ -137,8 +145,6 @@ TEST(Settling, SelfInducedFlowVanishesWithCellSize) {
     const Outcome got = settle(in_flowing_water(grain, cells * grain.d, 1e-4), grain, 10);
     const double excess = got.terminal / alone - 1;
     test::save_result("settling_excess", {{"cell_over_d", cells}, {"excess", excess}});
-    std::printf("[ measured ] excess fall velocity, cell = %g d: %.3f %%, transient off %.3f %%\n",
-                cells, 100 * excess, 100 * got.transient_error);
     EXPECT_LT(std::abs(excess), 0.5 * last);
     last = std::abs(excess);
   }

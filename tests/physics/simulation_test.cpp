@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/base/errors.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/run/simulation.hpp"
@@ -140,34 +139,6 @@ TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
   // A new run in the folder is not about that failure.
   run(coupled_config(), scratch / "run");
   EXPECT_FALSE(std::filesystem::exists(scratch / "run" / "failure_grains.h5"));
-}
-
-TEST(Simulation, RestartOfAnotherCaseIsRefusedBeforeTheFolderIsTouched) {
-  const ScratchFolder scratch("barchan-other-case");
-  Config config = coupled_config();
-  config.time.end = 4 * config.time.fluid_step;
-  const auto restart = run(config, scratch / "run");
-  const std::string table = text_of(scratch / "run" / "history.csv");
-  std::vector<std::pair<const char*, Config>> others(5, {"", config});
-  others[0].first = "fluid.cells", others[0].second.fluid->cells[2] = 8;
-  others[1].first = "time.fluid_step", others[1].second.time.fluid_step *= 2;
-  others[2].first = "grains.density", others[2].second.grains->density = 2600;
-  others[3].first = "domain.size", others[3].second.size[1] *= 1.5;
-  others[4].first = "[grains]", others[4].second.grains.reset();
-  for (const auto& [key, other] : others) {
-    try {
-      run(other, scratch / "run", restart);
-      ADD_FAILURE() << key;
-    } catch (const InputError& problem) {
-      EXPECT_NE(std::string(problem.what()).find(key), std::string::npos) << problem.what();
-    }
-    EXPECT_EQ(text_of(scratch / "run" / "history.csv"), table) << key;
-  }
-  config.grains->material.sliding_friction = 0.4;  // this one may change
-  config.time.end *= 2;
-  EXPECT_NO_THROW(run(config, scratch / "run", restart));
-  EXPECT_NE(text_of(scratch / "run" / "log.txt").find("grains.sliding_friction 0.6 -> 0.4"),
-            std::string::npos);
 }
 
 TEST(Simulation, WritesEveryFileOfARun) {

@@ -1,12 +1,10 @@
 // WALE on the grid: its values in known flows and how it dies at a wall.
-#include <gtest/gtest.h>
-
-#include <cstdio>
 #include <numbers>
 
 #include "kernels/fluid/wale.hpp"
 #include "src/parallel/launch.hpp"
 #include "tests/support/flow_fields.hpp"
+#include "tests/support/measured.hpp"
 
 namespace barchan {
 namespace {
@@ -46,10 +44,9 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   double worst = 0;
   const auto check = [&](const auto& velocity, double expected) {
     const auto rate = wale_rate(grid, velocity);
-    for (int k = 0; k < grid.nz; ++k)
-      for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i)
-          worst = std::max(worst, std::abs(rate(i, j, k) / a - expected));
+    test::for_owned_cells(grid, [&](int i, int j, int k) {
+      worst = std::max(worst, std::abs(rate(i, j, k) / a - expected));
+    });
   };
   check([=](double, double y, double) { return Vec3{a * y, 0, 0}; }, 0);
   check([=](double, double y, double) { return Vec3{0, 0, a * y}; }, 0);
@@ -57,11 +54,7 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   check([=](double, double y, double z) { return Vec3{0, a * y, -a * z}; }, strain);
   check([=](double x, double y, double) { return Vec3{-a * y, a * x, 0}; }, rotation);
   check([=](double x, double, double z) { return Vec3{a * z, 0, -a * x}; }, rotation);
-  std::printf(
-      "[ measured ] WALE in shear, strain, rotation: largest error %.1e (reference 0, %.4f, "
-      "%.4f, tolerance 1e-6)\n",
-      worst, strain, rotation);
-  EXPECT_LT(worst, 1e-6);
+  testing::expect_below("WALE in shear, strain, rotation", worst, 1e-6);
   EXPECT_NEAR(strain, 0.0870, 5e-5);
   EXPECT_NEAR(rotation, 0.9036, 5e-5);
 }
@@ -87,18 +80,10 @@ TEST(WaleOnGrid, EddyViscosityGrowsWithTheCubeOfTheWallDistance) {
     for (int k = 0; k < grid.nz; ++k)
       for (int i = 0; i < grid.nx; ++i) mean += rate(i, j, k);
     const double x = std::log(h.y(j)), y = std::log(mean);
-    n += 1;
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
+    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
-  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  std::printf(
-      "[ measured ] slope of log nu_t against log y over %g rows of y+ < 5: %.3f (reference "
-      "3, tolerance 0.15)\n",
-      n, slope);
-  EXPECT_NEAR(slope, 3, 0.15);
+  testing::expect_absolute("slope of log nu_t against log y in y+ < 5",
+                           (n * sxy - sx * sy) / (n * sxx - sx * sx), 3, 0.15);
 }
 
 }  // namespace

@@ -11,12 +11,6 @@ make_run() { "$python" "$root/tests/support/make_horn_run.py" "$@" || fail "make
 
 check() { "$python" "$root/tests/support/check_horn_run.py" "$@" || fail "check $*"; }
 
-is_figure() {  # PNG under 300 kB and PDF
-  [ "$(head -c 4 "$1.png" 2> /dev/null | tail -c 3)" = PNG ] || fail "no picture $1.png"
-  [ "$(wc -c < "$1.png")" -lt 300000 ] || fail "$1.png is larger than 300 kB"
-  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
-}
-
 make_run "$dir/straight"
 plot 0 "$dir/straight" fig11 horns fig13 sectors morphology
 quiet

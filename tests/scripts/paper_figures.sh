@@ -10,18 +10,10 @@ numbers() {  # numbers FIGURE FOLDER: the CSV behind it against what was put in
     fail "$1: $(tail -n 1 "$dir/why")"
 }
 
-is_paper_figure() {  # PATH without its end: PNG under 300 kB, and PDF
-  local picture=$1.png
-  [ "$(head -c 4 "$picture" 2> /dev/null | tail -c 3)" = PNG ] || { fail "no picture $picture"; return; }
-  [ "$(wc -c < "$picture")" -lt 300000 ] || fail "$picture is larger than 300 kB"
-  [ "$(wc -c < "$picture")" -gt 15000 ] || fail "$picture looks empty"
-  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
-}
-
 # One run.
 fake "$dir/run" --average --without fields --frames 4
 plot 0 "$dir/run" fig2 fig3
-for figure in fig2 fig3; do is_paper_figure "$dir/run/$figure"; done
+for figure in fig2 fig3; do is_figure "$dir/run/$figure"; done
 [ ! -s "$dir/err" ] || fail "figures of a run are drawn without warnings, but: $(cat "$dir/err")"
 numbers profiles "$dir/run"
 
@@ -56,7 +48,7 @@ programs=$PATH
 fake "$dir/study" --study
 plot 0 "$dir/study"
 says_only "sliding_friction-0.4 is not there, restitution-0.5 failed, restitution-0.9 is unfinished"
-for figure in fig2 fig4 fig5 fig7 fig8; do is_paper_figure "$dir/study/$figure"; done
+for figure in fig2 fig4 fig5 fig7 fig8; do is_figure "$dir/study/$figure"; done
 for figure in fig6 fig9; do
   [ ! -e "$dir/study/$figure.png" ] || fail "$figure of a key that is not varied"
 done

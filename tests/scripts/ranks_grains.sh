@@ -3,7 +3,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../support/over_ranks.sh"
 
-same() { "$support/same_grains.py" "$@" || fail "$* differ"; }
+same() { "$support/compare_runs.py" "$@" || fail "$* differ"; }
 
 cat > heap.toml <<'TOML'
 [case]
@@ -44,18 +44,18 @@ TOML
 run 1 heap.toml --out one
 for ranks in 2 6; do
   run "$ranks" heap.toml --out "on-$ranks"
-  same one "on-$ranks"
+  same grains one "on-$ranks"
 done
 
 # On another number of ranks each time, and on the same one, there to the last bit.
 run 2 heap.toml --out parts --set time.end=0.002
 run 3 heap.toml --out parts --set time.end=0.004 --restart parts/restart_0000000008.h5
 run 1 heap.toml --out parts --restart parts/restart_0000000016.h5
-same one parts
+same grains one parts
 run 3 heap.toml --out whole
 run 3 heap.toml --out halves --set time.end=0.003
 run 3 heap.toml --out halves --restart halves/restart_0000000012.h5
-same whole halves bits
+same bits whole halves
 
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Studies: the cases they make, mistakes in them, a failed case, a kill in the middle and going on.
+# Studies: the cases they make, a failed case, a kill in the middle and going on. Mistakes: tests/bad_input.
 set -u
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
@@ -13,6 +13,12 @@ failures=0
 fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
 
 sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
+wait_for_restart() {  # wait_for_restart FOLDER: until its base case has written one
+  for _ in $(seq 300); do
+    if ls "$1"/base/restart_*.h5 > /dev/null 2>&1; then break; fi
+    sleep 0.05
+  done
+}
 
 # A pile of a few grains in still water, with a start of its own.
 cat > heap.toml << 'CASE'
@@ -55,36 +61,11 @@ grep -q "^restitution-0.5 restart.interval=0.01 grains.sliding_friction=0.3 grai
 printf '[study]\nbase = "case.toml"\n[grid]\ngrains.restitution = [0.1, 0.2]\n"grains.density" = [2500, 2600, 2700]\n' > grid.toml
 [ "$(sweep grid.toml --list | wc -l)" = 6 ] || fail "a grid of 2 x 3 has not 6 cases"
 
-# --- mistakes: status 2, one sentence, nothing written
-bad() {  # bad TEXT STUDY
-  local status=0
-  printf '%b' "$2" > bad.toml
-  sweep bad.toml > out 2> err || status=$?
-  [ "$status" = 2 ] || fail "'$2' ended with $status"
-  grep -qF -- "$1" err || fail "expected '$1', got '$(cat err)'"
-  ! grep -q Traceback err || fail "'$2' shows a traceback"
-  [ ! -e runs/bad ] || fail "'$2' left a folder"
-}
-bad 'did you mean "vary"' '[study]\nbase = "case.toml"\n[varry]\na = [1]\n'
-bad 'grains.density has no value in the base case' '[study]\nbase = "case.toml"\n[vary]\ngrains.density = [2500, 2600]\n'
-bad 'did you mean "at_once"' '[study]\nbase = "case.toml"\nat_onec = 2\n[vary]\na = [1]\n'
-bad 'no cases' '[study]\nbase = "case.toml"\n'
-bad 'must be a list' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = 0.2\n'
-bad 'nowhere.toml' '[study]\nbase = "nowhere.toml"\n[vary]\ngrains.restitution = [0.2]\n'
-bad 'two cases are named "x"' '[study]\nbase = "case.toml"\n[[case]]\nname = "x"\n[[case]]\nname = "x"\n'
-bad 'must be of letters' '[study]\nbase = "case.toml"\n[[case]]\nname = "../x"\n'
-bad 'grains.restitution' '[study]\nbase = "case.toml"\n[vary]\ngrains.restitution = [7.0]\n'
-bad 'did you mean "restitution"' '[study]\nbase = "case.toml"\n[set]\ngrains.restitutoin = 0.2\n[vary]\ngrains.restitution = [0.2]\n'
-bad 'bad.toml' '[study\n'
-
 # --- killed in the middle; the same command goes on and gives the bits of an unbroken run
 "$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out killed > first 2>&1 &
 pid=$!
-for _ in $(seq 300); do
-  if ls killed/base/restart_*.h5 > /dev/null 2>&1; then break; fi
-  sleep 0.05
-done
-pkill -KILL -f -- "--out killed/" || fail "nothing ran when the kill came"
+wait_for_restart killed
+pkill -KILL -P "$pid" || fail "nothing ran when the kill came"
 kill -KILL "$pid"
 wait "$pid" 2> /dev/null
 ! grep -q '"status": "done"' killed/base/run.json || fail "the base case was done before the kill: the test is too short"
@@ -110,10 +91,7 @@ sweep study.toml --no-pictures --out whole > longer 2>&1 || fail "the longer stu
 # --- SIGTERM: status 3, and every running case has its restart file
 "$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out stopped > stopped.txt 2>&1 &
 pid=$!
-for _ in $(seq 300); do
-  if ls stopped/base/restart_*.h5 > /dev/null 2>&1; then break; fi
-  sleep 0.05
-done
+wait_for_restart stopped
 kill -TERM "$pid"
 status=0
 wait "$pid" || status=$?

@@ -17,11 +17,8 @@ done
 plot 0 validation --out "$dir/all"
 [ ! -s "$dir/err" ] || fail "saved results draw without warnings, but: $(cat "$dir/err")"
 for figure in "${figures[@]}"; do
-  picture="$dir/all/$figure.png"
-  [ "$(head -c 4 "$picture" 2> /dev/null | tail -c 3)" = PNG ] || { fail "no picture $figure.png"; continue; }
-  [ "$(wc -c < "$picture")" -gt 15000 ] || fail "$figure.png looks empty"
-  [ "$(wc -c < "$picture")" -lt 150000 ] || fail "$figure.png is larger than 150 kB"
-  [ "$(head -c 4 "$dir/all/$figure.pdf")" = %PDF ] || fail "no $figure.pdf"
+  is_figure "$dir/all/$figure"
+  [ "$(wc -c < "$dir/all/$figure.png")" -lt 150000 ] || fail "$figure.png is larger than 150 kB"
   [ -e "$root/docs/validation/$figure.png" ] || fail "docs/validation/$figure.png is not there"
 done
 # Figures of merit: every quantity has as many cells as the heading.

@@ -61,12 +61,22 @@ struct CoupledRun {
   }
 };
 
+/// Grains as they lie after `steps` in water that is not computed.
+inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
+  c.fluid.reset();
+  c.grains->ambient.emplace();
+  CoupledRun pour(c, loose);
+  pour.advance(steps);
+  InitialGrains grains;
+  const auto kin = testing::host_copy(pour.state.grains->kin);
+  for (int g = 0; g < pour.state.grains->n; ++g) testing::add_grain(grains, 2 * kin(g).r, kin(g).x);
+  return grains;
+}
+
 /// A named force on the grain in row 0 of the last step [N].
 inline Vec3 force_on_first(CoupledRun& run, const std::string& name) {
   for (const NamedForce& f : run.step.grain_forces(run.state)) {
-    if (f.name == name) {
-      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, f.values)(0);
-    }
+    if (f.name == name) return testing::host_copy(f.values)(0);
   }
   return {NAN, NAN, NAN};
 }

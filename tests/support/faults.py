@@ -1,9 +1,11 @@
 """What the scripts that break runs share: the small coupled case, its unbroken run, and what a run that was
 broken and resumed must have in common with it: every bit of the state, every line and every frame."""
+import json
 import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import h5py
 import numpy as np
@@ -32,6 +34,17 @@ def start(folder, settings, restart=None, threads=1):
     environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
     return subprocess.Popen(command(folder, settings, restart), env=environment, stdout=subprocess.DEVNULL,
                             stderr=subprocess.PIPE, text=True)
+
+
+def summary(folder):
+    """What run.json says."""
+    return json.loads((pathlib.Path(folder) / "run.json").read_text())
+
+
+def in_a_new_folder(test):
+    """Calls test(folder); the folder goes with it."""
+    with tempfile.TemporaryDirectory() as name:
+        test(pathlib.Path(name))
 
 
 def last_restart(folder):

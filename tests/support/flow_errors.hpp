@@ -43,22 +43,17 @@ FlowErrors flow_errors(const FluidState& fluid, const Velocity& velocity,
   const HostGrid h(grid);
   const auto u = to_host(fluid.u.x), v = to_host(fluid.u.y), w = to_host(fluid.u.z),
              p = to_host(fluid.p);
-  const auto each = [&](auto&& visit) {
-    for (int k = 0; k < grid.nz; ++k)
-      for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i) visit(i, j, k);
-  };
   const auto p_error = [&](int i, int j, int k) {
     return p(i, j, k) - pressure.p(h.x(i), h.y(j), h.z(k));
   };
   double volume = 0, p_mean = 0;
-  each([&](int i, int j, int k) {
+  for_owned_cells(grid, [&](int i, int j, int k) {
     volume += h.volume(j);
     p_mean += p_error(i, j, k) * h.volume(j);
   });
   p_mean /= volume;
   FlowErrors e;
-  each([&](int i, int j, int k) {
+  for_owned_cells(grid, [&](int i, int j, int k) {
     const double ex = u(i, j, k) - velocity.u(0, h.x_face(i), h.y(j), h.z(k));
     const double ey = j == 0 ? 0 : v(i, j, k) - velocity.u(1, h.x(i), h.y_face(j), h.z(k));
     const double ez = w(i, j, k) - velocity.u(2, h.x(i), h.y(j), h.z_face(k));

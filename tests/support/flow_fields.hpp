@@ -30,14 +30,20 @@ inline HostField to_host(const Field& f) {
   return host;
 }
 
+/// Calls each(i, j, k) for the owned cells.
+template <class Each>
+void for_owned_cells(const Grid& grid, const Each& each) {
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) each(i, j, k);
+}
+
 /// Sets the owned cells to value(i, j, k); ghosts become zero.
 template <class Value>
 void set_field(const Field& f, const Grid& grid, const Value& value) {
   decltype(HostField::values) host("host", f.storage.extent(0), f.storage.extent(1),
                                    f.storage.extent(2));
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+  for_owned_cells(grid, [&](int i, int j, int k) { host(i + 1, j + 1, k + 1) = value(i, j, k); });
   Kokkos::deep_copy(f.storage, host);
 }
 

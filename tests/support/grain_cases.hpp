@@ -8,6 +8,12 @@
 
 namespace barchan::testing {
 
+/// A copy on the host.
+template <class View>
+auto host_copy(const View& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+}
+
 /// A dry case without gravity in a 10 x 10 x 10 mm box; change what the test needs.
 inline Config grain_config() {
   Config c;
@@ -50,8 +56,8 @@ struct GrainRow {
   Vec3 x, u, omega;
 };
 inline std::vector<GrainRow> rows_by_id(const GrainState& s) {
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.kin);
-  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto kin = host_copy(s.kin);
+  const auto id = host_copy(s.id);
   std::vector<GrainRow> rows(static_cast<std::size_t>(s.n_initial) + 1);
   for (int g = 0; g < s.n; ++g) {
     rows[static_cast<std::size_t>(id(g))] = {kin(g).x, kin(g).u, kin(g).omega};

@@ -29,11 +29,6 @@ inline InitialGrains lattice_packing(int n, const std::array<double, 3>& size, R
   return grains;
 }
 
-template <class View>
-auto host_copy(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-}
-
 /// Rows, pairs and walls of a state on the host.
 struct HostGrains {
   explicit HostGrains(const GrainState& s)

@@ -24,6 +24,17 @@ plot() {  # plot EXPECTED_STATUS ARGUMENT...
   ! grep -q Traceback "$dir/err" || fail "plot $* shows a traceback"
 }
 
+is_picture() {  # is_picture PATH [BYTES]: a PNG of more than so many (5000) and less than 300 kB
+  [ "$(head -c 4 "$1" 2> /dev/null | tail -c 3)" = PNG ] || { fail "no picture $1"; return; }
+  [ "$(wc -c < "$1")" -lt 300000 ] || fail "$1 is larger than 300 kB"
+  [ "$(wc -c < "$1")" -gt "${2:-5000}" ] || fail "$1 looks empty"
+}
+
+is_figure() {  # is_figure PATH_WITHOUT_END: a PNG and a PDF
+  is_picture "$1.png" 15000
+  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
+}
+
 says() {  # says TEXT: somewhere on the error stream
   grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"
 }

@@ -13,34 +13,36 @@ namespace barchan::test {
 
 using ReferenceRow = std::map<std::string, std::string>;
 
-inline std::vector<std::string> split_commas(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
+inline std::filesystem::path reference_file(const std::string& name) {
+  return std::filesystem::path(BARCHAN_SOURCE_DIR) / "tests/reference" / name;
+}
+
+/// The cells of every line that is no comment; the first are the column names.
+inline std::vector<std::vector<std::string>> table_lines(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("no table " + path.string());
+  std::vector<std::vector<std::string>> lines;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream in(line);
+    auto& cells = lines.emplace_back();
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  }
+  return lines;
 }
 
 inline std::vector<ReferenceRow> table(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("no table " + path.string());
-  std::vector<std::string> columns;
+  const auto lines = table_lines(path);
   std::vector<ReferenceRow> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    const auto cells = split_commas(line);
-    if (columns.empty()) {
-      columns = cells;
-      continue;
-    }
-    ReferenceRow row;
-    for (std::size_t c = 0; c < columns.size(); ++c) row[columns[c]] = cells.at(c);
-    rows.push_back(row);
+  for (std::size_t n = 1; n < lines.size(); ++n) {
+    ReferenceRow& row = rows.emplace_back();
+    for (std::size_t c = 0; c < lines[0].size(); ++c) row[lines[0][c]] = lines[n].at(c);
   }
   return rows;
 }
 
 inline std::vector<ReferenceRow> reference_table(const std::string& name) {
-  return table(std::filesystem::path(BARCHAN_SOURCE_DIR) / "tests/reference" / name);
+  return table(reference_file(name));
 }
 
 inline double number(const ReferenceRow& row, const std::string& column) {

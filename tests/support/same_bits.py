@@ -16,8 +16,8 @@ def arrays(path):
     return found
 
 
-def main():
-    first, second = arrays(sys.argv[1]), arrays(sys.argv[2])
+def compare(one, other):
+    first, second = arrays(one), arrays(other)
     if first.keys() != second.keys():
         sys.exit(f"different arrays: {sorted(first.keys() ^ second.keys())}")
     for name, a in first.items():
@@ -30,4 +30,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    compare(*sys.argv[1:])

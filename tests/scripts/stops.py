@@ -1,10 +1,7 @@
 #!/usr/bin/python3
-"""stops.py FOLDER: a run that is asked to stop (SIGTERM, SIGINT, the wall-clock limit) writes a restart file,
+"""A run that is asked to stop (SIGTERM, SIGINT, the wall-clock limit) writes a restart file,
 ends with exit code 3 and says how to go on; going on gives the bits of the run that nobody stopped."""
-import json
-import pathlib
 import signal
-import sys
 import time
 
 import faults
@@ -26,14 +23,13 @@ def wait_for_steps(folder, process):
 
 
 def check_stopped(folder, status, said):
-    summary = json.loads((folder / "run.json").read_text())
+    summary = faults.summary(folder)
     last = faults.last_restart(folder)
     if status != 3 or summary["status"] != "stopped" or not summary["message"] or last is None:
         faults.fail(f"{folder}: exit code {status}, {summary['status']}, {last}: {said}")
 
 
 def main(work):
-    work = pathlib.Path(work)
     faults.expect(faults.run(work / "whole", LONG), 0)
     for which in (signal.SIGTERM, signal.SIGINT):
         folder = work / which.name
@@ -56,4 +52,4 @@ def main(work):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    faults.in_a_new_folder(main)

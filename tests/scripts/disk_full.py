@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""disk_full.py DISK WORK: runs whose disk, the small file system DISK, fills up: while results are written, while
-a restart file is, and before the first one. Each ends with exit code 1 and one message, keeps the last
+"""Runs whose disk, a small file system, fills up: while results are written, while a restart file is, and before
+the first one. Each ends with exit code 1 and one message, keeps the last
 good restart file and no half of another, and goes on from it, once there is room, as if nothing had been."""
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 import faults
@@ -29,7 +30,7 @@ def fill(disk, leave):
 def whole_restarts(folder):
     """Restart files that the program itself finds whole."""
     for path in folder.glob("restart_*.h5"):
-        told = faults.subprocess.run([faults.PROGRAM, "info", path], capture_output=True, text=True)
+        told = subprocess.run([faults.PROGRAM, "info", path], capture_output=True, text=True)
         if told.returncode != 0:
             faults.fail(f"{path}: {told.stderr}")
     return faults.last_restart(folder)
@@ -63,8 +64,21 @@ def broken(disk, work, name, settings, leave, words):
     return last
 
 
-def main(disk, work):
-    disk, work = pathlib.Path(disk), pathlib.Path(work)
+def main(folder):
+    disk, work = folder / "disk", folder / "elsewhere"
+    disk.mkdir()
+    work.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True).returncode != 0:
+        print("cannot mount a small tmpfs here")
+        sys.exit(77)
+    try:
+        fill_disks(disk, work)
+    finally:
+        subprocess.run(["umount", str(disk)], check=False)
+
+
+def fill_disks(disk, work):
     case = {**faults.OFTEN, "time.end": 0.02}
     # About 500 kB go into restart files, 20 kB into each frame.
     results = {**case, "output.grains_interval": 2.5e-4, "output.grain_forces": "true", "restart.interval": 2.5e-3}
@@ -78,4 +92,4 @@ def main(disk, work):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    faults.in_a_new_folder(main)

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""kills.py N FOLDER [SEED]: kills N runs (SIGKILL) at random moments, half of them while a restart file is
-being written, and resumes each to its end, often after one or two more kills. The results must be those
-of the run that nothing broke, bit for bit."""
+"""Kills BARCHAN_KILLS (6) runs at random moments, half of them while a restart file is being written, and resumes
+each to its end, often after one or two more kills. The results must be those of the run that nothing broke, bit
+for bit."""
 import collections
-import pathlib
+import os
 import random
 import signal
-import sys
 import time
 
 import faults
@@ -42,14 +41,14 @@ def kill_once(folder, restart, duration, while_writing):
     return "running" if faults.last_restart(folder) else "before the first restart file"
 
 
-def main(n, work, seed="1"):
-    random.seed(int(seed))
-    work = pathlib.Path(work)
+def main(work):
+    n = int(os.environ.get("BARCHAN_KILLS", "6"))
+    random.seed(1)
     begin = time.monotonic()
     faults.expect(faults.run(work / "whole", faults.OFTEN), 0)
     duration = time.monotonic() - begin
     survived = collections.Counter()
-    while sum(survived.values()) < int(n):
+    while sum(survived.values()) < n:
         folder = work / f"killed_{sum(survived.values())}"
         again = 0
         while True:
@@ -67,4 +66,4 @@ def main(n, work, seed="1"):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    faults.in_a_new_folder(main)

@@ -1,21 +1,15 @@
-#include "tests/fuzz/hdf5_readers.hpp"
+#include "tests/fuzz/hdf5_files.hpp"
 
-#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX
-#include <unistd.h>
-
-#include <cerrno>
-#include <charconv>
-#include <cstdlib>
 #include <fstream>
-#include <functional>
+#include <numeric>
 #include <string_view>
+#include <vector>
 
 #include "src/grains/grain_files.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/io/hdf5_handle.hpp"
 #include "src/run/info.hpp"
-#include "tests/fuzz/sound_grains.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan::fuzz {
 
@@ -23,42 +17,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view folder_prefix = "barchan_fuzz_";
-
-/// The folder of this process's inputs. It goes at the end, and what processes that crashed have
-/// left goes with the next one.
-struct InputFolder {
-  fs::path path;
-  InputFolder(const InputFolder&) = delete;
-  InputFolder& operator=(const InputFolder&) = delete;
-  InputFolder() {
-    const fs::path in_memory = "/dev/shm";
-    const fs::path base = fs::is_directory(in_memory) ? in_memory : fs::temp_directory_path();
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(base)) {
-      const std::string name = entry.path().filename().string();
-      if (!name.starts_with(folder_prefix)) continue;
-      int owner = 0;
-      std::from_chars(name.data() + folder_prefix.size(), name.data() + name.size(), owner);
-      if (owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) fs::remove_all(entry, ignored);
-    }
-    path = base / (std::string(folder_prefix) + std::to_string(::getpid()));
-    fs::create_directory(path);
-  }
-  ~InputFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
+/// The arrays and numbers that a restart asks for.
+struct StateArray {
+  const char* name;
+  bool integers;
+  int components;  // of one element; 0: one row of numbers
 };
-
-herr_t mark_complaint(unsigned, const H5E_error2_t* entry, void*) {
-  mark(std::hash<std::string_view>{}(entry->func_name) + std::size_t{31} * entry->line);
-  return 0;
-}
-herr_t mark_complaints(hid_t stack, void*) {
-  H5Ewalk2(stack, H5E_WALK_DOWNWARD, mark_complaint, nullptr);
-  return 0;
-}
+constexpr StateArray state_arrays[] = {
+    {"grains/id", true, 0},           {"grains/kin", false, 12},
+    {"grains/x_reference", false, 3}, {"grains/wall_touching", true, 0},
+    {"grains/wall_xi_t", false, 6},   {"grains/of_rank", true, 0},
+    {"contacts/first", true, 0},      {"contacts/second", true, 0},
+    {"contacts/xi_t", false, 3},      {"dunes", false, 0},
+    {"fluid/u_x", false, 0},          {"fluid/p", false, 0}};
+constexpr const char* state_numbers[] = {"grains/r_max", "grains/r_min", "fluid/time", "t"};
+constexpr const char* state_integers[] = {"step", "grains/n_initial", "grains/n_left"};
 
 /// Every array below a group, as the type it says it has; `depth` against links in circles.
 void read_arrays(const Hdf5File& file, const std::string& group, int depth) {
@@ -114,11 +87,28 @@ void read_restart(const fs::path& path) {
   }
 }
 
+constexpr std::uint64_t n_grains = 3;
+
+Provenance provenance() {
+  return {.title = "a dune",
+          .config = "[time]\nend = 1\n",
+          .version = "0",
+          .git_hash = "0",
+          .backend = "none"};
+}
+
+template <class T>
+std::vector<T> numbers(std::uint64_t n) {
+  std::vector<T> values(n);
+  std::iota(values.begin(), values.end(), T{1});
+  return values;
+}
+
 }  // namespace
 
 fs::path input_file(const char* name) {
-  static const InputFolder folder;
-  return folder.path / name;
+  static const TemporaryFolder folder;
+  return folder / name;
 }
 
 void write_input(const fs::path& file, const void* data, std::size_t size) {
@@ -128,20 +118,47 @@ void write_input(const fs::path& file, const void* data, std::size_t size) {
   demand(stream.good(), "the input is on the disk");
 }
 
-void watch_library() {
-  static const bool watched = [] {
-    hdf5::start_library();
-    H5Eset_auto2(H5E_DEFAULT, mark_complaints, nullptr);
-    return true;
-  }();
-  static_cast<void>(watched);
-}
-
 void read_as_everything(const fs::path& file) {
   accepts([&] { demand_sound(read_grains(file)); });
   accepts([&] { describe_file(file); });
   accepts([&] { read_results(file); });
   accepts([&] { read_restart(file); });
+}
+
+fs::path write_restart(const fs::path& folder) {
+  CheckpointWriter file(folder, 7, provenance());
+  for (const auto& array : state_arrays) {
+    const Extents extents = array.components > 0
+                                ? Extents{n_grains, static_cast<std::uint64_t>(array.components)}
+                                : Extents{n_grains};
+    const auto n =
+        std::accumulate(extents.begin(), extents.end(), std::uint64_t{1}, std::multiplies<>());
+    if (array.integers) {
+      file.array(array.name, numbers<std::int64_t>(n), extents);
+    } else {
+      file.array(array.name, numbers<double>(n), extents);
+    }
+  }
+  for (const auto* name : state_numbers) file.scalar(name, 0.5);
+  for (const auto* name : state_integers) file.scalar(name, std::int64_t{3});
+  return file.commit(1);
+}
+
+fs::path write_frames(const fs::path& folder) {
+  const auto path = folder / "grains.h5";
+  FrameFile file(path, provenance(), {}, MPI_COMM_SELF);
+  for (const int frame : {0, 1}) {
+    file.append(
+        0.1 * frame, 10 * frame, [](Hdf5File&) {},
+        [](Hdf5File& h5, const std::string& group) {
+          h5.write<std::int64_t>(group + "/id", numbers<std::int64_t>(n_grains), {n_grains}, "1");
+          h5.write<float>(group + "/d", numbers<float>(n_grains), {n_grains}, "m");
+          for (const char* name : {"/x", "/u", "/omega"}) {
+            h5.write<double>(group + name, numbers<double>(3 * n_grains), {n_grains, 3}, "SI");
+          }
+        });
+  }
+  return path;
 }
 
 }  // namespace barchan::fuzz

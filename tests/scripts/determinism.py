@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""determinism.py FOLDER: equal runs give equal bits, at another place in memory, with memory that held something
+"""Equal runs give equal bits, at another place in memory, with memory that held something
 else before, and while other processes compete; with another number of threads they differ by round-off,
 which is reported."""
 import pathlib
 import subprocess
-import sys
 
 import h5py
 import numpy as np
@@ -47,7 +46,6 @@ def largest_difference(one, other):
 
 
 def main(work):
-    work = pathlib.Path(work)
     randomised = pathlib.Path("/proc/sys/kernel/randomize_va_space").read_text().strip()
     firsts = []
     for threads in (1, 2):
@@ -71,4 +69,4 @@ def main(work):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    faults.in_a_new_folder(main)

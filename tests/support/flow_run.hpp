@@ -1,0 +1,52 @@
+// A flow that is stepped by hand.
+#pragma once
+
+#include "src/fluid/fluid_solver.hpp"
+#include "tests/support/flow_fields.hpp"
+
+namespace barchan::test {
+
+struct FlowRun {
+  Config config;
+  Grid grid;
+  HostGrid h;
+  FluidState fluid;
+  FluidSolver solver;
+  FluidStepReport report;  // of the last step
+
+  explicit FlowRun(const Config& c)
+      : config(c),
+        grid(make_grid(c)),
+        h(grid),
+        fluid(make_fluid_state(grid)),
+        solver(config, grid) {}
+
+  /// The velocity along x in the owned cells, and all ghosts.
+  template <class Value>
+  void start(const Value& u_x) {
+    set_field(fluid.u.x, grid, u_x);
+    solver.fill_ghosts(fluid);
+  }
+  void start_uniform(double u_x) {
+    start([=](int, int, int) { return u_x; });
+  }
+  const FluidStepReport& advance(double dt, const ExchangeOnFaces* exchange = nullptr) {
+    return report = solver.advance(fluid, exchange, dt);
+  }
+  /// `steps` equal steps over `time` [s].
+  void advance_over(double time, int steps) {
+    for (int s = 0; s < steps; ++s) advance(time / steps);
+  }
+};
+
+/// A vortex or wave between walls of free slip, which are planes of symmetry, without a model.
+inline Config smooth_flow_config(std::array<int, 3> n, std::array<double, 3> size, double first,
+                                 double viscosity) {
+  Config config = flow_config(n, size, first);
+  config.fluid->kinematic_viscosity = viscosity;
+  config.fluid->turbulence = Turbulence::none;
+  config.fluid->bottom = config.fluid->top = WallFlow::free_slip;
+  return config;
+}
+
+}  // namespace barchan::test
