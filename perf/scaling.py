@@ -62,7 +62,7 @@ class Machine:
 
 # Twice the times of docs/performance.md, which are of two threads. A grain step is one in water; `coupled` is
 # what is left of coupled/heap_100k (1.08 s, 5 iterations, 0.7 rebuilds), so that one rank agrees with it.
-CORE = Machine("core", memory=8e9, grain_step=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7,
+CORE = Machine("CPU", memory=8e9, grain_step=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7,
                flow=(0, 9.9e-8), coupled=(0, 6.2e-7), iteration=7e-8, smoothing=2.7e-8)
 # Nothing measured: straight lines through the estimate of docs/performance.md. On several ranks a grain step
 # launches two more kernels and waits for the largest displacement; a message is packed, awaited and unpacked;
@@ -194,8 +194,8 @@ def ideal(case, machine, ranks):
 
 
 def fits_in_memory(case, machine, ranks):
-    """384 bytes a cell (225 of the flow alone) and 704 a grain: docs/performance.md, "Memory"."""
-    return ((384 if case.has_grains else 225) * case.cells + 704 * case.grains) / ranks < machine.memory
+    """384 bytes a cell (225 of the flow alone) and 585 a grain: docs/performance.md, "Memory"."""
+    return ((384 if case.has_grains else 225) * case.cells + 585 * case.grains) / ranks < machine.memory
 
 
 def strong_time(case, machine, network, ranks):
@@ -236,7 +236,7 @@ def table(network):
     print(f"Network: {1e6 * network.latency:g} us, {1e-9 * network.bandwidth:g} GB/s a rank. "
           "ms a fluid step; in brackets the efficiency.\n")
     columns = [(case, machine) for machine in (CORE, H200) for case in CASES]
-    head("ranks", *(f"{case.name}, {machine.name}" for case, machine in columns))
+    head("ranks", *(f"{machine.name}: {case.name}" for case, machine in columns))
     for ranks in IN_TABLE:
         row(ranks, *(strong_cell(case, machine, network, ranks) for case, machine in columns))
 
