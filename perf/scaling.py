@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Predicts the time of a fluid step on up to 1,000 ranks, from what ranks send each other and measured rates.
 
-usage: scaling.py [--latency S] [--bandwidth B]   tables in markdown: docs/performance.md
-       scaling.py --figure PNG                    the same as curves
+usage: scaling.py [--latency S] [--bandwidth B]   the table of docs/scaling.md
+       scaling.py --figure PNG                    its figure
        scaling.py --check RUN_DIR ...             the model beside run.json of runs on several ranks
 
-A message costs the latency and its bytes over the bandwidth of its rank, a reduction the latency for each
-level of a tree, an all-to-all the latency for each other rank. Nothing overlaps. Phases wait for their
-busiest rank.
+A message costs the latency and its bytes over the bandwidth of its rank. A reduction costs the latency for
+each level of a tree, an all-to-all the latency for each other rank. Nothing overlaps. Every phase waits for
+its busiest rank.
 """
 
 import argparse
@@ -22,7 +22,6 @@ from pathlib import Path
 import numpy as np
 
 import scaling_counts as counts
-import scaling_layout as layouts
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -35,7 +34,7 @@ class Problem(Exception):
 
 @dataclass(frozen=True)
 class Network:
-    latency: float = 2e-6     # [s]
+    latency: float = 2e-6    # [s]
     bandwidth: float = 1e10  # of a rank [bytes/s]
 
     def seconds(self, c, ranks):
@@ -48,28 +47,29 @@ class Network:
 class Machine:
     """Times of one rank [s]: of each step, for each grain or cell."""
     name: str
-    substep: tuple          # fixed, per grain
+    memory: float           # of a rank [bytes]
+    grain_step: tuple       # fixed, per grain
     rebuild: tuple
     exchange: float         # per grain in the pencil: gather, deposit, carry
     flow: tuple             # a step without grains
     coupled: tuple          # a step around grains without its iterations and smoothings
     iteration: float        # per cell
     smoothing: float
-    beside: float = 0       # more for a sub-step, a message, a block of a transpose among ranks
+    among_ranks: float = 0  # more for a grain step, a message, a block of a transpose on several ranks
     message: float = 0
     block: float = 0
 
 
-# docs/performance.md, "Results" and "Kernels", two threads: twice their times, quiet minutes. A sub-step
-# in water, and what is left of coupled/heap_100k (1.08 s, 5 iterations, 0.7 rebuilds) for the rest.
-CORE = Machine("core", substep=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7, flow=(0, 9.9e-8),
-               coupled=(0, 6.2e-7), iteration=7e-8, smoothing=2.7e-8)
-# docs/performance.md, "GPU: compiled, not run; estimate": straight lines through its columns. Among ranks
-# a sub-step launches two more kernels and waits for the largest way; a message is packed, awaited and
-# unpacked; src/parallel/transpose.cpp launches a kernel for each rank of a line.
-H200 = Machine("H200 (estimate)", substep=(9e-6, 2.41e-10), rebuild=(3.8e-4, 4.2e-10), exchange=3e-10,
-               flow=(1.9e-4, 1.1e-10), coupled=(2.4e-3, 3.5e-10), iteration=5.5e-11, smoothing=2.8e-11,
-               beside=1.6e-5, message=6e-6, block=4e-6)
+# Twice the times of docs/performance.md, which are of two threads. A grain step is one in water; `coupled` is
+# what is left of coupled/heap_100k (1.08 s, 5 iterations, 0.7 rebuilds), so that one rank agrees with it.
+CORE = Machine("CPU", memory=8e9, grain_step=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7,
+               flow=(0, 9.9e-8), coupled=(0, 6.2e-7), iteration=7e-8, smoothing=2.7e-8)
+# Nothing measured: straight lines through the estimate of docs/performance.md. On several ranks a grain step
+# launches two more kernels and waits for the largest displacement; a message is packed, awaited and unpacked;
+# a transpose launches a kernel for each rank that shares the axis.
+H200 = Machine("H200", memory=1.2e11, grain_step=(9e-6, 2.41e-10), rebuild=(3.8e-4, 4.2e-10),
+               exchange=3e-10, flow=(1.9e-4, 1.1e-10), coupled=(2.4e-3, 3.5e-10), iteration=5.5e-11,
+               smoothing=2.8e-11, among_ranks=1.6e-5, message=6e-6, block=4e-6)
 
 
 # --- cases ---------------------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ class Case:
     name: str
     tiles: tuple
     has_grains: bool = True
-    sub_steps: int = 100
+    grain_steps: int = 100
     iterations: int = 5
     rebuilds: float = 0.7
 
@@ -97,27 +97,28 @@ class Case:
         return 1e5 * self.tiles[0] * self.tiles[1] if self.has_grains else 0
 
 
-PAPER = Case("paper: 1e5 grains", (1, 1))
-DUNES = Case("100 dunes: 1e7 grains", (10, 10))
-FLOW = Case("1e9 cells, no grains", (46, 46), has_grains=False)
+PAPER = Case("1e5 grains", (1, 1))
+DUNES = Case("1e7 grains", (10, 10))
+FLOW = Case("1e9 cells", (46, 46), has_grains=False)
 CASES = (PAPER, DUNES, FLOW)
 RANKS = (1, 2, 4, 8, 16, 32, 64, 128, 256, 500, 1000)
+IN_TABLE = (1, 2, 8, 32, 64, 128, 500, 1000)
 
 
 @cache
 def grains_of(case):
-    return layouts.columns_of_dunes(case.tiles)
+    return counts.columns_of_dunes(case.tiles)
 
 
 @cache
 def layout_of(case, shape):
-    return layouts.layout(grains_of(case), shape, case.columns)
+    return counts.layout(grains_of(case), shape, case.columns)
 
 
 # --- the time of a step ----------------------------------------------------------------------------------
 
-PARTS = ("sub-steps", "flow", "uneven", "ghosts", "reductions", "all-to-alls", "halos", "transposes",
-         "visits")
+PARTS = ("grain steps", "flow", "uneven", "ghosts", "reductions", "all-to-alls", "halos", "transposes",
+         "to fluid ranks")
 
 
 def blocks(p):
@@ -163,76 +164,43 @@ def step_time(case, machine, network, ranks):
 
 
 def add_grains(t, case, machine, network, shape):
-    ranks, n, rebuilds = shape[0] * shape[1], case.sub_steps, case.rebuilds
+    ranks, n, rebuilds = shape[0] * shape[1], case.grain_steps, case.rebuilds
     where = layout_of(case, shape)
     mean, most, b = case.grains / ranks, where.grains.max(), where.worst()
-    t["sub-steps"] = n * (machine.substep[0] + machine.substep[1] * mean)
-    t["sub-steps"] += rebuilds * (machine.rebuild[0] + machine.rebuild[1] * mean)
+    t["grain steps"] = n * (machine.grain_step[0] + machine.grain_step[1] * mean)
+    t["grain steps"] += rebuilds * (machine.rebuild[0] + machine.rebuild[1] * mean)
     t["flow"] += machine.exchange * mean
-    t["uneven"] += (n * machine.substep[1] + rebuilds * machine.rebuild[1]) * max(most - mean, 0)
+    t["uneven"] += (n * machine.grain_step[1] + rebuilds * machine.rebuild[1]) * max(most - mean, 0)
     t["uneven"] += machine.exchange * max(where.in_pencil.max() - mean, 0)
     if ranks == 1:
         return
-    ghosts = ((n - rebuilds) * counts.sub_step(b)
+    ghosts = ((n - rebuilds) * counts.grain_step(b)
               + rebuilds * (counts.rebuild(b) + counts.Counts(reductions=1)))
     t["ghosts"] = network.seconds(replace(ghosts, reductions=0, all_to_alls=0), ranks)
-    t["ghosts"] += rebuilds * machine.rebuild[1] * b.ghosts + n * machine.beside
+    t["ghosts"] += rebuilds * machine.rebuild[1] * b.ghosts + n * machine.among_ranks
     t["reductions"] += network.seconds(counts.Counts(reductions=ghosts.reductions + 4), ranks)
-    visits = counts.visits(b)
-    t["visits"] = network.seconds(replace(visits, all_to_alls=0), ranks)
-    calls = ghosts.all_to_alls + visits.all_to_alls
+    copies = counts.to_fluid_and_back(b)
+    t["to fluid ranks"] = network.seconds(replace(copies, all_to_alls=0), ranks)
+    calls = ghosts.all_to_alls + copies.all_to_alls
     t["all-to-alls"] = network.seconds(counts.Counts(all_to_alls=calls), ranks)
 
 
 def total(t):
     return sum(t.values())
 
-
-# --- tables ------------------------------------------------------------------------------------------------
-
-def row(*cells):
-    print("| " + " | ".join(str(c) for c in cells) + " |")
-
-
-def head(*cells):
-    row(*cells)
-    print("|" + "---|" * len(cells))
-
-
-def show(seconds):
-    return f"{1e3 * seconds:.3g}"
-
-
-def fits_in_memory(case, ranks, per_rank):
-    """384 bytes a cell (225 of the flow alone) and 704 a grain: docs/performance.md, "Memory"."""
-    return ((384 if case.has_grains else 225) * case.cells + 704 * case.grains) / ranks < per_rank
-
-
-def strong(machine, network, per_rank):
-    print(f"\nStrong scaling, a rank a {machine.name}: ms a fluid step, in brackets the efficiency.\n")
-    head("ranks", *(c.name for c in CASES))
-    for ranks in RANKS:
-        row(ranks, *(strong_cell(case, machine, network, ranks, per_rank) for case in CASES))
-
-
 def ideal(case, machine, ranks):
-    """What one rank needs, shared out."""
+    """What one rank needs, divided by the number of ranks."""
     return total(step_time(case, machine, Network(), 1)) / ranks
 
 
-def strong_cell(case, machine, network, ranks, per_rank):
-    t = step_time(case, machine, network, ranks) if fits_in_memory(case, ranks, per_rank) else None
-    if t is None:
-        return "-"
-    return f"{show(total(t))} ({100 * ideal(case, machine, ranks) / total(t):.0f} %)"
+def fits_in_memory(case, machine, ranks):
+    """384 bytes a cell (225 of the flow alone) and 585 a grain: docs/performance.md, "Memory"."""
+    return ((384 if case.has_grains else 225) * case.cells + 585 * case.grains) / ranks < machine.memory
 
 
-def shares(case, machine, network, ranks):
-    print(f"\n{case.name}, a rank a {machine.name}: ms of a fluid step by what takes them.\n")
-    head("ranks", *PARTS, "all")
-    for n in ranks:
-        t = step_time(case, machine, network, n)
-        row(n, *(show(t[part]) for part in PARTS), show(total(t)))
+def strong_time(case, machine, network, ranks):
+    """As step_time(), None also where the memory is too small."""
+    return step_time(case, machine, network, ranks) if fits_in_memory(case, machine, ranks) else None
 
 
 def weak_cases(side):
@@ -244,30 +212,33 @@ def weak_cases(side):
         yield ranks, Case(f"{ranks}", (side * n, side * n))
 
 
-def weak(machine, network, side):
-    print(f"\nWeak scaling, {side * side} dune(s) of 1e5 grains and as many tiles of cells a rank, a rank a "
-          f"{machine.name}.\n")
-    head("ranks", "grains", "cells", "ms a fluid step", "efficiency", *PARTS[2:])
-    first = None
-    for ranks, case in weak_cases(side):
-        t = step_time(case, machine, network, ranks)
-        first = first or total(t)
-        row(ranks, f"{case.grains:.2g}", f"{case.cells:.2g}", show(total(t)),
-            f"{100 * first / total(t):.0f} %", *(show(t[part]) for part in PARTS[2:]))
+# --- table ---------------------------------------------------------------------------------------------
+
+def row(*cells):
+    print("| " + " | ".join(str(c) for c in cells) + " |")
 
 
-def per_rank_counts(case, ranks):
-    print(f"\n{case.name}: what the busiest rank sends in a fluid step.\n")
-    head("ranks", "pencils", "messages", "megabytes", "reductions", "all-to-alls", "grains", "ghosts",
-         "visitors")
-    for n in ranks:
-        shape = counts.best_shape(n, *case.columns)
-        p = counts.Pencil(case.columns[0], 30, case.columns[1], *shape)
-        where = layout_of(case, shape)
-        c = counts.coupled_step(p, where.worst(), case.iterations, case.sub_steps, case.rebuilds)
-        row(n, f"{shape[0]} x {shape[1]}", f"{c.messages:.0f}", f"{1e-6 * c.bytes:.2f}",
-            f"{c.reductions:.0f}", f"{c.all_to_alls:.1f}", f"{where.grains.max():.0f}",
-            f"{where.ghosts.max():.0f}", f"{where.visitors.max():.0f}")
+def head(*cells):
+    row(*cells)
+    print("|" + "---|" * len(cells))
+
+
+def strong_cell(case, machine, network, ranks):
+    t = strong_time(case, machine, network, ranks)
+    if t is None:
+        return "-"
+    ms = 1e3 * total(t)
+    digits = f"{float(f'{ms:.3g}'):,.0f}" if ms >= 100 else f"{ms:.3g}"
+    return f"{digits} ({100 * ideal(case, machine, ranks) / total(t):.0f} %)"
+
+
+def table(network):
+    print(f"Network: {1e6 * network.latency:g} us, {1e-9 * network.bandwidth:g} GB/s a rank. "
+          "ms a fluid step; in brackets the efficiency.\n")
+    columns = [(case, machine) for machine in (CORE, H200) for case in CASES]
+    head("ranks", *(f"{machine.name}: {case.name}" for case, machine in columns))
+    for ranks in IN_TABLE:
+        row(ranks, *(strong_cell(case, machine, network, ranks) for case, machine in columns))
 
 
 # --- beside runs --------------------------------------------------------------------------------------------
@@ -291,10 +262,10 @@ def model_of_run(run, config, x, z):
     cells, size = config["fluid"]["cells"], config["domain"]["size"]
     shape = counts.best_shape(run["ranks"], cells[0], cells[2])
     p = counts.Pencil(*cells, *shape)
-    where = layouts.layout(layouts.columns_of_grains(x, z, (size[0], size[2])), shape, (cells[0], cells[2]))
-    sub_steps = round(config["time"]["fluid_step"] / config["time"]["grain_step"])
+    where = counts.layout(counts.columns_of_grains(x, z, (size[0], size[2])), shape, (cells[0], cells[2]))
+    grain_steps = round(config["time"]["fluid_step"] / config["time"]["grain_step"])
     rebuilds = run["communication"]["list_rebuilds"] - 1 / run["steps"]  # the first was before the first step
-    return counts.coupled_step(p, where.border(0), run["pressure_iterations_mean"], sub_steps, rebuilds)
+    return counts.coupled_step(p, where.border(0), run["pressure_iterations_mean"], grain_steps, rebuilds)
 
 
 def check(folders):
@@ -307,16 +278,62 @@ def check(folders):
         row(folder.name, run["ranks"], *(f"{a:.1f} / {b:.1f} = {a / b:.3f}" for a, b in pairs))
 
 
-def tables(network):
-    print(f"Network: {1e6 * network.latency:g} us, {1e-9 * network.bandwidth:g} GB/s a rank.")
-    for case in (PAPER, DUNES):
-        per_rank_counts(case, (2, 8, 64, 500))
-    for machine, per_rank, side in ((CORE, 8e9, 1), (H200, 1.2e11, 3)):
-        strong(machine, network, per_rank)
-        shares(PAPER, machine, network, (1, 8, 64, 500))
-        shares(DUNES, machine, network, (1, 64, 1000))
-        shares(FLOW, machine, network, (64, 1000))
-        weak(machine, network, side)
+# --- figure ----------------------------------------------------------------------------------------------
+
+def draw_strong(axes, network, style):
+    look = {PAPER: (style.BLUE, "o", "paper, 10$^5$ grains"), DUNES: (style.VERMILLION, "s", "10$^7$ grains"),
+            FLOW: (style.GREEN, "^", "10$^9$ cells, no grains")}
+    for machine, dashes in ((CORE, "-"), (H200, (0, (4, 1.5)))):
+        for case, (colour, marker, label) in look.items():
+            times = [(n, t) for n in RANKS if (t := strong_time(case, machine, network, n))]
+            ranks = np.array([n for n, _ in times])
+            axes.plot(ranks, 1e3 * ideal(case, machine, ranks), color=style.GREY, lw=0.6, zorder=1)
+            axes.plot(ranks, [1e3 * total(t) for _, t in times], color=colour, ls=dashes, marker=marker, ms=3,
+                      label=label if machine is CORE else None)
+    axes.plot([], [], color=style.BLACK, ls=(0, (4, 1.5)), label="H200 (estimates)")
+    axes.plot([], [], color=style.GREY, lw=0.6, label="no waiting")
+    axes.set(xscale="log", yscale="log", xlabel="ranks", ylabel="ms a fluid step")
+    axes.set_ylim(1, 1e9)
+    axes.legend(loc="upper right", fontsize=6.2)
+
+
+def draw_shares(axes, network, style):
+    stack = ((("grain steps",), style.BLUE), (("flow",), style.SKY), (("uneven",), style.GREY),
+             (("ghosts",), style.ORANGE), (("reductions",), style.VERMILLION),
+             (("all-to-alls",), style.PURPLE), (("halos", "transposes", "to fluid ranks"), style.GREEN))
+    times = [t for n in RANKS if (t := step_time(PAPER, CORE, network, n))]
+    bottom = np.zeros(len(times))
+    for parts, colour in stack:
+        share = np.array([sum(t[part] for part in parts) / total(t) for t in times])
+        axes.bar(range(len(times)), share, 0.85, bottom=bottom, color=colour, label=", ".join(parts))
+        bottom += share
+    axes.set_xticks(range(len(times)), [str(n) for n in RANKS[:len(times)]], rotation=60)
+    axes.tick_params(axis="x", which="both", length=0)
+    axes.set(xlabel="ranks (cores)", ylabel="share of a step, paper's case", ylim=(0, 1.95),
+             yticks=np.arange(0, 1.01, 0.2))
+    axes.legend(loc="upper left", fontsize=6.2)
+
+
+def draw_weak(axes, network, style):
+    for machine, side, colour, dashes in ((CORE, 1, style.BLUE, "-"), (H200, 3, style.VERMILLION, "--")):
+        times = [(ranks, total(step_time(case, machine, network, ranks)))
+                 for ranks, case in weak_cases(side)]
+        ranks, seconds = np.array(times).T
+        axes.plot(ranks, seconds[0] / seconds, color=colour, ls=dashes, marker="o", ms=3,
+                  label=f"{side**2} dune{'s' if side > 1 else ''} a rank, {machine.name}")
+    axes.set(xscale="log", xlabel="ranks", ylabel="efficiency, weak scaling", ylim=(0, 1.05))
+    axes.legend(loc="lower left", fontsize=6.2)
+
+
+def draw(path, network):
+    sys.path.insert(0, str(ROOT / "analysis"))
+    import style
+    style.use()
+    figure, panels = style.plt.subplots(1, 3, figsize=(style.FULL_WIDTH, 3.3))
+    for index, (axes, panel) in enumerate(zip(panels, (draw_strong, draw_shares, draw_weak))):
+        panel(axes, network, style)
+        style.panel_label(axes, index)
+    style.save(figure, path.parent, path.stem, "scaling")
 
 
 def main():
@@ -331,10 +348,9 @@ def main():
         if options.check:
             check(options.check)
         elif options.figure:
-            import scaling_figure
-            scaling_figure.draw(options.figure, network)
+            draw(options.figure, network)
         else:
-            tables(network)
+            table(network)
     except Problem as problem:
         print(f"scaling: {problem}", file=sys.stderr)
         return 2
