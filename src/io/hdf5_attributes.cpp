@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "src/io/hdf5_file.hpp"
-#include "src/io/hdf5_guard.hpp"
 #include "src/io/hdf5_handle.hpp"
 
 namespace barchan {
@@ -93,7 +92,6 @@ std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::s
 }
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
-  const hdf5::Guard guard(path_);
   char* text = nullptr;
   get_attribute(object, name, H5T_STRING, text_type().get(), static_cast<void*>(&text));
   std::string result(text == nullptr ? "" : text);

@@ -48,7 +48,6 @@ class Entry:
     env: dict = field(default_factory=dict)
     limit: float = 20  # seconds
     place: str = ""  # "read-only", "full" or "nobody": where or as whom it runs
-    library_fault: bool = False  # the HDF5 library itself goes astray, and src/hdf5_guard ends that
     writes: bool = False  # an exit code of 2 that may leave a file: never without a reason beside the entry
 
     def config(self):

@@ -38,13 +38,6 @@ def flip(path, at):
     path.write_bytes(bytes(data))
 
 
-def wrong_heap(path, at):
-    """One byte wrong in the sizes of the texts that attributes point to."""
-    data = bytearray(path.read_bytes())
-    data[data.find(b"GCOL") + at] ^= 0x80
-    path.write_bytes(bytes(data))
-
-
 def h5(function):
     """A file written by h5py."""
     def make(path):
@@ -136,9 +129,6 @@ ENTRIES = [
     Entry("info: the case", ["case.toml", "not an HDF5 file"], command="info case.toml"),
     Entry("info: cut", ["start.h5", "cut short"], text="", command="info start.h5", given=GRAINS,
           files={"start.h5": lambda path: cut(path, 0.5)}),
-    *(Entry(f"info: results with a damaged text, byte {at}", ["start.h5", "damaged", "another copy"], text="",
-            command="info start.h5", given=("good/grains.h5 as start.h5",),
-            library_fault=True, files={"start.h5": lambda path, at=at: wrong_heap(path, at)}) for at in (67, 69)),
     Entry("info: a restart with a wrong bit", ["start.h5", "damaged"], text="", command="info start.h5",
           given=("good/restart_0000000004.h5 as start.h5",), files={"start.h5": lambda path: flip(path, 0.6)}),
 ]

@@ -49,9 +49,6 @@ def environment_of(entry, temporary):
     environment = {**base_environment(temporary, entry.ranks), **entry.env}
     if entry.place:  # a program that counts its lines cannot write them everywhere, nor as anyone
         environment["GCOV_PREFIX"] = str(temporary)
-    if entry.library_fault:  # which a sanitizer must leave to the program
-        for name, left in (("ASAN_OPTIONS", "replace_intrin=0:replace_str=0"), ("TSAN_OPTIONS", "ignore_noninstrumented_modules=1")):
-            environment[name] = f"{os.environ.get(name, '')}:{left}"
     return environment
 
 
