@@ -52,15 +52,12 @@ std::string instead_of(const std::filesystem::path& file) {
 /// Rank 0 reads the file through before the HDF5 library looks at it: what is damaged can make the
 /// library itself fail. False without a seal, as in files of others and of earlier versions.
 bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
-  SealCheck found;
-  std::error_code unreadable;  // which the HDF5 layer puts into words
-  if (rank_of(communicator) == 0 && std::filesystem::is_regular_file(file, unreadable)) {
-    found = check_seal(file);
-  }
+  const bool sealed = broadcast(has_seal(file), communicator);
+  std::string problem;
+  if (sealed && rank_of(communicator) == 0) problem = broken_seal(file);
   // Rank 0 tells why; the others end with it.
-  if (broadcast(found.seal == Seal::broken, communicator))
-    refuse(file, found.problem + instead_of(file));
-  return broadcast(found.seal == Seal::whole, communicator);
+  if (broadcast(!problem.empty(), communicator)) refuse(file, problem + instead_of(file));
+  return sealed;
 }
 
 CheckpointScalar split(const std::string& path) {

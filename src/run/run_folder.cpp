@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -79,6 +81,13 @@ std::string text_of_table(const std::filesystem::path& file, const std::string& 
 bool is_result(const std::filesystem::path& name) {
   return is_one_of(result_names, name) || is_one_of(failure_names, name) ||
          name.extension() == ".tmp" || is_checkpoint_name(name);
+}
+
+std::string status_in(const std::filesystem::path& run_json) {
+  std::ifstream in(run_json);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto status = json.find("status");
+  return status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
 }
 
 void check_tables(const std::filesystem::path& folder) {
@@ -158,8 +167,11 @@ void RunFolder::append(const DuneRow& r) {
                           r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux));
 }
 
-void RunFolder::write_summary(const RunSummary& summary) {
-  if (root_) write_atomically(file("run.json"), to_json(summary));
+void RunFolder::write_summary(const nlohmann::ordered_json& summary) {
+  if (!root_) return;
+  // Texts that are not UTF-8 (a path in the message) must not cost the summary.
+  const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  write_atomically(file("run.json"), summary.dump(2, ' ', false, replace) + "\n");
 }
 
 }  // namespace barchan
