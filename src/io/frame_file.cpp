@@ -72,7 +72,7 @@ void FrameFile::drop_after(double t) {
     if (rank_of(communicator_) == 0) std::filesystem::remove(path_);
     return;
   }
-  // Links are not removed in place: a kill meanwhile could cost the frames that stay.
+  // Links are not removed in place: a kill while they are could cost the frames that stay.
   replace_file([&](Hdf5File& file) {
     const Hdf5File old(path_, Hdf5File::Mode::read, communicator_);
     write_provenance(file, provenance_);

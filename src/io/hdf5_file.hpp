@@ -110,12 +110,12 @@ class Hdf5File {
  private:
   using Id = std::int64_t;  // hid_t, kept out of the header
 
-  /// Where to look up a name, and the name there: a hidden group has no path yet.
-  struct Place {
+  /// A name as a path from an open object: nothing leads to a hidden group from the root yet.
+  struct Location {
     Id base;
-    std::string name;
+    std::string path;
   };
-  Place place_of(const std::string& name) const;
+  Location locate(const std::string& name) const;
   [[noreturn]] void fail(const std::string& reason, const std::string& object) const;
   /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>
