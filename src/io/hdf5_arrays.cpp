@@ -15,6 +15,7 @@ template <class T>
 hid_t memory_type() {
   if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
 }
 
@@ -23,9 +24,9 @@ ElementType element_type(hid_t type) {
   const auto kind = H5Tget_class(type);
   if (kind == H5T_FLOAT && size == sizeof(float)) return ElementType::float32;
   if (kind == H5T_FLOAT && size == sizeof(double)) return ElementType::float64;
-  if (kind == H5T_INTEGER && size == sizeof(std::int64_t) && H5Tget_sign(type) == H5T_SGN_2) {
-    return ElementType::int64;
-  }
+  const bool is_signed = kind == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_2;
+  if (is_signed && size == sizeof(std::int32_t)) return ElementType::int32;
+  if (is_signed && size == sizeof(std::int64_t)) return ElementType::int64;
   return ElementType::other;
 }
 
@@ -169,6 +170,7 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) 
                                                const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
 BARCHAN_HDF5_ARRAYS(double)
+BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
 

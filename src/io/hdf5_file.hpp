@@ -25,7 +25,7 @@ using Extents = std::vector<std::uint64_t>;
 /// "62 x 30 x 25".
 std::string to_string(const Extents& extents);
 
-enum class ElementType { float32, float64, int64, other };
+enum class ElementType { float32, float64, int32, int64, other };
 
 struct ArrayInfo {
   ElementType type = ElementType::other;
@@ -74,8 +74,8 @@ class Hdf5File {
   void begin_hidden_group(const std::string& as);
   void publish_group();
 
-  /// T is float, double or std::int64_t. `extents` are those of `values`. Without a share, what
-  /// rank 0 has is written.
+  /// T is float, double, std::int32_t or std::int64_t. `extents` are those of `values`. Without a
+  /// share, what rank 0 has is written.
   template <class T>
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});

@@ -113,6 +113,11 @@ void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainSta
   }
 }
 
+void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
+                  const Share& rows) {
+  if (dunes) file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", rows);
+}
+
 void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& faces) {
   std::vector<double> centres;
   for (std::size_t i = 1; i < faces.size(); ++i) centres.push_back(0.5 * (faces[i - 1] + faces[i]));
@@ -215,7 +220,8 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   return names;
 }
 
-void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step) {
+void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
+                               const DuneLabels& dunes) {
   const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
   const auto n = static_cast<std::size_t>(grains.n);
   const FrameVectors<float> x("output: track", n);
@@ -227,16 +233,18 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
     const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
     const auto positions = on_host(x);
     file.write(group + "/id", values_of(id), {n}, "1", rows);
+    write_labels(file, group, dunes, rows);
     file.write(group + "/x", values_of(positions), {n, 3}, "m", share_of(rows, {n, 3}, 0));
   });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
-                               std::span<const NamedForce> forces) {
+                               std::span<const NamedForce> forces, const DuneLabels& dunes) {
   const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
   const auto preamble = [](Hdf5File&) {};
   grains_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     write_grain_arrays(file, group, grains, forces, rows);
+    write_labels(file, group, dunes, rows);
   });
   describe_grains();
 }

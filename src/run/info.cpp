@@ -21,6 +21,8 @@ std::string type_name(ElementType type) {
       return "float32";
     case ElementType::float64:
       return "float64";
+    case ElementType::int32:
+      return "int32";
     case ElementType::int64:
       return "int64";
     case ElementType::other:

@@ -98,12 +98,16 @@ void ResultsWriter::write_frames() {
   const OutputConfig& o = run_.config.output;
   const double t = clock.time();
   SystemState& now = run_.system;
-  if (now.grains && clock.due(o.grains_interval)) {
+  const bool grains = now.grains && clock.due(o.grains_interval);
+  const bool tracks = now.grains && clock.due(o.tracks_interval);
+  std::optional<std::vector<int>> dunes;
+  if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels(run_);
+  if (grains) {
     std::vector<NamedForce> forces;
     if (o.grain_forces) forces = run_.coupled_step.grain_forces(now);
-    output_.write_grains(*now.grains, t, clock.step, forces);
+    output_.write_grains(*now.grains, t, clock.step, forces, dunes);
   }
-  if (now.grains && clock.due(o.tracks_interval)) output_.write_tracks(*now.grains, t, clock.step);
+  if (tracks) output_.write_tracks(*now.grains, t, clock.step, dunes);
   if (now.fluid && clock.due(o.fields_interval)) output_.write_fields(*now.fluid, t, clock.step);
 }
 

@@ -36,6 +36,14 @@ std::vector<DuneRow> RunDiagnostics::find_dunes(const RunState& run) {
   return dunes;
 }
 
+std::vector<int> RunDiagnostics::dune_labels(const RunState& run) const {
+  const GrainState& grains = *run.system.grains;
+  const GatheredGrains all(grains);
+  std::vector<int> labels;
+  if (rank_of(run.ranks) == 0) labels = tracker_.labels(all.cloud());
+  return from_rank_0(run.ranks, labels, grains.n);
+}
+
 bool RunDiagnostics::sample_due(const RunClock& clock) const {
   return config_ && clock.time() >= config_->start && clock.due(config_->interval);
 }

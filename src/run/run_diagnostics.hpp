@@ -20,7 +20,10 @@ class RunDiagnostics {
 
   /// The dunes now, in order of label, on rank 0; nothing on others.
   std::vector<DuneRow> find_dunes(const RunState& run);
-  /// The largest of them.
+  /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
+  /// this step; -1: in none.
+  std::vector<int> dune_labels(const RunState& run) const;
+  /// The largest of the dunes last found.
   const std::optional<DuneRow>& largest_dune() const { return largest_dune_; }
 
   /// From statistics.start on, every statistics.interval.

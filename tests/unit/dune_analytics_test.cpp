@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -302,6 +303,30 @@ TEST(DuneTracker, LabelSurvivesAGapAndANewDuneGetsANewOne) {
   EXPECT_EQ(tracker.update(0.2, first.cloud()).at(0).dune, 0);
   EXPECT_EQ(tracker.update(0.3, second.cloud()).at(0).dune, 1);
   EXPECT_EQ(tracker.update(0.4, second.cloud()).at(0).dune, 1);
+}
+
+TEST(DuneTracker, GrainsBearTheLabelOfTheirDune) {
+  Grains first, both;
+  pile(first, 0.02, 0.025, 4.0 * mm, cone(4.0 * mm, 1.5 * mm));
+  both = first;
+  pile(both, 0.07, 0.025, 6.0 * mm, cone(6.0 * mm, 2.0 * mm));
+  const std::size_t n_in_dunes = both.diameters.size();
+  both.add(0.045, 0.5 * d, 0.01);  // alone
+  DuneTracker tracker(channel);
+  tracker.update(0.0, first.cloud());
+  const std::vector<int> labels = tracker.labels(both.cloud());  // the second is new, and larger
+  const std::vector<DuneRow> rows = tracker.update(0.1, both.cloud());
+  EXPECT_EQ(tracker.labels(both.cloud()), labels);
+  ASSERT_EQ(labels.size(), n_in_dunes + 1);
+  EXPECT_EQ(labels.back(), -1);
+  for (std::size_t p = 0; p < n_in_dunes; ++p) {
+    const int mine = p < first.diameters.size() ? 0 : 1;
+    EXPECT_TRUE(labels[p] == mine || labels[p] == -1) << p;  // -1: at the edge
+  }
+  ASSERT_EQ(rows.size(), 2u);
+  for (const DuneRow& dune : rows) {
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), dune.dune), dune.n_grains);
+  }
 }
 
 TEST(DuneTracker, CountsLostGrains) {
