@@ -65,14 +65,10 @@ class OutputFiles {
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
-  static void write_grid(Hdf5File& file, const Grid& grid);
-  using Describe = std::string (*)(const std::string&, const std::vector<FrameInfo>&);
   /// A file of one frame, replaced as a whole, and its description.
   void write_single(const std::string& name, double t, std::int64_t step,
                     const FrameFile::Preamble& preamble, const FrameFile::Content& content,
-                    Describe describe) const;
-  void describe_fields() const;
-  void describe_grains() const;
+                    FrameFile::Describe describe) const;
 
   std::filesystem::path folder_;
   Provenance provenance_;

@@ -31,13 +31,9 @@ constexpr const char* history_header =
 constexpr const char* dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
-/// What is about a run that failed, and not about the one that comes now.
+/// Of a run that failed: a restart removes them too.
 constexpr const char* failure_names[] = {"failure_grains.h5", "failure_grains.xdmf",
                                          "failure_fields.h5", "failure_fields.xdmf"};
-void remove_failure(const std::filesystem::path& folder) {
-  for (const char* name : failure_names) std::filesystem::remove(folder / name);
-}
-
 constexpr const char* result_names[] = {
     "config.toml",     "run.json",          "history.csv",   "dune.csv",  "fields.h5",
     "fields.xdmf",     "grains.h5",         "grains.xdmf",   "tracks.h5", "statistics.csv",
@@ -45,11 +41,9 @@ constexpr const char* result_names[] = {
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
-  for (const char* name : result_names) std::filesystem::remove(folder / name);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path());
+    if (is_result(entry.path().filename())) std::filesystem::remove(entry.path());
   }
-  for (const auto& [step, file] : list_checkpoints(folder)) std::filesystem::remove(file);
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -120,7 +114,7 @@ RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart
   synchronise(communicator);  // others may still read what is about to go
   if (root_) {
     make_folder(folder_);
-    remove_failure(folder_);
+    for (const char* name : failure_names) std::filesystem::remove(folder_ / name);
     if (!restart_time) remove_results(folder_);
     const double t = restart_time.value_or(0.0);
     cut_table(file(history_name), history_header, t);
