@@ -186,6 +186,11 @@ TEST(Simulation, WritesEveryFileOfARun) {
                            "statistics.csv", "flow_average.h5", "flow_average.xdmf"}) {
     EXPECT_TRUE(std::filesystem::exists(scratch / "run" / name)) << name;
   }
+  for (const char* name : {"grains.h5", "tracks.h5"}) {
+    const Hdf5File file(scratch / "run" / name, Hdf5File::Mode::read);
+    const auto n = file.info("frame_000000/id").extents;
+    EXPECT_EQ(file.read<std::int32_t>("frame_000000/dune").size(), n[0]) << name;
+  }
   const auto json = nlohmann::json::parse(text_of(scratch / "run" / "run.json"));
   EXPECT_EQ(json.at("status"), "done");
   EXPECT_EQ(json.at("steps"), 20);
