@@ -50,7 +50,8 @@ void check_start(const std::string& key, const std::string& source, const fs::pa
   };
   if (start.extension() == ".toml") {
     const fs::path results = fs::absolute(folder).parent_path() / start.stem();
-    if (same_folder(results, folder)) lost("the results of that case go to the folder of this one,");
+    if (same_folder(results, folder))
+      lost("the results of that case go to the folder of this one,");
   } else if (!start.extension().empty() && is_result(start.filename()) &&
              same_folder(start.parent_path(), folder)) {
     lost("it is in the run folder");
