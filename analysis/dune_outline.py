@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dune_regions import BIN, HALF_WIDTH, find_dunes
+from dune_shape import BIN, HALF_WIDTH, main_dune
 from height_map import HeightMap
 from run_folder import Grains, NotInRun
 from tracks import bed_of
@@ -25,12 +25,12 @@ class Outline:
 
 
 def main_outline(run):
-    """Of the largest dune in the last frame of grains.h5; sand between the horns is not of it."""
+    """Of the main dune in the last frame of grains.h5; sand between the horns is not of it."""
     grains, bed = run.grains(-1), bed_of(run)
-    dunes = find_dunes(grains, bed)
-    if not dunes or not np.isfinite(dunes[0].lee_foot):
+    dune = main_dune(grains, bed)
+    if dune is None or not np.isfinite(dune.lee_foot):
         raise NotInRun("needs a dune with grains on its centreline in the last frame of grains.h5")
-    dune, rows = dunes[0], dunes[0].rows
+    rows = dune.rows
     foot, end, z = dune.lee_foot - dune.L, dune.lee_foot, float(dune.centroid[2])
     mean = grains.d.mean()
     margin = 4.0 * BIN * mean

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dune_regions import BIN
+from dune_shape import BIN
 from horn_grains import polar_angle
 from run_folder import Grains, NotInRun, read_table
 from tracks import tracks
@@ -76,8 +76,9 @@ def read_sample(run, file, name):
         group = content[name]
         number, x, d, force = (group[key][:] for key in ("id", "x", "d", "force_total"))
         known = np.isfinite(x).all(axis=1) & np.isfinite(force).all(axis=1)
-        grains = Grains(float(group.attrs["time"]), number[known], x[known], d[known])
-    dune = source.main_dune(grains, None)
+        dune = group["dune"][:][known] if "dune" in group else None
+        grains = Grains(float(group.attrs["time"]), number[known], x[known], d[known], dune)
+    dune = source.main_dune(grains)
     if dune is None:
         return None
     force = force[known].astype(float)
@@ -117,7 +118,7 @@ def outline(run, start, end, most=40):
     maps, edges = [], None
     for index in frames:
         grains = source.read(index)
-        dune = source.main_dune(grains, None)
+        dune = source.main_dune(grains)
         if dune is None:
             continue
         x, z = dune.x - dune.centroid[0], dune.z - dune.centroid[2]

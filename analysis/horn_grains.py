@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from dune_regions import BIN
+from dune_shape import BIN
 from run_folder import NotInRun
 from tracks import tracks
 
@@ -103,14 +103,14 @@ def find_horns(run):
     """The horns in all frames of a run."""
     source = tracks(run)
     heap, lengths, centroids, ids, sides = None, [], [], [], []
-    centroid, last = None, None
+    centroid = None
     for index in range(len(source.times)):
         grains = source.read(index)
-        dune = source.main_dune(grains, last)
+        dune = source.main_dune(grains)
         heap = heap or first_heap(grains, dune, source.bed)
         if dune is not None:
-            last = dune.centroid
-            centroid = last if centroid is None else centroid + source.bed.nearest(last - centroid)
+            here = dune.centroid
+            centroid = here if centroid is None else centroid + source.bed.nearest(here - centroid)
         number, side = members(grains, dune)
         ids.append(number)
         sides.append(side)

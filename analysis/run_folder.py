@@ -44,12 +44,13 @@ def read_table(path):
 
 @dataclass
 class Grains:
-    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]."""
+    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m], dune (N): its label, -1: none; None: not known."""
 
     time: float
     id: np.ndarray
     x: np.ndarray
     d: np.ndarray
+    dune: np.ndarray | None = None
 
 
 @dataclass
@@ -198,8 +199,9 @@ class RunFolder:
         with self.grain_file.open() as file:
             group = file[name]
             number, x, d = group["id"][:], group["x"][:], group["d"][:]
+            dune = group["dune"][:] if "dune" in group else None
         order = np.argsort(number)
-        return Grains(time, number[order], x[order], d[order])
+        return Grains(time, number[order], x[order], d[order], dune if dune is None else dune[order])
 
     def flow_plane(self, index, z):
         """The cells nearest to the plane z = `z` [m] in frame `index`."""

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import style
-from dune_regions import Bed, find_dunes
+from dune_shape import main_rows
 from grain_image import top_view
 from run_folder import NotInRun
 from topview import FINER
@@ -39,18 +39,11 @@ def frames_of(run, times):
     return [index if abs(known[index] - time) <= reach else None for index, time in zip(near, times)]
 
 
-def common_window(frames, domain):
+def common_window(frames):
     """(x0, x1, z0, z1) [m] around the main dunes of all frames; grains that are lost go out of it."""
-    boxes = []
-    for grains in frames:
-        # As they are drawn, a dune across a seam in two pieces.
-        dunes = find_dunes(grains, Bed((domain[0], domain[2]), (False, False))) if domain else []
-        if domain and not dunes:
-            continue
-        x = grains.x[dunes[0].rows] if dunes else grains.x
-        boxes.append((*x.min(axis=0)[[0, 2]], *x.max(axis=0)[[0, 2]]))
-    if not boxes:
-        boxes = [(*g.x.min(axis=0)[[0, 2]], *g.x.max(axis=0)[[0, 2]]) for g in frames]
+    dunes = [grains.x[main_rows(grains)] for grains in frames]
+    dunes = [x for x in dunes if len(x)] or [grains.x for grains in frames]
+    boxes = [(*x.min(axis=0)[[0, 2]], *x.max(axis=0)[[0, 2]]) for x in dunes]
     low, high = np.min(boxes, axis=0)[:2], np.max(boxes, axis=0)[2:]
     margin = max(0.05 * (high[0] - low[0]), 3.0 * frames[0].d.max())
     return low[0] - margin, high[0] + 2 * margin, low[1] - margin, high[1] + margin
@@ -75,8 +68,7 @@ def draw(study, key):
     if not frames:
         raise NotInRun("needs a frame with grains in it")
     times, grid = times_shown(times, grid)
-    domain = next((case.run.domain for case in cases if case.run.domain), None)
-    figure = draw_grid(grid, common_window(frames, domain), times,
+    figure = draw_grid(grid, common_window(frames), times,
                        [case.label_in(key) for case in cases])
     write(study, key, cases, times, grid)
     return figure

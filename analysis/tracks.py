@@ -1,6 +1,6 @@
 """Where every grain is in every frame, and the main dune among them.
 
-Frames are those of tracks.h5 where the run has it (ids and positions alone, at short intervals), else
+Frames are those of tracks.h5 where the run has it (ids, dunes and positions alone, at short intervals), else
 those of grains.h5. Lengths in m.
 """
 
@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from dune_regions import Bed, find_dunes
+from dune_shape import Bed, main_dune
 from run_folder import Grains, NotInRun, PlotError
 
 
@@ -53,40 +53,18 @@ class Tracks:
         time, name = self.file.frames[index]
         with self.file.open() as file:
             number, x = file[name]["id"][:], file[name]["x"][:].astype(float)
-            d = file[name]["d"][:] if "d" in file[name] else None
+            d, dune = (file[name][key][:] if key in file[name] else None for key in ("d", "dune"))
         order = np.argsort(number)
         order = order[np.isfinite(x[order]).all(axis=1)]
         number, x = number[order], x[order]
-        return Grains(time, number, x, self._diameters_of(number) if d is None else d[order])
+        return Grains(time, number, x, self._diameters_of(number) if d is None else d[order],
+                      dune if dune is None else dune[order])
 
     def _diameters_of(self, number):
         ids, d = self.diameters
         at = np.minimum(np.searchsorted(ids, number), len(ids) - 1)
         return np.where(ids[at] == number, d[at], d.mean())
 
-    def main_dune(self, grains, last):
-        """The run's main dune, None when it is gone.
-
-        It is the one at the place that dune.csv gives for its first label; without that table the
-        one nearest to `last`, its last centroid, at first (None) the largest.
-        """
-        dunes = find_dunes(grains, self.bed)
-        place = self._place_in_table(grains.time)
-        place = last if place is None else place
-        if place is None or not dunes:
-            return dunes[0] if dunes else None
-        distances = [np.hypot(*self.bed.nearest(dune.centroid - place)[[0, 2]]) for dune in dunes]
-        nearest = int(np.argmin(distances))
-        found = dunes[nearest]
-        return found if distances[nearest] <= max(found.W, found.L) else None
-
-    @cached_property
-    def _table(self):
-        dunes = self.run.dunes
-        return dunes[min(dunes)] if dunes else None
-
-    def _place_in_table(self, time):
-        table = self._table
-        if table is None or not table["t"][0] - 1e-9 <= time <= table["t"][-1] + 1e-9:
-            return None
-        return np.array([np.interp(time, table["t"], table[name]) for name in ("Cx", "Cy", "Cz")])
+    def main_dune(self, grains):
+        """The run's main dune, None while there is none."""
+        return main_dune(grains, self.bed)

@@ -39,7 +39,6 @@ endif()
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
 # toml++ is headers, and where it is packaged so also a library that spares compiling the parser.
@@ -53,4 +52,4 @@ if(TOMLPLUSPLUS_LIBRARY)
 endif()
 
 set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft Eigen3::Eigen CLI11::CLI11
-    fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)
+    fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)

@@ -22,7 +22,7 @@ CHUNK = 1 << 20                       # columns looked at together
 
 @dataclass(frozen=True)
 class Counts:
-    """What one rank sends, as src/parallel/messages.hpp counts it."""
+    """What one rank sends, as src/parallel/exchange.hpp counts it."""
     messages: float = 0
     bytes: float = 0
     reductions: float = 0

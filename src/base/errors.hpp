@@ -12,6 +12,19 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What read() returns. What the user gave is wrong if it fails, whatever the layer that met it
+/// says.
+template <class Read>
+auto as_input(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& problem) {
+    throw InputError(problem.what());
+  }
+}
+
 /// The state of a run can no longer be right: where, the likely cause and a remedy. Leads to exit
 /// code 1 after the state was written for a look at it.
 struct StateError : std::runtime_error {

@@ -1,15 +1,15 @@
 #include "src/base/report.hpp"
 
-#include <spdlog/logger.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace barchan {
 
@@ -19,7 +19,7 @@ namespace {
 struct State {
   bool quiet = false, silent = false;
   bool live = false;  // a live line is on the screen, its end not yet written
-  std::unique_ptr<spdlog::logger> log;
+  std::ofstream log;
 };
 
 State& state() {
@@ -35,6 +35,14 @@ void print(std::FILE* stream, std::string_view text) {
   std::fflush(stdout);  // keeps the two streams in order
   fmt::print(stream, "{}\n", text);
   std::fflush(stream);
+}
+
+/// One line of log.txt. A full disk is reported by the results themselves; the log must not stop or
+/// clutter the run.
+void log(std::string_view text) {
+  std::ofstream& file = state().log;
+  file.clear();
+  if (file.is_open()) file << text << '\n' << std::flush;
 }
 
 /// Cut to the width of the terminal: a wrapped line could not be written over.
@@ -67,19 +75,17 @@ void start(bool quiet, int rank) {
 
 void log_to(const std::filesystem::path& file, bool append) {
   if (state().silent) return;
-  try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), !append);
-    state().log = std::make_unique<spdlog::logger>("barchan", std::move(sink));
-  } catch (const spdlog::spdlog_ex& error) {
-    throw std::runtime_error("cannot write " + file.string() + ": " + error.what());
-  }
-  state().log->set_pattern("%v");
-  state().log->flush_on(spdlog::level::trace);
-  // A full disk is reported by the results themselves; the log must not stop or clutter the run.
-  state().log->set_error_handler([](const std::string&) {});
+  stop_log();
+  state().log.open(file, std::ios::binary | (append ? std::ios::app : std::ios::trunc));
+  if (state().log.is_open()) return;
+  throw std::runtime_error("cannot write " + file.string() + ": " +
+                           std::generic_category().message(errno));
 }
 
-void stop_log() { state().log.reset(); }
+void stop_log() {
+  state().log.clear();
+  if (state().log.is_open()) state().log.close();
+}
 
 void line(Level level, std::string_view text) {
   if (state().silent) return;
@@ -91,7 +97,7 @@ void line(Level level, std::string_view text) {
   } else if (!state().quiet) {
     print(stdout, marked);
   }
-  if (state().log) state().log->info("{}", marked);
+  log(marked);
 }
 
 }  // namespace report
@@ -149,7 +155,7 @@ void ProgressLine::update(const Progress& progress) {
   if (now - last_plain_ >= plain_interval_) {
     last_plain_ = now;
     if (!terminal_ && !state().quiet) print(stdout, text);
-    if (state().log) state().log->info("{}", text);
+    log(text);
   }
   if (terminal_ && !state().quiet) {
     last_live_ = now;

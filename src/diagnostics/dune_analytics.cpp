@@ -49,6 +49,16 @@ std::vector<DuneRow> DuneTracker::update(double t, const GrainCloud& grains) {
   return rows;
 }
 
+std::vector<int> DuneTracker::labels(const GrainCloud& grains) const {
+  const Dunes dunes = find_dunes(grains, domain_, criteria_);
+  std::vector<int> label_of_row = match(dunes.rows);
+  int next_label = next_label_;
+  for (int& track : label_of_row) track = track < 0 ? next_label++ : tracks_[track].label;
+  std::vector<int> labels = dunes.of_grain;
+  for (int& row : labels) row = row < 0 ? -1 : label_of_row[row];
+  return labels;
+}
+
 /// Drops samples that a restart will measure again, and labels out of sight for too long.
 void DuneTracker::forget(double t) {
   for (Track& track : tracks_) {

@@ -25,6 +25,10 @@ class DuneTracker {
   /// samples at or after t are forgotten. The first call fixes the initial number of grains.
   std::vector<DuneRow> update(double t, const GrainCloud& grains);
 
+  /// Of each grain the label that its dune would get in an update now, and has if that was the last
+  /// one; -1: in no dune.
+  [[nodiscard]] std::vector<int> labels(const GrainCloud& grains) const;
+
   [[nodiscard]] std::int64_t n_lost() const { return n_lost_; }
 
   /// The memory as plain numbers for restart files; set_state() restores it exactly and throws

@@ -47,20 +47,35 @@ class DuneMeasurement {
         map_(grains, domain, criteria),
         regions_(map_.n_regions()) {}
 
-  std::vector<DuneRow> run() {
+  Dunes run() {
     sum_grains();
     find_crests();
     collect_outlines();
-    std::vector<DuneRow> rows;
-    for (const Region& region : regions_) {
-      if (is_dune(region)) rows.push_back(finish(region));
+    const std::vector<int> dunes = largest_first();
+    Dunes found;
+    std::vector<int> row_of_region(regions_.size(), -1);
+    for (const int region : dunes) {
+      row_of_region[region] = static_cast<int>(found.rows.size());
+      found.rows.push_back(finish(regions_[region]));
+      found.rows.back().dune = row_of_region[region];
     }
-    return rows;
+    for (const int bin : map_.bin_of_grain()) {
+      const int region = bin < 0 ? -1 : map_.bins()[bin].region;
+      found.of_grain.push_back(region < 0 ? -1 : row_of_region[region]);
+    }
+    return found;
   }
 
  private:
-  [[nodiscard]] bool is_dune(const Region& region) const {
-    return region.row.n_grains >= criteria_.min_grains;
+  /// The regions that are dunes.
+  [[nodiscard]] std::vector<int> largest_first() const {
+    std::vector<int> dunes;
+    for (int i = 0; i < map_.n_regions(); ++i) {
+      if (regions_[i].row.n_grains >= criteria_.min_grains) dunes.push_back(i);
+    }
+    std::stable_sort(dunes.begin(), dunes.end(),
+                     [&](int a, int b) { return regions_[a].row.volume > regions_[b].row.volume; });
+    return dunes;
   }
   [[nodiscard]] Region* region_of_grain(std::size_t p) {
     const int bin = map_.bin_of_grain()[p];
@@ -202,13 +217,8 @@ class DuneMeasurement {
 
 }  // namespace
 
-std::vector<DuneRow> measure_dunes(const GrainCloud& grains, const DuneDomain& domain,
-                                   const DuneCriteria& criteria) {
-  std::vector<DuneRow> rows = DuneMeasurement(grains, domain, criteria).run();
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const DuneRow& a, const DuneRow& b) { return a.volume > b.volume; });
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].dune = static_cast<int>(i);
-  return rows;
+Dunes find_dunes(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria) {
+  return DuneMeasurement(grains, domain, criteria).run();
 }
 
 }  // namespace barchan

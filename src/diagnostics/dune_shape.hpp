@@ -22,6 +22,12 @@ struct DuneRow {
   double flux = 0;  // streamwise, of grain volume, mean over the footprint [m^2/s]
 };
 
+/// The dunes of one time.
+struct Dunes {
+  std::vector<DuneRow> rows;
+  std::vector<int> of_grain;  // index into rows; -1: in no dune
+};
+
 /// Finds the dunes in the grains and measures each; rows in descending order of volume, labelled
 /// 0, 1, ... in that order; celerity not a number, n_lost zero, t zero.
 ///
@@ -40,13 +46,18 @@ struct DuneRow {
 ///   crest_x  mean x of the bins in the strip within max(0.05 h, d/2) of its highest median,
 ///            weighted by their height in that band, so that a moving crest moves smoothly
 ///   flux     streamwise volume flux of grains per width, sum of V_p u_x over the region's
-///   footprint,
-///            which is the area of its bins
+///            footprint, which is the area of its bins
 ///   horns    from the lee foot on the centreline to the most downstream edge on either side of
 ///            the strip; zero for a heap
 /// When the strip is empty (no sand on the centreline) L is the whole extent in x, the horns zero.
 /// Coordinates are in [0, length) along periodic directions; extents never exceed the period.
-std::vector<DuneRow> measure_dunes(const GrainCloud& grains, const DuneDomain& domain,
-                                   const DuneCriteria& criteria = {});
+Dunes find_dunes(const GrainCloud& grains, const DuneDomain& domain,
+                 const DuneCriteria& criteria = {});
+
+/// The rows alone.
+inline std::vector<DuneRow> measure_dunes(const GrainCloud& grains, const DuneDomain& domain,
+                                          const DuneCriteria& criteria = {}) {
+  return find_dunes(grains, domain, criteria).rows;
+}
 
 }  // namespace barchan

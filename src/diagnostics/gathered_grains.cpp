@@ -4,18 +4,37 @@
 
 namespace barchan {
 
+namespace {
+
+/// On rank 0: how many numbers each rank has, and where these begin among all.
+struct Gathered {
+  std::vector<int> counts, starts{0};
+  Gathered(MPI_Comm ranks, int n) : counts(static_cast<std::size_t>(rank_count(ranks))) {
+    MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, ranks);
+    for (const int count : counts) starts.push_back(starts.back() + count);
+  }
+};
+
+}  // namespace
+
 std::vector<double> on_rank_0(MPI_Comm ranks, const std::vector<double>& mine) {
-  const int n_ranks = rank_count(ranks);
-  if (n_ranks == 1) return mine;
+  if (rank_count(ranks) == 1) return mine;
   const int n = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(n_ranks)), starts{0};
-  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, ranks);
-  for (const int count : counts) starts.push_back(starts.back() + count);
+  const Gathered of(ranks, n);
   std::vector<double> all;
-  if (rank_of(ranks) == 0) all.resize(static_cast<std::size_t>(starts.back()));
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
-              ranks);
+  if (rank_of(ranks) == 0) all.resize(static_cast<std::size_t>(of.starts.back()));
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), of.counts.data(), of.starts.data(),
+              MPI_DOUBLE, 0, ranks);
   return all;
+}
+
+std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all, int n) {
+  if (rank_count(ranks) == 1) return all;
+  const Gathered of(ranks, n);
+  std::vector<int> mine(static_cast<std::size_t>(n));
+  MPI_Scatterv(all.data(), of.counts.data(), of.starts.data(), MPI_INT, mine.data(), n, MPI_INT, 0,
+               ranks);
+  return mine;
 }
 
 GatheredGrains::GatheredGrains(const GrainState& grains) {

@@ -12,6 +12,10 @@ namespace barchan {
 /// ranks together.
 std::vector<double> on_rank_0(MPI_Comm ranks, const std::vector<double>& mine);
 
+/// The reverse: rank 0 has a number for each row of all ranks, in the same order; each rank gets
+/// those of its n rows. All ranks together.
+std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all, int n);
+
 /// Positions, diameters and velocities along x as the dune analytics take them.
 class GatheredGrains {
  public:

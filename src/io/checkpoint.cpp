@@ -52,18 +52,16 @@ std::string instead_of(const std::filesystem::path& file) {
 /// Rank 0 reads the file through before the HDF5 library looks at it: what is damaged can make the
 /// library itself fail. False without a seal, as in files of others and of earlier versions.
 bool is_sealed(const std::filesystem::path& file, MPI_Comm communicator) {
-  SealCheck found;
-  std::error_code unreadable;  // which the HDF5 layer puts into words
-  if (rank_of(communicator) == 0 && std::filesystem::is_regular_file(file, unreadable)) {
-    found = check_seal(file);
-  }
+  const bool sealed = broadcast(has_seal(file), communicator);
+  std::string problem;
+  if (sealed && rank_of(communicator) == 0) problem = broken_seal(file);
   // Rank 0 tells why; the others end with it.
-  if (broadcast(found.seal == Seal::broken, communicator))
-    refuse(file, found.problem + instead_of(file));
-  return broadcast(found.seal == Seal::whole, communicator);
+  if (broadcast(!problem.empty(), communicator)) refuse(file, problem + instead_of(file));
+  return sealed;
 }
 
-CheckpointScalar split(const std::string& path) {
+/// A scalar is an attribute of a group: the names of both.
+std::pair<std::string, std::string> split(const std::string& path) {
   const auto slash = path.rfind('/');
   if (slash == std::string::npos) return {"scalars", path};
   return {"scalars/" + path.substr(0, slash), path.substr(slash + 1)};
@@ -123,9 +121,6 @@ void CheckpointWriter::scalar(const std::string& name, double value) { put_scala
 void CheckpointWriter::scalar(const std::string& name, std::int64_t value) {
   put_scalar(name, value);
 }
-void CheckpointWriter::scalar(const std::string& name, std::string_view value) {
-  put_scalar(name, value);
-}
 
 void CheckpointWriter::array(const std::string& name, std::span<const double> values,
                              const Extents& extents, const Share& share) {
@@ -161,15 +156,11 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
     fail("it is not a restart file");
   }
   const auto format = file_.integer_attribute("/", "format");
-  if (format > format_version) {
-    fail(
-        fmt::format("it was written in format {} by a newer version, {}; this version reads {} to "
-                    "{}: take that version",
-                    format, provenance().version, oldest_format, format_version));
-  }
-  if (format < oldest_format) {
-    fail(fmt::format("it was written in format {} by version {}; this version reads {} to {}",
-                     format, provenance().version, oldest_format, format_version));
+  const bool newer = format > format_version;
+  if (newer || format < oldest_format) {
+    fail(fmt::format("it was written in format {} by {} {}; this version reads {} to {}{}", format,
+                     newer ? "a newer version," : "version", provenance().version, oldest_format,
+                     format_version, newer ? ": take that version" : ""));
   }
   if (format >= first_sealed_format && !sealed_)
     fail("it is damaged: its seal is gone" + instead_of(path()));
@@ -184,27 +175,21 @@ bool CheckpointReader::has(const std::string& name) const {
   return file_.exists(name) || (file_.exists(group) && file_.has_attribute(group, attribute));
 }
 
-CheckpointScalar CheckpointReader::find_scalar(const std::string& path) const {
+template <class T>
+T CheckpointReader::scalar(const std::string& path, Get<T> get) const {
   const auto [group, name] = split(path);
   if (!file_.exists(group) || !file_.has_attribute(group, name)) {
     fail("it holds no \"" + path + "\", which this run needs");
   }
-  return {group, name};
+  return (file_.*get)(group, name);
 }
 
 double CheckpointReader::real(const std::string& name) const {
-  const auto place = find_scalar(name);
-  return file_.real_attribute(place.group, place.name);
+  return scalar(name, &Hdf5File::real_attribute);
 }
 
 std::int64_t CheckpointReader::integer(const std::string& name) const {
-  const auto place = find_scalar(name);
-  return file_.integer_attribute(place.group, place.name);
-}
-
-std::string CheckpointReader::text(const std::string& name) const {
-  const auto place = find_scalar(name);
-  return file_.text_attribute(place.group, place.name);
+  return scalar(name, &Hdf5File::integer_attribute);
 }
 
 Extents CheckpointReader::extents(const std::string& name) const {
@@ -212,34 +197,31 @@ Extents CheckpointReader::extents(const std::string& name) const {
   return file_.info(name).extents;
 }
 
-void CheckpointReader::expect(const std::string& name, const Extents& extents_here,
-                              ElementType type) const {
+template <class T>
+std::vector<T> CheckpointReader::part(const std::string& name, const Extents& whole,
+                                      const Extents& first, const Extents& size) const {
   const Extents found = extents(name);
-  if (!extents_here.empty() && found != extents_here) {
+  if (found != whole) {
     fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
-                     to_string(found), to_string(extents_here)));
+                     to_string(found), to_string(whole)));
   }
+  const auto type = std::is_integral_v<T> ? ElementType::int64 : ElementType::float64;
   if (file_.info(name).type != type) fail(name + " holds numbers of another type");
+  return file_.read_block<T>(name, whole, first, size);  // bit for bit
 }
 
 template <class T>
 std::vector<T> CheckpointReader::array(const std::string& name, const Extents& expected) const {
-  expect(name, expected, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
-  return file_.read<T>(name);  // bit for bit
+  const Extents whole = expected.empty() ? extents(name) : expected;
+  return part<T>(name, whole, Extents(whole.size(), 0), whole);
 }
-template std::vector<double> CheckpointReader::array(const std::string&, const Extents&) const;
-template std::vector<std::int64_t> CheckpointReader::array(const std::string&,
-                                                           const Extents&) const;
 
-template <class T>
-std::vector<T> CheckpointReader::part(const std::string& name, const Extents& whole,
-                                      const Extents& first, const Extents& size) const {
-  expect(name, whole, std::is_integral_v<T> ? ElementType::int64 : ElementType::float64);
-  return file_.read_block<T>(name, whole, first, size);
-}
-template std::vector<double> CheckpointReader::part(const std::string&, const Extents&,
-                                                    const Extents&, const Extents&) const;
-template std::vector<std::int64_t> CheckpointReader::part(const std::string&, const Extents&,
-                                                          const Extents&, const Extents&) const;
+#define BARCHAN_CHECKPOINT_ARRAYS(T)                                                         \
+  template std::vector<T> CheckpointReader::array(const std::string&, const Extents&) const; \
+  template std::vector<T> CheckpointReader::part(const std::string&, const Extents&,         \
+                                                 const Extents&, const Extents&) const;
+BARCHAN_CHECKPOINT_ARRAYS(double)
+BARCHAN_CHECKPOINT_ARRAYS(std::int64_t)
+#undef BARCHAN_CHECKPOINT_ARRAYS
 
 }  // namespace barchan

@@ -72,7 +72,7 @@ auto to_numbers(const View& view) {
   return numbers;
 }
 
-/// The way back; the view has the extents that file_extents() gave.
+/// The reverse; the view has the extents that file_extents() gave.
 template <class View, class Number>
 void from_numbers(const std::vector<Number>& numbers, const View& view) {
   using Value = typename View::non_const_value_type;
@@ -103,7 +103,6 @@ class CheckpointWriter {
 
   void scalar(const std::string& name, double value);
   void scalar(const std::string& name, std::int64_t value);
-  void scalar(const std::string& name, std::string_view value);
 
   /// `extents` slowest first; empty: one row of values. `share`: see Hdf5File.
   void array(const std::string& name, std::span<const double> values, const Extents& extents = {},
@@ -136,11 +135,6 @@ class CheckpointWriter {
   bool committed_ = false;
 };
 
-/// A scalar is an attribute of a group of its own.
-struct CheckpointScalar {
-  std::string group, name;
-};
-
 /// Reads a restart file, after its seal has been checked. Every member throws InputError or
 /// Hdf5Error with a sentence for the user. Files that others made without a seal are taken as they
 /// are.
@@ -156,7 +150,6 @@ class CheckpointReader {
   bool has(const std::string& name) const;
   double real(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
-  std::string text(const std::string& name) const;
 
   /// Extents of a stored array, slowest first: "grains/id" has extents(...)[0] grains.
   Extents extents(const std::string& name) const;
@@ -181,9 +174,10 @@ class CheckpointReader {
   const std::filesystem::path& path() const { return file_.path(); }
 
  private:
-  CheckpointScalar find_scalar(const std::string& path) const;
-  /// Refuses an array of other extents (if these are not empty) or of another type.
-  void expect(const std::string& name, const Extents& extents_here, ElementType type) const;
+  template <class T>
+  using Get = T (Hdf5File::*)(const std::string& object, const std::string& name) const;
+  template <class T>
+  T scalar(const std::string& path, Get<T> get) const;
   [[noreturn]] void fail(const std::string& what) const;
 
   bool sealed_ = false;

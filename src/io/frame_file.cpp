@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "src/base/atomic_file.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -50,8 +51,11 @@ std::vector<FrameInfo> list_frames(const Hdf5File& file) {
 }
 
 FrameFile::FrameFile(std::filesystem::path path, Provenance provenance,
-                     std::optional<double> restart_time, MPI_Comm communicator)
-    : path_(std::move(path)), provenance_(std::move(provenance)), communicator_(communicator) {
+                     std::optional<double> restart_time, MPI_Comm communicator, Describe describe)
+    : path_(std::move(path)),
+      provenance_(std::move(provenance)),
+      communicator_(communicator),
+      describe_(describe) {
   if (!restart_time || !std::filesystem::exists(path_)) return;
   {
     const Hdf5File file(path_, Hdf5File::Mode::read, communicator_);
@@ -59,7 +63,15 @@ FrameFile::FrameFile(std::filesystem::path path, Provenance provenance,
   }
   made_ = true;
   drop_after(*restart_time);
-  if (!frames_.empty()) next_ = frame_number(frames_.back().name) + 1;
+  if (frames_.empty()) return;
+  next_ = frame_number(frames_.back().name) + 1;
+  write_description();  // frames may have been dropped
+}
+
+void FrameFile::write_description() const {
+  if (describe_ == nullptr || rank_of(communicator_) != 0) return;
+  const auto beside = std::filesystem::path(path_).replace_extension(".xdmf");
+  write_atomically(beside, describe_(path_.filename().string(), frames_));
 }
 
 void FrameFile::drop_after(double t) {
@@ -72,7 +84,7 @@ void FrameFile::drop_after(double t) {
     if (rank_of(communicator_) == 0) std::filesystem::remove(path_);
     return;
   }
-  // Links are not removed in place: a kill meanwhile could cost the frames that stay.
+  // Links are not removed in place: a kill while they are could cost the frames that stay.
   replace_file([&](Hdf5File& file) {
     const Hdf5File old(path_, Hdf5File::Mode::read, communicator_);
     write_provenance(file, provenance_);
@@ -122,13 +134,14 @@ void FrameFile::append(double t, std::int64_t step, const Preamble& preamble,
     // ones are: the file gets its name with its first frame.
     replace_file([&](Hdf5File& file) {
       write_provenance(file, provenance_);
-      preamble(file);
+      if (preamble) preamble(file);
       frame = write_frame(file, t, step, content);
     });
   }
   made_ = true;
   frames_.push_back(std::move(frame));
   ++next_;
+  write_description();
 }
 
 }  // namespace barchan

@@ -32,11 +32,14 @@ std::vector<FrameInfo> list_frames(const Hdf5File& file);
 
 class FrameFile {
  public:
+  /// Text for viewers about the frames of a file (src/io/xdmf.hpp), kept beside it as .xdmf.
+  using Describe = std::string (*)(const std::string& h5_name, const std::vector<FrameInfo>&);
+
   /// `restart_time`: as for OutputFiles. Throws Hdf5Error.
   FrameFile(std::filesystem::path path, Provenance provenance, std::optional<double> restart_time,
-            MPI_Comm communicator);
+            MPI_Comm communicator, Describe describe = nullptr);
 
-  /// What to write once when the file is made, besides the provenance.
+  /// What to write once when the file is made, besides the provenance; may be empty.
   using Preamble = std::function<void(Hdf5File&)>;
   /// Writes the arrays of a frame below `group`.
   using Content = std::function<void(Hdf5File&, const std::string& group)>;
@@ -51,11 +54,13 @@ class FrameFile {
   void drop_after(double t);
   /// Makes a new file beside and gives it the name when it is complete.
   void replace_file(const Preamble& fill) const;
+  void write_description() const;
   FrameInfo write_frame(Hdf5File& file, double t, std::int64_t step, const Content& content) const;
 
   std::filesystem::path path_;
   Provenance provenance_;
   MPI_Comm communicator_;
+  Describe describe_;
   bool made_ = false;  // the file on the disk is this run's
   int next_ = 0;       // number of the next frame
   std::vector<FrameInfo> frames_;

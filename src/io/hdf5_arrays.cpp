@@ -15,6 +15,7 @@ template <class T>
 hid_t memory_type() {
   if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
 }
 
@@ -23,9 +24,9 @@ ElementType element_type(hid_t type) {
   const auto kind = H5Tget_class(type);
   if (kind == H5T_FLOAT && size == sizeof(float)) return ElementType::float32;
   if (kind == H5T_FLOAT && size == sizeof(double)) return ElementType::float64;
-  if (kind == H5T_INTEGER && size == sizeof(std::int64_t) && H5Tget_sign(type) == H5T_SGN_2) {
-    return ElementType::int64;
-  }
+  const bool is_signed = kind == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_2;
+  if (is_signed && size == sizeof(std::int32_t)) return ElementType::int32;
+  if (is_signed && size == sizeof(std::int64_t)) return ElementType::int64;
   return ElementType::other;
 }
 
@@ -43,6 +44,12 @@ Handle dataspace(const Extents& extents) {
   return {H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose};
 }
 
+herr_t select_block(const Handle& space, const Extents& first, const Extents& size) {
+  const std::vector<hsize_t> begin(first.begin(), first.end()), count(size.begin(), size.end());
+  return H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(),
+                             nullptr);
+}
+
 Handle array_creation_list() {
   Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(list.get(), H5D_FILL_TIME_NEVER);  // every element is written
@@ -55,18 +62,18 @@ Handle array_creation_list() {
 template <class T>
 void Hdf5File::write(const std::string& name, std::span<const T> values, const Extents& extents,
                      std::string_view units, const Share& share) {
-  std::uint64_t count = 0;
+  const Extents& whole = share.whole.empty() ? extents : share.whole;
+  std::uint64_t count = 0, count_of_all = 0;
+  count_elements(whole, count_of_all);
   if (extents.empty() || !count_elements(extents, count) || count != values.size()) {
     fail(std::to_string(values.size()) + " values do not fill " + to_string(extents), name);
   }
-  if (const auto slash = name.rfind('/'); slash != std::string::npos) {
+  if (const auto slash = name.rfind('/'); slash != std::string::npos)
     make_group(name.substr(0, slash));
-  }
-  const auto [base, rest] = place_of(name);
-  const Handle memory = dataspace(extents);
-  const Handle file = dataspace(share.whole.empty() ? extents : share.whole);
+  const auto [base, path] = locate(name);
+  const Handle memory = dataspace(extents), file = dataspace(whole);
   const Handle creation = array_creation_list();
-  const Handle array(check(H5Dcreate2(base, rest.c_str(), memory_type<T>(), file.get(), H5P_DEFAULT,
+  const Handle array(check(H5Dcreate2(base, path.c_str(), memory_type<T>(), file.get(), H5P_DEFAULT,
                                       creation.get(), H5P_DEFAULT),
                            name),
                      H5Dclose);
@@ -74,18 +81,12 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
     check(H5Sselect_none(memory.get()), name);
     check(H5Sselect_none(file.get()), name);
   } else if (!share.whole.empty()) {
-    const std::vector<hsize_t> first(share.first.begin(), share.first.end());
-    const std::vector<hsize_t> size(extents.begin(), extents.end());
-    check(H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, first.data(), nullptr, size.data(),
-                              nullptr),
-          name);
+    check(select_block(file, share.first, extents), name);
   }
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (parallel_) check(H5Pset_dxpl_mpio(transfer.get(), H5FD_MPIO_COLLECTIVE), name);
-  // An array without elements has no place in a file; the parallel driver stumbles over writing it.
-  std::uint64_t whole = 0;
-  count_elements(share.whole.empty() ? extents : share.whole, whole);
-  if (whole > 0) {
+  // Nothing is allocated for an array without elements; the parallel driver fails to write it.
+  if (count_of_all > 0) {
     check(H5Dwrite(array.get(), memory_type<T>(), memory.get(), file.get(), transfer.get(),
                    values.data()),
           name);
@@ -96,8 +97,8 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
 
 ArrayInfo Hdf5File::info(const std::string& name) const {
   if (!exists(name)) fail("it has no array \"" + name + "\"", {});
-  const auto [base, rest] = place_of(name);
-  const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
+  const auto [base, path] = locate(name);
+  const Handle array(check(H5Dopen2(base, path.c_str(), H5P_DEFAULT), name), H5Dclose);
   const Handle creation(check(H5Dget_create_plist(array.get()), name), H5Pclose);
   // Such an array may lead to itself, where the library would go round for ever.
   if (H5Pget_layout(creation.get()) == H5D_VIRTUAL || H5Pget_external_count(creation.get()) > 0) {
@@ -110,7 +111,7 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   if (rank > 0) check(H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr), name);
 
   ArrayInfo result{element_type(type.get()), Extents(dims.begin(), dims.end())};
-  if (mode_ != Mode::read) return result;  // our own words, perhaps not on the disk yet
+  if (mode_ != Mode::read) return result;  // of ours, perhaps not on the disk yet
   // A damaged file must not make us ask for absurd amounts of memory: of what an array claims to
   // hold, this much must be there. Deflate (in files that others made) packs up to 1032 times.
   const std::uint64_t packed = H5Pget_nfilters(creation.get()) > 0 ? 1100 : 1;
@@ -126,41 +127,24 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
 }
 
 template <class T>
-std::vector<T> Hdf5File::read(const std::string& name) const {
-  const ArrayInfo array_info = info(name);
-  const auto [base, rest] = place_of(name);
-  const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
-  const Handle type(check(H5Dget_type(array.get()), name), H5Tclose);
-  const H5T_class_t wanted = std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT;
-  if (H5Tget_class(type.get()) != wanted) {
-    fail(std::is_integral_v<T> ? "it should hold integers" : "it should hold real numbers", name);
-  }
-  std::uint64_t count = 0;
-  count_elements(array_info.extents, count);
-  std::vector<T> values(count);
-  check(H5Dread(array.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
-  return values;
-}
-
-template <class T>
 std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whole,
                                     const Extents& first, const Extents& size) const {
-  const ArrayInfo found = info(name);
-  if (found.extents != whole) {
-    fail("it is " + to_string(found.extents) + ", expected was " + to_string(whole), name);
+  const Extents found = info(name).extents;
+  if (found != whole) {
+    fail("it is " + to_string(found) + ", expected was " + to_string(whole), name);
   }
-  const auto [base, rest] = place_of(name);
-  const Handle array(check(H5Dopen2(base, rest.c_str(), H5P_DEFAULT), name), H5Dclose);
-  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose);
+  const auto [base, path] = locate(name);
+  const Handle array(check(H5Dopen2(base, path.c_str(), H5P_DEFAULT), name), H5Dclose);
+  const Handle type(check(H5Dget_type(array.get()), name), H5Tclose);
+  if (H5Tget_class(type.get()) != (std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT)) {
+    fail(std::is_integral_v<T> ? "it should hold integers" : "it should hold real numbers", name);
+  }
   std::uint64_t n = 0;
   count_elements(size, n);
   std::vector<T> values(n);
   if (n == 0) return values;
-  const std::vector<hsize_t> begin(first.begin(), first.end()), count(size.begin(), size.end());
-  check(
-      H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr),
-      name);
-  const Handle memory = dataspace(size);
+  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose), memory = dataspace(size);
+  if (size != whole) check(select_block(file, first, size), name);
   check(
       H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
       name);
@@ -168,12 +152,13 @@ std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whol
 }
 
 template <class T>
+std::vector<T> Hdf5File::read(const std::string& name) const {
+  return read<T>(name, info(name).extents);
+}
+
+template <class T>
 std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) const {
-  const ArrayInfo found = info(name);
-  if (found.extents != expected) {
-    fail("it is " + to_string(found.extents) + ", expected was " + to_string(expected), name);
-  }
-  return read<T>(name);
+  return read_block<T>(name, expected, Extents(expected.size(), 0), expected);
 }
 
 #define BARCHAN_HDF5_ARRAYS(T)                                                                     \
@@ -185,6 +170,7 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) 
                                                const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
 BARCHAN_HDF5_ARRAYS(double)
+BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
 

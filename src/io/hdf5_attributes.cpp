@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "src/io/hdf5_file.hpp"
-#include "src/io/hdf5_guard.hpp"
 #include "src/io/hdf5_handle.hpp"
 
 namespace barchan {
@@ -24,13 +23,13 @@ Handle text_type() {
 void Hdf5File::put_attribute(const std::string& object, const std::string& name, Id type,
                              const void* value) {
   const std::string label = object + "@" + name;
-  const auto [base, rest] = place_of(object);
+  const auto [base, path] = locate(object);
   if (has_attribute(object, name)) {
-    check(H5Adelete_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT), label);
+    check(H5Adelete_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT), label);
   }
   const Handle space(check(H5Screate(H5S_SCALAR), label), H5Sclose);
   const Handle attribute(
-      check(H5Acreate_by_name(base, rest.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
+      check(H5Acreate_by_name(base, path.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
                               H5P_DEFAULT, H5P_DEFAULT),
             label),
       H5Aclose);
@@ -54,8 +53,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
-  const auto [base, rest] = place_of(object);
-  return check(H5Aexists_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT),
+  const auto [base, path] = locate(object);
+  return check(H5Aexists_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT),
                object + "@" + name) > 0;
 }
 
@@ -65,9 +64,9 @@ void Hdf5File::get_attribute(const std::string& object, const std::string& name,
   if (!exists(object) || !has_attribute(object, name)) {
     fail("it has no attribute \"" + name + "\" at \"" + object + "\"", {});
   }
-  const auto [base, rest] = place_of(object);
+  const auto [base, path] = locate(object);
   const Handle attribute(
-      check(H5Aopen_by_name(base, rest.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), label),
+      check(H5Aopen_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), label),
       H5Aclose);
   const Handle stored(check(H5Aget_type(attribute.get()), label), H5Tclose);
   const Handle space(check(H5Aget_space(attribute.get()), label), H5Sclose);
@@ -93,7 +92,6 @@ std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::s
 }
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
-  const hdf5::Guard guard(path_);
   char* text = nullptr;
   get_attribute(object, name, H5T_STRING, text_type().get(), static_cast<void*>(&text));
   std::string result(text == nullptr ? "" : text);

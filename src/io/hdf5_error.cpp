@@ -12,15 +12,6 @@ herr_t take_first(unsigned, const H5E_error2_t* entry, void* reason) {
   return 0;
 }
 
-/// "... errno = 28, error message = 'No space left on device', ..." -> the message alone.
-std::string system_message(const std::string& text) {
-  const std::string mark = "error message = '";
-  const auto begin = text.find(mark);
-  if (begin == std::string::npos) return {};
-  const auto end = text.find('\'', begin + mark.size());
-  return text.substr(begin + mark.size(), end - begin - mark.size());
-}
-
 }  // namespace
 
 void start_library() {
@@ -35,7 +26,6 @@ void start_library() {
 std::string last_reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
-  if (const auto message = system_message(text); !message.empty()) return message;
   struct Plain {
     const char *theirs, *ours;
   };

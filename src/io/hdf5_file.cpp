@@ -128,7 +128,7 @@ void Hdf5File::flush() {
   check_writes();
 }
 
-Hdf5File::Place Hdf5File::place_of(const std::string& name) const {
+Hdf5File::Location Hdf5File::locate(const std::string& name) const {
   if (hidden_ >= 0 && name == hidden_name_) return {hidden_, "."};
   if (hidden_ >= 0 && name.starts_with(hidden_name_ + "/")) {
     return {hidden_, name.substr(hidden_name_.size() + 1)};
@@ -137,24 +137,24 @@ Hdf5File::Place Hdf5File::place_of(const std::string& name) const {
 }
 
 bool Hdf5File::exists(const std::string& name) const {
-  const auto [base, rest] = place_of(name);
-  if (rest == "." || rest == "/") return true;
+  const auto [base, path] = locate(name);
+  if (path == "." || path == "/") return true;
   // The library wants every group on the way to be asked for on its own.
-  for (std::size_t end = rest.find('/', 1);; end = rest.find('/', end + 1)) {
-    if (check(H5Lexists(base, rest.substr(0, end).c_str(), H5P_DEFAULT), name) == 0) return false;
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (check(H5Lexists(base, path.substr(0, end).c_str(), H5P_DEFAULT), name) == 0) return false;
     if (end == std::string::npos) return true;
   }
 }
 
 bool Hdf5File::is_group(const std::string& name) const {
-  const auto [base, rest] = place_of(name);
-  const Handle object(check(H5Oopen(base, rest.c_str(), H5P_DEFAULT), name), H5Oclose);
+  const auto [base, path] = locate(name);
+  const Handle object(check(H5Oopen(base, path.c_str(), H5P_DEFAULT), name), H5Oclose);
   return H5Iget_type(object.get()) == H5I_GROUP;
 }
 
 std::vector<std::string> Hdf5File::children(const std::string& group) const {
-  const auto [base, rest] = place_of(group);
-  const Handle open(check(H5Gopen2(base, rest.c_str(), H5P_DEFAULT), group), H5Gclose);
+  const auto [base, path] = locate(group);
+  const Handle open(check(H5Gopen2(base, path.c_str(), H5P_DEFAULT), group), H5Gclose);
   std::vector<std::string> names;
   const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -174,10 +174,10 @@ void Hdf5File::make_group(const std::string& name) {
   if (const auto slash = name.rfind('/'); slash != std::string::npos) {
     make_group(name.substr(0, slash));
   }
-  const auto [base, rest] = place_of(name);
+  const auto [base, path] = locate(name);
   const Handle creation = group_creation_list();
   const Handle group(
-      check(H5Gcreate2(base, rest.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name),
+      check(H5Gcreate2(base, path.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name),
       H5Gclose);
 }
 

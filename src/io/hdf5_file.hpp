@@ -25,7 +25,7 @@ using Extents = std::vector<std::uint64_t>;
 /// "62 x 30 x 25".
 std::string to_string(const Extents& extents);
 
-enum class ElementType { float32, float64, int64, other };
+enum class ElementType { float32, float64, int32, int64, other };
 
 struct ArrayInfo {
   ElementType type = ElementType::other;
@@ -74,8 +74,8 @@ class Hdf5File {
   void begin_hidden_group(const std::string& as);
   void publish_group();
 
-  /// T is float, double or std::int64_t. `extents` are those of `values`. Without a share, what
-  /// rank 0 has is written.
+  /// T is float, double, std::int32_t or std::int64_t. `extents` are those of `values`. Without a
+  /// share, what rank 0 has is written.
   template <class T>
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});
@@ -110,12 +110,12 @@ class Hdf5File {
  private:
   using Id = std::int64_t;  // hid_t, kept out of the header
 
-  /// Where to look up a name, and the name there: a hidden group has no path yet.
-  struct Place {
+  /// A name as a path from an open object: nothing leads to a hidden group from the root yet.
+  struct Location {
     Id base;
-    std::string name;
+    std::string path;
   };
-  Place place_of(const std::string& name) const;
+  Location locate(const std::string& name) const;
   [[noreturn]] void fail(const std::string& reason, const std::string& object) const;
   /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -30,7 +29,6 @@ constexpr std::string_view mark =
 struct Content {
   std::uint64_t length = 0;
   std::uint32_t crc = 0;
-  bool operator==(const Content&) const = default;
 };
 
 /// Of all behind the room of the seal.
@@ -50,15 +48,19 @@ Content content_of(std::ifstream& in, const std::filesystem::path& file) {
   return content;
 }
 
-/// What a seal says; false if the text is not one.
-bool parse(std::string_view text, Content& said) {
-  if (!text.starts_with(mark)) return false;
-  const char* const end = text.data() + text.size();
-  const auto length = std::from_chars(text.data() + mark.size(), end, said.length);
-  if (length.ec != std::errc() || length.ptr == end || *length.ptr != ' ') return false;
-  const auto crc = std::from_chars(length.ptr + 1, end, said.crc, 16);
-  if (crc.ec != std::errc() || crc.ptr == end || *crc.ptr != '\n') return false;
-  return std::all_of(crc.ptr + 1, end, [](char c) { return c == '\0'; });
+/// The line of text with zeros up to the room of the seal.
+std::string text_of(const Content& content) {
+  std::string text = fmt::format("{}{} {:08x}\n", mark, content.length, content.crc);
+  text.resize(seal_bytes, '\0');
+  return text;
+}
+
+/// The first bytes of a file, at most n.
+std::string start_of(std::ifstream& in, std::size_t n) {
+  std::string text(n, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(n));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 }  // namespace
@@ -66,9 +68,7 @@ bool parse(std::string_view text, Content& said) {
 void seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("read", file);
-  const Content content = content_of(in, file);
-  std::string text = fmt::format("{}{} {:08x}\n", mark, content.length, content.crc);
-  text.resize(seal_bytes, '\0');
+  const std::string text = text_of(content_of(in, file));
   std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
@@ -78,27 +78,22 @@ void seal(const std::filesystem::path& file) {
 bool has_seal(const std::filesystem::path& file) {
   if (!not_a_file(file).empty()) return false;  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
-  std::string text(mark.size(), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  return text == mark;
+  return start_of(in, mark.size()) == mark;
 }
 
-SealCheck check_seal(const std::filesystem::path& file) {
+std::string broken_seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("read", file);
-  std::string text(seal_bytes, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!std::string_view(text).starts_with(mark)) return {};
-  Content said;
-  if (!parse(text, said)) return {Seal::broken, "it is damaged: its seal cannot be read"};
+  const std::string text = start_of(in, seal_bytes);
   const Content found = content_of(in, file);
-  if (found == said) return {Seal::whole, {}};
-  if (found.length != said.length) {
-    return {Seal::broken, fmt::format("it is {}: {} bytes, of {} that were written",
-                                      found.length < said.length ? "cut short" : "damaged",
-                                      found.length + seal_bytes, said.length + seal_bytes)};
+  if (text == text_of(found)) return {};
+  std::uint64_t length = 0;  // that was sealed
+  std::from_chars(text.data() + mark.size(), text.data() + text.size(), length);
+  if (found.length < length) {
+    return fmt::format("it is cut short: {} bytes, of {} that were written",
+                       found.length + seal_bytes, length + seal_bytes);
   }
-  return {Seal::broken, "it is damaged: its checksum is not that of what was written"};
+  return "it is damaged: its checksum is not that of what was written";
 }
 
 }  // namespace barchan

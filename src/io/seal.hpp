@@ -16,17 +16,13 @@ inline constexpr std::size_t seal_bytes = 512;
 /// cannot be read.
 bool has_seal(const std::filesystem::path& file);
 
-enum class Seal { whole, absent, broken };
-
 /// Writes the seal of a file that is complete but for it. Throws std::runtime_error naming the
 /// file.
 void seal(const std::filesystem::path& file);
 
-struct SealCheck {
-  Seal seal = Seal::absent;
-  std::string problem;  // of a broken one, as in "it is cut short: 100 of 200 bytes are left"
-};
-/// Reads the file once. Throws std::runtime_error if it cannot be read.
-SealCheck check_seal(const std::filesystem::path& file);
+/// Reads a file that begins as a sealed one. Empty if all of it is as it was sealed, else what is
+/// wrong, as in "it is cut short: 100 bytes, of 200 that were written". Throws std::runtime_error
+/// if it cannot be read.
+std::string broken_seal(const std::filesystem::path& file);
 
 }  // namespace barchan

@@ -19,12 +19,12 @@ std::string dimensions(const Extents& extents) {
 
 /// Reference to an array of the HDF5 file.
 std::string data_item(const std::string& h5_name, const std::string& path, const ArrayInfo& info) {
-  const char* type = info.type == ElementType::int64 ? "Int" : "Float";
-  const int bytes = info.type == ElementType::float32 ? 4 : 8;
+  const bool integers = info.type == ElementType::int32 || info.type == ElementType::int64;
+  const bool single = info.type == ElementType::int32 || info.type == ElementType::float32;
   return fmt::format(
       "<DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"{}\" Dimensions=\"{}\">{}:/{}"
       "</DataItem>",
-      type, bytes, dimensions(info.extents), h5_name, path);
+      integers ? "Int" : "Float", single ? 4 : 8, dimensions(info.extents), h5_name, path);
 }
 
 std::string attribute(const std::string& h5_name, const FrameInfo& frame, const FrameArray& array,

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "kernels/coupling/frame_values.hpp"
-#include "src/base/atomic_file.hpp"
 #include "src/io/row_share.hpp"
 #include "src/io/xdmf.hpp"
 #include "src/parallel/communicator.hpp"
@@ -113,6 +112,11 @@ void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainSta
   }
 }
 
+void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
+                  const Share& rows) {
+  if (dunes) file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", rows);
+}
+
 void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& faces) {
   std::vector<double> centres;
   for (std::size_t i = 1; i < faces.size(); ++i) centres.push_back(0.5 * (faces[i - 1] + faces[i]));
@@ -120,33 +124,7 @@ void write_axis(Hdf5File& file, const std::string& name, const std::vector<doubl
   file.write(name, std::span<const double>(centres), {centres.size()}, "m");
 }
 
-}  // namespace
-
-OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
-                         std::optional<double> restart_time, MPI_Comm communicator)
-    : folder_(folder),
-      provenance_(provenance),
-      communicator_(communicator),
-      fields_(folder / "fields.h5", provenance, restart_time, communicator),
-      grains_(folder / "grains.h5", provenance, restart_time, communicator),
-      tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {
-  if (!field_frames().empty()) describe_fields();  // frames may have been dropped
-  if (!grain_frames().empty()) describe_grains();
-}
-
-void OutputFiles::describe_fields() const {
-  if (rank_of(communicator_) != 0) return;
-  auto path = fields_.path();
-  write_atomically(path.replace_extension(".xdmf"), fields_xdmf("fields.h5", field_frames()));
-}
-
-void OutputFiles::describe_grains() const {
-  if (rank_of(communicator_) != 0) return;
-  auto path = grains_.path();
-  write_atomically(path.replace_extension(".xdmf"), grains_xdmf("grains.h5", grain_frames()));
-}
-
-void OutputFiles::write_grid(Hdf5File& file, const Grid& grid) {
+void write_grid(Hdf5File& file, const Grid& grid) {
   const double x0 = grid.x0 - grid.i_begin * grid.dx, z0 = grid.z0 - grid.k_begin * grid.dz;
   const int nx = grid.ranks ? grid.nx_all : grid.nx, nz = grid.ranks ? grid.nz_all : grid.nz;
   std::vector<double> x, y, z;
@@ -159,23 +137,31 @@ void OutputFiles::write_grid(Hdf5File& file, const Grid& grid) {
   write_axis(file, "grid/z", z);
 }
 
+}  // namespace
+
+OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
+                         std::optional<double> restart_time, MPI_Comm communicator)
+    : folder_(folder),
+      provenance_(provenance),
+      communicator_(communicator),
+      fields_(folder / "fields.h5", provenance, restart_time, communicator, fields_xdmf),
+      grains_(folder / "grains.h5", provenance, restart_time, communicator, grains_xdmf),
+      tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {}
+
 void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
                                std::span<const NamedField> more) {
   const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
   fields_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     write_flow(file, group, fluid, more);
   });
-  describe_fields();
 }
 
 void OutputFiles::write_single(const std::string& name, double t, std::int64_t step,
                                const FrameFile::Preamble& preamble,
-                               const FrameFile::Content& content, Describe describe) const {
-  FrameFile file(folder_ / (name + ".h5"), provenance_, {}, communicator_);  // begins anew
+                               const FrameFile::Content& content,
+                               FrameFile::Describe describe) const {
+  FrameFile file(folder_ / (name + ".h5"), provenance_, {}, communicator_, describe);  // anew
   file.append(t, step, preamble, content);
-  if (rank_of(communicator_) == 0) {
-    write_atomically(folder_ / (name + ".xdmf"), describe(name + ".h5", file.frames()));
-  }
 }
 
 void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
@@ -197,11 +183,10 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   if (grains != nullptr) {
     const Share rows = share_of_rows(static_cast<std::uint64_t>(grains->n), communicator_);
     const NamedForce contacts{"force_contact", grains->contact_force};
-    const auto preamble = [](Hdf5File&) {};
     const auto content = [&](Hdf5File& file, const std::string& group) {
       write_grain_arrays(file, group, *grains, std::span(&contacts, 1), rows);
     };
-    write_single("failure_grains", t, step, preamble, content, grains_xdmf);
+    write_single("failure_grains", t, step, {}, content, grains_xdmf);
     names.emplace_back("failure_grains.xdmf");
   }
   if (fluid != nullptr) {
@@ -215,30 +200,30 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   return names;
 }
 
-void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step) {
+void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
+                               const DuneLabels& dunes) {
   const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
   const auto n = static_cast<std::size_t>(grains.n);
   const FrameVectors<float> x("output: track", n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
-  const auto preamble = [](Hdf5File&) {};
-  tracks_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+  tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
     const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
     const auto positions = on_host(x);
     file.write(group + "/id", values_of(id), {n}, "1", rows);
+    write_labels(file, group, dunes, rows);
     file.write(group + "/x", values_of(positions), {n, 3}, "m", share_of(rows, {n, 3}, 0));
   });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
-                               std::span<const NamedForce> forces) {
+                               std::span<const NamedForce> forces, const DuneLabels& dunes) {
   const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
-  const auto preamble = [](Hdf5File&) {};
-  grains_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+  grains_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
     write_grain_arrays(file, group, grains, forces, rows);
+    write_labels(file, group, dunes, rows);
   });
-  describe_grains();
 }
 
 }  // namespace barchan

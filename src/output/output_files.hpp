@@ -40,12 +40,16 @@ class OutputFiles {
   void write_fields(const FluidState& fluid, double t, std::int64_t step,
                     std::span<const NamedField> more = {});
 
+  /// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
+  using DuneLabels = std::optional<std::vector<int>>;
+
   /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
   void write_grains(const GrainState& grains, double t, std::int64_t step,
-                    std::span<const NamedForce> forces = {});
+                    std::span<const NamedForce> forces = {}, const DuneLabels& dunes = {});
 
-  /// tracks.h5: ids and positions alone, in single precision.
-  void write_tracks(const GrainState& grains, double t, std::int64_t step);
+  /// tracks.h5: ids, dunes and positions, these in single precision.
+  void write_tracks(const GrainState& grains, double t, std::int64_t step,
+                    const DuneLabels& dunes = {});
 
   /// flow_average.h5: one frame, replaced as a whole. `attributes`: numbers kept with the frame.
   void write_average(const Grid& grid, double t, std::int64_t step,
@@ -61,14 +65,10 @@ class OutputFiles {
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
-  static void write_grid(Hdf5File& file, const Grid& grid);
-  using Describe = std::string (*)(const std::string&, const std::vector<FrameInfo>&);
   /// A file of one frame, replaced as a whole, and its description.
   void write_single(const std::string& name, double t, std::int64_t step,
                     const FrameFile::Preamble& preamble, const FrameFile::Content& content,
-                    Describe describe) const;
-  void describe_fields() const;
-  void describe_grains() const;
+                    FrameFile::Describe describe) const;
 
   std::filesystem::path folder_;
   Provenance provenance_;

@@ -15,19 +15,8 @@ namespace barchan {
 
 namespace {
 
-std::string type_name(ElementType type) {
-  switch (type) {
-    case ElementType::float32:
-      return "float32";
-    case ElementType::float64:
-      return "float64";
-    case ElementType::int64:
-      return "int64";
-    case ElementType::other:
-      break;
-  }
-  return "other";
-}
+// In the order of ElementType.
+constexpr const char* type_names[] = {"float32", "float64", "int32", "int64", "other"};
 
 std::string describe_array(const Hdf5File& file, const std::string& path,
                            const std::string& label) {
@@ -35,7 +24,7 @@ std::string describe_array(const Hdf5File& file, const std::string& path,
   const std::string units =
       file.has_attribute(path, "units") ? file.text_attribute(path, "units") : std::string("?");
   return fmt::format("  {:<24} {:<18} {:<8} [{}]\n", label, to_string(info.extents),
-                     type_name(info.type), units);
+                     type_names[static_cast<int>(info.type)], units);
 }
 
 // Deeper than any group of ours: links of a foreign file may lead in circles.

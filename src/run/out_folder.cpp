@@ -36,7 +36,7 @@ fs::path existing_part(const fs::path& folder) {
   }
 }
 
-bool same_place(const fs::path& a, const fs::path& b) {
+bool same_folder(const fs::path& a, const fs::path& b) {
   // What is not there yet is compared by name, which must not depend on where we are.
   return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
@@ -50,9 +50,10 @@ void check_start(const std::string& key, const std::string& source, const fs::pa
   };
   if (start.extension() == ".toml") {
     const fs::path results = fs::absolute(folder).parent_path() / start.stem();
-    if (same_place(results, folder)) lost("the results of that case go to the folder of this one,");
+    if (same_folder(results, folder))
+      lost("the results of that case go to the folder of this one,");
   } else if (!start.extension().empty() && is_result(start.filename()) &&
-             same_place(start.parent_path(), folder)) {
+             same_folder(start.parent_path(), folder)) {
     lost("it is in the run folder");
   }
 }
@@ -71,7 +72,7 @@ void check_out_folder(const fs::path& folder) {
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
     refuse(folder, fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
   }
-  if (!same_place(there, folder)) return;
+  if (!same_folder(there, folder)) return;
   for (const auto& entry : fs::directory_iterator(there)) {
     if (is_result(entry.path().filename()) && entry.is_directory()) {
       refuse(folder, entry.path().filename().string() + " in it is a folder");

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -29,13 +31,9 @@ constexpr const char* history_header =
 constexpr const char* dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
 
-/// What is about a run that failed, and not about the one that comes now.
+/// Of a run that failed: a restart removes them too.
 constexpr const char* failure_names[] = {"failure_grains.h5", "failure_grains.xdmf",
                                          "failure_fields.h5", "failure_fields.xdmf"};
-void remove_failure(const std::filesystem::path& folder) {
-  for (const char* name : failure_names) std::filesystem::remove(folder / name);
-}
-
 constexpr const char* result_names[] = {
     "config.toml",     "run.json",          "history.csv",   "dune.csv",  "fields.h5",
     "fields.xdmf",     "grains.h5",         "grains.xdmf",   "tracks.h5", "statistics.csv",
@@ -43,11 +41,9 @@ constexpr const char* result_names[] = {
 
 /// Results of an earlier run; pictures and everything that is not ours stay.
 void remove_results(const std::filesystem::path& folder) {
-  for (const char* name : result_names) std::filesystem::remove(folder / name);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path());
+    if (is_result(entry.path().filename())) std::filesystem::remove(entry.path());
   }
-  for (const auto& [step, file] : list_checkpoints(folder)) std::filesystem::remove(file);
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -81,6 +77,13 @@ bool is_result(const std::filesystem::path& name) {
          name.extension() == ".tmp" || is_checkpoint_name(name);
 }
 
+std::string status_in(const std::filesystem::path& run_json) {
+  std::ifstream in(run_json);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto status = json.find("status");
+  return status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
+}
+
 void check_tables(const std::filesystem::path& folder) {
   text_of_table(folder / history_name, history_header);
   text_of_table(folder / dune_name, dune_header);
@@ -111,7 +114,7 @@ RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart
   synchronise(communicator);  // others may still read what is about to go
   if (root_) {
     make_folder(folder_);
-    remove_failure(folder_);
+    for (const char* name : failure_names) std::filesystem::remove(folder_ / name);
     if (!restart_time) remove_results(folder_);
     const double t = restart_time.value_or(0.0);
     cut_table(file(history_name), history_header, t);
@@ -158,8 +161,11 @@ void RunFolder::append(const DuneRow& r) {
                           r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux));
 }
 
-void RunFolder::write_summary(const RunSummary& summary) {
-  if (root_) write_atomically(file("run.json"), to_json(summary));
+void RunFolder::write_summary(const nlohmann::ordered_json& summary) {
+  if (!root_) return;
+  // Texts that are not UTF-8 (a path in the message) must not cost the summary.
+  const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  write_atomically(file("run.json"), summary.dump(2, ' ', false, replace) + "\n");
 }
 
 }  // namespace barchan

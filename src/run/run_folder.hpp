@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -29,29 +29,6 @@ struct HistoryRow {
   double max_overlap = 0;  // over the mean diameter of the pair
 };
 
-/// run.json. Numbers that are not finite become null.
-struct RunSummary {
-  std::string status = "running";  // "running", "done", "stopped", "failed"
-  std::string message;             // why it stopped or failed
-  std::string title, version, git_hash, backend, device;
-  int threads = 1, ranks = 1;
-  std::int64_t steps = 0;  // fluid steps
-  double simulated_seconds = 0, wall_seconds = 0;
-  std::map<std::string, double> phases;  // wall seconds per fluid step, by phase
-  double grain_steps_per_second = 0, cell_steps_per_second = 0;
-  double pressure_iterations_mean = 0;
-  std::int64_t pressure_iterations_max = 0;
-  double max_cfl = 0;
-  double max_overlap = 0;                       // over the mean diameter of the pair
-  double max_continuity_residual = 0;           // [1/s]
-  std::map<std::string, double> ledger;         // mass [kg] and momentum [N s] terms by name
-  std::map<std::string, double> communication;  // of rank 0, where there are more; see summary()
-  std::int64_t grains_initial = 0, grains_inside = 0, grains_left = 0;
-};
-
-/// The text of run.json.
-std::string to_json(const RunSummary& summary);
-
 /// Owns the folder's text files. On ranks other than 0 every member does nothing.
 /// Every member throws std::runtime_error naming the file and the reason.
 class RunFolder {
@@ -71,7 +48,8 @@ class RunFolder {
   /// Whole lines, on their way to the disk when the call returns.
   void append(const HistoryRow& row);
   void append(const DuneRow& row);
-  void write_summary(const RunSummary& summary);
+  /// Replaces run.json as a whole. Numbers that are not finite become null.
+  void write_summary(const nlohmann::ordered_json& summary);
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
@@ -83,6 +61,9 @@ class RunFolder {
   bool root_;
   int history_ = -1, dune_ = -1;  // file descriptors; -1: not open
 };
+
+/// The "status" in a run.json; empty if the file is missing or damaged.
+std::string status_in(const std::filesystem::path& run_json);
 
 /// True for names of files that a new run removes from its folder.
 bool is_result(const std::filesystem::path& name);

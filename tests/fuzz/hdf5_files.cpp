@@ -76,7 +76,6 @@ void read_restart(const fs::path& path) {
   accepts([&] { file.provenance(); });
   for (const auto* name : state_numbers) accepts([&] { file.real(name); });
   for (const auto* name : state_integers) accepts([&] { file.integer(name); });
-  accepts([&] { file.text("title"); });
   for (const auto& array : state_arrays) {
     accepts([&] { file.has(array.name); });
     if (array.integers) {

@@ -46,5 +46,9 @@ says "fig13 needs force_map.csv, or grains.h5 with force_total"
 plot 2 "$dir/alone" horns
 says "horns needs grains.h5 with at least one frame"
 
+make_run "$dir/old" --without dune --tracks
+plot 2 "$dir/old" horns
+says "horns needs frames that say which dune each grain is of (output.dune_interval > 0); runs of an earlier version"
+
 [ "$failures" = 0 ] && echo "horn grains, origins and forces as known"
 exit $((failures > 0))

@@ -112,7 +112,7 @@ def shape(run):
 
     table, tracks = read(run, "dune"), Tracks(RunFolder(run))
     for index, row in enumerate(table[table["dune"] == 0]):
-        dune = tracks.main_dune(tracks.read(index), None)
+        dune = tracks.main_dune(tracks.read(index))
         for name in ("W", "L", "H", "horn_left", "horn_right"):
             same(f"{name} at {row['t']} s", getattr(dune, name), row[name], 1e-8)  # single precision
         for axis, name in enumerate(("Cx", "Cy", "Cz")):

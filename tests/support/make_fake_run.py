@@ -52,7 +52,7 @@ def known_width(t):
 
 
 def make_grains(t, random):
-    """Grains under the surface, and a few that have left the dune."""
+    """x (N, 3), d (N) and dune (N) of grains under the surface, and of a few that have left the dune."""
     side = np.arange(0, 0.03, 0.93 * D)
     x, z = np.meshgrid(shape(t)[0] - 0.015 + side, 0.5 * SIZE[2] - 0.015 + side, indexing="ij")
     x, z = x.ravel(), z.ravel()
@@ -65,10 +65,12 @@ def make_grains(t, random):
     layer = np.append(layer, np.zeros(stray, int))
     position = np.stack([x, (layer * 0.85 + 0.5) * D, z], axis=1)
     position += random.uniform(-0.15, 0.15, position.shape) * D
-    position = position[(position[:, 0] < SIZE[0]) & (abs(position[:, 2] / SIZE[2] - 0.5) < 0.5)]
+    dune = np.where(np.arange(len(x)) < len(x) - stray, 0, -1)
+    inside = (position[:, 0] < SIZE[0]) & (abs(position[:, 2] / SIZE[2] - 0.5) < 0.5)
+    position, dune = position[inside], dune[inside]
     position[:, 1] = np.maximum(position[:, 1], 0.5 * D)
-    return position, D * random.choice([0.75, 0.875, 1.0, 1.125, 1.25], len(position),
-                                       p=[0.02, 0.14, 0.68, 0.14, 0.02])
+    d = D * random.choice([0.75, 0.875, 1.0, 1.125, 1.25], len(position), p=[0.02, 0.14, 0.68, 0.14, 0.02])
+    return position, d, dune
 
 
 def make_flow(t, x, y, z):
@@ -105,9 +107,9 @@ def write_grains(folder, cut, frames=FRAMES):
     random = np.random.default_rng(1)
     with open_file(folder / "grains.h5") as file:
         for index, t in enumerate(np.linspace(0, END, frames)):
-            x, d = make_grains(t, random)
-            write_frame(file, index, t, {"id": random.permutation(len(d)), "x": x, "d": d,
-                                         "u": 0 * x, "omega": 0 * x})
+            x, d, dune = make_grains(t, random)
+            write_frame(file, index, t, {"id": random.permutation(len(d)), "x": x, "d": d, "u": 0 * x,
+                                         "omega": 0 * x, "dune": dune})
         if cut:
             write_frame(file, frames, END + 0.5, {"id": np.arange(3)})
 

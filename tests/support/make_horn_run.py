@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a synthetic run whose dune is made of blocks of grains: W, L, H, horns and their grains are known.
 
-    make_horn_run.py OUT_DIR [--angle DEGREES] [--seam] [--tracks] [--without table] [--program-map]
+    make_horn_run.py OUT_DIR [--angle DEGREES] [--seam] [--tracks] [--without table|dune] [--program-map]
                      [--until T]
 
 A round heap moves, then is a block of 20 x 30 diameters with two arms downstream, 10 (left) and 15
@@ -114,7 +114,7 @@ def force(x, centroid, t):
                               3e-8 * np.sign(x[:, 2] - centroid[2])], axis=1)
 
 
-def write_h5(folder, options, frames, measured):
+def write_h5(folder, options, frames, measured, n_heap):
     random = np.random.default_rng(5)
     with h5py.File(folder / "grains.h5", "w") as grains, h5py.File(folder / "tracks.h5", "w") as tracks:
         for number, (t, x) in enumerate(zip(TIMES, frames)):
@@ -123,11 +123,17 @@ def write_h5(folder, options, frames, measured):
             group = tracks.create_group(f"frame_{number:06d}")
             group.attrs.update(time=t, step=number)
             group["id"], group["x"] = 10 + 2 * ids, wrapped.astype(np.float32)
+            label = np.where(ids < n_heap, 0, 1)
+            label[~np.isin(ids, main_rows(x, number, n_heap)) & (ids < n_heap)] = -1
+            if "dune" not in options.without:
+                group["dune"] = label
             if number and options.tracks:
                 continue
             group = grains.create_group(f"frame_{number:06d}")
             group.attrs.update(time=t, step=number)
             group["id"], group["x"], group["d"] = 10 + 2 * ids, wrapped, np.full(len(ids), D)
+            if "dune" not in options.without:
+                group["dune"] = label
             group["force_total"] = force(x[ids], measured[number][0], t).astype(np.float32)
     if not options.tracks:
         (folder / "tracks.h5").unlink()
@@ -193,14 +199,14 @@ def main():
     parser.add_argument("--angle", type=float, default=0.0)
     parser.add_argument("--seam", action="store_true")
     parser.add_argument("--tracks", action="store_true")
-    parser.add_argument("--without", action="append", default=[], choices=("table",))
+    parser.add_argument("--without", action="append", default=[], choices=("table", "dune"))
     parser.add_argument("--program-map", action="store_true", help="with a force_map.csv")
     parser.add_argument("--until", type=float, default=TIMES[-1], help="time of expected.csv")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     frames, n_heap = make_frames(options)
     measured = [measure(x[main_rows(x, number, n_heap)]) for number, x in enumerate(frames)]
-    write_h5(options.out, options, frames, measured)
+    write_h5(options.out, options, frames, measured, n_heap)
     if "table" not in options.without:
         write_table(options.out, measured)
     if options.program_map:

@@ -158,7 +158,7 @@ TEST(Output, GrainsAreTheOnesInside) {
   const Kokkos::View<Vec3*> drag("drag", 5);
   Kokkos::deep_copy(drag, Vec3{1e-9, 2e-9, 3e-9});
   const std::vector<NamedForce> forces{{"force_drag", drag}};
-  output.write_grains(make_grains(3), 0.1, 400, forces);
+  output.write_grains(make_grains(3), 0.1, 400, forces, std::vector<int>{0, -1, 1});
 
   const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
   EXPECT_EQ(file.read<std::int64_t>("frame_000000/id", {3}),
@@ -171,6 +171,11 @@ TEST(Output, GrainsAreTheOnesInside) {
   EXPECT_FLOAT_EQ(file.read<float>("frame_000000/force_drag", {3, 3})[4], 2e-9f);
   EXPECT_EQ(file.text_attribute("frame_000000/force_drag", "units"), "N");
   EXPECT_EQ(file.info("frame_000000/x").type, ElementType::float64);
+  EXPECT_EQ(file.read<std::int32_t>("frame_000000/dune", {3}), (std::vector<int>{0, -1, 1}));
+  EXPECT_EQ(
+      count(read_text(folder / "grains.xdmf"),
+            "NumberType=\"Int\" Precision=\"4\" Dimensions=\"3\">grains.h5:/frame_000000/dune<"),
+      1);
 }
 
 TEST(Output, GrainsXdmfPointsAtTheArraysAndSkipsEmptyFrames) {

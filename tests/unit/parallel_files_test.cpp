@@ -2,6 +2,9 @@
 // these on several ranks, the unit tests on one.
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "src/diagnostics/gathered_grains.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/checkpoint.hpp"
@@ -52,11 +55,15 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   const int ranks = rank_count(world), rank = rank_of(world);
   const testing::SharedFolder folder;
   const Decomposition pencils(world, nx * ranks, nz);
+  const auto n = static_cast<std::size_t>(rank);
+  const std::vector<double> all = on_rank_0(world, std::vector<double>(n, rank));
+  const OutputFiles::DuneLabels dunes =
+      from_rank_0(world, std::vector<int>(all.begin(), all.end()), rank);
   {
     OutputFiles output(folder.path(), {.title = "parallel"}, {}, world);
     for (int k = 0; k < 3; ++k) {
       output.write_fields(flow_of(rank, &pencils), k, k);
-      output.write_grains(grains_of(rank), k, k);
+      output.write_grains(grains_of(rank), k, k, {}, dunes);
     }
   }
   OutputFiles output(folder.path(), {.title = "parallel"}, 1.0, world);
@@ -74,6 +81,7 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   std::vector<std::int64_t> ids;
   for (int r = 0; r < ranks; ++r) ids.insert(ids.end(), static_cast<std::size_t>(r), r);
   EXPECT_EQ(grains.read<std::int64_t>("frame_000001/id"), ids);
+  EXPECT_EQ(grains.read<std::int64_t>("frame_000001/dune"), ids);
   EXPECT_EQ(grains.info("frame_000001/x").extents, (Extents{ids.size(), 3}));
 }
 

@@ -1,0 +1,150 @@
+#include "src/run/results_writer.hpp"
+
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kernels/grains/grain_sums.hpp"
+#include "src/output/state_file.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/reduce.hpp"
+#include "src/run/watchdog.hpp"
+
+namespace barchan {
+
+namespace {
+
+double kinetic_energy(const GrainState& grains) {
+  double energy = 0;
+  Kokkos::parallel_reduce("history: kinetic energy of the grains", grains.n,
+                          GrainKineticEnergy{grains.kin}, energy);
+  return sum_over(grains.ranks, energy);
+}
+
+}  // namespace
+
+ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
+                             RunDiagnostics& diagnostics, RunAccounts& accounts)
+    : run_(run),
+      diagnostics_(diagnostics),
+      accounts_(accounts),
+      folder_(folder, run.restart_time, run.ranks),
+      output_(folder, run.provenance, run.restart_time, run.ranks) {
+  if (rank_of(run.ranks) == 0)
+    report::log_to(folder_.file("log.txt"), run.restart_time.has_value());
+  folder_.write_config(run.provenance.config);
+}
+
+void ResultsWriter::write_due() {
+  const RunClock& clock = run_.clock;
+  Watchdog::beat("writing results", clock.step, clock.time());
+  if (run_.system.grains && clock.due(run_.config.output.dune_interval)) {
+    const PhaseTimer timer(accounts_.phases(), "analytics");
+    write_dunes();
+  }
+  if (diagnostics_.sample_due(clock)) {
+    const PhaseTimer timer(accounts_.phases(), "analytics");
+    diagnostics_.sample(run_);
+  }
+  const PhaseTimer timer(accounts_.phases(), "output");
+  const bool history = clock.due(run_.config.output.history_interval);
+  if (history) write_history();
+  write_frames();
+  if (clock.step == 0) return;
+  if (restart_due() && clock.step < clock.end) write_restart();
+  if (history) write_summary("running", "");
+}
+
+void ResultsWriter::write_history() {
+  const HistoryInterval& interval = accounts_.interval();
+  HistoryRow row;
+  row.t = run_.clock.time();
+  row.step = run_.clock.step;
+  if (run_.system.fluid) {
+    const FluidState& fluid = *run_.system.fluid;
+    row.u_star = run_.coupled_step.friction_velocity(run_.system);
+    row.bulk_velocity = run_.coupled_step.bulk_velocity(run_.system);
+    row.pressure_gradient = fluid.drive * run_.config.fluid->density;
+    row.fluid_kinetic_energy = run_.coupled_step.kinetic_energy_of_fluid(run_.system);
+    row.cfl = interval.courant;
+    row.continuity_residual = interval.continuity_residual;
+    row.pressure_iterations = interval.mean_iterations();
+  }
+  if (run_.system.grains) {
+    const GrainState& grains = *run_.system.grains;
+    const ContactSummary contacts = run_.coupled_step.contacts(run_.system);
+    row.grain_kinetic_energy = kinetic_energy(grains);
+    row.n_grains = run_.n_grains;
+    row.n_contacts = contacts.n_contacts;
+    row.max_overlap = contacts.max_overlap;
+    accounts_.add_overlap(contacts.max_overlap);
+  }
+  folder_.append(row);
+  accounts_.begin_interval();
+}
+
+void ResultsWriter::write_dunes() {
+  for (const DuneRow& dune : diagnostics_.find_dunes(run_)) folder_.append(dune);
+}
+
+void ResultsWriter::write_frames() {
+  const RunClock& clock = run_.clock;
+  const OutputConfig& o = run_.config.output;
+  const double t = clock.time();
+  SystemState& now = run_.system;
+  const bool grains = now.grains && clock.due(o.grains_interval);
+  const bool tracks = now.grains && clock.due(o.tracks_interval);
+  std::optional<std::vector<int>> dunes;
+  if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels(run_);
+  if (grains) {
+    std::vector<NamedForce> forces;
+    if (o.grain_forces) forces = run_.coupled_step.grain_forces(now);
+    output_.write_grains(*now.grains, t, clock.step, forces, dunes);
+  }
+  if (tracks) output_.write_tracks(*now.grains, t, clock.step, dunes);
+  if (now.fluid && clock.due(o.fields_interval)) output_.write_fields(*now.fluid, t, clock.step);
+}
+
+/// By simulated time, or by the wall clock of rank 0.
+bool ResultsWriter::restart_due() const {
+  const RestartConfig& restart = run_.config.restart;
+  if (run_.clock.due(restart.interval)) return true;
+  return restart.wall_interval > 0 &&
+         broadcast(seconds_since(last_restart_) > restart.wall_interval, run_.ranks);
+}
+
+void ResultsWriter::write_restart() {
+  const RunClock& clock = run_.clock;
+  Watchdog::beat("writing a restart file", clock.step, clock.time());
+  CheckpointWriter file(folder_.path(), clock.step, run_.provenance, run_.ranks);
+  save_state(file, run_.system, run_.coupled_step);
+  file.scalar("t", clock.time());
+  file.scalar("step", clock.step);
+  accounts_.save(file);
+  diagnostics_.save(file, run_.ranks);
+  diagnostics_.write(run_, folder_, output_);
+  Watchdog::last_good_restart(file.commit(run_.config.restart.keep));
+  last_restart_ = WallClock::now();
+}
+
+void ResultsWriter::write_summary(const std::string& status, const std::string& message) {
+  folder_.write_summary(accounts_.summary(run_, status, message));
+}
+
+std::string ResultsWriter::write_failure(const StateError& problem) const {
+  const double t = run_.clock.time();
+  const std::int64_t step = run_.clock.step;
+  const std::string message = fmt::format("{} (t = {:.6g} s, step {})", problem.what(), t, step);
+  if (!problem.on_all_ranks && rank_count(run_.ranks) > 1) return message;
+  try {
+    const auto& [fluid, grains] = run_.system;
+    const auto names =
+        output_.write_failure(fluid ? &*fluid : nullptr, grains ? &*grains : nullptr, t, step);
+    return fmt::format("{}; look at it in {} ({})", message, folder_.path().string(),
+                       fmt::join(names, ", "));
+  } catch (const std::exception& second) {
+    return fmt::format("{}; the state could not be written: {}", message, second.what());
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,50 @@
+// What a run writes, and when: tables, frames, restart files, summary.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "src/base/errors.hpp"
+#include "src/base/stopwatch.hpp"
+#include "src/output/output_files.hpp"
+#include "src/run/run_accounts.hpp"
+#include "src/run/run_diagnostics.hpp"
+#include "src/run/run_folder.hpp"
+#include "src/run/run_state.hpp"
+
+namespace barchan {
+
+/// Owns the run folder; refers to the rest. All ranks call every member together. Members throw
+/// std::runtime_error with a sentence for the user.
+class ResultsWriter {
+ public:
+  /// Makes the folder ready: removes the results of an earlier run, or those later than the
+  /// restart. Log lines go to its log.txt from now on.
+  ResultsWriter(const std::filesystem::path& folder, RunState& run, RunDiagnostics& diagnostics,
+                RunAccounts& accounts);
+
+  /// Everything whose interval ends with the present step.
+  void write_due();
+  /// A restart file, and the means over time up to it.
+  void write_restart();
+  /// run.json.
+  void write_summary(const std::string& status, const std::string& message);
+  /// Files to look at what went wrong in. Returns the message for the user with their names: that
+  /// they cannot be written must not hide why the run failed.
+  std::string write_failure(const StateError& problem) const;
+
+ private:
+  void write_history();
+  void write_dunes();
+  void write_frames();
+  bool restart_due() const;
+
+  RunState& run_;
+  RunDiagnostics& diagnostics_;
+  RunAccounts& accounts_;
+  RunFolder folder_;
+  OutputFiles output_;
+  WallClock::time_point last_restart_ = WallClock::now();
+};
+
+}  // namespace barchan
