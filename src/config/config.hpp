@@ -27,7 +27,7 @@ enum class DragLaw {
   none
 };
 enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Preconditioner { fft, local_fft, jacobi, none };
+enum class Preconditioner { fft, local_fft };
 
 /// [time]
 struct TimeConfig {
@@ -138,8 +138,8 @@ struct PourConfig {
 
 /// [initial]
 struct InitialConfig {
-  std::string fluid = "still";  // "still", "turbulent", a .h5 or a .toml (path resolved)
-  std::string grains;           // a .csv, .h5 or .toml (path resolved); empty with `pour`
+  std::filesystem::path fluid = "still";  // or "turbulent", or an absolute path
+  std::filesystem::path grains = {};      // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
 
@@ -181,7 +181,6 @@ struct StatisticsConfig {
 struct SolverConfig {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int max_iterations = 200;
-  int correctors = 1;  // pressure corrections per step
   Preconditioner preconditioner = Preconditioner::local_fft;
 
   bool operator==(const SolverConfig&) const = default;

@@ -173,13 +173,9 @@ void FluidSolver::project(FluidState& fluid, const ExchangeOnFaces* exchange, Re
   } else {
     Kokkos::deep_copy(fluid.p.storage, fluid.p_previous.storage);
   }
-  Real tolerance = 1;
-  for (int corrector = 0; corrector < solver_.correctors; ++corrector) {
-    tolerance *= solver_.pressure_tolerance;
-    for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<true>(u_star_, fluid, drive_dt, dt));
-    add_to_report(pressure_.solve(mobility_, source_, fluid.p, tolerance));
-  }
+  for_each_cell("fluid: pressure source", grid_,
+                pressure_source<true>(u_star_, fluid, drive_dt, dt));
+  add_to_report(pressure_.solve(mobility_, source_, fluid.p, solver_.pressure_tolerance));
   report_.seconds_pressure = timer.seconds();
   correct<true>(fluid, exchange, dt, drive_dt);
   const Real flow =

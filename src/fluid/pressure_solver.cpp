@@ -25,19 +25,13 @@ void PressureSolver::remove_mean(const Field& f) {
   for_each_cell("pressure: remove mean", grid_, Subtract{f, mean});
 }
 
-void PressureSolver::precondition(const FaceVector& c) {
+void PressureSolver::precondition() {
   switch (config_.preconditioner) {
     case Preconditioner::local_fft:
       local_.apply(poisson_, residual_, z_);
       break;
     case Preconditioner::fft:
       poisson_.solve(residual_, z_);
-      break;
-    case Preconditioner::jacobi:
-      for_each_cell("pressure: scale", grid_, ScaleByDiagonal{grid_, c, residual_, z_});
-      break;
-    case Preconditioner::none:
-      Kokkos::deep_copy(z_.storage, residual_.storage);
       break;
   }
 }
@@ -54,7 +48,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Field& b, const 
   Real rz_before = 0;
   PressureReport report;
   while (rr > enough && report.iterations < config_.max_iterations) {
-    precondition(c);
+    precondition();
     const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
     const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
     for_each_cell("pressure: direction", grid_, NextDirection{z_, direction_, b_factor});

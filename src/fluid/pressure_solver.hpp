@@ -35,7 +35,7 @@ class PressureSolver {
   std::array<Field, 3> idle_fields() const { return {z_, direction_, image_}; }
 
  private:
-  void precondition(const FaceVector& c);
+  void precondition();
   void remove_mean(const Field& f);
 
   Grid grid_;

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "src/base/atomic_file.hpp"
+#include "src/base/nearest.hpp"
 #include "src/base/printable.hpp"
-#include "src/config/section.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"

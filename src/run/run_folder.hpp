@@ -51,6 +51,8 @@ struct RunSummary {
 
 /// The text of run.json.
 std::string to_json(const RunSummary& summary);
+/// The "status" in a run.json; empty if the file is missing or damaged.
+std::string status_in(const std::filesystem::path& run_json);
 
 /// Owns the folder's text files. On ranks other than 0 every member does nothing.
 /// Every member throws std::runtime_error naming the file and the reason.

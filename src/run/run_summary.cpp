@@ -1,4 +1,6 @@
 // run.json
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "src/run/run_folder.hpp"
@@ -34,6 +36,13 @@ std::string to_json(const RunSummary& s) {
   json["grains_left"] = s.grains_left;
   // Texts that are not UTF-8 (a path in the message) must not cost the summary.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string status_in(const std::filesystem::path& run_json) {
+  std::ifstream in(run_json);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto status = json.find("status");
+  return status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
 }
 
 }  // namespace barchan

@@ -21,7 +21,7 @@ constexpr Real d = 2e-4;
 CoupledRun sound_run(int max_iterations = 200) {
   Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
   c.solver.max_iterations = max_iterations;
-  c.solver.preconditioner = Preconditioner::none;
+  c.solver.preconditioner = Preconditioner::fft;
   InitialGrains grains;
   add_grain(grains, d, {0.001, 0.5 * d, 0.001});
   add_grain(grains, d, {0.003, 0.002, 0.0025});
