@@ -16,14 +16,14 @@ auto optional_section(std::optional<T> Config::*member) {
 }
 
 Section of_case() {
-  Section section{.name = "case", .meaning = "what the run is called"};
+  Section section{.name = "case", .meaning = "What the run is called"};
   Keys key(section, [](auto& c) { return &c; });
   key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
   return section;
 }
 
 Section of_time() {
-  Section section{.name = "time", .meaning = "end and steps", .required = true};
+  Section section{.name = "time", .meaning = "End and steps", .required = true};
   Keys key(section, [](auto& c) { return &c.time; });
   key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
   key("fluid_step", &TimeConfig::fluid_step, above(0).at_most(1).plausible(1e-15, 1), "s",
@@ -37,7 +37,7 @@ Section of_time() {
 }
 
 Section of_domain() {
-  Section section{.name = "domain", .meaning = "the box", .required = true};
+  Section section{.name = "domain", .meaning = "The box", .required = true};
   Keys key(section, [](auto& c) { return &c; });
   key("size", &Config::size, above(0).plausible(1e-9, 1e6), "m",
       "[Lx, Ly, Lz]: along the stream, upwards, across", required_and_fixed);
@@ -46,7 +46,7 @@ Section of_domain() {
 
 Section of_fluid() {
   Section section{.name = "fluid",
-                  .meaning = "the flow; without the section grains move alone",
+                  .meaning = "The flow; without the section grains move alone",
                   .prepare = optional_section(&Config::fluid)};
   Keys key(section, [](auto& c) { return if_there(c.fluid); });
   using F = FluidConfig;
@@ -89,7 +89,7 @@ void add_material(Section& section, Get get) {
 
 Section of_grains() {
   Section section{.name = "grains",
-                  .meaning = "the grains; without the section water flows alone",
+                  .meaning = "The grains; without the section water flows alone",
                   .prepare = optional_section(&Config::grains)};
   Keys key(section, [](auto& c) { return if_there(c.grains); });
   using G = GrainConfig;
@@ -121,7 +121,7 @@ Section of_grains() {
 
 Section of_wall() {
   Section section{.name = "grains.wall",
-                  .meaning = "material of the walls; what is not given is as in `[grains]`",
+                  .meaning = "Material of the walls; what is not given is as in `[grains]`",
                   .prepare = [](Config& c, bool) {
                     if (c.grains) c.grains->wall = c.grains->material;
                   }};
@@ -132,7 +132,7 @@ Section of_wall() {
 Section of_ambient() {
   Section section{.name = "grains.ambient",
                   .meaning =
-                      "still fluid around the grains of a case without `[fluid]`; "
+                      "Still fluid around the grains of a case without `[fluid]`; "
                       "without the section a vacuum",
                   .prepare = [](Config& c, bool in_file) {
                     if (in_file) c.grains->ambient.emplace();
@@ -146,7 +146,7 @@ Section of_ambient() {
 }
 
 Section of_coupling() {
-  Section section{.name = "coupling", .meaning = "forces between grains and flow"};
+  Section section{.name = "coupling", .meaning = "Forces between grains and flow"};
   Keys key(section, [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
   key("drag", &C::drag, any, "", "drag law");
@@ -164,7 +164,7 @@ Section of_coupling() {
 }
 
 Section of_initial() {
-  Section section{.name = "initial", .meaning = "the state at t = 0"};
+  Section section{.name = "initial", .meaning = "The state at t = 0"};
   Keys key(section, [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid, any, "",
@@ -178,7 +178,7 @@ Section of_initial() {
 
 Section of_pour() {
   Section section{.name = "initial.grains.pour",
-                  .meaning = "a loose cone of the grains of `grains.sizes`, which settles",
+                  .meaning = "A loose cone of the grains of `grains.sizes`, which settles",
                   .prepare = [](Config& c, bool in_file) {
                     if (in_file) c.initial.pour.emplace();
                   }};
@@ -193,7 +193,7 @@ Section of_pour() {
 }
 
 Section of_output() {
-  Section section{.name = "output", .meaning = "intervals in simulated time; 0: no such file"};
+  Section section{.name = "output", .meaning = "Intervals in simulated time; 0: no such file"};
   Keys key(section, [](auto& c) { return &c.output; });
   using O = OutputConfig;
   key("history_interval", &O::history_interval, at_least(0), "s", "of `history.csv`");
@@ -207,7 +207,7 @@ Section of_output() {
 }
 
 Section of_restart() {
-  Section section{.name = "restart", .meaning = "restart files, from which a run can go on"};
+  Section section{.name = "restart", .meaning = "Restart files, from which a run can go on"};
   Keys key(section, [](auto& c) { return &c.restart; });
   key("interval", &RestartConfig::interval, at_least(0), "s", "in simulated time; 0: none");
   key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s", "in wall time; 0: none");
@@ -217,7 +217,7 @@ Section of_restart() {
 
 Section of_statistics() {
   Section section{.name = "statistics",
-                  .meaning = "averages over time; none without the section",
+                  .meaning = "Averages over time; none without the section",
                   .prepare = optional_section(&Config::statistics)};
   Keys key(section, [](auto& c) { return if_there(c.statistics); });
   using S = StatisticsConfig;
@@ -230,7 +230,7 @@ Section of_statistics() {
 }
 
 Section of_solver() {
-  Section section{.name = "solver", .meaning = "the equation of the pressure"};
+  Section section{.name = "solver", .meaning = "The equation of the pressure"};
   Keys key(section, [](auto& c) { return &c.solver; });
   using S = SolverConfig;
   key("pressure_tolerance", &S::pressure_tolerance, above(0).below(1), "",

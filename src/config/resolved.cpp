@@ -24,8 +24,9 @@ std::string shown(const Key& key, const Config& config) {
 
 /// Type, choices or range, as in "number, above 0 and at most 1".
 std::string domain_of(const Key& key) {
-  const std::string range = key.type == "text" ? "" : key.range.text();
-  return range.empty() ? key.type : fmt::format("{}, {}", key.type, range);
+  const std::string range = key.range.text();
+  if (range.empty()) return key.type;
+  return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
 }
 
 std::string row(const Key& key, const Config& defaults) {
@@ -84,17 +85,16 @@ std::string keys_page() {
   std::string page =
       "# Keys of a case\n\n"
       "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
-      "units.\n"
-      "`--set section.key=value` changes a key for one run. A restart needs the keys marked (R) "
-      "as\n"
-      "they were. Values too large or too small to be computed with are refused beyond the ranges\n"
-      "given here.\n";
+      "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
+      "same in a restart\nas in the run that wrote the restart file. Numbers within the ranges "
+      "given here may still be refused:\nif they are too large or too small to be computed with, "
+      "or do not fit other keys.\n";
   Config defaults;
   for (const Section& section : sections()) {
     if (section.prepare) section.prepare(defaults, true);
     if (section.keys.empty()) continue;
-    page += fmt::format("\n## [{}]{}\n\n{}.\n\n", section.name,
-                        section.required ? " (required)" : "", section.meaning);
+    page += fmt::format("\n## [{}]\n\n{}{}.\n\n", section.name, section.meaning,
+                        section.required ? " (required)" : "");
     page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
     for (const Key& key : section.keys) page += row(key, defaults);
   }

@@ -35,29 +35,6 @@ Mismatch convert(const Node& node, bool& value) {
   return {};
 }
 
-Mismatch convert(const Node& node, std::int64_t& value) {
-  const auto* integer = std::get_if<std::int64_t>(&node.value);
-  if (integer == nullptr) return "an integer";
-  value = *integer;
-  return {};
-}
-
-Mismatch convert(const Node& node, int& value) {
-  std::int64_t wide = 0;
-  if (const Mismatch mismatch = convert(node, wide)) return mismatch;
-  constexpr int most = std::numeric_limits<int>::max();
-  if (wide > most || wide < -most) return fmt::format("an integer up to {}", most);
-  value = static_cast<int>(wide);
-  return {};
-}
-
-Mismatch convert(const Node& node, std::uint64_t& value) {
-  std::int64_t wide = 0;
-  if (convert(node, wide) || wide < 0) return "an integer, at least 0";
-  value = static_cast<std::uint64_t>(wide);
-  return {};
-}
-
 Mismatch convert(const Node& node, std::string& value) {
   const auto* text = std::get_if<std::string>(&node.value);
   if (text == nullptr) return "a string";

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,15 +58,24 @@ using Mismatch = std::optional<std::string>;
 /// From TOML. The value stays as it was if the node does not fit.
 Mismatch convert(const Node& node, double& value);
 Mismatch convert(const Node& node, bool& value);
-Mismatch convert(const Node& node, int& value);
-Mismatch convert(const Node& node, std::int64_t& value);
-Mismatch convert(const Node& node, std::uint64_t& value);
 Mismatch convert(const Node& node, std::string& value);
 Mismatch convert(const Node& node, std::filesystem::path& value);
 Mismatch convert(const Node& node, std::vector<SizeClass>& value);
 Mismatch convert(const Node& node, ForceSwitches& value);
 /// The index of the name that the node holds.
 Mismatch convert_name(const Node& node, std::span<const std::string_view> names, std::size_t& at);
+
+template <class T>
+requires std::is_integral_v<T> Mismatch convert(const Node& node, T& value) {
+  const auto* integer = std::get_if<std::int64_t>(&node.value);
+  if (integer == nullptr) return "an integer";
+  if (std::is_unsigned_v<T> && *integer < 0) return "an integer, at least 0";
+  if (!std::in_range<T>(*integer)) {
+    return fmt::format("an integer up to {}", std::numeric_limits<T>::max());
+  }
+  value = static_cast<T>(*integer);
+  return {};
+}
 
 template <class Choice>
 requires std::is_enum_v<Choice> Mismatch convert(const Node& node, Choice& value) {
