@@ -32,11 +32,11 @@ def say(text):
 
 def resolved(program, study, case):
     """The case with every default filled in, as a dictionary; StudyError with the program's sentences."""
-    command = [program, "check", str(study.base), *case.set_options()]
+    command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
         raise StudyError(f"case {case.name}: {checked.stderr.strip()}")
-    return tomllib.loads(checked.stdout.partition("# What follows from it")[0])
+    return tomllib.loads(checked.stdout)
 
 
 def end_with_parent():

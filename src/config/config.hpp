@@ -27,7 +27,7 @@ enum class DragLaw {
   none
 };
 enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Preconditioner { fft, local_fft, jacobi, none };
+enum class Preconditioner { fft, local_fft };
 
 /// [time]
 struct TimeConfig {
@@ -35,7 +35,6 @@ struct TimeConfig {
   double fluid_step = 2.5e-4;   // [s]; without [fluid] the interval between checks and output
   double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
   double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
-
   bool operator==(const TimeConfig&) const = default;
 };
 
@@ -53,7 +52,6 @@ struct FluidConfig {
   WallFlow bottom = WallFlow::no_slip;
   WallFlow top = WallFlow::free_slip;
   double top_velocity = 0;  // [m/s] along x, of a no-slip top: a lid that drags the flow
-
   bool operator==(const FluidConfig&) const = default;
 };
 
@@ -64,14 +62,12 @@ struct Material {
   double restitution = 0.1;
   double sliding_friction = 0.6;
   double rolling_friction = 0.0;
-
   bool operator==(const Material&) const = default;
 };
 
 struct SizeClass {
   double diameter = 0;  // [m]
   std::int64_t count = 0;
-
   bool operator==(const SizeClass&) const = default;
 };
 
@@ -80,7 +76,6 @@ struct SizeClass {
 struct AmbientConfig {
   double density = 1000;              // [kg/m^3]
   double kinematic_viscosity = 1e-6;  // [m^2/s]
-
   bool operator==(const AmbientConfig&) const = default;
 };
 
@@ -103,14 +98,12 @@ struct GrainConfig {
   double max_overlap =
       0.1;  // of a pair's mean diameter, of a grain's in a wall; more stops the run
   std::optional<AmbientConfig> ambient = {};
-
   bool operator==(const GrainConfig&) const = default;
 };
 
 struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stress", "added_mass",
                         // "buoyancy"]
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
-
   bool operator==(const ForceSwitches&) const = default;
 };
 
@@ -122,7 +115,6 @@ struct CouplingConfig {
   bool alpha_time_derivative = true;
   bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison
   ForceSwitches forces;
-
   bool operator==(const CouplingConfig&) const = default;
 };
 
@@ -132,17 +124,15 @@ struct PourConfig {
   double radius = 0;                         // of the unrelaxed cone's foot [m], required
   double drop_height = 0;                    // lowest grain above the floor [m]
   std::uint64_t seed = 1;
-
   bool operator==(const PourConfig&) const = default;
 };
 
 /// [initial]
 struct InitialConfig {
-  std::string fluid = "still";  // "still", "turbulent", a .h5 or a .toml (path resolved)
-  std::string grains;           // a .csv, .h5 or .toml (path resolved); empty with `pour`
+  std::filesystem::path fluid = "still";  // or "turbulent", or an absolute path
+  std::filesystem::path grains = {};      // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
-
   bool operator==(const InitialConfig&) const = default;
 };
 
@@ -154,7 +144,6 @@ struct OutputConfig {
   double fields_interval = 0.5;
   double tracks_interval = 0;  // ids and positions alone, in tracks.h5
   bool grain_forces = false;   // each force separately in grains.h5
-
   bool operator==(const OutputConfig&) const = default;
 };
 
@@ -163,7 +152,6 @@ struct RestartConfig {
   double interval = 0;         // simulated seconds, 0: off
   double wall_interval = 600;  // wall seconds, 0: off
   int keep = 2;
-
   bool operator==(const RestartConfig&) const = default;
 };
 
@@ -173,7 +161,6 @@ struct StatisticsConfig {
   double interval = 0.01;     // between samples [s]
   bool fields = false;        // means and second moments of the flow in every cell
   bool grain_forces = false;  // resultant force on the grains in polar bins around the main dune
-
   bool operator==(const StatisticsConfig&) const = default;
 };
 
@@ -181,9 +168,7 @@ struct StatisticsConfig {
 struct SolverConfig {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int max_iterations = 200;
-  int correctors = 1;  // pressure corrections per step
   Preconditioner preconditioner = Preconditioner::local_fft;
-
   bool operator==(const SolverConfig&) const = default;
 };
 
@@ -200,7 +185,6 @@ struct Config {
   RestartConfig restart;
   SolverConfig solver;
   std::optional<StatisticsConfig> statistics = {};
-
   bool operator==(const Config&) const = default;
 };
 

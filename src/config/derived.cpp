@@ -21,11 +21,6 @@ constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
 // gathered in.
 constexpr double bytes_per_grain = 1000;
 
-double gravity_of(const GrainConfig& grains) {
-  const auto& g = grains.gravity;
-  return std::hypot(g[0], g[1], g[2]);
-}
-
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
   const double nu = fluid.kinematic_viscosity;
@@ -87,16 +82,14 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
   n.rayleigh_mean = rayleigh_time(n.d_mean, grains.density, grains.material);
   n.fraction_min = true_grain_step(config.time) / n.rayleigh_min;
   n.fraction_mean = true_grain_step(config.time) / n.rayleigh_mean;
-  const double liquid = config.fluid     ? config.fluid->density
-                        : grains.ambient ? grains.ambient->density
-                                         : 0;
-  const double nu = config.fluid     ? config.fluid->kinematic_viscosity
-                    : grains.ambient ? grains.ambient->kinematic_viscosity
-                                     : 0;
-  const double gravity = gravity_of(grains);
-  if (liquid > 0 && nu > 0 && grains.density > liquid) {
-    n.fall_velocity = settling_velocity(n.d_mean, grains.density / liquid, nu, gravity);
-    const double submerged = grains.density / liquid - 1;
+  const AmbientConfig liquid =
+      config.fluid ? AmbientConfig{config.fluid->density, config.fluid->kinematic_viscosity}
+                   : grains.ambient.value_or(AmbientConfig{0, 0});
+  const double nu = liquid.kinematic_viscosity;
+  const double gravity = std::hypot(grains.gravity[0], grains.gravity[1], grains.gravity[2]);
+  if (nu > 0 && grains.density > liquid.density) {
+    const double ratio = grains.density / liquid.density, submerged = ratio - 1;
+    n.fall_velocity = settling_velocity(n.d_mean, ratio, nu, gravity);
     if (flow && flow->u_star > 0 && gravity > 0) {
       n.shields = flow->u_star * flow->u_star / (submerged * gravity * n.d_mean);
       n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);

@@ -9,7 +9,7 @@
 
 #include "src/base/input_file.hpp"
 #include "src/base/printable.hpp"
-#include "src/config/section.hpp"
+#include "src/config/reading.hpp"
 #include "src/config/start.hpp"
 #include "src/config/validate.hpp"
 
@@ -17,213 +17,40 @@ namespace barchan {
 namespace fs = std::filesystem;
 namespace {
 
-/// A title stands in tables, pages and pictures.
-void read_title(Section& s, std::string& title) {
-  constexpr std::size_t longest = 200;
-  s.optional("title", title);
-  const Node* node = s.take("title");
-  if (printable_lines(title) != title) {
-    s.complain("title", *node, "must be text without control characters");
-  }
-  if (title.size() > longest) {
-    s.complain("title", *node, fmt::format("must be at most {} bytes long", longest));
-  }
-}
-
-void read(Section& s, TimeConfig& c) {
-  s.require("end", c.end, {above(0)});
-  s.optional("fluid_step", c.fluid_step, {above(0), at_most(1)});
-  s.optional("grain_step", c.grain_step, {above(0), at_most(1)});
-  s.optional("wall_clock_limit", c.wall_clock_limit, {at_least(0)});
-}
-
-void read(Section& s, FluidConfig& c) {
-  s.require("cells", c.cells, {at_least(1), at_most(100000)});
-  s.optional("first_cell_height", c.first_cell_height, {at_least(0)});
-  s.optional("density", c.density, {above(0)});
-  s.optional("kinematic_viscosity", c.kinematic_viscosity, {at_least(0)});
-  s.optional("mean_velocity", c.mean_velocity, {at_least(0)});
-  s.optional("pressure_gradient", c.pressure_gradient);
-  s.optional("ramp_time", c.ramp_time, {at_least(0)});
-  s.optional("turbulence", c.turbulence);
-  s.optional("wale_constant", c.wale_constant, {at_least(0), at_most(2)});
-  s.optional("bottom", c.bottom);
-  s.optional("top", c.top);
-  s.optional("top_velocity", c.top_velocity);
-}
-
-void read(Section& s, Material& c) {
-  s.optional("youngs_modulus", c.youngs_modulus, {above(0)});
-  s.optional("poisson_ratio", c.poisson_ratio, {at_least(0), at_most(0.5)});
-  s.optional("restitution", c.restitution, {above(0), at_most(1)});
-  s.optional("sliding_friction", c.sliding_friction, {at_least(0)});
-  s.optional("rolling_friction", c.rolling_friction, {at_least(0)});
-}
-
-void read(Section& s, GrainConfig& c, Reading& reading) {
-  s.optional("density", c.density, {above(0)});
-  read(s, c.material);
-  c.wall = c.material;
-  Section wall(reading, s.take("wall"), "grains.wall");
-  read(wall, c.wall);
-  s.optional("coulomb_limit", c.coulomb_limit);
-  s.optional("rolling_model", c.rolling_model);
-  s.optional("rolling_theta_m", c.rolling_theta_m, {above(0)});
-  s.optional("contact_model", c.contact_model);
-  s.optional("linear_stiffness", c.linear_stiffness, {at_least(0)});
-  s.optional("sizes", c.sizes);
-  s.optional("frozen", c.frozen);
-  s.optional("boundary_x", c.boundary_x);
-  s.optional("boundary_z", c.boundary_z);
-  s.optional("gravity", c.gravity);
-  s.optional("skin", c.skin, {at_least(0)});
-  s.optional("max_overlap", c.max_overlap, {above(0), at_most(1)});
-  AmbientConfig ambient;
-  Section around(reading, s.take("ambient"), "grains.ambient");
-  around.optional("density", ambient.density, {above(0)});
-  around.optional("kinematic_viscosity", ambient.kinematic_viscosity, {above(0)});
-  if (around.present()) c.ambient = ambient;
-}
-
-void read(Section& s, CouplingConfig& c) {
-  s.optional("drag", c.drag);
-  s.optional("void_fraction", c.void_fraction);
-  s.optional("smoothing_length", c.smoothing_length, {at_least(0)});
-  s.optional("alpha_time_derivative", c.alpha_time_derivative);
-  s.optional("relaxation", c.relaxation);
-  s.optional("forces", c.forces);
-}
-
-/// A start that is a file: known extension, there, and its path made absolute.
-void resolve_start(Section& s, std::string_view key, std::string& start,
-                   const std::vector<std::string>& extensions, const fs::path& folder) {
-  const Node* node = s.take(key);
-  const fs::path written = start;
-  const std::string extension = written.extension().string();
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-    const std::string words = key == "fluid" ? "\"still\", \"turbulent\" or " : "";
-    s.complain(key, *node,
-               fmt::format("must be {}a file ending in {}{}", words, fmt::join(extensions, ", "),
-                           key == "grains" ? ", or { pour = {...} }" : ""));
+/// A start that is a file: of a known kind, there, and its path made absolute.
+void resolve_start(Reading& reading, const std::string& key, fs::path& start,
+                   const fs::path& folder, const std::vector<std::string>& extensions) {
+  if (std::find(extensions.begin(), extensions.end(), start.extension()) == extensions.end()) {
+    const bool flow = key == "initial.fluid";
+    reading.complain(
+        key,
+        fmt::format("must be {}a file ending in {}{}", flow ? "\"still\", \"turbulent\" or " : "",
+                    fmt::join(extensions, ", "), flow ? "" : ", or { pour = {...} }"));
     return;
   }
-  const fs::path path = fs::absolute(folder / written).lexically_normal();
-  if (const std::string why = not_a_file(path); !why.empty()) {
-    std::error_code ignored;
-    s.complain(key, *node,
-               fs::exists(path, ignored)
-                   ? fmt::format("must be a file to read: {}: {}", path.string(), why)
-                   : fmt::format("must be a file that exists; there is no {}", path.string()));
-    return;
-  }
-  start = path.string();
-}
-
-void read_pour(Section& s, PourConfig& c) {
-  s.optional("centre", c.centre);
-  s.require("radius", c.radius, {above(0)});
-  s.optional("drop_height", c.drop_height, {at_least(0)});
-  s.optional("seed", c.seed);
-}
-
-void read(Section& s, InitialConfig& c, Reading& reading, const fs::path& folder) {
-  s.optional("seed", c.seed);
-  s.optional("fluid", c.fluid);
-  if (c.fluid != "still" && c.fluid != "turbulent") {
-    resolve_start(s, "fluid", c.fluid, {".h5", ".toml"}, folder);
-  }
-  const Node* grains = s.take("grains");
-  const bool described = grains != nullptr && grains->table() != nullptr;
-  if (grains != nullptr && !described) {
-    s.optional("grains", c.grains);
-    if (std::holds_alternative<std::string>(grains->value)) {
-      resolve_start(s, "grains", c.grains, {".csv", ".h5", ".toml"}, folder);
-    }
-  }
-  Section table(reading, described ? grains : nullptr, "initial.grains");
-  const Node* pour_node = table.take("pour");
-  Section pour(reading, pour_node, "initial.grains.pour");
-  PourConfig poured;
-  read_pour(pour, poured);
-  if (pour.present()) c.pour = poured;
-  if (described && pour_node == nullptr) {
-    s.complain("grains", *grains, "must be a file or { pour = {...} }");
+  const fs::path path = fs::absolute(folder / start).lexically_normal();
+  std::error_code ignored;
+  if (const std::string why = not_a_file(path); why.empty()) {
+    start = path;
+  } else if (fs::exists(path, ignored)) {
+    reading.complain(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
+  } else {
+    reading.complain(key, fmt::format("must be a file that exists; there is no {}", path.string()));
   }
 }
 
-void read(Section& s, OutputConfig& c) {
-  s.optional("history_interval", c.history_interval, {at_least(0)});
-  s.optional("dune_interval", c.dune_interval, {at_least(0)});
-  s.optional("grains_interval", c.grains_interval, {at_least(0)});
-  s.optional("fields_interval", c.fields_interval, {at_least(0)});
-  s.optional("tracks_interval", c.tracks_interval, {at_least(0)});
-  s.optional("grain_forces", c.grain_forces);
-}
-
-void read(Section& s, RestartConfig& c) {
-  s.optional("interval", c.interval, {at_least(0)});
-  s.optional("wall_interval", c.wall_interval, {at_least(0)});
-  s.optional("keep", c.keep, {at_least(1), at_most(1000)});
-}
-
-void read(Section& s, StatisticsConfig& c) {
-  s.require("start", c.start, {at_least(0)});
-  s.optional("interval", c.interval, {above(0)});
-  s.optional("fields", c.fields);
-  s.optional("grain_forces", c.grain_forces);
-}
-
-void read(Section& s, SolverConfig& c) {
-  s.optional("pressure_tolerance", c.pressure_tolerance, {above(0), below(1)});
-  s.optional("max_iterations", c.max_iterations, {at_least(1)});
-  s.optional("correctors", c.correctors, {at_least(1), at_most(100)});
-  s.optional("preconditioner", c.preconditioner);
-}
-
-/// Calls `fill` with the section of that name, present or not: its keys become known either way.
-template <class Fill>
-bool with_section(Reading& reading, Section& root, std::string_view name, Fill fill) {
-  Section section(reading, root.take(name), std::string(name));
-  fill(section);
-  return section.present();
-}
-
-void require_section(Reading& reading, bool present, const std::string& name) {
-  if (!present && !reading.is_bad(name)) {
-    reading.complain_about_missing(name);
+void resolve_starts(Reading& reading, InitialConfig& initial, const fs::path& folder) {
+  const std::string flow = "initial.fluid", grains = "initial.grains";
+  if (initial.fluid != "still" && initial.fluid != "turbulent" && !reading.is_bad(flow)) {
+    resolve_start(reading, flow, initial.fluid, folder, {".h5", ".toml"});
   }
-}
-
-Config read_tree(Reading& reading, const Node& tree, const fs::path& file) {
-  Config c;
-  c.file = file;
-  FluidConfig fluid;
-  GrainConfig grains;
-  {
-    Section root(reading, &tree, "");
-    with_section(reading, root, "case", [&](Section& s) { read_title(s, c.title); });
-    const bool time = with_section(reading, root, "time", [&](Section& s) { read(s, c.time); });
-    require_section(reading, time, "time");
-    const bool domain = with_section(reading, root, "domain",
-                                     [&](Section& s) { s.require("size", c.size, {above(0)}); });
-    require_section(reading, domain, "domain");
-    if (with_section(reading, root, "fluid", [&](Section& s) { read(s, fluid); })) c.fluid = fluid;
-    if (with_section(reading, root, "grains", [&](Section& s) { read(s, grains, reading); })) {
-      c.grains = grains;
-    }
-    with_section(reading, root, "coupling", [&](Section& s) { read(s, c.coupling); });
-    with_section(reading, root, "initial",
-                 [&](Section& s) { read(s, c.initial, reading, file.parent_path()); });
-    with_section(reading, root, "output", [&](Section& s) { read(s, c.output); });
-    with_section(reading, root, "restart", [&](Section& s) { read(s, c.restart); });
-    StatisticsConfig statistics;
-    if (with_section(reading, root, "statistics", [&](Section& s) { read(s, statistics); })) {
-      c.statistics = statistics;
-    }
-    with_section(reading, root, "solver", [&](Section& s) { read(s, c.solver); });
+  const Node* node = reading.tree().find(grains);
+  if (node == nullptr || reading.is_bad(grains)) return;
+  if (node->table() == nullptr) {
+    resolve_start(reading, grains, initial.grains, folder, {".csv", ".h5", ".toml"});
+  } else if (node->find("pour") == nullptr) {
+    reading.complain(grains, "must be a file or { pour = {...} }");
   }
-  reading.complain_about_unknown();
-  return c;
 }
 
 struct Loaded {
@@ -288,16 +115,14 @@ void sort_by_line(std::vector<Problem>& problems) {
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain) {
-  Reading reading(file.string());
-  Node tree = parse_toml(text, reading.file(), reading.problems());
+  Reading reading(text, file);
   const bool parsed = reading.problems().empty();
-  for (const std::string& assignment : overrides) {
-    apply_override(tree, assignment, reading.problems());
-  }
+  reading.set(overrides);
   Loaded loaded;
   std::vector<Problem> from_starts;
   if (parsed) {
-    loaded.config = read_tree(reading, tree, file);
+    loaded.config = reading.read();
+    resolve_starts(reading, loaded.config.initial, file.parent_path());
     if (loaded.config.grains) loaded.sizes = loaded.config.grains->sizes;
     for (const char* key : {"initial.fluid", "initial.grains"}) {
       const auto start = load_start(loaded.config, key, reading, chain);
@@ -354,9 +179,15 @@ Config load_config_text(std::string_view text, const fs::path& file,
 }
 
 Config config_as_written(std::string_view resolved, const fs::path& file) {
-  Reading reading(file.string());
-  const Node tree = parse_toml(resolved, reading.file(), reading.problems());
-  return read_tree(reading, tree, file);
+  return Reading(resolved, file).read();
+}
+
+bool is_written_in(const fs::path& file, const Config& config) {
+  std::vector<Problem> unreadable;
+  const auto text = read_text(file, unreadable);
+  if (!text) return false;
+  Reading reading(*text, config.file);
+  return reading.read() == config && !reading.has_bad_keys();
 }
 
 std::vector<SizeClass> known_sizes(const Config& config) {

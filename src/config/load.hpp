@@ -37,6 +37,9 @@ Config load_config_text(std::string_view text, const std::filesystem::path& file
 /// checked nor followed to the files it names, which may be gone.
 Config config_as_written(std::string_view resolved, const std::filesystem::path& file);
 
+/// True if `file`, a config.toml, says exactly `config`, in whatever words.
+bool is_written_in(const std::filesystem::path& file, const Config& config);
+
 /// The size classes of the grains: grains.sizes or, when empty, those of the case that
 /// initial.grains names; empty when a .csv or .h5 decides. Throws ConfigError.
 std::vector<SizeClass> known_sizes(const Config& config);

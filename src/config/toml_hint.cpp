@@ -1,15 +1,15 @@
 #include "src/config/toml_hint.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <regex>
+
+#include <fmt/format.h>
 
 namespace barchan {
 
 namespace {
 
 constexpr int most_parts = 16;  // ours have four
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 std::string_view line_of(std::string_view text, int line) {
   for (; line > 1; --line) {
@@ -18,12 +18,6 @@ std::string_view line_of(std::string_view text, int line) {
     text.remove_prefix(end + 1);
   }
   return text.substr(0, text.find('\n'));
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Points in a row that join parts of a key: outside quotes and comments, nothing but names
@@ -47,42 +41,17 @@ bool has_deep_key(std::string_view line) {
   return false;
 }
 
-/// A number that is one elsewhere: 0,5 or 5d-6 or .5 or 5. or a unit behind it.
-std::string number_hint(std::string_view value) {
-  const auto digits_end = std::find_if(value.begin(), value.end(), [](char c) {
-    return !is_digit(c) && c != '.' && c != '-' && c != '+';
-  });
-  const std::string_view rest(digits_end, value.end());
-  const std::string_view digits(value.begin(), digits_end);
-  const bool is_number = std::any_of(digits.begin(), digits.end(), is_digit);
-  if (!is_number) return {};
-  if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) {
-    return " (decimals come after a point, not a comma)";
-  }
-  if (digits.find('.') != digits.npos && (digits.front() == '.' || digits.back() == '.')) {
-    return " (a digit must stand on both sides of the point, as in 0.01)";
-  }
-  if (!rest.empty() && (rest[0] == 'd' || rest[0] == 'D')) {
-    return " (exponents are written with e, as in 5e-6)";
-  }
-  const std::string_view unit = trimmed(rest);
-  if (!unit.empty() && std::isalpha(static_cast<unsigned char>(unit[0])) != 0 && unit[0] != 'e' &&
-      unit[0] != 'E' && unit[0] != 'x') {
-    return " (numbers stand without a unit; all are SI)";
-  }
-  return {};
-}
-
-std::string value_hint(std::string_view value) {
-  if (value.empty()) return {};
-  if (value.front() == '"' && value.find('\\') != value.npos) {
-    return " (a backslash in \"...\" begins an escape: write '...' or / instead)";
-  }
-  if (std::isalpha(static_cast<unsigned char>(value.front())) != 0) {
-    return " (text stands in quotes; true and false are lower case)";
-  }
-  return number_hint(value);
-}
+/// What a value that is no TOML begins with, and what was probably meant.
+struct Slip {
+  const char *value, *remedy;
+};
+constexpr Slip slips[] = {
+    {R"(".*\\)", "a backslash in \"...\" begins an escape: write '...' or / instead"},
+    {R"([A-Za-z])", "text stands in quotes; true and false are lower case"},
+    {R"([-+]*\d[-+.\d]*,\d)", "decimals come after a point, not a comma"},
+    {R"([-+]*(\.\d|\d+\.(\D|$)))", "a digit must stand on both sides of the point, as in 0.01"},
+    {R"([-+.\d]*\d[-+.\d]*[dD])", "exponents are written with e, as in 5e-6"},
+    {R"([-+.\d]*\d[-+.\d]*\s*[A-DF-Za-df-wyz])", "numbers stand without a unit; all are SI"}};
 
 }  // namespace
 
@@ -109,8 +78,15 @@ Unparsable unparsable(std::string_view text) {
 
 std::string toml_hint(std::string_view text, int line) {
   const std::string_view found = line_of(text, line);
-  const auto equals = found.find('=');
-  return equals == found.npos ? std::string() : value_hint(trimmed(found.substr(equals + 1)));
+  const auto equals = std::min(found.find('='), found.size());
+  const auto begin = std::min(found.find_first_not_of("= \t", equals), found.size());
+  const std::string value(found.substr(begin, 200));
+  for (const Slip& slip : slips) {
+    if (std::regex_search(value, std::regex(slip.value), std::regex_constants::match_continuous)) {
+      return fmt::format(" ({})", slip.remedy);
+    }
+  }
+  return {};
 }
 
 }  // namespace barchan

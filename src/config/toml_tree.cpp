@@ -83,11 +83,13 @@ std::string to_string(const Location& where) {
   return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
 }
 
-const Node* Node::find(std::string_view key) const {
-  if (const NodeTable* entries = table()) {
-    for (const auto& [name, node] : *entries) {
-      if (name == key) return &node;
-    }
+const Node* Node::find(std::string_view dotted) const {
+  const NodeTable* entries = table();
+  if (entries == nullptr) return nullptr;
+  const std::size_t dot = std::min(dotted.find('.'), dotted.size());
+  for (const auto& [name, node] : *entries) {
+    if (name != dotted.substr(0, dot)) continue;
+    return dot == dotted.size() ? &node : node.find(dotted.substr(dot + 1));
   }
   return nullptr;
 }

@@ -33,8 +33,8 @@ struct Node {
 
   const NodeTable* table() const { return std::get_if<NodeTable>(&value); }
   NodeTable* table() { return std::get_if<NodeTable>(&value); }
-  /// The entry `key` of a table, or nullptr.
-  const Node* find(std::string_view key) const;
+  /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none.
+  const Node* find(std::string_view dotted) const;
 };
 
 /// Of a table. Not a std::pair: clang could not make one of a Node that holds such pairs.

@@ -2,21 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "src/config/derived.hpp"
-#include "src/config/names.hpp"
-#include "src/config/plausible.hpp"
+#include "src/config/grain_checks.hpp"
 #include "src/config/start.hpp"
 
 namespace barchan {
 namespace {
 
 void check_time(const Config& c, Findings& found) {
+  constexpr double most_steps = 9'999'999'999;  // restart files have ten digits in their names
+  if (c.time.end / c.time.fluid_step > most_steps) {
+    found.error({"time.end", "time.fluid_step"},
+                fmt::format("must be at most {:.3g} s, which is {:.0f} fluid steps; take an "
+                            "earlier end or a longer time.fluid_step",
+                            most_steps * c.time.fluid_step, most_steps));
+  }
   if (c.time.end < c.time.fluid_step) {
     found.error({"time.end", "time.fluid_step"},
                 fmt::format("must be at least one fluid_step, {:.3g} s", c.time.fluid_step));
@@ -117,43 +120,6 @@ void check_fluid(const Config& c, Findings& found) {
   if (check_mesh(c, found)) check_steps(c, *derive(c, {}).fluid, found);
 }
 
-void check_material(const GrainConfig& grains, Findings& found) {
-  const bool rolls = grains.material.rolling_friction > 0 || grains.wall.rolling_friction > 0;
-  if (rolls && grains.rolling_model == RollingModel::none) {
-    found.error({"grains.rolling_model", "grains.rolling_friction"},
-                "contradicts a rolling_friction above 0");
-  }
-  const bool linear = grains.contact_model == ContactModel::linear;
-  if (linear && grains.linear_stiffness == 0) {
-    found.error({"grains.linear_stiffness", "grains.contact_model"},
-                "must be above 0 with contact_model = \"linear\"");
-  }
-  if (!linear && grains.linear_stiffness > 0) {
-    found.error({"grains.linear_stiffness", "grains.contact_model"},
-                "must be absent unless contact_model = \"linear\"");
-  }
-}
-
-void check_surroundings(const Config& c, Findings& found) {
-  const GrainConfig& grains = *c.grains;
-  if (c.fluid && grains.ambient) {
-    found.error({"grains.ambient", "fluid"}, "contradicts [fluid]: still water or a computed flow");
-  }
-  if (!c.fluid && grains.frozen) {
-    found.warning({"grains.frozen"}, "and no [fluid]: nothing will move");
-  }
-  if (!c.fluid) return;
-  if (c.fluid->kinematic_viscosity == 0) {
-    found.error({"fluid.kinematic_viscosity"}, "must be above 0 with grains: drag needs it");
-  }
-  if (grains.boundary_x == GrainBoundaryX::wall) {
-    found.warning({"grains.boundary_x"}, "stops grains where the fluid, periodic, passes");
-  }
-  if (grains.boundary_z == GrainBoundaryZ::wall) {
-    found.warning({"grains.boundary_z"}, "stops grains where the fluid, periodic, passes");
-  }
-}
-
 void check_output(const Config& c, Findings& found) {
   const auto check = [&](const char* key, double interval) {
     if (interval > 0 && interval < c.time.fluid_step * (1 - 1e-9)) {
@@ -195,40 +161,6 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
   }
 }
 
-void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
-  const Keys keys{"time.grain_step", "time.fluid_step",       "grains.sizes",
-                  "grains.density",  "grains.youngs_modulus", "grains.poisson_ratio"};
-  const std::string text =
-      fmt::format("{:.1f} % of the Rayleigh time {:.3g} s of the smallest grain (d = {:.4g} m)",
-                  100 * n.fraction_min, n.rayleigh_min, n.d_min);
-  if (n.fraction_min > 0.3) {
-    found.error(keys,
-                fmt::format("must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}",
-                            0.3 * n.rayleigh_min, true_grain_step(c.time), text));
-  } else if (n.fraction_min > 0.2) {
-    found.warning(keys, fmt::format("is {}; above 20 % contacts are coarse", text));
-  }
-}
-
-/// Linear springs: the step against the duration of a contact of two of the smallest grains,
-/// pi sqrt(m / (2 k)).
-void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) {
-  if (c.grains->linear_stiffness == 0) return;
-  const double mass = c.grains->density * std::numbers::pi / 6 * std::pow(n.d_min, 3);
-  const double contact = std::numbers::pi * std::sqrt(mass / (2 * c.grains->linear_stiffness));
-  const double fraction = true_grain_step(c.time) / contact;
-  const Keys keys{"time.grain_step", "grains.linear_stiffness", "grains.sizes", "grains.density"};
-  if (fraction > 0.2) {
-    found.error(keys, fmt::format("must be at most {:.3g} s, a fifth of the contact of two of the "
-                                  "smallest grains",
-                                  0.2 * contact));
-  } else if (fraction > 0.1) {
-    found.warning(keys, fmt::format("is {:.0f} % of the contact of two of the smallest grains; "
-                                    "above 10 % contacts are coarse",
-                                    100 * fraction));
-  }
-}
-
 bool has_mesh(const Config& c) {
   Findings ignored;
   return !c.fluid || check_mesh(c, ignored);
@@ -250,11 +182,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
                     n.d_max, narrowest));
     return found.all;
   }
-  if (!c.grains->frozen && c.grains->contact_model == ContactModel::hertz_mindlin) {
-    check_hertz_step(c, n, found);
-  } else if (!c.grains->frozen) {
-    check_linear_step(c, n, found);
-  }
+  check_grain_step(c, n, found);
   if (c.grains->skin > n.d_min) {
     found.warning({"grains.skin", "grains.sizes"},
                   "is above the smallest diameter: needlessly long neighbour lists");
@@ -280,18 +208,14 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
 }
 
 std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& sizes) {
-  Findings found{.all = implausible(c)};
-  if (!found.all.empty()) return found.all;  // what follows from such numbers means nothing
+  Findings found;
   check_time(c, found);
   if (!c.fluid && !c.grains) {
     found.error({"fluid", "grains"}, "required, or [grains]: without both there is nothing to run");
     return found.all;
   }
   if (c.fluid) check_fluid(c, found);
-  if (c.grains) {
-    check_material(*c.grains, found);
-    check_surroundings(c, found);
-  }
+  if (c.grains) check_grains(c, found);
   check_initial(c, found);
   check_output(c, found);
   check_statistics(c, found);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "src/config/section.hpp"
+#include "src/base/nearest.hpp"
 
 namespace barchan {
 namespace {
@@ -44,6 +44,8 @@ CLI::App* add_check(CLI::App& app, CommandLine& line) {
       app.add_subcommand("check", "validate a case; print it resolved, with derived numbers");
   check->add_option("CONFIG", line.file, "the case, a TOML file")->required();
   add_overrides(*check, line);
+  check->add_flag("--resolved-only", line.resolved_only,
+                  "print the case with every default as TOML, nothing else");
   return check;
 }
 
@@ -63,7 +65,7 @@ CommandLine bad_usage(const std::string& complaint) {
 /// Empty when the first word is a command or an option. CLI11 alone would say that a subcommand is
 /// missing, not that this one is unknown.
 std::string unknown_command(int argc, const char* const* argv) {
-  const std::vector<std::string> commands{"run", "check", "info"};
+  const std::vector<std::string> commands{"run", "check", "info", "keys"};
   if (argc < 2 || argv[1][0] == '-') return {};
   const std::string word = argv[1];
   if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
@@ -106,11 +108,12 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
   app.set_version_flag("--version", version);
   const CLI::App* run = add_run(app, line);
   const CLI::App* check = add_check(app, line);
-  const CLI::App* info = add_info(app, line);
+  const CLI::App* keys = app.add_subcommand("keys", "all keys of a case, as in docs/keys.md");
+  add_info(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& stop) {
-    const CLI::App& command = run->parsed() ? *run : check->parsed() ? *check : *info;
+    const CLI::App& command = *app.get_subcommands().front();
     const std::string found = not_expected(app, command);
     return bad_usage(found.empty() ? std::string(stop.what()) + "\n" : found);
   } catch (const CLI::ParseError& stop) {
@@ -120,7 +123,10 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     shown.text = out.str();
     return shown;
   }
-  line.command = run->parsed() ? Command::run : check->parsed() ? Command::check : Command::info;
+  line.command = run->parsed()     ? Command::run
+                 : check->parsed() ? Command::check
+                 : keys->parsed()  ? Command::keys
+                                   : Command::info;
   return line;
 }
 

@@ -9,7 +9,7 @@
 namespace barchan {
 
 /// `none`: nothing to do but print `text` and leave with `exit_code` (help, version, bad usage).
-enum class Command { none, run, check, info };
+enum class Command { none, run, check, keys, info };
 
 struct CommandLine {
   Command command = Command::none;
@@ -25,6 +25,7 @@ struct CommandLine {
   bool dry_run = false;                          // --dry-run: check and show, write nothing
   bool starts_only = false;                      // --starts-only: run what the case starts from
   bool quiet = false;                            // --quiet: no live line
+  bool resolved_only = false;  // --resolved-only: of check the TOML alone, for other programs
 };
 
 /// Reads the command line; prints nothing and never exits, so that one rank can speak for all.

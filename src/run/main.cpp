@@ -1,4 +1,4 @@
-// barchan run | check | info: from the command line to an exit code.
+// barchan run | check | keys | info: from the command line to an exit code.
 #include <mpi.h>
 
 #include <Kokkos_Core.hpp>
@@ -16,6 +16,7 @@
 #include "src/base/errors.hpp"
 #include "src/base/printable.hpp"
 #include "src/base/report.hpp"
+#include "src/config/resolved.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/check.hpp"
 #include "src/run/command_line.hpp"
@@ -73,6 +74,9 @@ int execute(const barchan::CommandLine& line) {
     }
     case Command::check:
       return barchan::run_check(line, std::cout);
+    case Command::keys:
+      std::cout << barchan::keys_page();
+      return 0;
     case Command::info:
       return barchan::run_info(line.file);
     case Command::none:

@@ -2,18 +2,15 @@
 
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/out_folder.hpp"
+#include "src/run/run_folder.hpp"
 #include "src/run/simulation.hpp"
 #include "src/run/watchdog.hpp"
 
@@ -28,22 +25,15 @@ struct StoppedInPrerequisite {};
 
 bool is_toml(const std::string& source) { return fs::path(source).extension() == ".toml"; }
 
-std::string text_of(const fs::path& file) {
-  const std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 /// True if `folder` holds the finished run of exactly this configuration.
 bool is_finished(const fs::path& folder, const Config& config) {
-  return text_of(folder / "config.toml") == to_toml(config) &&
-         text_of(folder / "run.json").find("\"status\": \"done\"") != std::string::npos;
+  return is_written_in(folder / "config.toml", config) &&
+         status_in(folder / "run.json") == "done";
 }
 
 /// Restart file of an unfinished run of the same configuration.
 std::optional<fs::path> unfinished(const fs::path& folder, const Config& config) {
-  if (text_of(folder / "config.toml") != to_toml(config)) return {};
+  if (!is_written_in(folder / "config.toml", config)) return {};
   return latest_checkpoint(folder);
 }
 

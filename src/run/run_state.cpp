@@ -5,7 +5,7 @@
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/restart_check.hpp"
+#include "src/config/resolved.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/output/grain_state_file.hpp"
 #include "src/output/state_file.hpp"

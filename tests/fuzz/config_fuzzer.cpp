@@ -7,7 +7,6 @@
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
-#include "src/config/restart_check.hpp"
 #include "src/config/validate.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 #include "tests/support/temporary_folder.hpp"

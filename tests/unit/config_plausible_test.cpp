@@ -1,6 +1,4 @@
 // Numbers that nobody means, what is no text, and names that a terminal must not obey.
-#include "src/config/plausible.hpp"
-
 #include <gtest/gtest.h>
 
 #include "src/base/printable.hpp"
@@ -17,12 +15,12 @@ using test::only;
 using test::problems;
 
 TEST(ConfigPlausible, NumbersThatOverflowWhatFollowsFromThem) {
-  EXPECT_EQ(
-      problems(grain_case("density = 1e300\n")),
-      only("case.toml:10: [grains] density = 1e+300: must be at most 1e+09 to be computed with"));
-  EXPECT_EQ(problems(grain_case("youngs_modulus = 1e-300\n")),
-            only("case.toml:10: [grains] youngs_modulus = 1e-300: must be at least 0.001 to be "
+  EXPECT_EQ(problems(grain_case("density = 1e300\n")),
+            only("case.toml:10: [grains] density = 1e+300: must be at most 1e+09 kg/m3 to be "
                  "computed with"));
+  EXPECT_EQ(problems(grain_case("youngs_modulus = 1e-300\n")),
+            only("case.toml:10: [grains] youngs_modulus = 1e-300: must be at least 0.001 Pa to "
+                 "be computed with"));
   EXPECT_EQ(problems(fluid_case("top = \"no_slip\"\ntop_velocity = -1e300\n")).size(), 2u);
   EXPECT_EQ(problems(grain_case(), {"domain.size=[1e300, 1, 1]"}).size(), 2u);
 }

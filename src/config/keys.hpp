@@ -1,0 +1,50 @@
+// The table of all keys of a configuration. Reading, checking, writing, the comparison with a
+// restart and docs/keys.md walk it: a new key is a member in config.hpp and a line in keys.cpp.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/config/config.hpp"
+#include "src/config/values.hpp"
+
+namespace barchan {
+
+struct Key {
+  std::string section, name;
+  std::string type;  // in words
+  Range range;
+  std::string unit;     // of its numbers; empty: none
+  std::string meaning;  // one line
+  bool required = false;
+  bool fixed_by_restart = false;  // what the numbers of a restart file mean depends on it
+
+  /// Sets the member; what the value must be if it is not that, the member is left alone then.
+  std::function<Mismatch(const Node&, Config&)> read;
+  /// The value as TOML; nothing if it, or its section, is absent.
+  std::function<std::optional<std::string>(const Config&)> text;
+  std::function<bool(const Config&, const Config&)> same;
+
+  std::string dotted() const { return section + "." + name; }
+};
+
+struct Section {
+  std::string name;  // dotted
+  std::string meaning;
+  bool required = false;
+  /// Called before the keys are read: gives the section, if the file has it, its defaults.
+  std::function<void(Config&, bool in_file)> prepare = {};
+  std::vector<Key> keys = {};
+};
+
+/// In the order in which they are written.
+const std::vector<Section>& sections();
+
+/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
+/// never was.
+std::string removal(std::string_view dotted, std::string_view value);
+
+}  // namespace barchan

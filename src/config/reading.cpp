@@ -1,0 +1,181 @@
+#include "src/config/reading.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "src/base/nearest.hpp"
+#include "src/base/printable.hpp"
+#include "src/config/keys.hpp"
+
+namespace barchan {
+namespace {
+
+std::string join(std::string_view section, std::string_view name) {
+  return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
+}
+
+/// The section of a dotted key and its name there.
+std::pair<std::string, std::string> split(const std::string& dotted) {
+  const std::size_t dot = dotted.rfind('.');
+  if (dot == std::string::npos) return {"", dotted};
+  return {dotted.substr(0, dot), dotted.substr(dot + 1)};
+}
+
+/// A key as TOML needs it written, and a terminal can show it.
+std::string shown_key(std::string_view key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) != 0 || c == '_' || c == '-' || c == ' ';
+  });
+  return printable(bare ? std::string(key) : toml_quoted(key), 60);
+}
+
+/// "[section] key = value: message", without the value when `node` is nullptr.
+std::string sentence(const std::string& section, const std::string& name, const Node* node,
+                     const std::string& message) {
+  return fmt::format("{}{}{}: {}", section.empty() ? "" : fmt::format("[{}] ", section),
+                     shown_key(name), node == nullptr ? "" : " = " + toml_text(*node), message);
+}
+
+/// What may stand in a section ("": the file): its keys and the sections in it.
+std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  for (const Section& section : sections()) {
+    const auto [outer, name] = split(section.name);
+    if (outer == path) names.push_back(name);
+    if (section.name != path) continue;
+    for (const Key& key : section.keys) names.push_back(key.name);
+  }
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_section(const std::string& dotted) {
+  return std::any_of(sections().begin(), sections().end(),
+                     [&](const Section& section) { return section.name == dotted; });
+}
+
+}  // namespace
+
+Reading::Reading(std::string_view text, const std::filesystem::path& file)
+    : file_(file), tree_(parse_toml(text, file.string(), problems_)) {}
+
+void Reading::set(const std::vector<std::string>& assignments) {
+  for (const std::string& one : assignments) apply_override(tree_, one, problems_);
+}
+
+Config Reading::read() {
+  Config config;
+  config.file = file_;
+  for (const Section& section : sections()) read(section, config);
+  find_unknown(tree_, "");
+  return config;
+}
+
+void Reading::read(const Section& section, Config& config) {
+  const Node* node = tree_.find(section.name);
+  const bool is_table = node != nullptr && node->table() != nullptr;
+  if (section.prepare) section.prepare(config, is_table);
+  if (node == nullptr && section.required) {
+    problems_.push_back(
+        {{file_.string(), 0}, fmt::format("[{}]: required section is missing", section.name)});
+    bad_.insert(section.name);
+  }
+  if (node != nullptr && !is_table && !section.keys.empty()) {
+    complain(section.name, fmt::format("must be a section, [{}]", section.name));
+  }
+  if (!is_table) return;
+  for (const Key& key : section.keys) {
+    const Node* value = node->find(key.name);
+    if (value == nullptr) {
+      if (key.required) complain(key.dotted(), "required key is missing");
+    } else if (value->table() == nullptr || !is_section(key.dotted())) {
+      if (const Mismatch mismatch = key.read(*value, config)) {
+        const std::string gone = removal(key.dotted(), toml_text(*value));
+        complain(key.dotted(), gone.empty() ? "must be " + *mismatch : gone);
+      }
+    }
+  }
+}
+
+void Reading::contradict(const std::string& dotted, const std::string& message) {
+  const auto [section, name] = split(dotted);
+  const Node* node = tree_.find(dotted);
+  const Node* around = section.empty() ? nullptr : tree_.find(section);
+  const Location where = node != nullptr     ? node->where
+                         : around != nullptr ? around->where
+                                             : Location{file_.string(), 0};
+  const bool whole = section.empty() && (node == nullptr || node->table() != nullptr);
+  problems_.push_back({where, whole ? fmt::format("[{}]: {}", name, message)
+                                    : sentence(section, name, node, message)});
+}
+
+void Reading::complain(const std::string& dotted, const std::string& message) {
+  contradict(dotted, message);
+  bad_.insert(dotted);
+}
+
+bool Reading::is_bad(const std::string& dotted) const {
+  for (std::string part = dotted; !part.empty(); part = split(part).first) {
+    if (bad_.contains(part)) return true;
+  }
+  return false;
+}
+
+void Reading::find_unknown(const Node& table, const std::string& section) {
+  const std::vector<std::string> known = names_in(section);
+  for (const auto& [name, node] : *table.table()) {
+    if (!contains(known, name)) {
+      complain_about_unknown(section, name, node);
+    } else if (node.table() != nullptr && is_section(join(section, name))) {
+      find_unknown(node, join(section, name));
+    }
+  }
+}
+
+void Reading::complain_about_unknown(const std::string& section, const std::string& name,
+                                     const Node& node) {
+  std::string why = removal(join(section, name), "");
+  if (why.empty()) {
+    const bool table = section.empty() && node.table() != nullptr;
+    // A file of another kind may hold very many; they need not all be compared with ours.
+    const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, node);
+    why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
+    if (table) {
+      problems_.push_back({node.where, fmt::format("[{}]: {}", shown_key(name), why)});
+      return;
+    }
+  }
+  problems_.push_back({node.where, sentence(section, name, nullptr, why)});
+}
+
+std::string Reading::suggestion(const std::string& section, const std::string& name,
+                                const Node& node) {
+  const bool table = section.empty() && node.table() != nullptr;
+  const auto elsewhere = [](const std::string& key, const std::string& home) {
+    return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
+  };
+  if (!table) {
+    for (const Section& other : sections()) {
+      if (contains(names_in(other.name), name)) return elsewhere(name, other.name);
+    }
+  }
+  const std::string close = nearest(name, names_in(section));
+  if (!close.empty()) {
+    bad_.insert(join(section, close));  // what it stands for was not read
+    return fmt::format(" (did you mean \"{}\"?)", close);
+  }
+  if (table) return {};
+  for (const Section& other : sections()) {
+    const std::string near = nearest(name, names_in(other.name));
+    if (!near.empty()) return elsewhere(near, other.name);
+  }
+  return {};
+}
+
+}  // namespace barchan

@@ -1,0 +1,56 @@
+// From TOML text to a Config by the table of keys, with all complaints about single keys.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/config/config.hpp"
+#include "src/config/toml_tree.hpp"
+
+namespace barchan {
+
+struct Section;
+
+/// One file that is read, and what is wrong with it.
+class Reading {
+ public:
+  /// Parses `text`, which stands in `file`.
+  Reading(std::string_view text, const std::filesystem::path& file);
+  /// Applies "key=value" assignments in order, before anything is read.
+  void set(const std::vector<std::string>& assignments);
+
+  /// The configuration; what cannot be read keeps its default and is a problem.
+  Config read();
+
+  /// A complaint about a dotted key or a section, at the line where it was written, else that of
+  /// its section, else the file as a whole: "[section] key = value: message".
+  void contradict(const std::string& dotted, const std::string& message);
+  /// The same; the key is bad from then on.
+  void complain(const std::string& dotted, const std::string& message);
+  /// True if `dotted`, or the section it is in, could not be read as meant: nothing is to be
+  /// concluded from its value.
+  bool is_bad(const std::string& dotted) const;
+  /// True if any key that there is could not be read as meant.
+  bool has_bad_keys() const { return !bad_.empty(); }
+
+  const Node& tree() const { return tree_; }
+  std::vector<Problem>& problems() { return problems_; }
+
+ private:
+  void read(const Section& section, Config& config);
+  void find_unknown(const Node& table, const std::string& section);
+  void complain_about_unknown(const std::string& section, const std::string& name,
+                              const Node& node);
+  std::string suggestion(const std::string& section, const std::string& name, const Node& node);
+
+  std::filesystem::path file_;
+  std::vector<Problem> problems_;
+  Node tree_;
+  std::set<std::string> bad_;  // dotted keys and sections
+  int unknown_ = 0;
+};
+
+}  // namespace barchan
