@@ -12,8 +12,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "src/base/nearest.hpp"
 #include "src/base/printable.hpp"
-#include "src/config/section.hpp"
 #include "src/grains/grain_files.hpp"
 
 namespace barchan {
