@@ -77,11 +77,6 @@ void CoupledStep::move_grains(SystemState& state) {
     Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
                          DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
   }
-  const auto kin = grains.kin;
-  const auto path = grains.path;
-  const Real dt = dt_;
-  Kokkos::parallel_for(
-      "grains: path", items(grains.n), KOKKOS_LAMBDA(int g) { path(g) += dt * norm(kin(g).u); });
 }
 
 void CoupledStep::deposit(SystemState& state) {

@@ -24,7 +24,6 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
   add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
   add(s.x_reference,      "x_reference",      "m",    always,     kRestart);
-  add(s.path,             "path",             "m",    always,     kRestart);
   add(f.u_f,              "u_f",              "m/s",  with_fluid, kRestartWithFlow | kGather);
   add(e.fluid_force,      "fluid_force",      "N",    with_flow,  kRestart | kGather);
   add(e.carried_impulse,  "carried_impulse",  "N s",  with_flow,  kRestart | kGather | kDepositReads |

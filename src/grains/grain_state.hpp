@@ -56,7 +56,6 @@ struct GrainState {
   Kokkos::View<std::int64_t*> id;                        // never reused
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
-  Kokkos::View<Real*> path;                              // length of the path since t = 0 [m]
   FluidOnGrains fluid;                                   // constant over one fluid step
   ExchangeOnGrains exchange;                             // kept for the deposit
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall / 2), see Walls [m]
