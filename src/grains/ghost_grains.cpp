@@ -59,22 +59,9 @@ void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
           row(first(g) + q) = g;
         }
       });
-  // Few: their sorting by rank is left to the host.
-  const auto rank_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, rank);
-  const auto row_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, row);
-  std::vector<std::vector<int>> rows_for(static_cast<std::size_t>(n_ranks));
-  for (int p = 0; p < total; ++p)
-    rows_for[static_cast<std::size_t>(rank_here(p))].push_back(row_here(p));
-  sent_row_ = room<Kokkos::View<int*>>("ghosts: sent row", total);
-  const auto sorted = Kokkos::create_mirror_view(sent_row_);
-  std::vector<int> to;
-  int p = 0;
-  for (const auto& rows : rows_for) {
-    to.push_back(static_cast<int>(rows.size()));
-    for (const int g : rows) sorted(p++) = g;
-  }
-  Kokkos::deep_copy(sent_row_, sorted);
-  counts_ = exchange_counts(ranks, std::move(to));
+  auto sorted = sort_by_rank(rank, row, n_ranks);
+  sent_row_ = sorted.row;
+  counts_ = exchange_counts(ranks, std::move(sorted.to));
 }
 
 /// What was received, into the rows after the owned ones, in the order of the columns.

@@ -1,7 +1,6 @@
 #include "src/grains/grain_migration.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -47,37 +46,27 @@ void GrainMigration::choose(const GrainState& grains, const SearchColumns& colum
   const int n = grains.n;
   const Rows stay = make_rows("migration: rows that stay", n);
   const Rows leave = make_rows("migration: rows that leave", n);
-  const Rows owner = make_rows("migration: owner", n);
+  const Rows owner = make_rows("migration: owners of those", n);
   const auto kin = grains.kin;
   n_stay_ = 0;
   Kokkos::parallel_scan(
       "migration: who stays", items(n),
       KOKKOS_LAMBDA(int g, int& sum, bool final) {
         const int to = owners.of_place(columns.place_of(kin(g).x));
+        const bool stays = to == owners.me;
         if (final) {
-          (to == owners.me ? stay(sum) : leave(g - sum)) = g;
-          owner(g) = to;
+          (stays ? stay(sum) : leave(g - sum)) = g;
+          if (!stays) owner(g - sum) = to;
         }
-        sum += to == owners.me ? 1 : 0;
+        sum += stays ? 1 : 0;
       },
       n_stay_);
   const std::pair<int, int> leavers(0, n - n_stay_);
-  const auto row =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Kokkos::subview(leave, leavers));
-  std::vector<std::vector<int>> rows_for(owners.start.extent(0));
-  if (n > n_stay_) {
-    const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, owner);
-    for (int p = 0; p < n - n_stay_; ++p)
-      rows_for[static_cast<std::size_t>(to(row(p)))].push_back(row(p));
-  }
-  std::vector<int> sorted;
-  grains_.to.clear();
-  for (const auto& rows : rows_for) {
-    grains_.to.push_back(static_cast<int>(rows.size()));
-    sorted.insert(sorted.end(), rows.begin(), rows.end());
-  }
+  auto sorted = sort_by_rank(Kokkos::subview(owner, leavers), Kokkos::subview(leave, leavers),
+                             owners.start.extent_int(0));
   row_ = stay;
-  leaving_ = to_device("migration: leaving", sorted);
+  leaving_ = sorted.row;
+  grains_.to = std::move(sorted.to);
   n_sent_ += n - n_stay_;
 }
 

@@ -58,7 +58,7 @@ class WorkAlongCurve {
   std::int64_t sum_ = 0;
 };
 
-/// Where equal pieces of the work of all ranks begin, all found at once by bisection. Integers: the
+/// Where equal pieces of the work of all ranks begin, found together by bisection. Integers: the
 /// same for any number of threads, and for any share of the grains among the ranks before.
 std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& work,
                                        std::int64_t total, int count) {
@@ -115,7 +115,7 @@ bool GrainPartition::balance(const GrainState& grains, const SearchColumns& colu
   now_ = at_cut_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
   if (first) return true;
   report::info(
-      "grains shared out anew among {} ranks: the busiest had {:.3f} of the mean work and has "
+      "grains redistributed among {} ranks: the busiest had {:.3f} of the mean work and has "
       "{:.3f}",
       count_, before_, now_);
   return true;

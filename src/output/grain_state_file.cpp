@@ -40,10 +40,6 @@ void for_each_saved_array(const GrainState& s, const F& f) {
                        });
 }
 
-/// In the file the first index of an array, its rows, runs fastest but for components.
-template <class View>
-constexpr std::size_t row_dimension = View::rank() - 1;
-
 /// Contacts as a file has them: ids of both grains, and what the first one remembers.
 struct ContactTable {
   std::vector<std::int64_t> first, second;
@@ -218,15 +214,13 @@ void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Com
 void save_contacts(CheckpointWriter& file, const GrainState& s) {
   const ContactTable table = contact_table(s);
   const Share rows = share_of_rows(table.size(), s.ranks);
-  const std::span<const std::int64_t> first(table.first), second(table.second);
-  file.array("contacts/first", first, {table.size()}, rows);
-  file.array("contacts/second", second, {table.size()}, rows);
-  const Extents vectors{table.size(), 3};
-  file.array("contacts/xi_t", std::span<const double>(table.xi_t), vectors,
-             share_of(rows, vectors, 0));
-  if (s.list.has_rolling())
-    file.array("contacts/rolling", std::span<const double>(table.rolling), vectors,
-               share_of(rows, vectors, 0));
+  const auto save = [&](const char* name, const auto& numbers, const Extents& extents) {
+    file.array(name, std::span(numbers), extents, share_of(rows, extents, 0));
+  };
+  save("contacts/first", table.first, {table.size()});
+  save("contacts/second", table.second, {table.size()});
+  save("contacts/xi_t", table.xi_t, {table.size(), 3});
+  if (s.list.has_rolling()) save("contacts/rolling", table.rolling, {table.size(), 3});
   save_of_every_rank(file, "contacts/of_rank", s.ranks, static_cast<std::int64_t>(table.size()));
 }
 
@@ -238,8 +232,8 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
     const auto mine = first_rows(array, s.n);
     const auto numbers = checkpoint_detail::to_numbers(mine);
     const Extents extents = checkpoint_detail::file_extents(mine);
-    file.array(name, std::span(numbers), extents,
-               share_of(rows, extents, row_dimension<decltype(mine)>));
+    // In the file the first index, the rows, runs fastest but for components.
+    file.array(name, std::span(numbers), extents, share_of(rows, extents, mine.rank() - 1));
   });
   save_contacts(file, s);
   save_of_every_rank(file, "grains/of_rank", s.ranks, s.n);
@@ -277,8 +271,8 @@ void load_grains(const CheckpointReader& file, GrainState& s, NeighborList& list
     using Number = typename checkpoint_detail::Stored<typename View::non_const_value_type>::type;
     const Extents extents = checkpoint_detail::file_extents(mine);
     Extents whole = extents, first(extents.size(), 0);
-    whole[row_dimension<View>] = n_all;
-    first[row_dimension<View>] = rows.begin;
+    whole[View::rank() - 1] = n_all;
+    first[View::rank() - 1] = rows.begin;
     checkpoint_detail::from_numbers(file.part<Number>(name, whole, first, extents), mine);
   });
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;

@@ -10,19 +10,19 @@ namespace {
 
 /// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
 /// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
-/// or written six times on its way; some 40 fields whose rims are exchanged; and what a message
+/// or written six times on its way; some 40 fields whose halos are exchanged; and what a message
 /// costs however short it is, about 400 numbers a row. Measured: docs/performance.md.
 struct Cost {
   int nx, nz;
   double of(int along_x, int along_z) const {
     const double cells = double(nx) * nz / (double(along_x) * along_z);
     return transposes(along_x, 3, 4, cells) + transposes(along_z, 2, 2, cells) +
-           40 * (rims(along_x, nz, along_z) + rims(along_z, nx, along_x));
+           40 * (halo(along_x, nz, along_z) + halo(along_z, nx, along_x));
   }
   static double transposes(int parts, int numbers, int times, double cells) {
     return parts == 1 ? 0 : 6 * numbers * cells + 400 * times * (parts - 1);
   }
-  static double rims(int parts, int n_other, int parts_other) {
+  static double halo(int parts, int n_other, int parts_other) {
     return parts == 1 ? 0 : 2.0 * Split{.n = n_other, .parts = parts_other}.count(0);
   }
 };

@@ -58,7 +58,10 @@ class Decomposition {
   MPI_Comm all_ = MPI_COMM_NULL;
 };
 
-/// Among the ranks of a grid; 0 where one rank has all of it.
-inline int rank_of(const Grid& grid) { return grid.ranks ? rank_of(grid.ranks->all()) : 0; }
+/// The ranks that share a grid; this one alone where it has all of it.
+inline MPI_Comm ranks_of(const Grid& grid) {
+  return grid.ranks ? grid.ranks->all() : MPI_COMM_SELF;
+}
+inline int rank_of(const Grid& grid) { return rank_of(ranks_of(grid)); }
 
 }  // namespace barchan

@@ -126,6 +126,21 @@ void exchange_all(const RankLine& line, const MessageBuffer& send,
 int ExchangeCounts::n_to() const { return std::accumulate(to.begin(), to.end(), 0); }
 int ExchangeCounts::n_from() const { return std::accumulate(from.begin(), from.end(), 0); }
 
+RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>& row,
+                        int n_ranks) {
+  const auto rank_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, rank);
+  const auto row_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, row);
+  RowsByRank sorted{.row = Kokkos::View<int*>("rows by rank", row.extent(0)),
+                    .to = std::vector<int>(static_cast<std::size_t>(n_ranks), 0)};
+  const auto at = [&](std::size_t p) { return static_cast<std::size_t>(rank_here(p)); };
+  for (std::size_t p = 0; p < row.extent(0); ++p) ++sorted.to[at(p)];
+  std::vector<int> next = starts_of(sorted.to);
+  const auto sorted_here = Kokkos::create_mirror_view(sorted.row);
+  for (std::size_t p = 0; p < row.extent(0); ++p) sorted_here(next[at(p)]++) = row_here(p);
+  Kokkos::deep_copy(sorted.row, sorted_here);
+  return sorted;
+}
+
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to) {
   ExchangeCounts counts{.ranks = ranks, .to = std::move(to), .from = {}};
   counts.from = counts.to;

@@ -80,6 +80,14 @@ struct ExchangeCounts {
   ExchangeCounts back() const { return {ranks, from, to}; }
 };
 
+/// Rows in the order of the ranks that they go to, and how many go to each.
+struct RowsByRank {
+  Kokkos::View<int*> row;
+  std::vector<int> to;
+};
+/// `rank` and `row` of what is sent. Sorted on the host: it is little.
+RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>& row, int n_ranks);
+
 /// Tells each rank how many rows it will receive. All ranks together.
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to);
 

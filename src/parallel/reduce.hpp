@@ -4,28 +4,48 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "src/parallel/grid.hpp"
+#include "src/parallel/decomposition.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
 
 /// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
-void sum_over(MPI_Comm ranks, std::vector<std::int64_t>& numbers);
-std::int64_t sum_over(MPI_Comm ranks, std::int64_t number);
+void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation);
+void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation);
+
+template <class T>
+void sum_over(MPI_Comm ranks, std::vector<T>& numbers) {
+  all_reduce(ranks, std::span<T>(numbers), MPI_SUM);
+}
+template <class T>
+void max_over(MPI_Comm ranks, std::vector<T>& numbers) {
+  all_reduce(ranks, std::span<T>(numbers), MPI_MAX);
+}
+inline Real sum_over(MPI_Comm ranks, Real number) {
+  all_reduce(ranks, std::span(&number, 1), MPI_SUM);
+  return number;
+}
+inline std::int64_t sum_over(MPI_Comm ranks, std::int64_t number) {
+  all_reduce(ranks, std::span(&number, 1), MPI_SUM);
+  return number;
+}
 inline std::int64_t sum_over(MPI_Comm ranks, int number) {
   return sum_over(ranks, std::int64_t{number});
 }
-Real sum_over(MPI_Comm ranks, Real number);
-void sum_over(MPI_Comm ranks, std::vector<Real>& numbers);
-Real max_over(MPI_Comm ranks, Real number);
-void max_over(MPI_Comm ranks, std::vector<Real>& numbers);
+inline Real max_over(MPI_Comm ranks, Real number) {
+  all_reduce(ranks, std::span(&number, 1), MPI_MAX);
+  return number;
+}
 
 /// Over the ranks that share the grid, the same bits on all of them.
-Real sum_over_ranks(const Grid& grid, Real mine);
-void sum_over_ranks(const Grid& grid, std::vector<Real>& numbers);
-Real max_over_ranks(const Grid& grid, Real mine);
+inline Real sum_over_ranks(const Grid& grid, Real mine) { return sum_over(ranks_of(grid), mine); }
+inline Real max_over_ranks(const Grid& grid, Real mine) { return max_over(ranks_of(grid), mine); }
+inline void sum_over_ranks(const Grid& grid, std::vector<Real>& numbers) {
+  sum_over(ranks_of(grid), numbers);
+}
 
 /// Sum of functor(i, j, k), which may also write, over the cells of all ranks. The order of
 /// additions depends only on the grid and the numbers of threads and ranks.

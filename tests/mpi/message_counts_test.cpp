@@ -43,7 +43,7 @@ MessageCounts all_to_alls(std::int64_t n) { return {.all_to_alls = n_ranks() > 1
 
 // --- the flow ----------------------------------------------------------------------------------
 
-/// A rim to each side of every cut, z with the corners.
+/// A plane to each side of every cut, z with the corners.
 MessageCounts fill(const Grid& grid, int ny) {
   const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
   return numbers_sent(2 * cut_x + 2 * cut_z,
@@ -243,10 +243,10 @@ TEST(MessageCounts, AListRebuild) {
   expect_equal(since(before), rebuild(s.solver.list().ghosts()->counts()));
 }
 
-void move_along_x(const GrainState& grains, Real way) {
+void move_along_x(const GrainState& grains, Real distance) {
   const auto kin = grains.kin;
   Kokkos::parallel_for(
-      "test: move", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += way; });
+      "test: move", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x += distance; });
 }
 
 /// Every grain goes on by one column, some to another rank: 30 numbers each, and no contacts.
