@@ -196,7 +196,7 @@ def coupled_step(p, b, iterations, sub_steps, rebuilds):
     updates = sub_steps - rebuilds
     return (flow_step_around_grains(p, iterations) + exchange(p) + visits(b)
             + updates * sub_step(b) + rebuilds * (rebuild(b) + Counts(reductions=1))
-            + Counts(reductions=4))  # Ledger::close_step(), remove_left(), Simulation::count_grains(), Health
+            + Counts(reductions=4))  # Ledger::close_step(), remove_left(), Simulation::count_grains(), StateChecks
 
 
 def levels(ranks):
