@@ -102,18 +102,19 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& alpha,
                        const ExchangeRef& on_faces) {
-    flow_rate_ = sum_each_cell(
-        "fluid: predict", grid_,
-        Predict<with_exchange>{.grid = grid_,
-                               .convection = {grid_, fluid.u, flux},
-                               .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-                               .alpha = alpha,
-                               .alpha_new = fluid.alpha_f,
-                               .rate = fluid.rate_previous,
-                               .u_star = u_star_,
-                               .exchange = on_faces,
-                               .weight = weights(fluid, dt),
-                               .per_density = 1 / config_.density});
+    flow_rate_ =
+        sum_each_cell("fluid: predict", grid_,
+                      Predict<decltype(with_exchange)::value>{
+                          .grid = grid_,
+                          .convection = {grid_, fluid.u, flux},
+                          .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
+                          .alpha = alpha,
+                          .alpha_new = fluid.alpha_f,
+                          .rate = fluid.rate_previous,
+                          .u_star = u_star_,
+                          .exchange = on_faces,
+                          .weight = weights(fluid, dt),
+                          .per_density = 1 / config_.density});
   };
   if (exchange == nullptr) {
     run(std::false_type{}, fluid.u, fluid.alpha_f, {});

@@ -83,7 +83,7 @@ void a_long_run(std::int64_t grain_steps) {
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);
   step.start(state);
-  const StateChecks health(config, MPI_COMM_SELF);
+  const StateChecks checks(config, MPI_COMM_SELF);
   std::mt19937_64 random(7);
   const std::int64_t steps = grain_steps / step.substeps();
   Sums sums;
@@ -92,7 +92,7 @@ void a_long_run(std::int64_t grain_steps) {
   int looks = 0;
   for (std::int64_t n = 1; n <= steps; ++n) {
     step.advance(state);
-    ASSERT_NO_THROW(health.check(state, step)) << "step " << n;
+    ASSERT_NO_THROW(checks.check(state, step)) << "step " << n;
     const ExchangeLedger& l = step.coupling()->ledger();
     sums.given += norm(l.given_to_grains);
     sums.largest_volume_mismatch =
