@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
-#include "kernels/math/periodic_box.hpp"
 
 namespace barchan {
 

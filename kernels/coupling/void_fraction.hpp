@@ -6,7 +6,6 @@
 
 #include "kernels/fluid/grid.hpp"
 #include "kernels/grains/grain.hpp"
-#include "kernels/math/periodic_box.hpp"
 
 namespace barchan {
 
@@ -161,7 +160,7 @@ struct DepositStencil {
 inline DepositStencil deposit_stencil_in(const GridRef& grid, PointSet points, bool periodic_x) {
   return {.grid = grid,
           .points = points,
-          .box = {.lx = periodic_x ? grid.lx_all : 0, .lz = grid.lz_all},
+          .box = grid.box(periodic_x),
           .i_low = 0,
           .i_high = grid.nx - 1,
           .k_low = 0,

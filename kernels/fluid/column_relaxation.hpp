@@ -15,9 +15,9 @@ struct ColumnHeights {
   KOKKOS_FORCEINLINE_FUNCTION void set(int i, int k, int rows) const { height(i, 0, k) = rows; }
 };
 
-/// The columns of one rank among all. Along a direction that it has to itself the neighbour across
-/// the seam is its own last column; otherwise ghosts hold it.
-struct ColumnPlaces {
+/// Neighbours and colours of the columns of one rank. Along a direction that it has to itself the
+/// neighbour across the seam is its own last column; otherwise ghosts hold it.
+struct ColumnNeighbors {
   int nx = 0, nz = 0, nx_all = 0, nz_all = 0;
   int i_begin = 0, k_begin = 0;
 
@@ -111,7 +111,7 @@ struct FactoriseColumn {
 /// a block Gauss-Seidel step, whose result does not depend on the order within a colour.
 struct RelaxColumns {
   ColumnEquations equations;
-  ColumnPlaces places;
+  ColumnNeighbors neighbors;
   ColumnHeights height;
   ConstFieldRef pivot, r;
   FieldRef z;
@@ -121,10 +121,10 @@ struct RelaxColumns {
     const GridRef& grid = equations.grid;
     const int rows = height(i, k);
     if (rows == 0) return;
-    if (places.colour(i, k) != colour) return;
+    if (neighbors.colour(i, k) != colour) return;
     const ConstFaceRef& c = equations.c;
-    const int left = places.left(i), right = places.right(i);
-    const int back = places.back(k), front = places.front(k);
+    const int left = neighbors.left(i), right = neighbors.right(i);
+    const int back = neighbors.back(k), front = neighbors.front(k);
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
     Real below = 0;  // pivot * eliminated right-hand side of the row below
     for (int j = 0; j < rows; ++j) {
@@ -149,16 +149,16 @@ struct ClearColumns {
   }
 };
 
-/// Before the global solve: r becomes r - A z in the columns and around them; the old r is kept.
+/// Before the global solve: r becomes r - A z in the columns and around them, after a copy.
 struct SubtractLocal {
   GridRef grid;
   ConstFaceRef c;
   ColumnHeights height;  // with one layer more than z has
   ConstFieldRef z;
-  FieldRef r, kept;
+  FieldRef r, copy;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
-      kept(i, j, k) = r(i, j, k);
+      copy(i, j, k) = r(i, j, k);
       r(i, j, k) -= pressure_operator(grid, c, z, i, j, k);
     }
   }
@@ -166,11 +166,11 @@ struct SubtractLocal {
 /// After it: r as before, and the local z added to the global one.
 struct AddLocal {
   ColumnHeights height;  // the same
-  ConstFieldRef local, kept;
+  ConstFieldRef local, copy;
   FieldRef r, z;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
-      r(i, j, k) = kept(i, j, k);
+      r(i, j, k) = copy(i, j, k);
       z(i, j, k) += local(i, j, k);
     }
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "kernels/math/periodic_box.hpp"
 #include "kernels/math/vec3.hpp"
 
 namespace barchan {
@@ -37,6 +38,8 @@ struct BasicGrid {
     return y_centre_[j + 1] - y_centre_[j];
   }
   KOKKOS_FORCEINLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
+  /// The domain: the flow is always periodic along z, for grains maybe not along x.
+  PeriodicBox box(bool periodic_x) const { return {periodic_x ? lx_all : 0, lz_all}; }
   /// Index along x or z among the cells of all ranks, the same bits on each of them.
   KOKKOS_FORCEINLINE_FUNCTION static int cell_along(Real x, Real spacing) {
     return static_cast<int>(Kokkos::floor(x * (1 / spacing)));

@@ -31,7 +31,7 @@ struct PlaneSums {
   KOKKOS_INLINE_FUNCTION Real& operator[](Quantity q) { return value[q]; }
 };
 
-/// Values of one place of the row; j = ny is the top boundary: its faces count, its cells do not.
+/// Values at one (i, k) of the row; j = ny is the top boundary: its faces count, its cells do not.
 struct PlaneSample {
   GridRef grid;
   ConstFaceRef u_;

@@ -1,4 +1,4 @@
-// What contacts remember while the list that holds them is replaced.
+// The history of contacts while the list that holds it is replaced.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace barchan {
 
 /// Contacts under grains (rows before the replacement) with the id of the partner: ids survive
-/// sorting, and the way to another rank.
+/// sorting and migration.
 struct ContactHistory {
   Kokkos::View<int*> first;             // (rows + 1)
   Kokkos::View<std::int64_t*> partner;  // (contacts) id
@@ -18,7 +18,7 @@ struct ContactHistory {
   KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }
   KOKKOS_FORCEINLINE_FUNCTION bool has_force() const { return force.extent(0) > 0; }
 
-  /// Place of the contact of a row with a grain, or -1.
+  /// Index of the contact of a row with a grain, or -1.
   KOKKOS_FUNCTION int find(int row, std::int64_t id) const {
     for (int k = first(row); k < first(row + 1); ++k) {
       if (partner(k) == id) return k;
@@ -27,9 +27,9 @@ struct ContactHistory {
   }
 };
 
-/// Calls f(row, id of the partner, sign) for the grains that the contact in a slot is kept under:
-/// its first grain, or with `both` each one that is owned. History is that of the first grain; seen
-/// from the second one it has the sign -1.
+/// Calls f(row, id of the partner, sign) for the grains that keep the history of the contact in a
+/// slot: its first grain, or with `both` each one that is owned. History is that of the first
+/// grain; seen from the second one it has the sign -1.
 struct KeepingGrains {
   PairList list;
   Kokkos::View<const std::int64_t*> id;
@@ -53,7 +53,7 @@ struct CountContacts {
   }
 };
 
-/// Keeps them, those of one grain in whatever order the threads come; `cursor` starts as
+/// Copies their history, that of one grain in whatever order the threads come; `cursor` starts as
 /// kept.first.
 struct KeepContacts {
   KeepingGrains keeping;

@@ -99,17 +99,8 @@ inline Chunks make_chunks(int n) {
 /// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does
 /// not touch.
 struct alignas(64) PairForce {
-  Vec3 force;        // on the first grain [N]
-  Real delta_n = 0;  // [m]
-  Vec3 n_cross_f_t;  // n x F_t [N]
-  Real padding = 0;
-
-  KOKKOS_FORCEINLINE_FUNCTION Quad force_overlap() const {
-    return {force.x, force.y, force.z, delta_n};
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Quad n_cross_f_t_quad() const {
-    return {n_cross_f_t.x, n_cross_f_t.y, n_cross_f_t.z, padding};
-  }
+  Quad force{};        // on the first grain [N], and the overlap [m]
+  Quad n_cross_f_t{};  // n x F_t [N]
 };
 
 /// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains

@@ -14,8 +14,8 @@ namespace barchan {
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
                                                 Real radius, bool has_rolling, ContactSum& sum) {
   const PairForce& pair = list.pair_force(slot);
-  sum.force = fused(sign, pair.force_overlap(), sum.force);
-  sum.torque = fused(pair.delta_n / 2 - radius, pair.n_cross_f_t_quad(), sum.torque);
+  sum.force = fused(sign, pair.force, sum.force);
+  sum.torque = fused(pair.force.w / 2 - radius, pair.n_cross_f_t, sum.torque);
   if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
 }
 

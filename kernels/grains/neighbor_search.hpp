@@ -87,8 +87,8 @@ struct CountPairs {
   }
 };
 
-/// Writes the pairs of each grain and what they remember. `old_row` is the row under which `kept`
-/// has each owned grain.
+/// Writes the pairs of each grain and their contact history. `old_row` is the row under which
+/// `kept` has each owned grain.
 struct FillPairs {
   PairSearch search;
   NotedPartners noted;
@@ -101,16 +101,16 @@ struct FillPairs {
   KOKKOS_FUNCTION void operator()(int i) const {
     int crossing = list.first(i), inner = list.inner_first(i);
     const int n = list.first(i + 1) - crossing + list.inner_first(i + 1) - inner;
-    const auto place = [&](int j) {
+    const auto add = [&](int j) {
       const int slot = list.chunks.together(i, j) ? inner++ : crossing++;
       list.i(slot) = i;
       list.j(slot) = j;
       remember(slot, i, j);
     };
     if (n > kNoted) {
-      search.for_each_partner(i, place);
+      search.for_each_partner(i, add);
     } else {
-      for (int s = 0; s < n; ++s) place(noted(i, s));
+      for (int s = 0; s < n; ++s) add(noted(i, s));
     }
   }
   KOKKOS_FUNCTION void remember(int slot, int i, int j) const {
@@ -136,14 +136,13 @@ struct FillPairs {
   }
 };
 
-/// Registers each crossing slot with its second grain; `cursor` holds the next free place of each
+/// Registers each crossing slot with its second grain; `cursor` holds the next free entry of each
 /// grain.
 struct RegisterOthers {
   PairList list;
   Kokkos::View<int*> cursor;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    const int place = Kokkos::atomic_fetch_add(&cursor(list.j(slot)), 1);
-    list.other_slot(place) = slot;
+    list.other_slot(Kokkos::atomic_fetch_add(&cursor(list.j(slot)), 1)) = slot;
   }
 };
 

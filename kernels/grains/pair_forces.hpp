@@ -214,10 +214,7 @@ struct PairForces {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_pair_force(const Stage& s, int q, int p) const {
-    PairForce& pair = list.pair_force(p);
-    pair.force = s.force[q].vec();
-    pair.delta_n = s.force[q].w;
-    pair.n_cross_f_t = s.n_cross_f_t[q].vec();
+    list.pair_force(p) = {s.force[q], s.n_cross_f_t[q]};
   }
 };
 

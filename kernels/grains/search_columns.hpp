@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-/// Bits of a 16-bit number moved to the even places, and back.
+/// Bits of a 16-bit number moved to the even positions, and back.
 KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t spread_bits(std::uint32_t a) {
   a = (a | (a << 8)) & 0x00ff00ffu;
   a = (a | (a << 4)) & 0x0f0f0f0fu;
@@ -35,11 +35,11 @@ struct SearchColumns {
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
-  std::uint32_t origin = 0;  // place on the Morton curve
+  std::uint32_t origin = 0;  // position on the Morton curve
 
   KOKKOS_FUNCTION static int clamp(int a, int n) { return a < 0 ? 0 : (a >= n ? n - 1 : a); }
 
-  /// Place of a position on the Morton curve.
+  /// Number on the Morton curve of the column around a position.
   KOKKOS_FUNCTION std::uint32_t place_of(const Vec3& x) const {
     const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
     const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);

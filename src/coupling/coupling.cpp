@@ -30,10 +30,6 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
   return Beetstra{.d_mean = grains.sauter_diameter};
 }
 
-FaceVector face_vector(const char* label, const Grid& grid) {
-  return {Field(label, grid), Field(label, grid), Field(label, grid)};
-}
-
 }  // namespace
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
@@ -52,8 +48,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       smooths_(config.coupling.smoothing_length > 0),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
-      box_{.lx = config.grains->boundary_x == GrainBoundaryX::periodic ? grid.lx_all : 0,
-           .lz = grid.lz_all},
+      box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil_(make_deposit_stencil(config, grid, grains.r_max)),
       halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
@@ -63,7 +58,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
               .displaced = forces_.buoyancy * rho_f_},
       force_(solver.idle().faces[0]),
       convective_(solver.idle().faces[1]),
-      on_faces_{face_vector("exchange impulse", grid), face_vector("exchange implicit", grid)} {
+      on_faces_{make_faces("exchange impulse", grid), make_faces("exchange implicit", grid)} {
   const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
   cell_[0] = Field("coupling: cell density", grid);
@@ -82,7 +77,7 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
   Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
                           ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
                           Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
-  // Those of all ranks: a neighbour's grains read from the rim of this one's cells.
+  // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
   x0 = -max_over_ranks(grid_, -x0), x1 = max_over_ranks(grid_, x1);
   z0 = -max_over_ranks(grid_, -z0), z1 = max_over_ranks(grid_, z1);
   y1 = max_over_ranks(grid_, y1);

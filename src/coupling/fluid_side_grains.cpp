@@ -17,7 +17,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
              .z = {pencils.z().n, pencils.z().parts},
              .dx = grid.dx,
              .dz = grid.dz,
-             .box = {.lx = periodic_x ? grid.lx_all : 0, .lz = grid.lz_all}};
+             .box = grid.box(periodic_x)};
   copies_ = make_grain_rows(0, ranks_);
   add_fluid(copies_);
   add_exchange(copies_);

@@ -12,8 +12,8 @@ namespace barchan {
 
 namespace {
 
-/// In one piece, of more use as scratch memory while it is idle.
-FaceVector make_faces(const char* label, const Grid& grid) {
+/// Of more use as scratch memory than three pieces.
+FaceVector make_faces_in_one_piece(const char* label, const Grid& grid) {
   const Kokkos::View<Real****, Kokkos::LayoutLeft> all(label, grid.nx + 2, grid.ny + 2, grid.nz + 2,
                                                        3);
   const auto component = [&all](int c) {
@@ -38,7 +38,7 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
       boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
-      u_star_(make_faces("fluid: u star", grid)),
+      u_star_(make_faces_in_one_piece("fluid: u star", grid)),
       source_("fluid: pressure source", grid),
       c_w_delta_("fluid: filter width", grid.ny) {
   Kokkos::parallel_for("fluid: filter width", grid.ny,
@@ -47,8 +47,8 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
 }
 
 void FluidSolver::make_coupled_fields() {
-  flux_ = make_faces("fluid: alpha u", grid_);
-  mobility_ = make_faces("fluid: mobility", grid_);
+  flux_ = make_faces_in_one_piece("fluid: alpha u", grid_);
+  mobility_ = make_faces_in_one_piece("fluid: mobility", grid_);
 }
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
@@ -102,18 +102,19 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& alpha,
                        const ExchangeRef& on_faces) {
-    flow_rate_ = sum_each_cell(
-        "fluid: predict", grid_,
-        Predict<with_exchange>{.grid = grid_,
-                               .convection = {grid_, fluid.u, flux},
-                               .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-                               .alpha = alpha,
-                               .alpha_new = fluid.alpha_f,
-                               .rate = fluid.rate_previous,
-                               .u_star = u_star_,
-                               .exchange = on_faces,
-                               .weight = weights(fluid, dt),
-                               .per_density = 1 / config_.density});
+    flow_rate_ =
+        sum_each_cell("fluid: predict", grid_,
+                      Predict<decltype(with_exchange)::value>{
+                          .grid = grid_,
+                          .convection = {grid_, fluid.u, flux},
+                          .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
+                          .alpha = alpha,
+                          .alpha_new = fluid.alpha_f,
+                          .rate = fluid.rate_previous,
+                          .u_star = u_star_,
+                          .exchange = on_faces,
+                          .weight = weights(fluid, dt),
+                          .per_density = 1 / config_.density});
   };
   if (exchange == nullptr) {
     run(std::false_type{}, fluid.u, fluid.alpha_f, {});

@@ -17,15 +17,15 @@ struct FluidState {
   FaceVector rate_previous;  // -div(alpha u u) + alpha div(tau)/rho at n-1 [m/s^2]
   FaceVector du_dt;          // change of u over the last step divided by it [m/s^2]
   Real drive = 0;            // driving body force per unit mass along x [m/s^2]
-  bool has_history =
-      false;               // rate_previous and p_previous hold a step (Adams-Bashforth can use it)
-  Real dt_previous = 0;    // length of that step [s]
-  Real time = 0;           // since the start [s]
-  Real bulk_at_start = 0;  // bulk velocity a ramp of the drive starts from [m/s]
-  Real flow_missed =
-      0;  // flow rate that the last projection took from what the drive aimed at [m^2/s]
+  bool has_history = false;  // rate_previous and p_previous hold a step for Adams-Bashforth
+  Real dt_previous = 0;      // length of that step [s]
+  Real time = 0;             // since the start [s]
+  Real bulk_at_start = 0;    // bulk velocity a ramp of the drive starts from [m/s]
+  Real flow_missed = 0;  // flow rate by which the last projection missed that of the drive [m^2/s]
 };
 
+/// Zero everywhere.
+FaceVector make_faces(const char* label, const Grid& grid);
 /// Zero everywhere, alpha_f one.
 FluidState make_fluid_state(const Grid& grid);
 

@@ -1,4 +1,4 @@
-// One-dimensional Fourier transforms of many lines at once. By FFTW on the host
+// One-dimensional Fourier transforms of many lines. By FFTW on the host
 // (line_fft_fftw.cpp) or by cuFFT on the device (line_fft_cufft.cpp): CMake takes one of the two.
 #pragma once
 
@@ -13,6 +13,8 @@ namespace barchan {
 struct RealLines {
   int n = 0, rows = 0, planes = 0;
   std::ptrdiff_t row_stride = 0, plane_stride = 0;
+
+  std::ptrdiff_t modes_per_plane() const { return std::ptrdiff_t{rows} * (n / 2 + 1); }
 };
 
 /// Lines along z of a contiguous array (lines, rows, n), the first fastest.

@@ -19,6 +19,16 @@ double* read_only(const Real* real) {
   return const_cast<double*>(real);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 
+/// Every row of a contiguous array in place.
+void transform_rows(const char* label, fftw_plan plan, const ComplexLines& z,
+                    Kokkos::complex<Real>* modes) {
+  if (z.n == 1 || plan == nullptr) return;
+  const std::ptrdiff_t lines = z.lines;
+  Kokkos::parallel_for(label, z.rows, [=](int j) {
+    fftw_execute_dft(plan, as_fftw(modes + j * lines), as_fftw(modes + j * lines));
+  });
+}
+
 fftw_plan checked(fftw_plan plan) {
   if (plan == nullptr) throw std::runtime_error("FFTW could not make a plan for this grid");
   return plan;
@@ -70,8 +80,7 @@ LineFft::~LineFft() = default;
 
 void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
   const fftw_plan plan = library_->x_forward;
-  const std::ptrdiff_t plane = x_.plane_stride,
-                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
+  const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: forward x", x_.planes, [=](int k) {
     fftw_execute_dft_r2c(plan, read_only(real + k * plane), as_fftw(modes + k * modes_plane));
@@ -80,8 +89,7 @@ void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
 
 void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
   const fftw_plan plan = library_->x_backward;
-  const std::ptrdiff_t plane = x_.plane_stride,
-                       modes_plane = std::ptrdiff_t{x_.rows} * (x_.n / 2 + 1);
+  const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: backward x", x_.planes, [=](int k) {
     fftw_execute_dft_c2r(plan, as_fftw(modes + k * modes_plane), real + k * plane);
@@ -89,21 +97,11 @@ void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
 }
 
 void LineFft::forward_z(Kokkos::complex<Real>* modes) const {
-  const fftw_plan plan = library_->z_forward;
-  const std::ptrdiff_t lines = z_.lines;
-  if (z_.n == 1 || plan == nullptr) return;
-  Kokkos::parallel_for("fft: forward z", z_.rows, [=](int j) {
-    fftw_execute_dft(plan, as_fftw(modes + j * lines), as_fftw(modes + j * lines));
-  });
+  transform_rows("fft: forward z", library_->z_forward, z_, modes);
 }
 
 void LineFft::backward_z(Kokkos::complex<Real>* modes) const {
-  const fftw_plan plan = library_->z_backward;
-  const std::ptrdiff_t lines = z_.lines;
-  if (z_.n == 1 || plan == nullptr) return;
-  Kokkos::parallel_for("fft: backward z", z_.rows, [=](int j) {
-    fftw_execute_dft(plan, as_fftw(modes + j * lines), as_fftw(modes + j * lines));
-  });
+  transform_rows("fft: backward z", library_->z_backward, z_, modes);
 }
 
 }  // namespace barchan

@@ -21,7 +21,7 @@ Grid flat(Grid grid) {
 LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
     : grid_(grid),
       halo_(halo),
-      places_{grid.nx, grid.nz, grid.nx_all, grid.nz_all, grid.i_begin, grid.k_begin},
+      neighbors_{grid.nx, grid.nz, grid.nx_all, grid.nz_all, grid.i_begin, grid.k_begin},
       flat_(flat(grid)),
       flat_halo_(flat_),
       found_("local: hindered", flat_),
@@ -29,7 +29,7 @@ LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
       around_("local: around", flat_),
       pivot_("local: pivot", grid),
       local_("local: correction", grid),
-      kept_("local: kept", grid) {}
+      copy_("local: copy of r", grid) {}
 
 template <class Functor>
 void LocalCorrection::each_column(const char* label, const Functor& functor) const {
@@ -49,13 +49,13 @@ void LocalCorrection::update(const FaceVector& c) {
 }
 
 void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
-  const int colours = places_.colours();
+  const int colours = neighbors_.colours();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int n = 0; n < colours; ++n) {
       const int colour = forward ? n : colours - 1 - n;
       if (grid_.ranks) halo_.fill(z);  // the columns of other ranks
       each_column("local: relax", RelaxColumns{.equations = {grid_, c_},
-                                               .places = places_,
+                                               .neighbors = neighbors_,
                                                .height = heights(height_),
                                                .pivot = pivot_,
                                                .r = r,
@@ -69,9 +69,9 @@ void LocalCorrection::apply(const PoissonFft& poisson, Field& r, Field& z) {
   each_column("local: clear", ClearColumns{heights(around_), local_});
   relax(r, local_, true);
   halo_.fill(local_);
-  each_column("local: subtract", SubtractLocal{grid_, c_, heights(around_), local_, r, kept_});
+  each_column("local: subtract", SubtractLocal{grid_, c_, heights(around_), local_, r, copy_});
   poisson.solve(r, z);
-  each_column("local: add", AddLocal{heights(around_), local_, kept_, r, z});
+  each_column("local: add", AddLocal{heights(around_), local_, copy_, r, z});
   relax(r, z, false);
 }
 

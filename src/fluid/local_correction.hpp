@@ -19,7 +19,7 @@ class LocalCorrection {
   /// Finds the columns of the mobility c; to be called when c changed.
   void update(const FaceVector& c);
 
-  /// z = M^-1 r; r changes meanwhile and is as before on return.
+  /// z = M^-1 r; r changes and is as before on return.
   void apply(const PoissonFft& poisson, Field& r, Field& z);
 
  private:
@@ -31,11 +31,11 @@ class LocalCorrection {
   Grid grid_;
   Halo halo_;
   FaceVector c_;
-  ColumnPlaces places_;
+  ColumnNeighbors neighbors_;
   Grid flat_;  // one row of cells
   Halo flat_halo_;
   Field found_, height_, around_;  // ColumnHeights: hindered; and one layer; and another
-  Field pivot_, local_, kept_;
+  Field pivot_, local_, copy_;
 };
 
 }  // namespace barchan

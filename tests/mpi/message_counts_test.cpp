@@ -202,7 +202,7 @@ TEST(MessageCounts, AFlowStep) {
 }
 
 TEST(MessageCounts, ACoupledStep) {
-  constexpr int sub_steps = 10, iterations = 6;
+  constexpr int sub_steps = 10, iterations = 3;
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);
     SmallCase c(along_x, true);
