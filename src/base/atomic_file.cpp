@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -13,16 +12,11 @@ namespace barchan {
 
 namespace {
 
-[[noreturn]] void fail(const char* verb, const std::filesystem::path& path, int error) {
-  throw std::runtime_error(std::string("cannot ") + verb + " " + path.string() + ": " +
-                           std::generic_category().message(error));
-}
-
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags)
       : fd_(::open(path.c_str(), flags, 0666)) {
-    if (fd_ < 0) fail("write", path, errno);
+    if (fd_ < 0) cannot("write", path);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -39,11 +33,16 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+void cannot(const char* verb, const std::filesystem::path& path, int error) {
+  throw std::runtime_error(std::string("cannot ") + verb + " " + path.string() + ": " +
+                           std::generic_category().message(error));
+}
+
 void write_all(int descriptor, std::string_view text, const std::filesystem::path& path) {
   while (!text.empty()) {
     const auto written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("write", path, errno);
+    if (written < 0) cannot("write", path);
     text.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -58,26 +57,26 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
     std::filesystem::remove(beside, ignored);
     throw;
   }
-  if (std::rename(beside.c_str(), path.c_str()) != 0) fail("write", path, errno);
+  if (std::rename(beside.c_str(), path.c_str()) != 0) cannot("write", path);
 }
 
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (const Descriptor file(from, O_RDWR); ::fsync(file.get()) != 0) fail("write", from, errno);
-  if (std::rename(from.c_str(), to.c_str()) != 0) fail("write", to, errno);
+  if (const Descriptor file(from, O_RDWR); ::fsync(file.get()) != 0) cannot("write", from);
+  if (std::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
   // The new name is an entry of the folder. Some file systems cannot sync folders: no harm done.
   const Descriptor folder(folder_of(to), O_RDONLY | O_DIRECTORY);
   static_cast<void>(::fsync(folder.get()));
 }
 
 std::string read_text(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) fail("read", path, EISDIR);
+  if (std::filesystem::is_directory(path)) cannot("read", path, EISDIR);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail("read", path, errno);
+  if (!stream) cannot("read", path);
   std::string text;
   std::error_code unknown;
   if (const auto size = std::filesystem::file_size(path, unknown); !unknown) text.reserve(size);
   text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (stream.bad()) fail("read", path, errno);
+  if (stream.bad()) cannot("read", path);
   return text;
 }
 

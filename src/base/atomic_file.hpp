@@ -1,11 +1,15 @@
 // Files that are either the old one or the new one, never half of one.
 #pragma once
 
+#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace barchan {
+
+/// Throws std::runtime_error: "cannot <verb> <path>: <what the system says of `error`>".
+[[noreturn]] void cannot(const char* verb, const std::filesystem::path& path, int error = errno);
 
 /// Writes `text` beside `path` and renames it into place: a reader, or a kill at any moment, sees
 /// the old content or the new one. Throws std::runtime_error naming the file and the reason.

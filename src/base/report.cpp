@@ -4,12 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
-#include <system_error>
+
+#include "src/base/atomic_file.hpp"
 
 namespace barchan {
 
@@ -77,9 +76,7 @@ void log_to(const std::filesystem::path& file, bool append) {
   if (state().silent) return;
   stop_log();
   state().log.open(file, std::ios::binary | (append ? std::ios::app : std::ios::trunc));
-  if (state().log.is_open()) return;
-  throw std::runtime_error("cannot write " + file.string() + ": " +
-                           std::generic_category().message(errno));
+  if (!state().log.is_open()) cannot("write", file);
 }
 
 void stop_log() {

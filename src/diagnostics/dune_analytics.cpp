@@ -131,16 +131,16 @@ std::vector<double> DuneTracker::state() const {
 
 void DuneTracker::set_state(std::span<const double> numbers) {
   std::size_t position = 0;
+  const auto demand = [](bool possible) {
+    if (!possible) throw std::runtime_error("the restart file's list of dunes is damaged");
+  };
   const auto next = [&]() {
-    if (position >= numbers.size())
-      throw std::runtime_error("the restart file's record of the dunes is too short");
+    demand(position < numbers.size());
     return numbers[position++];
   };
   const auto count = [&](auto largest, double least = 0) {
     const double number = next();
-    if (!(number >= least && number <= static_cast<double>(largest))) {
-      throw std::runtime_error("the restart file's record of the dunes counts what cannot be");
-    }
+    demand(number >= least && number <= static_cast<double>(largest));
     return static_cast<decltype(largest)>(number);
   };
   constexpr auto most = std::int64_t{1} << 53;
@@ -158,15 +158,11 @@ void DuneTracker::set_state(std::span<const double> numbers) {
       const double t = next();
       track.samples.push_back({t, next()});
     }
-    if (track.samples.empty())
-      throw std::runtime_error("the restart file's record of the dunes has one without a past");
+    demand(!track.samples.empty());
     fresh.tracks_.push_back(track);
   }
-  if (fresh.n_initial_ < 0 && fresh.next_label_ > 0)
-    throw std::runtime_error(
-        "the restart file's record of the dunes has some before the first look");
-  if (position != numbers.size())
-    throw std::runtime_error("the restart file's record of the dunes is too long");
+  demand(fresh.n_initial_ >= 0 || fresh.next_label_ == 0);  // no dunes before the first update
+  demand(position == numbers.size());
   *this = fresh;
 }
 

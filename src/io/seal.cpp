@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <fstream>
-#include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "src/base/atomic_file.hpp"
 #include "src/base/input_file.hpp"
 
 namespace barchan {
@@ -20,11 +18,6 @@ namespace {
 
 constexpr std::string_view mark =
     "sealed by barchan, length and CRC-32 of what follows 512 bytes: ";
-
-[[noreturn]] void fail(const char* verb, const std::filesystem::path& file) {
-  throw std::runtime_error(
-      fmt::format("cannot {} {}: {}", verb, file.string(), std::generic_category().message(errno)));
-}
 
 struct Content {
   std::uint64_t length = 0;
@@ -44,7 +37,7 @@ Content content_of(std::ifstream& in, const std::filesystem::path& file) {
         crc32_z(content.crc, reinterpret_cast<const Bytef*>(block.data()), got));
     content.length += got;
   }
-  if (in.bad()) fail("read", file);
+  if (in.bad()) cannot("read", file);
   return content;
 }
 
@@ -67,12 +60,12 @@ std::string start_of(std::ifstream& in, std::size_t n) {
 
 void seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail("read", file);
+  if (!in) cannot("read", file);
   const std::string text = text_of(content_of(in, file));
   std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
-  if (!out) fail("write", file);
+  if (!out) cannot("write", file);
 }
 
 bool has_seal(const std::filesystem::path& file) {
@@ -83,7 +76,7 @@ bool has_seal(const std::filesystem::path& file) {
 
 std::string broken_seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail("read", file);
+  if (!in) cannot("read", file);
   const std::string text = start_of(in, seal_bytes);
   const Content found = content_of(in, file);
   if (text == text_of(found)) return {};

@@ -38,7 +38,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
 void ResultsWriter::write_due() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing results", clock.step, clock.time());
-  if (run_.system.grains && clock.due(run_.config.output.dune_interval)) {
+  if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases(), "analytics");
     write_dunes();
   }
@@ -60,19 +60,19 @@ void ResultsWriter::write_history() {
   HistoryRow row;
   row.t = run_.clock.time();
   row.step = run_.clock.step;
-  if (run_.system.fluid) {
-    const FluidState& fluid = *run_.system.fluid;
-    row.u_star = run_.coupled_step.friction_velocity(run_.system);
-    row.bulk_velocity = run_.coupled_step.bulk_velocity(run_.system);
+  if (run_.state.fluid) {
+    const FluidState& fluid = *run_.state.fluid;
+    row.u_star = run_.coupled_step.friction_velocity(run_.state);
+    row.bulk_velocity = run_.coupled_step.bulk_velocity(run_.state);
     row.pressure_gradient = fluid.drive * run_.config.fluid->density;
-    row.fluid_kinetic_energy = run_.coupled_step.kinetic_energy_of_fluid(run_.system);
+    row.fluid_kinetic_energy = run_.coupled_step.kinetic_energy_of_fluid(run_.state);
     row.cfl = interval.courant;
     row.continuity_residual = interval.continuity_residual;
     row.pressure_iterations = interval.mean_iterations();
   }
-  if (run_.system.grains) {
-    const GrainState& grains = *run_.system.grains;
-    const ContactSummary contacts = run_.coupled_step.contacts(run_.system);
+  if (run_.state.grains) {
+    const GrainState& grains = *run_.state.grains;
+    const ContactSummary contacts = run_.coupled_step.contacts(run_.state);
     row.grain_kinetic_energy = kinetic_energy(grains);
     row.n_grains = run_.n_grains;
     row.n_contacts = contacts.n_contacts;
@@ -91,7 +91,7 @@ void ResultsWriter::write_frames() {
   const RunClock& clock = run_.clock;
   const OutputConfig& o = run_.config.output;
   const double t = clock.time();
-  SystemState& now = run_.system;
+  SystemState& now = run_.state;
   const bool grains = now.grains && clock.due(o.grains_interval);
   const bool tracks = now.grains && clock.due(o.tracks_interval);
   std::optional<std::vector<int>> dunes;
@@ -117,7 +117,7 @@ void ResultsWriter::write_restart() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing a restart file", clock.step, clock.time());
   CheckpointWriter file(folder_.path(), clock.step, run_.provenance, run_.ranks);
-  save_state(file, run_.system, run_.coupled_step);
+  save_state(file, run_.state, run_.coupled_step);
   file.scalar("t", clock.time());
   file.scalar("step", clock.step);
   accounts_.save(file);
@@ -137,7 +137,7 @@ std::string ResultsWriter::write_failure(const StateError& problem) const {
   const std::string message = fmt::format("{} (t = {:.6g} s, step {})", problem.what(), t, step);
   if (!problem.on_all_ranks && rank_count(run_.ranks) > 1) return message;
   try {
-    const auto& [fluid, grains] = run_.system;
+    const auto& [fluid, grains] = run_.state;
     const auto names =
         output_.write_failure(fluid ? &*fluid : nullptr, grains ? &*grains : nullptr, t, step);
     return fmt::format("{}; look at it in {} ({})", message, folder_.path().string(),

@@ -38,10 +38,10 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
   c["megabytes"] = since(now.bytes, start.bytes, 1e-6);
   c["reductions"] = since(now.reductions, start.reductions);
   c["all_to_alls"] = since(now.all_to_alls, start.all_to_alls);
-  if (!run.system.grains) return c;
+  if (!run.state.grains) return c;
   const NeighborList& list = run.coupled_step.neighbor_list();
-  c["grains"] = run.system.grains->n;
-  c["ghost_grains"] = run.system.grains->n_ghosts;
+  c["grains"] = run.state.grains->n;
+  c["ghost_grains"] = run.state.grains->n_ghosts;
   c["grain_imbalance"] = list.partition()->imbalance();
   c["list_rebuilds"] = per_step(run, static_cast<double>(list.rebuilds()));
   return c;
@@ -89,7 +89,7 @@ Progress RunAccounts::progress(const RunState& run) const {
   p.t_start = static_cast<double>(run.clock.start) * run.clock.fluid_step;
   p.t_end = run.config.time.end;
   p.grain_steps_per_second = static_cast<double>(grain_steps_) / seconds;
-  if (run.system.fluid) {
+  if (run.state.fluid) {
     p.cell_steps_per_second = cell_steps(run) / seconds;
     p.cfl = run.coupled_step.fluid_report().courant;
     p.pressure_iterations = run.coupled_step.fluid_report().pressure_iterations;
@@ -102,7 +102,7 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
                                             const std::string& message) const {
   const double wall = wall_seconds(), for_rates = std::max(wall, 1e-9);
   const int ranks = rank_count(run.ranks);
-  const std::int64_t grains_at_start = run.system.grains ? run.system.grains->n_initial : 0;
+  const std::int64_t grains_at_start = run.state.grains ? run.state.grains->n_initial : 0;
   nlohmann::ordered_json json;
   json["status"] = status;
   json["message"] = message;

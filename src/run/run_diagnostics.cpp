@@ -20,13 +20,13 @@ DuneDomain dune_domain(const Config& config) {
 RunDiagnostics::RunDiagnostics(const RunState& run)
     : config_(run.config.statistics), tracker_(dune_domain(run.config)) {
   if (!config_) return;
-  statistics_.emplace(*run.config.fluid, run.system.fluid->grid);
-  if (config_->fields) flow_average_.emplace(run.system.fluid->grid);
+  statistics_.emplace(*run.config.fluid, run.state.fluid->grid);
+  if (config_->fields) flow_average_.emplace(run.state.fluid->grid);
   if (config_->grain_forces) force_map_.emplace(dune_domain(run.config));
 }
 
 std::vector<DuneRow> RunDiagnostics::find_dunes(const RunState& run) {
-  const GatheredGrains grains(*run.system.grains);
+  const GatheredGrains grains(*run.state.grains);
   largest_dune_.reset();
   if (rank_of(run.ranks) != 0) return {};
   const std::vector<DuneRow> dunes = tracker_.update(run.clock.time(), grains.cloud());
@@ -37,7 +37,7 @@ std::vector<DuneRow> RunDiagnostics::find_dunes(const RunState& run) {
 }
 
 std::vector<int> RunDiagnostics::dune_labels(const RunState& run) const {
-  const GrainState& grains = *run.system.grains;
+  const GrainState& grains = *run.state.grains;
   const GatheredGrains all(grains);
   std::vector<int> labels;
   if (rank_of(run.ranks) == 0) labels = tracker_.labels(all.cloud());
@@ -49,10 +49,10 @@ bool RunDiagnostics::sample_due(const RunClock& clock) const {
 }
 
 void RunDiagnostics::sample(const RunState& run) {
-  statistics_->sample(*run.system.fluid);
-  if (flow_average_) flow_average_->sample(*run.system.fluid, run.clock.time());
+  statistics_->sample(*run.state.fluid);
+  if (flow_average_) flow_average_->sample(*run.state.fluid, run.clock.time());
   if (!force_map_) return;
-  const GrainState& grains = *run.system.grains;
+  const GrainState& grains = *run.state.grains;
   const GatheredGrains all(grains);
   const auto force = gathered(grains, run.coupled_step.mean_resultant_force(grains));
   if (rank_of(run.ranks) == 0) force_map_->sample(run.clock.time(), all.cloud(), force);

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -136,10 +135,7 @@ void RunFolder::write_config(const std::string& resolved_toml) {
 void RunFolder::append_line(int& descriptor, const char* name, const std::string& line) {
   if (!root_) return;
   if (descriptor < 0) descriptor = ::open(file(name).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor < 0) {
-    throw std::runtime_error("cannot write " + file(name).string() + ": " +
-                             std::generic_category().message(errno));
-  }
+  if (descriptor < 0) cannot("write", file(name));
   write_all(descriptor, line, file(name));
 }
 

@@ -48,13 +48,13 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
       pencils(make_decomposition(config, ranks)),
-      system(as_input([&] { return first_state(config, restart, files, ranks, pencils.get()); })),
-      coupled_step(as_input([&] { return CoupledStep(config, system); })) {
+      state(as_input([&] { return first_state(config, restart, files, ranks, pencils.get()); })),
+      coupled_step(as_input([&] { return CoupledStep(config, state); })) {
   as_input([&] {
     if (restart != nullptr) {
       go_on_from(*restart);
     } else {
-      coupled_step.start(system);
+      coupled_step.start(state);
     }
   });
   count_grains();
@@ -62,7 +62,7 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
 }
 
 void RunState::go_on_from(const CheckpointReader& file) {
-  load_state(file, system, coupled_step);
+  load_state(file, state, coupled_step);
   clock.step = file.integer("step");
   if (clock.step > clock.end) {
     throw InputError(
@@ -81,18 +81,18 @@ void RunState::go_on_from(const CheckpointReader& file) {
 }
 
 void RunState::advance() {
-  coupled_step.advance(system);
+  coupled_step.advance(state);
   ++clock.step;
   count_grains();
 }
 
 void RunState::count_grains() {
-  if (system.grains) n_grains = sum_over(ranks, system.grains->n);
+  if (state.grains) n_grains = sum_over(ranks, state.grains->n);
 }
 
 std::int64_t RunState::n_cells() const {
-  if (!system.fluid) return 0;
-  const Grid& g = system.fluid->grid;
+  if (!state.fluid) return 0;
+  const Grid& g = state.fluid->grid;
   return std::int64_t{1} * g.nx_all * g.ny * g.nz_all;
 }
 

@@ -47,7 +47,7 @@ struct RunState {
   Provenance provenance;
   RunClock clock;
   std::unique_ptr<const Decomposition> pencils;  // none: one rank has all of the grid
-  SystemState system;
+  SystemState state;
   CoupledStep coupled_step;
   std::int64_t n_grains = 0;                // inside, of all ranks
   std::optional<double> restart_time;       // [s]; none: a new run

@@ -40,7 +40,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
       diagnostics_.load(*restart);
       accounts_.load(*restart);
     }
-    state_checks_.check_start(run_.system, run_.coupled_step, source_of(config, options, files));
+    state_checks_.check_start(run_.state, run_.coupled_step, source_of(config, options, files));
   });
 }
 
@@ -99,9 +99,9 @@ void Simulation::one_step() {
   run_.advance();
   {
     const PhaseTimer timer(accounts_.phases(), "state_checks");
-    state_checks_.check(run_.system, run_.coupled_step);
+    state_checks_.check(run_.state, run_.coupled_step);
   }
-  if (run_.system.fluid)
+  if (run_.state.fluid)
     accounts_.add_fluid_step(run_.coupled_step.fluid_report(), run_.clock.fluid_step);
 }
 

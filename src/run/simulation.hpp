@@ -39,7 +39,7 @@ class Simulation {
   Outcome run();
   /// The last restart file written, or the one the run went on from; if any.
   std::optional<std::filesystem::path> last_restart() const;
-  const SystemState& state() const { return run_.system; }
+  const SystemState& state() const { return run_.state; }
 
  private:
   Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
