@@ -22,7 +22,7 @@ CHUNK = 1 << 20                       # columns looked at together
 
 @dataclass(frozen=True)
 class Counts:
-    """What one rank sends, as src/parallel/messages.hpp counts it."""
+    """What one rank sends, as MessageCounts in src/parallel counts it."""
     messages: float = 0
     bytes: float = 0
     reductions: float = 0
@@ -150,15 +150,15 @@ def flow_step_around_grains(p, iterations):
     return 18 * fill(p) + pressure_solve(p) + iterations * pressure_iteration(p) + Counts(reductions=6)
 
 
-def deposit_halo(p):
-    """Sums of deposits in the ghost cells, to the cells they belong to: five integers a cell."""
+def scatter_add(p):
+    """Halo::scatter_add(): sums in the ghosts to the cells that they are copies of, five integers a cell."""
     cut_x, cut_z = p.px > 1, p.pz > 1
     return sent(2 * cut_x + 2 * cut_z, 5 * p.ny * (2 * cut_x * (p.nz + 2) + 2 * cut_z * p.nx))
 
 
 def exchange(p):
     """Coupling::gather(), deposit(), carry(), with smoothing."""
-    return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
+    return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + scatter_add(p)
             + Counts(reductions=14))
 
 
@@ -227,7 +227,7 @@ def spread_bits(a):
 
 
 def place_of(ix, iz):
-    """Columns::code_of()."""
+    """Place on the Morton curve: SearchColumns."""
     return (spread_bits(ix) << np.uint64(1)) | spread_bits(iz)
 
 
