@@ -219,7 +219,7 @@ class Columns:
 
 
 def spread_bits(a):
-    """kernels/grains/neighbor_search.hpp."""
+    """kernels/grains/search_columns.hpp."""
     a = a.astype(np.uint64)
     for shift, mask in ((8, 0x00FF00FF), (4, 0x0F0F0F0F), (2, 0x33333333), (1, 0x55555555)):
         a = (a | (a << np.uint64(shift))) & np.uint64(mask)
