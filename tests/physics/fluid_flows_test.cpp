@@ -121,7 +121,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   set_turbulent_flow(config, fluid);
   run.solver.fill_ghosts(fluid);
   EXPECT_NEAR(run.solver.bulk_velocity(fluid), 0.28, 1e-14);
-  const Field rest("rest", run.grid);
+  Field rest("rest", run.grid);
   const ContinuityResidual<false> residual{
       {run.grid, fluid.u, fluid.alpha_f, fluid.alpha_f, fluid.u, 0, 1, 1e-3, rest}};
   EXPECT_LT(max_each_cell("test", run.grid, residual), 1e-14);
