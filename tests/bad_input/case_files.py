@@ -17,6 +17,7 @@ SYNTAX = [
     Entry("unclosed string", '[case] title = "Small', "@title | not TOML"),
     Entry("unit behind a number", "[time] end = 0.01 s", "@end | not TOML | without a unit"),
     Entry("decimal comma", "[time] end = 0,01", "@end | not TOML | after a point, not a comma"),
+    Entry("Fortran exponent", "[time] grain_step = 5d-6", "@grain_step | not TOML | written with e, as in 5e-6"),
     Entry("number beyond all", "[time] end = 1e400", "@end | not TOML | 1e400"),
     Entry("word without quotes", "[initial] fluid = turbulent", "@fluid = | not TOML | text stands in quotes"),
     Entry("Windows path", '[initial] fluid = "C:\\users\\flow.h5"', "@fluid = | not TOML | a backslash"),
@@ -57,6 +58,7 @@ VALUES = [
     Entry("forces: misspelt", '[coupling] forces = ["dragg"]', '@forces | "dragg" | did you mean "drag"'),
     Entry("choice in upper case", '[fluid] turbulence = "WALE"', '@turbulence | did you mean "wale"'),
     Entry("end of 0", "[time] end = 0", "@end | must be above 0"),
+    Entry("title of 10000 letters", f'[case] title = "{"S" * 10000}"', "@title | at most"),
     Entry("control characters in the title", '[case] title = "\\u001b[31mA"', "@title | without control characters"),
     # numbers nobody means
     Entry("no end in sight", "[time] end = 1e300", "@end | fluid steps | longer time.fluid_step"),

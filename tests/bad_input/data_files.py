@@ -97,13 +97,16 @@ def info(name, says, make=None, given=()):
 
 HDF5 = [
     start("text", "id,diameter,x,y,z\n", "not an HDF5 file"),
+    start("signature alone", b"\x89HDF\r\n\x1a\n", ""),
     start("of another program", foreign, "no frames of grains"),
     Entry("grains.h5: made by hand", '[initial] grains = "start.h5"', base=TABLE, files={"start.h5": frame()}, code=0),
+    start("ids as reals", frame(id=numpy.arange(N) * 1.0), "integers | id"),
     start("positions transposed", frame(x=numpy.zeros((3, N))), "3 x 4 | 4 x 3"),
     start("a group for ids", lambda path: (frame(id=None)(path), h5py.File(path, "a").create_group("frame_000000/id")), "id"),
     start("NaN position", frame(x=numpy.full((N, 3), numpy.nan)), "grain 0 | not finite"),
     start("an array larger than the file", huge, ""),
     start("cut", cut(0.5), "cut short", given=("good/grains.h5 as start.h5",)),
+    flow("of another mesh", "the same mesh | [10, 14, 6]", "[fluid] cells = [12, 14, 6]"),
     flow("one bit wrong", "damaged", change=flip(0.6)),
     info("a restart with a wrong bit", "start.h5 | damaged", flip(0.6), (f"good/{RESTART} as start.h5",)),
 ]
@@ -135,6 +138,11 @@ def fill(name, value):
     return change
 
 
+def fewer_grains(file):
+    del file["grains/kin"]
+    file["grains/kin"] = numpy.zeros((3, 11))
+
+
 RESTARTS = [
     restart_from("grains.h5", "out/grains.h5", "grains.h5 | not a restart file"),
     *(restart(f"cut at {keep}", RESTART + " | cut short", change=cut(keep)) for keep in (0.001, 0.999)),
@@ -144,12 +152,15 @@ RESTARTS = [
     restart("edited by hand", RESTART + " | seal", change=rewritten(fill("grains/kin", 1.0))),
     restart("of an older format", RESTART + " | format 3 | reads 5 to", change=rewritten(lambda file: None, 3)),
     restart("of a newer format", RESTART + " | format 99 | newer", change=rewritten(lambda file: None, 99)),
+    restart("no format", RESTART, change=rewritten(lambda file: file.attrs.__delitem__("format"))),
+    restart("fewer grains in one array", RESTART + " | grains/kin", change=rewritten(fewer_grains, 5)),
     restart("NaN in grains", RESTART + " | finite", change=rewritten(fill("grains/kin", numpy.nan), 5)),
     # of another case
     restart("four keys changed", "time.fluid_step | written with 0.00025 | fluid.cells | domain.size | grains.density",
             "[time] fluid_step = 2e-4 ;; [fluid] cells = [12, 14, 6] ;; [domain] size = [0.014, 0.006, 0.006] ;; "
             "[grains] density = 2600"),
     restart("of a case without water", "[fluid] | without this section", given="dry as out"),
+    restart("beyond the end", "its time, 0.001 s, is beyond time.end | a later end", "[time] end = 0.0005"),
     restart("into a folder of other tables", "history.csv | columns | another folder", change="a,b,c\n1,2,3\n",
             file="out/history.csv"),
     restart("a damaged grains.h5 in the folder", "out/grains.h5 | another folder", change=cut(0.5), file="out/grains.h5"),

@@ -45,10 +45,13 @@ def under(user_or_limit, name, says, **more):
 FOLDERS = [
     Entry("--out is a file", "", "out | a file, not a folder | --out", files={"out": "mine\n"}),
     line("--out below a file", "run case.toml --quiet --out case.toml/run", "case.toml is a file, not a folder | another --out"),
+    line("--out below /proc", "run case.toml --quiet --out /proc/run", "/proc | --out"),
     line("--out with a name too long", "run case.toml --quiet --out " + "o" * 300, "too long | --out"),
     line("--out holds the case as config.toml", "run config.toml --quiet --out .", "config.toml | another --out",
          files={"config.toml": DUNE}),
     Entry("a folder called history.csv in it", "", "history.csv | out", files={"out/history.csv": os.mkdir}),
+    under("nobody", "read-only folder", "locked/run | Permission denied | --out", files={"locked": os.mkdir},
+          command="run case.toml --quiet --out locked/run"),
     under("nobody", "read-only run folder, restart", "locked | --out", given=("good as locked",),
           command="run case.toml --quiet --out locked --restart locked/restart_0000000004.h5"),
     under("nobody", "flow that may not be read", "secret.h5 | Permission denied", edits='[initial] fluid = "secret.h5"',

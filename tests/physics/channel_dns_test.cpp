@@ -60,7 +60,7 @@ Profiles statistics(const std::filesystem::path& scratch) {
 }
 
 TEST(ChannelNightly, MeanFlowAndStressesAreThoseOfTheDns) {
-  const testing::ScratchFolder scratch("barchan-channel");
+  const TemporaryFolder scratch;
   const Profiles run = statistics(scratch / "run");
   const Profiles dns{test::reference_table("dns_channel_mkm1999_chan395.csv"), "yplus"};
   const double depth = 0.025, nu = 1e-6;

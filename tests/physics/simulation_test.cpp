@@ -14,7 +14,6 @@ namespace barchan {
 namespace {
 
 using testing::coupled_config;
-using testing::ScratchFolder;
 
 const std::vector<std::string> kArrays = {
     // clang-format off
@@ -59,13 +58,13 @@ void expect_same_state(const std::filesystem::path& a, const std::filesystem::pa
 }
 
 TEST(Simulation, TwoRunsAreBitwiseIdentical) {
-  const ScratchFolder scratch("barchan-twice");
+  const TemporaryFolder scratch;
   const Config config = coupled_config();
   expect_same_state(run(config, scratch / "a"), run(config, scratch / "b"));
 }
 
 TEST(Simulation, RestartContinuesBitwise) {
-  const ScratchFolder scratch("barchan-restart");
+  const TemporaryFolder scratch;
   Config whole = coupled_config();
   whole.statistics.emplace();
   whole.statistics->interval = 2 * whole.time.fluid_step;
@@ -88,7 +87,7 @@ TEST(Simulation, RestartContinuesBitwise) {
 }
 
 TEST(Simulation, StartsDifferWhenTheSeedDoes) {
-  const ScratchFolder scratch("barchan-seed");
+  const TemporaryFolder scratch;
   Config config = coupled_config();
   config.time.end = 2 * config.time.fluid_step;
   const CheckpointReader a(run(config, scratch / "a"));
@@ -98,7 +97,7 @@ TEST(Simulation, StartsDifferWhenTheSeedDoes) {
 }
 
 TEST(Simulation, GrainsThatLeaveAreCounted) {
-  const ScratchFolder scratch("barchan-exit");
+  const TemporaryFolder scratch;
   Config config = coupled_config();
   config.fluid->mean_velocity = 0.5;
   config.initial.pour->centre = {0.0101, 0.003};
@@ -113,7 +112,7 @@ TEST(Simulation, GrainsThatLeaveAreCounted) {
 }
 
 TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
-  const ScratchFolder scratch("barchan-wrong");
+  const TemporaryFolder scratch;
   Config config = coupled_config();
   config.grains->material.youngs_modulus = config.grains->wall.youngs_modulus = 2e3;
   config.grains->gravity = {0, -200, 0};
@@ -143,7 +142,7 @@ TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
 }
 
 TEST(Simulation, WritesEveryFileOfARun) {
-  const ScratchFolder scratch("barchan-files");
+  const TemporaryFolder scratch;
   Config config = coupled_config();
   config.time.end = 20 * config.time.fluid_step;
   config.output.grain_forces = true;

@@ -1,12 +1,8 @@
 // A small coupled case: 200 grains in a turbulent channel of 12 x 6 x 6 mm.
 #pragma once
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <string>
-
 #include "src/config/config.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan::testing {
 
@@ -37,22 +33,5 @@ inline Config coupled_config() {
   c.restart.wall_interval = 0;
   return c;
 }
-
-/// A folder of its own, gone with the object.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / (name + "-" + std::to_string(::getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace barchan::testing

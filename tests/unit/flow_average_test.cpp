@@ -75,7 +75,7 @@ TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
 }
 
 TEST(FlowAverage, GoesOnAcrossARestart) {
-  const testing::ScratchFolder folder("average");
+  const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "run");
   SwingingFlow flow;
   FlowAverage first(flow.grid), second(flow.grid);
@@ -94,7 +94,7 @@ TEST(FlowAverage, GoesOnAcrossARestart) {
 }
 
 TEST(FlowAverage, FileHoldsOneFrameWithItsWindow) {
-  const testing::ScratchFolder folder("average");
+  const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "run");
   SwingingFlow flow;
   FlowAverage average(flow.grid);

@@ -71,7 +71,7 @@ TEST(FlowStatistics, FluctuationsAreAgainstTheMeanOfAllSamples) {
 }
 
 TEST(FlowStatistics, SurviveARestart) {
-  const testing::ScratchFolder folder("statistics");
+  const TemporaryFolder folder;
   WavyShear flow;
   flow.set(0.03, 0.02);
   flow.statistics.sample(flow.fluid);
