@@ -175,6 +175,7 @@ struct SolverConfig {
 struct Config {
   std::filesystem::path file;  // where it came from
   std::string title;           // [case] title
+  std::string notes;           // [case] notes, free text
   TimeConfig time;
   std::array<double, 3> size{};  // [domain] size = [Lx, Ly, Lz] [m]
   std::optional<FluidConfig> fluid;

@@ -19,6 +19,7 @@ Section of_case() {
   Section section{.name = "case", .meaning = "What the run is called"};
   Keys key(section, [](auto& c) { return &c; });
   key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
+  key("notes", &Config::notes, at_most(2000), "", "who ran it and why: kept with every result");
   return section;
 }
 

@@ -1,4 +1,5 @@
-// A TOML document as a small tree that remembers where each value was written.
+// A TOML document as a small tree that remembers where each value was written. Not the tree of
+// toml++: nvcc cannot compile that, and here it is one file that must.
 #pragma once
 
 #include <cstdint>
