@@ -27,8 +27,7 @@ bool is_toml(const std::string& source) { return fs::path(source).extension() ==
 
 /// True if `folder` holds the finished run of exactly this configuration.
 bool is_finished(const fs::path& folder, const Config& config) {
-  return is_written_in(folder / "config.toml", config) &&
-         status_in(folder / "run.json") == "done";
+  return is_written_in(folder / "config.toml", config) && status_in(folder / "run.json") == "done";
 }
 
 /// Restart file of an unfinished run of the same configuration.

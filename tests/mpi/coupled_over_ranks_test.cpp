@@ -7,7 +7,6 @@
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/shared_grains.hpp"
