@@ -1,4 +1,4 @@
-// Files that are either the old one or the new one, never half of one.
+// Whole files: read if they can be, and written so that there is never half of one.
 #pragma once
 
 #include <cerrno>
@@ -21,6 +21,10 @@ void rename_durably(const std::filesystem::path& from, const std::filesystem::pa
 
 /// Writes all of `text` to an open descriptor; `path` is for the complaint.
 void write_all(int descriptor, std::string_view text, const std::filesystem::path& path);
+
+/// Why `path` is not a file to read, "No such file or directory" or the like; empty if it is one.
+/// Devices and pipes count as none: reading them may never end.
+std::string not_a_file(const std::filesystem::path& path);
 
 /// The whole of a text file. Throws std::runtime_error naming the file and the reason.
 std::string read_text(const std::filesystem::path& path);

@@ -20,6 +20,8 @@ constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
 // Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
 // gathered in.
 constexpr double bytes_per_grain = 1000;
+// Speed of two CPU cores, for the estimate of the wall time.
+constexpr double cell_steps_per_second = 5e6, grain_steps_per_second = 1.5e7;
 
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
@@ -147,8 +149,7 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
   return 0.5 * (low + high);
 }
 
-Derived derive(const Config& config, const std::vector<SizeClass>& sizes,
-               const AssumedRates& rates) {
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes) {
   Derived derived;
   derived.fluid_steps = fluid_steps(config.time);
   derived.grain_substeps = grain_substeps(config.time);
@@ -158,14 +159,14 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes,
     derived.fluid = derive_fluid(config);
     const auto cells = static_cast<double>(derived.fluid->cells);
     derived.memory += bytes_per_cell * cells;
-    seconds_per_step += cells / rates.cell_steps_per_second;
+    seconds_per_step += cells / cell_steps_per_second;
   }
   if (config.grains && !sizes.empty()) {
     derived.grains = derive_grains(config, sizes, derived.fluid);
     const auto count = static_cast<double>(derived.grains->count);
     derived.memory += bytes_per_grain * count;
     if (!config.grains->frozen) {
-      seconds_per_step += count * derived.grain_substeps / rates.grain_steps_per_second;
+      seconds_per_step += count * derived.grain_substeps / grain_steps_per_second;
     }
   }
   derived.wall_time = seconds_per_step * static_cast<double>(derived.fluid_steps);
@@ -180,46 +181,43 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-void line(std::string& text, const char* name, const std::string& value) {
-  text += fmt::format("  {:<24}{}\n", name, value);
+template <class... Args>
+void line(std::string& text, const char* name, fmt::format_string<Args...> value, Args&&... args) {
+  text += fmt::format("  {:<24}{}\n", name, fmt::format(value, std::forward<Args>(args)...));
 }
 
 void add_fluid(std::string& text, const FluidNumbers& n) {
-  line(text, "cells", fmt::format("{}", n.cells));
-  line(text, "cell size",
-       fmt::format("dx {:.4g}, dy {:.4g} to {:.4g}, dz {:.4g} mm (rows grow by {:.4f})", 1e3 * n.dx,
-                   1e3 * n.dy_first, 1e3 * n.dy_last, 1e3 * n.dz, n.stretching));
-  line(text, "bulk velocity U", fmt::format("{:.4g} m/s", n.bulk_velocity));
+  line(text, "cells", "{}", n.cells);
+  line(text, "cell size", "dx {:.4g}, dy {:.4g} to {:.4g}, dz {:.4g} mm (rows grow by {:.4f})",
+       1e3 * n.dx, 1e3 * n.dy_first, 1e3 * n.dy_last, 1e3 * n.dz, n.stretching);
+  line(text, "bulk velocity U", "{:.4g} m/s", n.bulk_velocity);
   if (n.u_star > 0) {
-    line(text, "Re = 2 delta U / nu", fmt::format("{:.0f}", n.reynolds));
-    line(text, "friction velocity u*",
-         fmt::format("{:.4g} m/s expected (Dean's law; Re_tau {:.0f})", n.u_star, n.reynolds_tau));
-    line(text, "in wall units",
-         fmt::format("y1+ {:.2f}, dx+ {:.1f}, dz+ {:.1f}", n.y1_plus, n.dx_plus, n.dz_plus));
-    line(text, "driving gradient", fmt::format("{:.4g} Pa/m", n.pressure_gradient));
+    line(text, "Re = 2 delta U / nu", "{:.0f}", n.reynolds);
+    line(text, "friction velocity u*", "{:.4g} m/s expected (Dean's law; Re_tau {:.0f})", n.u_star,
+         n.reynolds_tau);
+    line(text, "in wall units", "y1+ {:.2f}, dx+ {:.1f}, dz+ {:.1f}", n.y1_plus, n.dx_plus,
+         n.dz_plus);
+    line(text, "driving gradient", "{:.4g} Pa/m", n.pressure_gradient);
   }
-  line(text, "CFL at the centreline", fmt::format("{:.3f}", n.cfl));
-  line(text, "viscous number", fmt::format("{:.2g} (stable below 1)", n.viscous_number));
+  line(text, "CFL at the centreline", "{:.3f}", n.cfl);
+  line(text, "viscous number", "{:.2g} (stable below 1)", n.viscous_number);
 }
 
 void add_grains(std::string& text, const GrainNumbers& n) {
-  line(text, "grains",
-       fmt::format("{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min, 1e3 * n.d_max,
-                   1e3 * n.d_mean));
-  line(text, "solid volume", fmt::format("{:.4g} m^3", n.solid_volume));
-  line(text, "grain step / Rayleigh",
-       fmt::format("{:.1f} % (smallest), {:.1f} % (mean grain)", 100 * n.fraction_min,
-                   100 * n.fraction_mean));
+  line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
+       1e3 * n.d_max, 1e3 * n.d_mean);
+  line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
+  line(text, "grain step / Rayleigh", "{:.1f} % (smallest), {:.1f} % (mean grain)",
+       100 * n.fraction_min, 100 * n.fraction_mean);
   if (n.fall_velocity > 0) {
-    line(text, "fall velocity", fmt::format("{:.4g} m/s (mean grain alone)", n.fall_velocity));
+    line(text, "fall velocity", "{:.4g} m/s (mean grain alone)", n.fall_velocity);
   }
   if (n.shields > 0) {
-    line(text, "Shields number",
-         fmt::format("{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)", n.shields,
-                     n.shields_threshold));
+    line(text, "Shields number", "{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)",
+         n.shields, n.shields_threshold);
   }
   if (n.cell_ratio > 0) {
-    line(text, "smallest cell / grain", fmt::format("{:.2f}", n.cell_ratio));
+    line(text, "smallest cell / grain", "{:.2f}", n.cell_ratio);
   }
 }
 
@@ -234,9 +232,9 @@ std::string to_text(const Derived& derived) {
     steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,
                          derived.grain_substeps == 1 ? "" : "s", derived.grain_step);
   }
-  line(text, "steps", steps);
-  line(text, "memory", fmt::format("about {:.0f} MB", std::max(1.0, derived.memory / 1e6)));
-  line(text, "wall time", fmt::format("about {} (two CPU cores)", duration(derived.wall_time)));
+  line(text, "steps", "{}", steps);
+  line(text, "memory", "about {:.0f} MB", std::max(1.0, derived.memory / 1e6));
+  line(text, "wall time", "about {} (two CPU cores)", duration(derived.wall_time));
   return text;
 }
 

@@ -59,12 +59,6 @@ struct GrainNumbers {
   double cell_ratio = 0;  // smallest cell length over the mean diameter; 0 without cells
 };
 
-/// Assumed speed of the machine, for estimates only.
-struct AssumedRates {
-  double cell_steps_per_second = 5e6;
-  double grain_steps_per_second = 1.5e7;
-};
-
 struct Derived {
   std::int64_t fluid_steps = 0;
   int grain_substeps = 1;
@@ -76,8 +70,7 @@ struct Derived {
 };
 
 /// `sizes` as from known_sizes; may be empty. `config` must have passed validate.
-Derived derive(const Config& config, const std::vector<SizeClass>& sizes,
-               const AssumedRates& rates = {});
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes);
 
 /// The numbers in lines for a terminal, each ending in a newline.
 std::string to_text(const Derived& derived);

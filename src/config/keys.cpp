@@ -1,31 +1,80 @@
 #include "src/config/keys.hpp"
 
-#include "src/config/key_builder.hpp"
-
 namespace barchan {
 namespace {
 
+enum class Rule { none, required, fixed_by_restart, required_and_fixed };
 using enum Rule;
 
-/// An optional section is there when the file has it, with its defaults.
+/// What `holder` points to, or holds; nullptr if that is absent.
 template <class T>
-auto optional_section(std::optional<T> Config::*member) {
-  return [member](Config& c, bool in_file) {
-    if (in_file) (c.*member).emplace();
-  };
+auto* held(T* holder) {
+  if constexpr (requires { holder->has_value(); }) {
+    return holder != nullptr && *holder ? &**holder : nullptr;
+  } else {
+    return holder;
+  }
 }
 
-Section of_case() {
-  Section section{.name = "case", .meaning = "What the run is called"};
-  Keys key(section, [](auto& c) { return &c; });
+/// Adds keys to a section, one a call. `Get`: from a Config to a pointer to the struct with the
+/// members, nullptr where that is absent, or to the std::optional of it: then the section is there
+/// when the file has it.
+template <class Get>
+class Keys {
+ public:
+  Keys(Section& section, Get get) : section_(section), get_(get) {
+    if constexpr (requires(Config c) { get(c)->emplace(); }) {
+      section.prepare = [get](Config& c, bool in_file) {
+        if (auto* holder = get(c); in_file && holder != nullptr) holder->emplace();
+      };
+    }
+  }
+
+  Keys(Sections& all, const char* name, const char* meaning, Get get, Rule rule = none)
+      : Keys(all.emplace_back(Section{name, meaning, rule == required}), get) {}
+
+  template <class Struct, class T>
+  void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
+                  const char* meaning, Rule rule = none) {
+    section_.keys.push_back(
+        {.section = section_.name,
+         .name = name,
+         .type = type_text<T>(),
+         .range = range,
+         .unit = unit,
+         .meaning = meaning,
+         .required = rule == required || rule == required_and_fixed,
+         .fixed_by_restart = rule == fixed_by_restart || rule == required_and_fixed,
+         .read =
+             [get = get_, member, range, unit](const Node& node, Config& config) {
+               T& value = held(get(config))->*member;
+               T read = value;
+               Mismatch mismatch = convert(node, read);
+               if (!mismatch) mismatch = check(read, range, unit);
+               if (!mismatch) value = read;
+               return mismatch;
+             },
+         .text = [get = get_, member](const Config& config) -> std::optional<std::string> {
+           const Struct* holder = held(get(config));
+           if (holder == nullptr) return {};
+           return optional_text(holder->*member);
+         }});
+  }
+
+ private:
+  Section& section_;
+  Get get_;
+};
+
+void add_case(Sections& all) {
+  Keys key(all, "case", "What the run is called", [](auto& c) { return &c; });
   key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
   key("notes", &Config::notes, at_most(2000), "", "who ran it and why: kept with every result");
-  return section;
 }
 
-Section of_time() {
-  Section section{.name = "time", .meaning = "End and steps", .required = true};
-  Keys key(section, [](auto& c) { return &c.time; });
+void add_time(Sections& all) {
+  Keys key(
+      all, "time", "End and steps", [](auto& c) { return &c.time; }, required);
   key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
   key("fluid_step", &TimeConfig::fluid_step, above(0).at_most(1).plausible(1e-15, 1), "s",
       "step of the flow; without `[fluid]` the interval between checks and output",
@@ -34,22 +83,18 @@ Section of_time() {
       "longest step of the grains: a fluid step is cut into equal ones");
   key("wall_clock_limit", &TimeConfig::wall_clock_limit, at_least(0), "s",
       "wall time after which a restart file is written and the run stops (exit code 3); 0: none");
-  return section;
 }
 
-Section of_domain() {
-  Section section{.name = "domain", .meaning = "The box", .required = true};
-  Keys key(section, [](auto& c) { return &c; });
+void add_domain(Sections& all) {
+  Keys key(
+      all, "domain", "The box", [](auto& c) { return &c; }, required);
   key("size", &Config::size, above(0).plausible(1e-9, 1e6), "m",
       "[Lx, Ly, Lz]: along the stream, upwards, across", required_and_fixed);
-  return section;
 }
 
-Section of_fluid() {
-  Section section{.name = "fluid",
-                  .meaning = "The flow; without the section grains move alone",
-                  .prepare = optional_section(&Config::fluid)};
-  Keys key(section, [](auto& c) { return if_there(c.fluid); });
+void add_fluid(Sections& all) {
+  Keys key(all, "fluid", "The flow; without the section grains move alone",
+           [](auto& c) { return &c.fluid; });
   using F = FluidConfig;
   key("cells", &F::cells, at_least(1).at_most(100000), "", "[nx, ny, nz]", required_and_fixed);
   key("first_cell_height", &F::first_cell_height, at_least(0), "m",
@@ -70,7 +115,6 @@ Section of_fluid() {
   key("top", &F::top, any, "", "what the top is to the flow");
   key("top_velocity", &F::top_velocity, any.plausible(0, 1e6), "m/s",
       "velocity along x of a no-slip top: a lid that drags the flow");
-  return section;
 }
 
 /// In [grains] and again in [grains.wall].
@@ -88,15 +132,13 @@ void add_material(Section& section, Get get) {
       "coefficient of rolling friction");
 }
 
-Section of_grains() {
-  Section section{.name = "grains",
-                  .meaning = "The grains; without the section water flows alone",
-                  .prepare = optional_section(&Config::grains)};
-  Keys key(section, [](auto& c) { return if_there(c.grains); });
+void add_grains(Sections& all) {
+  Keys key(all, "grains", "The grains; without the section water flows alone",
+           [](auto& c) { return &c.grains; });
   using G = GrainConfig;
   key("density", &G::density, above(0).plausible(1e-6, 1e9), "kg/m3", "density of the grains",
       fixed_by_restart);
-  add_material(section, [](auto& c) { return c.grains ? &c.grains->material : nullptr; });
+  add_material(all.back(), [](auto& c) { return c.grains ? &c.grains->material : nullptr; });
   key("coulomb_limit", &G::coulomb_limit, any, "",
       "the normal force that limits friction: with its damping, or its elastic part");
   key("rolling_model", &G::rolling_model, any, "", "model of the resistance to rolling");
@@ -117,38 +159,31 @@ Section of_grains() {
       "margin of the neighbour lists, which last until a grain has moved half of it");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");
-  return section;
 }
 
-Section of_wall() {
-  Section section{.name = "grains.wall",
-                  .meaning = "Material of the walls; what is not given is as in `[grains]`",
-                  .prepare = [](Config& c, bool) {
-                    if (c.grains) c.grains->wall = c.grains->material;
-                  }};
+void add_wall(Sections& all) {
+  Section& section = all.emplace_back(
+      Section{.name = "grains.wall",
+              .meaning = "Material of the walls; what is not given is as in `[grains]`",
+              .prepare = [](Config& c, bool) {
+                if (c.grains) c.grains->wall = c.grains->material;
+              }});
   add_material(section, [](auto& c) { return c.grains ? &c.grains->wall : nullptr; });
-  return section;
 }
 
-Section of_ambient() {
-  Section section{.name = "grains.ambient",
-                  .meaning =
-                      "Still fluid around the grains of a case without `[fluid]`; "
-                      "without the section a vacuum",
-                  .prepare = [](Config& c, bool in_file) {
-                    if (in_file) c.grains->ambient.emplace();
-                  }};
-  Keys key(section, [](auto& c) { return c.grains ? if_there(c.grains->ambient) : nullptr; });
+void add_ambient(Sections& all) {
+  Keys key(all, "grains.ambient",
+           "Still fluid around the grains of a case without `[fluid]`; "
+           "without the section a vacuum",
+           [](auto& c) { return c.grains ? &c.grains->ambient : nullptr; });
   key("density", &AmbientConfig::density, above(0).plausible(1e-6, 1e9), "kg/m3",
       "density of the fluid");
   key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, above(0).plausible(1e-15, 1e6),
       "m2/s", "its viscosity over its density");
-  return section;
 }
 
-Section of_coupling() {
-  Section section{.name = "coupling", .meaning = "Forces between grains and flow"};
-  Keys key(section, [](auto& c) { return &c.coupling; });
+void add_coupling(Sections& all) {
+  Keys key(all, "coupling", "Forces between grains and flow", [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
   key("drag", &C::drag, any, "", "drag law");
   key("void_fraction", &C::void_fraction, any, "",
@@ -161,12 +196,10 @@ Section of_coupling() {
   key("relaxation", &C::relaxation, any, "",
       "exchange in dense beds is relaxed; false is unstable there, for comparison");
   key("forces", &C::forces, any, "", "the forces of the flow on the grains");
-  return section;
 }
 
-Section of_initial() {
-  Section section{.name = "initial", .meaning = "The state at t = 0"};
-  Keys key(section, [](auto& c) { return &c.initial; });
+void add_initial(Sections& all) {
+  Keys key(all, "initial", "The state at t = 0", [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid, any, "",
       "\"still\", \"turbulent\" (a log law with perturbations), a restart file `.h5`, or the end "
@@ -174,28 +207,24 @@ Section of_initial() {
   key("grains", &I::grains, any, "",
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
   key("seed", &I::seed, any, "", "of the perturbations of \"turbulent\"");
-  return section;
 }
 
-Section of_pour() {
-  Section section{.name = "initial.grains.pour",
-                  .meaning = "A loose cone of the grains of `grains.sizes`, which settles",
-                  .prepare = [](Config& c, bool in_file) {
-                    if (in_file) c.initial.pour.emplace();
-                  }};
-  Keys key(section, [](auto& c) { return if_there(c.initial.pour); });
+void add_pour(Sections& all) {
+  all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
+  Keys key(all, "initial.grains.pour",
+           "A loose cone of the grains of `grains.sizes`, which settles",
+           [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
   key("centre", &P::centre, any, "m", "[x, z] of its axis");
   key("radius", &P::radius, above(0).plausible(1e-9, 1e6), "m", "of its foot", required);
   key("drop_height", &P::drop_height, at_least(0).plausible(0, 1e6), "m",
       "of its lowest grain above the floor");
   key("seed", &P::seed, any, "", "of the order and the jitter of the grains");
-  return section;
 }
 
-Section of_output() {
-  Section section{.name = "output", .meaning = "Intervals in simulated time; 0: no such file"};
-  Keys key(section, [](auto& c) { return &c.output; });
+void add_output(Sections& all) {
+  Keys key(all, "output", "Intervals in simulated time; 0: no such file",
+           [](auto& c) { return &c.output; });
   using O = OutputConfig;
   key("history_interval", &O::history_interval, at_least(0), "s", "of `history.csv`");
   key("dune_interval", &O::dune_interval, at_least(0), "s", "of `dune.csv`");
@@ -204,42 +233,35 @@ Section of_output() {
   key("tracks_interval", &O::tracks_interval, at_least(0), "s",
       "of `tracks.h5`: numbers and positions of the grains alone");
   key("grain_forces", &O::grain_forces, any, "", "each force separately in `grains.h5`");
-  return section;
 }
 
-Section of_restart() {
-  Section section{.name = "restart", .meaning = "Restart files, from which a run can go on"};
-  Keys key(section, [](auto& c) { return &c.restart; });
+void add_restart(Sections& all) {
+  Keys key(all, "restart", "Restart files, from which a run can go on",
+           [](auto& c) { return &c.restart; });
   key("interval", &RestartConfig::interval, at_least(0), "s", "in simulated time; 0: none");
   key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s", "in wall time; 0: none");
   key("keep", &RestartConfig::keep, at_least(1).at_most(1000), "", "how many are kept");
-  return section;
 }
 
-Section of_statistics() {
-  Section section{.name = "statistics",
-                  .meaning = "Averages over time; none without the section",
-                  .prepare = optional_section(&Config::statistics)};
-  Keys key(section, [](auto& c) { return if_there(c.statistics); });
+void add_statistics(Sections& all) {
+  Keys key(all, "statistics", "Averages over time; none without the section",
+           [](auto& c) { return &c.statistics; });
   using S = StatisticsConfig;
   key("start", &S::start, at_least(0), "s", "time of the first sample", required);
   key("interval", &S::interval, above(0), "s", "between samples");
   key("fields", &S::fields, any, "", "means and second moments in every cell, `flow_average.h5`");
   key("grain_forces", &S::grain_forces, any, "",
       "resultant force on the grains around the largest dune, `force_map.csv`");
-  return section;
 }
 
-Section of_solver() {
-  Section section{.name = "solver", .meaning = "The equation of the pressure"};
-  Keys key(section, [](auto& c) { return &c.solver; });
+void add_solver(Sections& all) {
+  Keys key(all, "solver", "The equation of the pressure", [](auto& c) { return &c.solver; });
   using S = SolverConfig;
   key("pressure_tolerance", &S::pressure_tolerance, above(0).below(1), "",
       "residual over right-hand side (2-norms) at which iterations stop");
   key("max_iterations", &S::max_iterations, at_least(1), "", "of the conjugate gradients a step");
   key("preconditioner", &S::preconditioner, any, "",
       "a solve by FFT; \"local_fft\" adds a relaxation where grains hinder the flow");
-  return section;
 }
 
 struct Removed {
@@ -252,24 +274,16 @@ constexpr Removed removed[] = {
 
 }  // namespace
 
-const std::vector<Section>& sections() {
-  static const std::vector<Section> all{
-      of_case(),
-      of_time(),
-      of_domain(),
-      of_fluid(),
-      of_grains(),
-      of_wall(),
-      of_ambient(),
-      of_coupling(),
-      of_initial(),
-      // A table only to hold the next one: initial.grains is a key otherwise.
-      {.name = "initial.grains", .meaning = ""},
-      of_pour(),
-      of_output(),
-      of_restart(),
-      of_statistics(),
-      of_solver()};
+const Sections& sections() {
+  static const Sections all = [] {
+    Sections made;
+    for (auto* add : {add_case, add_time, add_domain, add_fluid, add_grains, add_wall, add_ambient,
+                      add_coupling, add_initial, add_pour, add_output, add_restart, add_statistics,
+                      add_solver}) {
+      add(made);
+    }
+    return made;
+  }();
   return all;
 }
 

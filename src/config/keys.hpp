@@ -26,14 +26,13 @@ struct Key {
   std::function<Mismatch(const Node&, Config&)> read;
   /// The value as TOML; nothing if it, or its section, is absent.
   std::function<std::optional<std::string>(const Config&)> text;
-  std::function<bool(const Config&, const Config&)> same;
 
   std::string dotted() const { return section + "." + name; }
 };
 
 struct Section {
   std::string name;  // dotted
-  std::string meaning;
+  std::string meaning = {};
   bool required = false;
   /// Called before the keys are read: gives the section, if the file has it, its defaults.
   std::function<void(Config&, bool in_file)> prepare = {};
@@ -41,7 +40,8 @@ struct Section {
 };
 
 /// In the order in which they are written.
-const std::vector<Section>& sections();
+using Sections = std::vector<Section>;
+const Sections& sections();
 
 /// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
 /// never was.

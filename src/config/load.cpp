@@ -1,16 +1,13 @@
 #include "src/config/load.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "src/base/input_file.hpp"
-#include "src/base/printable.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/base/words.hpp"
 #include "src/config/reading.hpp"
-#include "src/config/start.hpp"
 #include "src/config/validate.hpp"
 
 namespace barchan {
@@ -65,7 +62,7 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
 /// Far longer than any case, far shorter than results that are given for one by mistake.
 constexpr std::uintmax_t longest_case = 10'000'000;
 
-std::optional<std::string> read_text(const fs::path& file, std::vector<Problem>& problems) {
+std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& problems) {
   std::string why = not_a_file(file);
   if (why.empty() && fs::file_size(file) > longest_case) {
     why = fmt::format("it is {} MB long, and a case is a few kB of TOML",
@@ -75,8 +72,7 @@ std::optional<std::string> read_text(const fs::path& file, std::vector<Problem>&
     problems.push_back({{file.empty() ? "CONFIG" : file.string(), 0}, "cannot be read: " + why});
     return {};
   }
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  return read_text(file);
 }
 
 /// Reports errors that rest on values as written: one read wrongly would only confuse.
@@ -102,7 +98,7 @@ std::optional<Loaded> load_start(const Config& config, const std::string& key, R
     return {};
   }
   Loaded loaded;
-  if (const auto text = read_text(start, loaded.problems)) loaded = load(*text, start, {}, chain);
+  if (const auto text = text_of(start, loaded.problems)) loaded = load(*text, start, {}, chain);
   if (loaded.problems.empty()) report(check_start(config, loaded.config, flow), reading);
   return loaded;
 }
@@ -160,7 +156,7 @@ Loaded checked(Loaded loaded) {
 
 Loaded load_file(const fs::path& file, const std::vector<std::string>& overrides) {
   Loaded nothing;
-  const auto text = read_text(file, nothing.problems);
+  const auto text = text_of(file, nothing.problems);
   return checked(text ? load(*text, file, overrides, {}) : nothing);
 }
 
@@ -184,7 +180,7 @@ Config config_as_written(std::string_view resolved, const fs::path& file) {
 
 bool is_written_in(const fs::path& file, const Config& config) {
   std::vector<Problem> unreadable;
-  const auto text = read_text(file, unreadable);
+  const auto text = text_of(file, unreadable);
   if (!text) return false;
   Reading reading(*text, config.file);
   return reading.read() == config && !reading.has_bad_keys();

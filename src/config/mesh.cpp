@@ -17,17 +17,13 @@ double geometric_sum(double q, int n) {
 }  // namespace
 
 double stretching_ratio(double ly, int ny, double first) {
-  if (!(ly > 0) || ny < 1 || !(first >= 0)) {
+  const double mean = ly / ny;
+  const bool uniform = first == 0 || std::abs(first - mean) <= 1e-9 * mean;
+  if (!(ly > 0) || ny < 1 || !(first >= 0) || (!uniform && (first > mean || ny == 1))) {
     throw std::invalid_argument(
         fmt::format("no mesh of {} rows over {} m from a first row of {} m", ny, ly, first));
   }
-  const double uniform = ly / ny;
-  if (first == 0 || std::abs(first - uniform) <= 1e-9 * uniform) return 1;
-  if (first > uniform || ny == 1) {
-    throw std::invalid_argument(fmt::format("first row of {} m: {} rows over {} m need {} {} m",
-                                            first, ny, ly, ny == 1 ? "exactly" : "at most",
-                                            uniform));
-  }
+  if (uniform) return 1;
   // The sum grows with q and its last term alone exceeds ly / first at the upper end.
   const double target = ly / first;
   double low = 1;

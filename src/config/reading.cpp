@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "src/base/nearest.hpp"
-#include "src/base/printable.hpp"
+#include "src/base/words.hpp"
 #include "src/config/keys.hpp"
 
 namespace barchan {
@@ -29,12 +28,14 @@ std::string shown_key(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return c >= 0x80 || std::isalnum(c) != 0 || c == '_' || c == '-' || c == ' ';
   });
-  return printable(bare ? std::string(key) : toml_quoted(key), 60);
+  return printable(bare ? std::string(key) : toml_text(key), 60);
 }
 
-/// "[section] key = value: message", without the value when `node` is nullptr.
-std::string sentence(const std::string& section, const std::string& name, const Node* node,
-                     const std::string& message) {
+/// "[section] key = value: message", without the value when `node` is nullptr; "[key]: message" of
+/// a section.
+std::string sentence(const std::string& section, const std::string& name, bool is_section,
+                     const Node* node, const std::string& message) {
+  if (is_section) return fmt::format("[{}]: {}", shown_key(name), message);
   return fmt::format("{}{}{}: {}", section.empty() ? "" : fmt::format("[{}] ", section),
                      shown_key(name), node == nullptr ? "" : " = " + toml_text(*node), message);
 }
@@ -81,11 +82,7 @@ void Reading::read(const Section& section, Config& config) {
   const Node* node = tree_.find(section.name);
   const bool is_table = node != nullptr && node->table() != nullptr;
   if (section.prepare) section.prepare(config, is_table);
-  if (node == nullptr && section.required) {
-    problems_.push_back(
-        {{file_.string(), 0}, fmt::format("[{}]: required section is missing", section.name)});
-    bad_.insert(section.name);
-  }
+  if (node == nullptr && section.required) complain(section.name, "required section is missing");
   if (node != nullptr && !is_table && !section.keys.empty()) {
     complain(section.name, fmt::format("must be a section, [{}]", section.name));
   }
@@ -111,8 +108,7 @@ void Reading::contradict(const std::string& dotted, const std::string& message) 
                          : around != nullptr ? around->where
                                              : Location{file_.string(), 0};
   const bool whole = section.empty() && (node == nullptr || node->table() != nullptr);
-  problems_.push_back({where, whole ? fmt::format("[{}]: {}", name, message)
-                                    : sentence(section, name, node, message)});
+  problems_.push_back({where, sentence(section, name, whole, node, message)});
 }
 
 void Reading::complain(const std::string& dotted, const std::string& message) {
@@ -140,23 +136,17 @@ void Reading::find_unknown(const Node& table, const std::string& section) {
 
 void Reading::complain_about_unknown(const std::string& section, const std::string& name,
                                      const Node& node) {
+  const bool table = section.empty() && node.table() != nullptr;
   std::string why = removal(join(section, name), "");
   if (why.empty()) {
-    const bool table = section.empty() && node.table() != nullptr;
     // A file of another kind may hold very many; they need not all be compared with ours.
-    const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, node);
+    const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, table);
     why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
-    if (table) {
-      problems_.push_back({node.where, fmt::format("[{}]: {}", shown_key(name), why)});
-      return;
-    }
   }
-  problems_.push_back({node.where, sentence(section, name, nullptr, why)});
+  problems_.push_back({node.where, sentence(section, name, table, nullptr, why)});
 }
 
-std::string Reading::suggestion(const std::string& section, const std::string& name,
-                                const Node& node) {
-  const bool table = section.empty() && node.table() != nullptr;
+std::string Reading::suggestion(const std::string& section, const std::string& name, bool table) {
   const auto elsewhere = [](const std::string& key, const std::string& home) {
     return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
   };

@@ -44,7 +44,7 @@ class Reading {
   void find_unknown(const Node& table, const std::string& section);
   void complain_about_unknown(const std::string& section, const std::string& name,
                               const Node& node);
-  std::string suggestion(const std::string& section, const std::string& name, const Node& node);
+  std::string suggestion(const std::string& section, const std::string& name, bool table);
 
   std::filesystem::path file_;
   std::vector<Problem> problems_;

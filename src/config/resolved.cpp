@@ -12,7 +12,8 @@ std::vector<const Key*> differences(const Config& a, const Config& b, bool fixed
   std::vector<const Key*> keys;
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
-      if (key.fixed_by_restart == fixed_by_restart && !key.same(a, b)) keys.push_back(&key);
+      if (key.fixed_by_restart == fixed_by_restart && key.text(a) != key.text(b))
+        keys.push_back(&key);
     }
   }
   return keys;

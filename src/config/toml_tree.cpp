@@ -2,71 +2,86 @@
 #include "src/config/toml_tree.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "src/base/printable.hpp"
-#include "src/config/toml_hint.hpp"
+#include "src/base/words.hpp"
 
 namespace barchan {
 namespace {
 
-Node convert(const toml::node& from, const Location& where);
-
-NodeTable convert_table(const toml::table& from, const Location& where) {
-  NodeTable to;
-  for (const auto& [key, value] : from) {
-    // The key's line, not the value's: that is where a reader looks, and a table made by a
-    // dotted header has no line of its own.
-    Location here = where;
-    if (here.line != 0) here.line = static_cast<int>(key.source().begin.line);
-    to.push_back({std::string(key.str()), convert(value, here)});
-  }
+Node convert(const toml::node& from, const Location& where) {
+  Node to{{}, where};
+  from.visit([&](const auto& node) {
+    using Kind = decltype(node);
+    if constexpr (toml::is_table<Kind>) {
+      NodeTable entries;
+      for (const auto& [key, value] : node) {
+        // The key's line, not the value's: that is where a reader looks, and a table made by a
+        // dotted header has no line of its own.
+        Location here = where;
+        if (here.line != 0) here.line = static_cast<int>(key.source().begin.line);
+        entries.push_back({std::string(key.str()), convert(value, here)});
+      }
+      to.value = std::move(entries);
+    } else if constexpr (toml::is_array<Kind>) {
+      NodeArray elements;
+      for (const auto& element : node) elements.push_back(convert(element, where));
+      to.value = std::move(elements);
+    } else if constexpr (toml::is_chronological<Kind>) {
+      std::ostringstream written;
+      written << node.get();
+      to.value = DateOrTime{written.str()};
+    } else {
+      to.value = node.get();
+    }
+  });
   return to;
 }
 
-Node convert(const toml::node& from, const Location& where) {
-  Node to;
-  to.where = where;
-  if (const auto* table = from.as_table()) {
-    to.value = convert_table(*table, where);
-  } else if (const auto* array = from.as_array()) {
-    NodeArray elements;
-    for (const auto& element : *array) elements.push_back(convert(element, where));
-    to.value = std::move(elements);
-  } else if (const auto* text = from.as_string()) {
-    to.value = text->get();
-  } else if (const auto* integer = from.as_integer()) {
-    to.value = std::int64_t{integer->get()};
-  } else if (const auto* number = from.as_floating_point()) {
-    to.value = number->get();
-  } else if (const auto* flag = from.as_boolean()) {
-    to.value = flag->get();
-  } else {
-    std::ostringstream written;
-    from.visit([&](const auto& date) {
-      if constexpr (toml::is_chronological<decltype(date)>) written << date.get();
-    });
-    to.value = DateOrTime{written.str()};
+constexpr int most_parts = 16;  // of a dotted key; ours have four
+
+/// What keeps `text`, which stands in `name`, from the parser: bytes that are no text, or names
+/// nested so deep that they could only exhaust the stack.
+std::optional<Problem> unfit(std::string_view text, const std::string& name) {
+  int line = 1, points = 0;  // points in a row that join parts of a key, in this line
+  char until = 0;            // the end of a string or a comment
+  for (const char c : text) {
+    if (c == '\0') {
+      return Problem{{name, line},
+                     "not TOML: it holds a NUL byte: it is not text, or text of another encoding; "
+                     "save it as UTF-8"};
+    }
+    if (c == '\n') {
+      ++line;
+      points = 0;
+      until = 0;
+    } else if (until != 0) {
+      if (c == until) until = 0;
+    } else if (c == '"' || c == '\'' || c == '#') {
+      until = c == '#' ? '\n' : c;
+    } else if (c == '=' || c == ',' || c == '[' || c == '{') {
+      points = 0;
+    } else if (c == '.' && ++points >= most_parts) {
+      return Problem{{name, line}, "not TOML: a key of so many parts cannot be meant"};
+    }
   }
-  return to;
+  return {};
 }
 
 /// The value part of an assignment: TOML if it is, else a string of its characters.
 Node parse_value(std::string_view text, const Location& where) {
-  const bool one_line = text.find('\n') == text.npos && unparsable(text).line == 0;
+  const bool one_line = text.find('\n') == text.npos && !unfit(text, {});
   try {
     const toml::table parsed = toml::parse(one_line ? "value = " + std::string(text) : "");
     if (parsed.size() == 1) return convert(*parsed.get("value"), where);
   } catch (const toml::parse_error&) {  // NOLINT(bugprone-empty-catch)
     // A bare word: --set fluid.turbulence=none.
   }
-  Node word;
-  word.where = where;
-  word.value = std::string(text);
-  return word;
+  return {std::string(text), where};
 }
 
 Node& find_or_add(NodeTable& table, std::string_view key, const Location& where) {
@@ -96,25 +111,22 @@ const Node* Node::find(std::string_view dotted) const {
 
 Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems) {
   const Location whole{name, 1};
-  if (const Unparsable stop = unparsable(text); stop.line > 0) {
-    problems.push_back({{name, stop.line}, fmt::format("not TOML: {}", stop.why)});
-    return Node{NodeTable{}, whole};
-  }
   try {
-    return convert(toml::parse(text, name), whole);
+    auto problem = unfit(text, name);
+    if (!problem) return convert(toml::parse(text, name), whole);
+    problems.push_back(std::move(*problem));
   } catch (const toml::parse_error& error) {
-    const Location where{name, static_cast<int>(error.source().begin.line)};
-    problems.push_back(
-        {where, fmt::format("not TOML: {}{}", error.description(), toml_hint(text, where.line))});
+    problems.push_back({{name, static_cast<int>(error.source().begin.line)},
+                        fmt::format("not TOML: {}", error.description())});
   }
-  return Node{NodeTable{}, whole};
+  return {NodeTable{}, whole};
 }
 
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems) {
   const std::size_t equals = assignment.find('=');
   const std::string_view dotted = assignment.substr(0, equals);
   const Location where{fmt::format("--set {}", printable(dotted, 60)), 0};
-  if (is_too_deep(dotted)) {
+  if (std::count(dotted.begin(), dotted.end(), '.') >= most_parts) {
     problems.push_back({where, "unknown key: none has so many parts"});
     return;
   }
@@ -138,7 +150,7 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
   *at = parse_value(assignment.substr(equals + 1), where);
 }
 
-std::string toml_quoted(std::string_view text) {
+std::string toml_text(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -154,7 +166,7 @@ std::string toml_quoted(std::string_view text) {
   return quoted + '"';
 }
 
-std::string toml_number(double value) {
+std::string toml_text(double value) {
   std::string text = fmt::format("{}", value);
   // Only digits and a sign: an integer to TOML. (inf and nan stay as they are.)
   if (text.find_first_not_of("-0123456789") == text.npos) text += ".0";
@@ -181,8 +193,8 @@ struct Printer {
   }
   std::string operator()(bool flag) const { return flag ? "true" : "false"; }
   std::string operator()(std::int64_t number) const { return std::to_string(number); }
-  std::string operator()(double number) const { return toml_number(number); }
-  std::string operator()(const std::string& text) const { return toml_quoted(text); }
+  std::string operator()(double number) const { return toml_text(number); }
+  std::string operator()(const std::string& text) const { return toml_text(text); }
   std::string operator()(const DateOrTime& date) const { return date.text; }
 };
 

@@ -62,9 +62,9 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
 std::string toml_text(const Node& node);
 
 /// A string quoted and escaped for TOML.
-std::string toml_quoted(std::string_view text);
+std::string toml_text(std::string_view text);
 
 /// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
-std::string toml_number(double value);
+std::string toml_text(double value);
 
 }  // namespace barchan

@@ -2,42 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include <fmt/format.h>
-
-#include "src/config/derived.hpp"
-#include "src/config/grain_checks.hpp"
-#include "src/config/start.hpp"
+#include <fmt/ranges.h>
 
 namespace barchan {
 namespace {
 
 void check_time(const Config& c, Findings& found) {
   constexpr double most_steps = 9'999'999'999;  // restart files have ten digits in their names
-  if (c.time.end / c.time.fluid_step > most_steps) {
-    found.error({"time.end", "time.fluid_step"},
-                fmt::format("must be at most {:.3g} s, which is {:.0f} fluid steps; take an "
-                            "earlier end or a longer time.fluid_step",
-                            most_steps * c.time.fluid_step, most_steps));
-  }
-  if (c.time.end < c.time.fluid_step) {
-    found.error({"time.end", "time.fluid_step"},
-                fmt::format("must be at least one fluid_step, {:.3g} s", c.time.fluid_step));
-  }
+  found.error_if(c.time.end / c.time.fluid_step > most_steps, {"time.end", "time.fluid_step"},
+                 "must be at most {:.3g} s, which is {:.0f} fluid steps; take an earlier end or a "
+                 "longer time.fluid_step",
+                 most_steps * c.time.fluid_step, most_steps);
+  found.error_if(c.time.end < c.time.fluid_step, {"time.end", "time.fluid_step"},
+                 "must be at least one fluid_step, {:.3g} s", c.time.fluid_step);
   const double ran = static_cast<double>(fluid_steps(c.time)) * c.time.fluid_step;
-  if (std::abs(ran - c.time.end) > 1e-6 * c.time.fluid_step + 1e-9 * c.time.end) {
-    found.warning(
-        {"time.end", "time.fluid_step"},
-        fmt::format("is not a whole number of fluid steps; the run ends at {:.6g} s", ran));
-  }
+  found.warning_if(std::abs(ran - c.time.end) > 1e-6 * c.time.fluid_step + 1e-9 * c.time.end,
+                   {"time.end", "time.fluid_step"},
+                   "is not a whole number of fluid steps; the run ends at {:.6g} s", ran);
   if (!c.grains || c.grains->frozen) return;
-  if (c.time.grain_step > c.time.fluid_step) {
-    found.error({"time.grain_step", "time.fluid_step"},
-                fmt::format("must be at most fluid_step, {:.3g} s", c.time.fluid_step));
-  } else if (c.time.fluid_step > 1e6 * c.time.grain_step) {
-    found.error({"time.grain_step", "time.fluid_step"},
-                "must be at least a millionth of fluid_step");
-  }
+  if (!found.error_if(c.time.grain_step > c.time.fluid_step, {"time.grain_step", "time.fluid_step"},
+                      "must be at most fluid_step, {:.3g} s", c.time.fluid_step))
+    found.error_if(c.time.fluid_step > 1e6 * c.time.grain_step,
+                   {"time.grain_step", "time.fluid_step"},
+                   "must be at least a millionth of fluid_step");
 }
 
 /// False when there is no mesh to speak of: one was asked for that cannot be, or what it rests on
@@ -52,79 +41,115 @@ bool check_mesh(const Config& c, Findings& found) {
   const double first = c.fluid->first_cell_height;
   const double uniform = c.size[1] / ny;
   const Keys keys{"fluid.first_cell_height", "fluid.cells", "domain.size"};
-  if (first > uniform * (1 + 1e-9) || (ny == 1 && first > 0 && first < uniform * (1 - 1e-9))) {
-    found.error(keys, fmt::format("must be at most Ly / ny = {:.4g} m: the rows grow from the "
-                                  "floor upwards, or are all equal",
-                                  uniform));
+  if (found.error_if(
+          first > uniform * (1 + 1e-9) || (ny == 1 && first > 0 && first < uniform * (1 - 1e-9)),
+          keys,
+          "must be at most Ly / ny = {:.4g} m: the rows grow from the floor upwards, or are "
+          "all equal",
+          uniform))
     return false;
-  }
   return true;
 }
 
 void check_steps(const Config& c, const FluidNumbers& n, Findings& found) {
-  if (n.stretching > 2) {
-    found.error({"fluid.first_cell_height", "fluid.cells", "domain.size"},
-                fmt::format("must be larger: rows would grow by {:.3g} each, of at most 2 (better "
-                            "1.2); more rows help as well",
-                            n.stretching));
+  if (found.error_if(
+          n.stretching > 2, {"fluid.first_cell_height", "fluid.cells", "domain.size"},
+          "must be larger: rows would grow by {:.3g} each, of at most 2 (better 1.2); more "
+          "rows help as well",
+          n.stretching))
     return;
-  }
-  if (n.stretching > 1.2) {
-    found.warning({"fluid.first_cell_height", "fluid.cells"},
-                  fmt::format("makes rows grow by {:.3f} each; above 1.2 is coarse", n.stretching));
-  }
+  found.warning_if(n.stretching > 1.2, {"fluid.first_cell_height", "fluid.cells"},
+                   "makes rows grow by {:.3f} each; above 1.2 is coarse", n.stretching);
   const Keys keys{"time.fluid_step", "fluid.cells", "fluid.mean_velocity", "domain.size"};
-  if (n.cfl > 1) {
-    found.error(keys, fmt::format("must keep the CFL number below 1; the mean flow alone has "
-                                  "{:.2f} at the centreline",
-                                  n.cfl));
-  } else if (n.cfl > 0.5) {
-    found.warning(keys, fmt::format("gives a CFL number of {:.2f} for the mean flow alone; "
-                                    "fluctuations come on top, keep below 0.5",
-                                    n.cfl));
-  }
+  if (!found.error_if(
+          n.cfl > 1, keys,
+          "must keep the CFL number below 1; the mean flow alone has {:.2f} at the centreline",
+          n.cfl))
+    found.warning_if(
+        n.cfl > 0.5, keys,
+        "gives a CFL number of {:.2f} for the mean flow alone; fluctuations come on top, "
+        "keep below 0.5",
+        n.cfl);
   const Keys viscous{"time.fluid_step", "fluid.cells", "fluid.kinematic_viscosity", "domain.size"};
-  if (n.viscous_number > 1) {
-    found.error(viscous, fmt::format("must be at most {:.3g} s: viscosity is explicit and the "
-                                     "smallest cell sets the limit",
-                                     c.time.fluid_step / n.viscous_number));
-  } else if (n.viscous_number > 0.5) {
-    found.warning(viscous, "is over half of the viscous limit; eddy viscosity comes on top");
-  }
+  if (!found.error_if(
+          n.viscous_number > 1, viscous,
+          "must be at most {:.3g} s: viscosity is explicit and the smallest cell sets the limit",
+          c.time.fluid_step / n.viscous_number))
+    found.warning_if(n.viscous_number > 0.5, viscous,
+                     "is over half of the viscous limit; eddy viscosity comes on top");
 }
 
 void check_fluid(const Config& c, Findings& found) {
   const FluidConfig& fluid = *c.fluid;
   const bool held = fluid.mean_velocity > 0;
   const bool driven = held || fluid.pressure_gradient.value_or(0) != 0;
-  if (fluid.pressure_gradient && held) {
-    found.error({"fluid.pressure_gradient", "fluid.mean_velocity"},
-                "contradicts mean_velocity: give one of the two");
-  }
-  if (fluid.top_velocity != 0 && fluid.top != WallFlow::no_slip) {
-    found.error({"fluid.top_velocity", "fluid.top"}, "must come with top = \"no_slip\"");
-  }
-  if (fluid.ramp_time > 0 && !held) {
-    found.error({"fluid.ramp_time", "fluid.mean_velocity"},
-                "must be absent without a mean_velocity to bring up");
-  } else if (fluid.ramp_time > c.time.end) {
-    found.warning({"fluid.ramp_time", "time.end"}, "is longer than the run");
-  }
-  if (c.initial.fluid == "turbulent" && !driven) {
-    found.error({"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient"},
-                "must come with a mean_velocity or pressure_gradient, which sets its log law");
-  }
-  if (c.initial.fluid == "turbulent" && fluid.kinematic_viscosity == 0) {
-    found.error({"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");
-  }
+  found.error_if(fluid.pressure_gradient && held,
+                 {"fluid.pressure_gradient", "fluid.mean_velocity"},
+                 "contradicts mean_velocity: give one of the two");
+  found.error_if(fluid.top_velocity != 0 && fluid.top != WallFlow::no_slip,
+                 {"fluid.top_velocity", "fluid.top"}, "must come with top = \"no_slip\"");
+  if (!found.error_if(fluid.ramp_time > 0 && !held, {"fluid.ramp_time", "fluid.mean_velocity"},
+                      "must be absent without a mean_velocity to bring up"))
+    found.warning_if(fluid.ramp_time > c.time.end, {"fluid.ramp_time", "time.end"},
+                     "is longer than the run");
+  found.error_if(c.initial.fluid == "turbulent" && !driven,
+                 {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient"},
+                 "must come with a mean_velocity or pressure_gradient, which sets its log law");
+  found.error_if(c.initial.fluid == "turbulent" && fluid.kinematic_viscosity == 0,
+                 {"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");
   if (check_mesh(c, found)) check_steps(c, *derive(c, {}).fluid, found);
+}
+
+/// Of the lattice that a cone of these grains is cut from.
+double spacing_of_cone(const std::vector<SizeClass>& sizes) {
+  double widest = 0;
+  for (const SizeClass& size : sizes) widest = std::max(widest, size.diameter);
+  return 1.01 * widest;
+}
+
+void check_pour(const Config& c, Findings& found) {
+  const PourConfig& pour = *c.initial.pour;
+  found.error_if(c.grains->sizes.empty(), {"grains.sizes", "initial.grains"},
+                 "must say which grains to pour");
+  found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
+                 "contradicts pour: grains could not settle");
+  for (const int axis : {0, 1}) {
+    const double extent = c.size[axis == 0 ? 0 : 2];
+    const double at = pour.centre[static_cast<std::size_t>(axis)];
+    found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
+                   {"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
+                   "must keep the cone inside the domain; along {} it spans {:.4g} to {:.4g} m of "
+                   "0 to {:.4g} m",
+                   axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent);
+  }
+  if (spacing_of_cone(c.grains->sizes) >= c.size[1]) return;  // told by check_grain_sizes
+  // The cone is cut from a close-packed lattice one per cent wider than the largest grain.
+  const double spacing = spacing_of_cone(c.grains->sizes);
+  double count = 0;
+  for (const SizeClass& size : c.grains->sizes) count += static_cast<double>(size.count);
+  const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
+  const double height = 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
+  found.error_if(height + pour.drop_height > c.size[1],
+                 {"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
+                 "must be larger: the cone would reach about {:.3g} m, above the domain",
+                 height + pour.drop_height);
+}
+
+void check_initial(const Config& c, Findings& found) {
+  found.error_if(!c.fluid && c.initial.fluid != "still", {"initial.fluid", "fluid"},
+                 "must be absent without a [fluid] section");
+  const bool given = c.initial.pour.has_value() || !c.initial.grains.empty();
+  found.error_if(!c.grains && given, {"initial.grains", "grains"},
+                 "must be absent without a [grains] section");
+  found.error_if(c.grains && !given, {"initial.grains", "initial.grains.pour"},
+                 "must say where the [grains] start: a file or {{ pour = {{...}} }}");
+  if (c.grains && c.initial.pour) check_pour(c, found);
 }
 
 void check_output(const Config& c, Findings& found) {
   const auto check = [&](const char* key, double interval) {
-    if (interval > 0 && interval < c.time.fluid_step * (1 - 1e-9)) {
-      found.warning({key}, "is shorter than a fluid step; written after every step");
-    }
+    found.warning_if(interval > 0 && interval < c.time.fluid_step * (1 - 1e-9), {key},
+                     "is shorter than a fluid step; written after every step");
   };
   check("output.history_interval", c.output.history_interval);
   check("output.dune_interval", c.output.dune_interval);
@@ -135,30 +160,25 @@ void check_output(const Config& c, Findings& found) {
 
 void check_statistics(const Config& c, Findings& found) {
   if (!c.statistics) return;
-  if (!c.fluid)
-    found.error({"statistics.start", "fluid"}, "must be absent without a [fluid] section");
-  if (c.statistics->grain_forces && !c.grains)
-    found.error({"statistics.grain_forces", "grains"}, "must be absent without a [grains] section");
-  if (c.statistics->start >= c.time.end) {
-    found.error({"statistics.start", "time.end"},
-                fmt::format("must be before the end, {:.6g} s", c.time.end));
-  }
+  found.error_if(!c.fluid, {"statistics.start", "fluid"},
+                 "must be absent without a [fluid] section");
+  found.error_if(c.statistics->grain_forces && !c.grains, {"statistics.grain_forces", "grains"},
+                 "must be absent without a [grains] section");
+  found.error_if(c.statistics->start >= c.time.end, {"statistics.start", "time.end"},
+                 "must be before the end, {:.6g} s", c.time.end);
 }
 
 void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, Findings& found) {
   const double smallest = std::min({flow.dx, flow.dy_first, flow.dz});
   const double length = c.coupling.smoothing_length;
-  if (length == 0 && smallest < 2 * d_mean) {
-    found.warning({"coupling.smoothing_length", "fluid.cells"},
-                  "is off; with cells below two grain diameters alpha_f is then noisy");
-  } else if (length > 0 && length < 0.25 * smallest) {
-    found.warning(
-        {"coupling.smoothing_length", "fluid.cells"},
-        fmt::format("is under a quarter of the smallest cell, {:.3g} m: no effect", smallest));
-  } else if (length > 0.25 * c.size[1]) {
-    found.warning({"coupling.smoothing_length", "domain.size"},
-                  "is over a quarter of the height: it would smear the dune away");
-  }
+  found.warning_if(length == 0 && smallest < 2 * d_mean,
+                   {"coupling.smoothing_length", "fluid.cells"},
+                   "is off; with cells below two grain diameters alpha_f is then noisy");
+  if (!found.warning_if(length > 0 && length < 0.25 * smallest,
+                        {"coupling.smoothing_length", "fluid.cells"},
+                        "is under a quarter of the smallest cell, {:.3g} m: no effect", smallest))
+    found.warning_if(length > 0.25 * c.size[1], {"coupling.smoothing_length", "domain.size"},
+                     "is over a quarter of the height: it would smear the dune away");
 }
 
 bool has_mesh(const Config& c) {
@@ -174,46 +194,54 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
   const Derived derived = derive(c, sizes);
   const GrainNumbers& n = *derived.grains;
   const double narrowest = *std::min_element(c.size.begin(), c.size.end());
-  if (narrowest > 0 && n.d_max >= narrowest) {
-    found.error(
-        {"grains.sizes", "domain.size"},
-        fmt::format("holds a diameter of {:.4g} m, wider than the domain, {:.4g} m; lengths "
-                    "are in m: 0.2 mm is 2e-4",
-                    n.d_max, narrowest));
+  if (found.error_if(
+          narrowest > 0 && n.d_max >= narrowest, {"grains.sizes", "domain.size"},
+          "holds a diameter of {:.4g} m, wider than the domain, {:.4g} m; lengths are in m: "
+          "0.2 mm is 2e-4",
+          n.d_max, narrowest))
     return found.all;
-  }
   check_grain_step(c, n, found);
-  if (c.grains->skin > n.d_min) {
-    found.warning({"grains.skin", "grains.sizes"},
-                  "is above the smallest diameter: needlessly long neighbour lists");
-  }
+  found.warning_if(c.grains->skin > n.d_min, {"grains.skin", "grains.sizes"},
+                   "is above the smallest diameter: needlessly long neighbour lists");
   // The neighbour search looks at the columns on either side, which must be three different ones.
   const double reach = 3 * (n.d_max + c.grains->skin);
-  if ((c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
-      (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach)) {
-    found.error({"domain.size", "grains.sizes", "grains.skin"},
-                fmt::format("must be at least {:.3g} m in a periodic direction: a grain would meet "
-                            "its own image",
-                            reach));
-  }
+  found.error_if(
+      (c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
+          (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach),
+      {"domain.size", "grains.sizes", "grains.skin"},
+      "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
   if (!c.fluid) return found.all;
-  if (n.cell_ratio < 1.2 || n.cell_ratio > 1.6) {
-    found.warning({"fluid.cells", "fluid.first_cell_height", "grains.sizes", "domain.size"},
-                  fmt::format("makes the smallest cell {:.2f} mean grain diameters; the paper "
-                              "recommends 1.2 to 1.6",
-                              n.cell_ratio));
-  }
+  found.warning_if(
+      n.cell_ratio < 1.2 || n.cell_ratio > 1.6,
+      {"fluid.cells", "fluid.first_cell_height", "grains.sizes", "domain.size"},
+      "makes the smallest cell {:.2f} mean grain diameters; the paper recommends 1.2 to 1.6",
+      n.cell_ratio);
   check_smoothing(c, *derived.fluid, n.d_mean, found);
+  return found.all;
+}
+
+std::vector<Finding> check_start(const Config& c, const Config& start, bool flow) {
+  Findings found;
+  const std::string key = flow ? "initial.fluid" : "initial.grains";
+  found.error_if(flow && !start.fluid, {key}, "must be a case with [fluid]");
+  found.error_if(!flow && !start.grains, {key}, "must be a case with [grains]");
+  if (!flow || !c.fluid || !start.fluid) return found.all;
+  found.error_if(start.size != c.size, {key, "domain.size"},
+                 "must have the same domain; its size is [{}] m", fmt::join(start.size, ", "));
+  found.error_if(start.fluid->cells != c.fluid->cells ||
+                     start.fluid->first_cell_height != c.fluid->first_cell_height,
+                 {key, "fluid.cells", "fluid.first_cell_height"},
+                 "must have the same mesh; its cells are [{}] from {:.4g} m",
+                 fmt::join(start.fluid->cells, ", "), start.fluid->first_cell_height);
   return found.all;
 }
 
 std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& sizes) {
   Findings found;
   check_time(c, found);
-  if (!c.fluid && !c.grains) {
-    found.error({"fluid", "grains"}, "required, or [grains]: without both there is nothing to run");
+  if (found.error_if(!c.fluid && !c.grains, {"fluid", "grains"},
+                     "required, or [grains]: without both there is nothing to run"))
     return found.all;
-  }
   if (c.fluid) check_fluid(c, found);
   if (c.grains) check_grains(c, found);
   check_initial(c, found);

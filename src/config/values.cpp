@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/nearest.hpp"
-#include "src/base/printable.hpp"
+#include "src/base/words.hpp"
 
 namespace barchan {
 
@@ -16,31 +15,33 @@ std::string Range::text() const {
                      below_most ? "below" : "at most", most);
 }
 
+namespace {
+
+template <class T>
+Mismatch take(const Node& node, T& value, const char* expected) {
+  const T* given = std::get_if<T>(&node.value);
+  if (given == nullptr) return expected;
+  value = *given;
+  return {};
+}
+
+}  // namespace
+
 Mismatch convert(const Node& node, double& value) {
   if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
     value = static_cast<double>(*integer);
     return {};
   }
-  const auto* number = std::get_if<double>(&node.value);
-  if (number == nullptr) return "a number";
-  if (!std::isfinite(*number)) return "a finite number";
-  value = *number;
+  double number = 0;
+  if (Mismatch mismatch = take(node, number, "a number")) return mismatch;
+  if (!std::isfinite(number)) return "a finite number";
+  value = number;
   return {};
 }
 
-Mismatch convert(const Node& node, bool& value) {
-  const auto* flag = std::get_if<bool>(&node.value);
-  if (flag == nullptr) return "true or false";
-  value = *flag;
-  return {};
-}
+Mismatch convert(const Node& node, bool& value) { return take(node, value, "true or false"); }
 
-Mismatch convert(const Node& node, std::string& value) {
-  const auto* text = std::get_if<std::string>(&node.value);
-  if (text == nullptr) return "a string";
-  value = *text;
-  return {};
-}
+Mismatch convert(const Node& node, std::string& value) { return take(node, value, "a string"); }
 
 Mismatch convert(const Node& node, std::filesystem::path& value) {
   std::string text;
@@ -102,22 +103,18 @@ Mismatch convert_name(const Node& node, std::span<const std::string_view> names,
   return {};
 }
 
-std::string value_text(double value) { return toml_number(value); }
-
-std::string value_text(const std::string& value) { return toml_quoted(value); }
-
-std::string value_text(const std::vector<SizeClass>& sizes) {
+std::string toml_text(const std::vector<SizeClass>& sizes) {
   std::vector<std::string> classes;
   for (const SizeClass& size : sizes) {
-    classes.push_back(fmt::format("[{}, {}]", toml_number(size.diameter), size.count));
+    classes.push_back(fmt::format("[{}, {}]", toml_text(size.diameter), size.count));
   }
   return fmt::format("[{}]", fmt::join(classes, ", "));
 }
 
-std::string value_text(const ForceSwitches& forces) {
+std::string toml_text(const ForceSwitches& forces) {
   std::vector<std::string> names;
   for (const ForceName& force : force_names) {
-    if (forces.*force.on) names.push_back(toml_quoted(force.name));
+    if (forces.*force.on) names.push_back(toml_text(force.name));
   }
   return fmt::format("[{}]", fmt::join(names, ", "));
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -15,10 +16,56 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "src/config/names.hpp"
+#include "src/config/config.hpp"
 #include "src/config/toml_tree.hpp"
 
 namespace barchan {
+
+// The names of the choices, in the order of the values of each enum.
+namespace detail {
+
+template <class... Names>
+constexpr auto list(Names... names) {
+  return std::array<std::string_view, sizeof...(names)>{names...};
+}
+
+constexpr auto names_of(Turbulence) { return list("none", "wale"); }
+constexpr auto names_of(WallFlow) { return list("no_slip", "free_slip"); }
+constexpr auto names_of(CoulombLimit) { return list("total", "elastic"); }
+constexpr auto names_of(RollingModel) { return list("none", "epsd2", "theta_m", "cdt"); }
+constexpr auto names_of(ContactModel) { return list("hertz_mindlin", "linear"); }
+constexpr auto names_of(GrainBoundaryX) { return list("exit", "periodic", "wall"); }
+constexpr auto names_of(GrainBoundaryZ) { return list("periodic", "wall"); }
+constexpr auto names_of(DragLaw) {
+  return list("gidaspow", "di_felice", "koch_hill", "syamlal_obrien", "beetstra", "paper_repaired",
+              "none");
+}
+constexpr auto names_of(VoidFraction) { return list("divided", "cfdem_faithful", "centre"); }
+constexpr auto names_of(Preconditioner) { return list("fft", "local_fft"); }
+
+}  // namespace detail
+
+template <class Choice>
+inline constexpr auto choice_names = detail::names_of(Choice{});
+
+// A value added at the end of an enum without its name here fails these.
+static_assert(choice_names<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
+static_assert(choice_names<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
+static_assert(choice_names<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
+static_assert(choice_names<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
+static_assert(choice_names<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
+
+/// The members of coupling.forces, by name.
+struct ForceName {
+  std::string_view name;
+  bool ForceSwitches::*on;
+};
+inline constexpr std::array<ForceName, 5> force_names{
+    {{"drag", &ForceSwitches::drag},
+     {"pressure_gradient", &ForceSwitches::pressure_gradient},
+     {"stress", &ForceSwitches::stress},
+     {"added_mass", &ForceSwitches::added_mass},
+     {"buoyancy", &ForceSwitches::buoyancy}}};
 
 /// What a number may be: each of an array, each diameter of size classes; of a text the bytes.
 struct Range {
@@ -108,23 +155,21 @@ Mismatch convert(const Node& node, std::array<T, N>& value) {
 }
 
 /// As TOML, with all digits.
-std::string value_text(double value);
-std::string value_text(const std::string& value);
-std::string value_text(const std::vector<SizeClass>& value);
-std::string value_text(const ForceSwitches& value);
+std::string toml_text(const std::vector<SizeClass>& value);
+std::string toml_text(const ForceSwitches& value);
 
 template <class T>
-requires std::is_integral_v<T> std::string value_text(T value) { return fmt::format("{}", value); }
+requires std::is_integral_v<T> std::string toml_text(T value) { return fmt::format("{}", value); }
 
 template <class Choice>
-requires std::is_enum_v<Choice> std::string value_text(Choice value) {
-  return value_text(std::string(choice_names<Choice>[static_cast<std::size_t>(value)]));
+requires std::is_enum_v<Choice> std::string toml_text(Choice value) {
+  return toml_text(choice_names<Choice>[static_cast<std::size_t>(value)]);
 }
 
 template <class T, std::size_t N>
-std::string value_text(const std::array<T, N>& values) {
+std::string toml_text(const std::array<T, N>& values) {
   std::string text;
-  for (const T& value : values) text += (text.empty() ? "" : ", ") + value_text(value);
+  for (const T& value : values) text += (text.empty() ? "" : ", ") + toml_text(value);
   return "[" + text + "]";
 }
 
@@ -134,9 +179,9 @@ std::optional<std::string> optional_text(const T& value) {
   if constexpr (requires { value.has_value(); }) {
     return value ? optional_text(*value) : std::nullopt;
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
-    return value.empty() ? std::nullopt : std::optional(value_text(value.string()));
+    return value.empty() ? std::nullopt : std::optional(toml_text(value.string()));
   } else {
-    return value_text(value);
+    return toml_text(value);
   }
 }
 
@@ -178,7 +223,7 @@ std::string type_text() {
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too
     return "text";
   } else if constexpr (std::is_same_v<T, ForceSwitches>) {
-    return "array of " + value_text(ForceSwitches{});
+    return "array of " + toml_text(ForceSwitches{});
   } else if constexpr (std::is_same_v<T, std::vector<SizeClass>>) {
     return "array of [diameter, count]";
   } else {

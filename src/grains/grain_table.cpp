@@ -12,8 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "src/base/nearest.hpp"
-#include "src/base/printable.hpp"
+#include "src/base/words.hpp"
 #include "src/grains/grain_files.hpp"
 
 namespace barchan {
@@ -47,10 +46,8 @@ class CsvReader {
 
   InitialGrains read() {
     check_text();
-    if (!next_line()) {
-      fail(std::max<std::size_t>(line_number_, 1),
-           "it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
-    }
+    if (!next_line())
+      fail("it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
     read_header();
     // Lines are about this long at least: fewer reallocations.
     reserve(rest_.size() / 40);
@@ -61,9 +58,11 @@ class CsvReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { fail(line_number_, what); }
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
+  /// Complains about the line read last.
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> what, Args&&... args) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", name_, std::max<std::size_t>(line_number_, 1),
+                                         fmt::format(what, std::forward<Args>(args)...)));
   }
 
   /// The next line that holds something; false at the end.
@@ -88,7 +87,6 @@ class CsvReader {
   /// Before lines are looked for: there may be none.
   void check_text() {
     const std::string_view start = rest_.substr(0, 4096);
-    line_number_ = 1;
     if (start.starts_with("\x89HDF")) fail("it is an HDF5 file; give its name the ending .h5");
     if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) {
       fail("it is UTF-16 text; save it as UTF-8");
@@ -102,7 +100,6 @@ class CsvReader {
     if (start.find('\r') != start.npos && start.find('\n') == start.npos) {
       fail("its line ends are carriage returns alone; save it with newlines");
     }
-    line_number_ = 0;
   }
 
   /// What else the values may be separated by; empty if it is commas.
@@ -115,37 +112,42 @@ class CsvReader {
     return {};
   }
 
+  void split_line() {
+    fields_.clear();
+    std::string_view rest = line_;
+    for (bool more = true; more;) {
+      more = rest.find(',') != rest.npos;
+      fields_.push_back(trimmed(take(rest, ',')));
+    }
+  }
+
   void read_header() {
     constexpr const char* needed = "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz";
     if (const std::string marks = other_separator(); !marks.empty()) {
-      fail(fmt::format("values are separated by {}; write commas, and decimals with a point",
-                       marks));
+      fail("values are separated by {}; write commas, and decimals with a point", marks);
     }
     if (line_.find_first_of("\"'") != line_.npos) fail("titles stand without quotes");
     const bool any_letter = std::any_of(line_.begin(), line_.end(), [](unsigned char c) {
       return std::isalpha(c) != 0 && c != 'e' && c != 'E';
     });
-    if (!any_letter) fail(fmt::format("the header is missing; {}", needed));
-    std::string_view rest = line_;
-    for (bool more = true; more;) {
-      more = rest.find(',') != rest.npos;
-      const auto title = trimmed(take(rest, ','));
-      if (title.empty()) fail(fmt::format("column {} has no name", order_.size() + 1));
+    if (!any_letter) fail("the header is missing; {}", needed);
+    split_line();
+    for (const std::string_view title : fields_) {
+      if (title.empty()) fail("column {} has no name", order_.size() + 1);
       const auto found = std::find(columns.begin(), columns.end(), title);
       if (found == columns.end()) {
-        fail(fmt::format("unknown column \"{}\" in the header{}; {}", printable(title, 60),
-                         suggestion(title), needed));
+        fail("unknown column \"{}\" in the header{}; {}", printable(title, 60), suggestion(title),
+             needed);
       }
       const auto column = static_cast<std::size_t>(found - columns.begin());
       if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
-        fail(fmt::format("column \"{}\" appears twice", title));
+        fail("column \"{}\" appears twice", title);
       }
       order_.push_back(column);
     }
     for (std::size_t column = 0; column < n_required; ++column) {
       if (std::find(order_.begin(), order_.end(), column) == order_.end()) {
-        fail(
-            fmt::format("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]));
+        fail("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]);
       }
     }
   }
@@ -162,25 +164,22 @@ class CsvReader {
   void read_row() {
     std::array<double, columns.size()> value{};
     std::int64_t id = 0;
-    std::string_view rest = line_;
-    std::size_t n_fields = 0;
-    for (bool more = true; more; ++n_fields) {
-      more = rest.find(',') != std::string_view::npos;
-      const auto field = trimmed(take(rest, ','));
-      if (n_fields >= order_.size()) continue;
-      const auto column = order_[n_fields];
+    split_line();
+    const std::size_t n_fields = fields_.size();
+    for (std::size_t f = 0; f < std::min(n_fields, order_.size()); ++f) {
+      const auto column = order_[f];
       if (column == 0) {
-        id = number<std::int64_t>(field, column);
+        id = number<std::int64_t>(fields_[f], column);
       } else {
-        value[column] = number<double>(field, column);
+        value[column] = number<double>(fields_[f], column);
       }
     }
     if (n_fields != order_.size()) {
       const bool twice = n_fields >= 2 * order_.size() - 1;  // ids are whole
-      fail(fmt::format("{} values, but the header has {} columns{}", n_fields, order_.size(),
-                       twice ? "; are there decimal commas? Decimals need a point" : ""));
+      fail("{} values, but the header has {} columns{}", n_fields, order_.size(),
+           twice ? "; are there decimal commas? Decimals need a point" : "");
     }
-    if (value[1] <= 0) fail(fmt::format("diameter = {}: must be above 0", value[1]));
+    if (value[1] <= 0) fail("diameter = {}: must be above 0", value[1]);
     lines_.push_back(line_number_);
     grains_.id.push_back(id);
     grains_.diameter.push_back(value[1]);
@@ -195,38 +194,39 @@ class CsvReader {
     if (field.starts_with('+')) field.remove_prefix(1);  // from_chars knows no plus sign
     const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error == std::errc::result_out_of_range && std::is_integral_v<T>) {
-      fail(fmt::format("{} = {}: must be at most {}", columns[column], printable(field, 60),
-                       std::numeric_limits<std::int64_t>::max()));
+      fail("{} = {}: must be at most {}", columns[column], printable(field, 60),
+           std::numeric_limits<std::int64_t>::max());
     }
     if (error != std::errc() || stop != field.data() + field.size()) {
-      fail(fmt::format("{} = \"{}\": must be {}{}", columns[column], printable(field, 60),
-                       std::is_integral_v<T> ? "a whole number" : "a number",
-                       field.find_first_of("\"'") != field.npos ? ", without quotes" : ""));
+      fail("{} = \"{}\": must be {}{}", columns[column], printable(field, 60),
+           std::is_integral_v<T> ? "a whole number" : "a number",
+           field.find_first_of("\"'") != field.npos ? ", without quotes" : "");
     }
     if constexpr (!std::is_integral_v<T>) {
       if (!std::isfinite(value)) {
-        fail(fmt::format("{} = {}: must be finite", columns[column], field));
+        fail("{} = {}: must be finite", columns[column], field);
       }
     }
     return value;
   }
 
-  void check_ids() const {
+  void check_ids() {
     std::unordered_map<std::int64_t, std::size_t> first_line;
     first_line.reserve(grains_.size());
     for (std::size_t p = 0; p < grains_.size(); ++p) {
       const auto [earlier, is_new] = first_line.emplace(grains_.id[p], lines_[p]);
       if (!is_new) {
-        fail(lines_[p],
-             fmt::format("id {} was used before, in line {}", grains_.id[p], earlier->second));
+        line_number_ = lines_[p];
+        fail("id {} was used before, in line {}", grains_.id[p], earlier->second);
       }
     }
   }
 
   std::string_view rest_, name_, line_;
   std::size_t line_number_ = 0;
-  std::vector<std::size_t> order_;  // column of each field of a row
-  std::vector<std::size_t> lines_;  // line of each grain
+  std::vector<std::string_view> fields_;  // of the line
+  std::vector<std::size_t> order_;        // column of each field of a row
+  std::vector<std::size_t> lines_;        // line of each grain
   InitialGrains grains_;
 };
 

@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "src/base/input_file.hpp"
+#include "src/base/atomic_file.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/io/seal.hpp"
 #include "src/parallel/communicator.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "src/base/atomic_file.hpp"
-#include "src/base/input_file.hpp"
 
 namespace barchan {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "src/base/nearest.hpp"
+#include "src/base/words.hpp"
 
 namespace barchan {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
-#include "src/config/start.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/initial_flow.hpp"

@@ -14,8 +14,8 @@
 
 #include "barchan_version.hpp"
 #include "src/base/errors.hpp"
-#include "src/base/printable.hpp"
 #include "src/base/report.hpp"
+#include "src/base/words.hpp"
 #include "src/config/resolved.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/check.hpp"

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "src/config/load.hpp"
 
 namespace barchan::test {
@@ -39,5 +41,11 @@ using Lines = std::vector<std::string>;
 
 /// What `problems` gives for a single one.
 inline Lines only(const std::string& line) { return {line, "1 problem; nothing was run."}; }
+
+/// Expects that a case is refused for one problem, told by `line`.
+inline void refused(const std::string& text, const std::string& line,
+                    const std::vector<std::string>& overrides = {}) {
+  EXPECT_EQ(problems(text, overrides), only(line));
+}
 
 }  // namespace barchan::test

@@ -1,8 +1,7 @@
 // Numbers that nobody means, what is no text, and names that a terminal must not obey.
 #include <gtest/gtest.h>
 
-#include "src/base/printable.hpp"
-#include "src/config/toml_hint.hpp"
+#include "src/base/words.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {
@@ -11,16 +10,16 @@ namespace {
 using test::fluid_case;
 using test::grain_case;
 using test::Lines;
-using test::only;
 using test::problems;
+using test::refused;
 
 TEST(ConfigPlausible, NumbersThatOverflowWhatFollowsFromThem) {
-  EXPECT_EQ(problems(grain_case("density = 1e300\n")),
-            only("case.toml:10: [grains] density = 1e+300: must be at most 1e+09 kg/m3 to be "
-                 "computed with"));
-  EXPECT_EQ(problems(grain_case("youngs_modulus = 1e-300\n")),
-            only("case.toml:10: [grains] youngs_modulus = 1e-300: must be at least 0.001 Pa to "
-                 "be computed with"));
+  refused(
+      grain_case("density = 1e300\n"),
+      "case.toml:10: [grains] density = 1e+300: must be at most 1e+09 kg/m3 to be computed with");
+  refused(grain_case("youngs_modulus = 1e-300\n"),
+          "case.toml:10: [grains] youngs_modulus = 1e-300: must be at least 0.001 Pa to be "
+          "computed with");
   EXPECT_EQ(problems(fluid_case("top = \"no_slip\"\ntop_velocity = -1e300\n")).size(), 2u);
   EXPECT_EQ(problems(grain_case(), {"domain.size=[1e300, 1, 1]"}).size(), 2u);
 }
@@ -36,37 +35,32 @@ TEST(ConfigPlausible, StepsAreCountedInTenDigits) {
   EXPECT_NE(refused[0].find("which is 9999999999 fluid steps"), std::string::npos) << refused[0];
 }
 
-TEST(ConfigPlausible, WhatIsNoTomlIsToldWithItsLikelyCause) {
+TEST(ConfigPlausible, WhatIsNoTomlIsToldWithItsLine) {
   const auto says = [](const std::string& text, const std::string& words) {
     const Lines lines = problems(text);
     ASSERT_EQ(lines.size(), 2u) << text.substr(0, 100);
     EXPECT_NE(lines[0].find(words), std::string::npos) << lines[0];
   };
-  says("\xFF\xFE[", "case.toml:1: not TOML: it is UTF-16 text; save it as UTF-8");
+  says("\xFF\xFE[", "case.toml:1: not TOML: ");
   says(std::string("[time]\ne\0nd = 1\n", 16), "case.toml:2: not TOML: it holds a NUL byte");
-  says("[time]\nend = 0,5\n", "decimals come after a point");
-  says("[time]\nend = .5\n", "both sides of the point");
-  says("[time]\nend = 5d-1\n", "exponents are written with e");
-  says("[time]\nend = 5 s\n", "without a unit");
-  says("[time]\nend = True\n", "true and false are lower case");
-  says("[time]\nend = \"C:\\q\"\n", "a backslash");
+  for (const char* value : {"0,5", ".5", "5d-1", "5 s", "True", "\"C:\\q\""}) {
+    says(std::string("[time]\nend = ") + value + "\n", "case.toml:2: not TOML: ");
+  }
   std::string deep = "a";
   for (int n = 0; n < 100000; ++n) deep += ".a";
   says(deep + " = 1\n", "case.toml:1: not TOML: a key of so many parts");
   says("[" + deep + "]\n", "case.toml:1: not TOML: a key of so many parts");
-  EXPECT_TRUE(is_too_deep(deep));
   EXPECT_EQ(problems(fluid_case(), {deep + "=1"}).size(), 2u);
   // Points in values, strings and comments join no keys.
-  EXPECT_EQ(unparsable("x = [.1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1, .1]\n"
-                       "# ......................\ny = \"......................\"\n")
-                .line,
-            0);
+  EXPECT_TRUE(problems(fluid_case("[case]\ntitle = \"......................\"\n"
+                                  "# ......................\n"),
+                       {"fluid.mean_velocity=0.1"})
+                  .empty());
 }
 
 TEST(ConfigPlausible, ATitleIsText) {
-  EXPECT_EQ(
-      problems("case.title = \"a\\u001Bb\"\n" + fluid_case()),
-      only("case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters"));
+  refused("case.title = \"a\\u001Bb\"\n" + fluid_case(),
+          "case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters");
   EXPECT_EQ(problems("case.title = \"" + std::string(201, 'a') + "\"\n" + fluid_case()).size(), 2u);
   EXPECT_TRUE(problems("case.title = \"D\xC3\xBCne\"\n" + fluid_case()).empty());
 }

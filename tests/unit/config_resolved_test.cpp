@@ -60,7 +60,7 @@ bool change(const Key& key, Config& config) {
     const Node tree = parse_toml("value = " + value, "sample", problems);
     Config changed = config;
     if (!problems.empty() || key.read(*tree.find("value"), changed)) continue;
-    if (key.same(changed, config)) continue;
+    if (key.text(changed) == key.text(config)) continue;
     config = changed;
     return true;
   }
@@ -145,12 +145,12 @@ TEST(ConfigKeys, ThePageOfKeysIsThatOfTheProgram) {
 }
 
 TEST(ConfigKeys, RemovedKeysAreToldAndOldRestartsStillRead) {
-  EXPECT_EQ(test::problems(test::fluid_case("[solver]\ncorrectors = 2\n")),
-            test::only("case.toml:8: [solver] correctors: was removed after version 0.1.0: one "
-                       "correction of the pressure a step is exact; delete this line"));
-  EXPECT_EQ(test::problems(test::fluid_case("[solver]\npreconditioner = \"jacobi\"\n")),
-            test::only("case.toml:8: [solver] preconditioner = \"jacobi\": was removed after "
-                       "version 0.1.0: take \"local_fft\", the default, or \"fft\""));
+  test::refused(test::fluid_case("[solver]\ncorrectors = 2\n"),
+                "case.toml:8: [solver] correctors: was removed after version 0.1.0: one correction "
+                "of the pressure a step is exact; delete this line");
+  test::refused(test::fluid_case("[solver]\npreconditioner = \"jacobi\"\n"),
+                "case.toml:8: [solver] preconditioner = \"jacobi\": was removed after version "
+                "0.1.0: take \"local_fft\", the default, or \"fft\"");
   const Config now = load_config_text(test::fluid_case(), "case.toml");
   const std::string old = to_toml(now) + "correctors = 1\n";
   EXPECT_EQ(config_as_written(old, "case.toml"), now);

@@ -101,13 +101,12 @@ TEST(Derived, ASecondWallHalvesTheDepthAndNoWallHasNoFriction) {
 }
 
 TEST(Derived, CostGrowsWithStepsCellsAndGrains) {
-  const AssumedRates rates{.cell_steps_per_second = 1e6, .grain_steps_per_second = 1e7};
-  const Derived d = derive(paper_case(), table_2, rates);
-  EXPECT_NEAR(d.wall_time, 400000 * (0.4725 + 1.0), 1e-3);
+  const Derived d = derive(paper_case(), table_2);
+  EXPECT_NEAR(d.wall_time, 400000 * (0.4725 / 5 + 1 / 1.5), 1e-3);
   Config frozen = paper_case();
   frozen.grains->frozen = true;
-  EXPECT_NEAR(derive(frozen, table_2, rates).wall_time, 400000 * 0.4725, 1e-3);
-  EXPECT_GT(d.memory, derive(paper_case(), {}, rates).memory);
+  EXPECT_NEAR(derive(frozen, table_2).wall_time, 400000 * 0.4725 / 5, 1e-3);
+  EXPECT_GT(d.memory, derive(paper_case(), {}).memory);
 }
 
 TEST(Derived, TextNamesTheNumbers) {

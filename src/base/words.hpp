@@ -1,0 +1,21 @@
+// Words from outside: what a misspelt one was meant for, and how to show them in messages.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace barchan {
+
+/// The candidate nearest to `typed` by edits (a swap of neighbours counts once); empty if none is
+/// near enough to be meant.
+std::string nearest(std::string_view typed, std::span<const std::string> candidates);
+
+/// Text with what a terminal would obey or could not show spelt out: control characters and bytes
+/// that are not UTF-8 as \n, \x1b, \xff; `longest` bytes at most, then "...".
+std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
+
+/// The same for a message of several lines: these stay.
+std::string printable_lines(std::string_view text);
+
+}  // namespace barchan
