@@ -28,8 +28,8 @@ int frame_number(const std::string& name) {
 
 FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
   FrameInfo frame{.name = name,
-                  .t = file.real_attribute(name, "time"),
-                  .step = file.integer_attribute(name, "step"),
+                  .t = file.attribute<double>(name, "time"),
+                  .step = file.attribute<std::int64_t>(name, "step"),
                   .arrays = {}};
   for (const auto& array : file.children(name)) {
     frame.arrays.push_back({array, file.info(name + "/" + array)});
@@ -103,7 +103,7 @@ void FrameFile::replace_file(const Preamble& fill) const {
     fill(file);
     file.close();
     if (root) std::filesystem::rename(beside, path_);
-    if (rank_count(communicator_) > 1) MPI_Barrier(communicator_);
+    synchronise(communicator_);
   } catch (...) {
     std::error_code ignored;
     if (root) std::filesystem::remove(beside, ignored);
