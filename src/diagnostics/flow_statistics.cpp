@@ -39,9 +39,7 @@ void FlowStatistics::add_ranks() {
 
 FlowStatistics::HostSums FlowStatistics::sums() const {
   if (grid_.ranks) return all_;
-  const HostSums sums("statistics: sums", sums_.extent(0));
-  Kokkos::deep_copy(sums, sums_);
-  return sums;
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
 }
 
 FlowStatisticsTable FlowStatistics::table() const {

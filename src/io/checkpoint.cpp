@@ -69,10 +69,6 @@ std::pair<std::string, std::string> split(const std::string& path) {
 
 }  // namespace
 
-std::string checkpoint_name(std::int64_t step) {
-  return fmt::format("{}{:010}{}", prefix, step, ending);
-}
-
 bool is_checkpoint_name(const std::filesystem::path& name) { return step_of(name.string()) >= 0; }
 
 std::map<std::int64_t, std::filesystem::path> list_checkpoints(
@@ -95,7 +91,7 @@ std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::pa
 CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int64_t step,
                                    const Provenance& provenance, MPI_Comm communicator)
     : step_(step),
-      target_(folder / checkpoint_name(step)),
+      target_(folder / fmt::format("{}{:010}{}", prefix, step, ending)),
       file_(temporary_of(target_), Hdf5File::Mode::create_sealable, communicator),
       communicator_(communicator) {
   write_provenance(file_, provenance);

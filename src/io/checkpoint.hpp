@@ -179,7 +179,4 @@ std::map<std::int64_t, std::filesystem::path> list_checkpoints(const std::filesy
 /// The restart file of the highest step in a folder, if there is one.
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);
 
-/// "restart_0000012000.h5".
-std::string checkpoint_name(std::int64_t step);
-
 }  // namespace barchan

@@ -57,10 +57,7 @@ FrameFile::FrameFile(std::filesystem::path path, Provenance provenance,
       communicator_(communicator),
       describe_(describe) {
   if (!restart_time || !std::filesystem::exists(path_)) return;
-  {
-    const Hdf5File file(path_, Hdf5File::Mode::read, communicator_);
-    frames_ = list_frames(file);
-  }
+  frames_ = list_frames(Hdf5File(path_, Hdf5File::Mode::read, communicator_));
   made_ = true;
   drop_after(*restart_time);
   if (frames_.empty()) return;
