@@ -79,8 +79,10 @@ std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double d = distance(tracks_[k], rows[i]);
-      if (d <= tracks_[k].reach) pairs.push_back({d, static_cast<int>(k), static_cast<int>(i)});
+      const Track& track = tracks_[k];
+      const double d = std::hypot(domain_.nearest_x(rows[i].cx - track.x),
+                                  domain_.nearest_z(rows[i].cz - track.z));
+      if (d <= track.reach) pairs.push_back({d, static_cast<int>(k), static_cast<int>(i)});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
@@ -93,10 +95,6 @@ std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
     track_of_row[pair.row] = pair.track;
   }
   return track_of_row;
-}
-
-double DuneTracker::distance(const Track& track, const DuneRow& row) const {
-  return std::hypot(domain_.nearest_x(row.cx - track.x), domain_.nearest_z(row.cz - track.z));
 }
 
 void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {

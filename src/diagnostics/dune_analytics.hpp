@@ -49,7 +49,6 @@ class DuneTracker {
 
   void forget(double t);
   [[nodiscard]] std::vector<int> match(const std::vector<DuneRow>& rows) const;
-  [[nodiscard]] double distance(const Track& track, const DuneRow& row) const;
   void extend(Track& track, double t, const DuneRow& row) const;
 
   DuneDomain domain_;

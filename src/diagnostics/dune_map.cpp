@@ -45,45 +45,41 @@ void HeightMap::choose_bins(std::span<const double> diameters, const DuneDomain&
     ++n;
   }
   if (n == 0) throw std::invalid_argument("dune map: no grain has a positive diameter");
-  mean_diameter_ = sum / static_cast<double>(n);
-  const double target = bin_size * mean_diameter_;
+  mean_diameter = sum / static_cast<double>(n);
+  const double target = bin_size * mean_diameter;
   const int nx = static_cast<int>(std::clamp(domain.length_x / target, 1.0, 1e9));
   const int nz = static_cast<int>(std::clamp(domain.length_z / target, 1.0, 1e9));
-  bin_x_ = domain.length_x / nx;
-  bin_z_ = domain.length_z / nz;
+  bin_x = domain.length_x / nx;
+  bin_z = domain.length_z / nz;
   period_x_ = domain.periodic_x ? nx : 0;
   period_z_ = domain.periodic_z ? nz : 0;
 }
 
 void HeightMap::fill(const GrainCloud& grains) {
-  const double bin_area = bin_x_ * bin_z_;
+  const double bin_area = bin_x * bin_z;
   const double farthest = 1e9;  // in bins: keeps the conversion to int defined
-  bin_of_grain_.assign(grains.diameters.size(), -1);
+  bin_of_grain.assign(grains.diameters.size(), -1);
   for (std::size_t p = 0; p < grains.diameters.size(); ++p) {
     const double d = grains.diameters[p];
-    const double x = grains.centres[3 * p] / bin_x_, z = grains.centres[3 * p + 2] / bin_z_;
+    const double x = grains.centres[3 * p] / bin_x, z = grains.centres[3 * p + 2] / bin_z;
     const double top = grains.centres[3 * p + 1] + 0.5 * d;
     if (!(std::abs(x) < farthest && std::abs(z) < farthest && std::isfinite(top))) continue;
     const int ix = static_cast<int>(std::floor(x)), iz = static_cast<int>(std::floor(z));
-    const int b = find_or_add(wrap(ix, period_x_), wrap(iz, period_z_));
-    Bin& bin = bins_[b];
+    const int wx = wrap(ix, period_x_), wz = wrap(iz, period_z_);
+    const auto [entry, is_new] = index_.try_emplace(key_of(wx, wz), static_cast<int>(bins.size()));
+    if (is_new) bins.push_back({.ix = wx, .iz = wz, .ux = wx, .uz = wz});
+    Bin& bin = bins[entry->second];
     bin.cover += 0.25 * std::numbers::pi * d * d / bin_area;
     bin.surface = std::max(bin.surface, top);
-    bin_of_grain_[p] = b;
+    bin_of_grain[p] = entry->second;
   }
 }
 
-int HeightMap::find_or_add(int ix, int iz) {
-  const auto [entry, is_new] = index_.try_emplace(key_of(ix, iz), static_cast<int>(bins_.size()));
-  if (is_new) bins_.push_back({.ix = ix, .iz = iz, .ux = ix, .uz = iz});
-  return entry->second;
-}
-
 HeightMap::Position HeightMap::unwrapped(const GrainCloud& grains, std::size_t p) const {
-  const Bin& bin = bins_[bin_of_grain_[p]];
+  const Bin& bin = bins[bin_of_grain[p]];
   const double x = grains.centres[3 * p], z = grains.centres[3 * p + 2];
-  return {.x = bin.ux * bin_x_ + x - std::floor(x / bin_x_) * bin_x_,
-          .z = bin.uz * bin_z_ + z - std::floor(z / bin_z_) * bin_z_};
+  return {.x = bin.ux * bin_x + x - std::floor(x / bin_x) * bin_x,
+          .z = bin.uz * bin_z + z - std::floor(z / bin_z) * bin_z};
 }
 
 std::array<HeightMap::Neighbour, 8> HeightMap::neighbours(const Bin& bin) const {
@@ -102,20 +98,20 @@ std::array<HeightMap::Neighbour, 8> HeightMap::neighbours(const Bin& bin) const 
 
 /// Core bins, and the rim grown from them breadth first, one bin per step, up to the reach.
 std::vector<char> HeightMap::mark_dune_bins(const DuneCriteria& criteria) const {
-  std::vector<char> marked(bins_.size(), 0);
+  std::vector<char> marked(bins.size(), 0);
   std::vector<int> front;
-  for (std::size_t b = 0; b < bins_.size(); ++b) {
-    if (bins_[b].cover < criteria.core_cover) continue;
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    if (bins[b].cover < criteria.core_cover) continue;
     marked[b] = 1;
     front.push_back(static_cast<int>(b));
   }
-  const double reach = criteria.rim_reach * mean_diameter_ / std::max(bin_x_, bin_z_);
+  const double reach = criteria.rim_reach * mean_diameter / std::max(bin_x, bin_z);
   const int steps = static_cast<int>(std::ceil(reach));
   for (int step = 0; step < steps && !front.empty(); ++step) {
     std::vector<int> next;
     for (const int b : front) {
-      for (const Neighbour& n : neighbours(bins_[b])) {
-        if (n.bin < 0 || marked[n.bin] || bins_[n.bin].cover < criteria.rim_cover) continue;
+      for (const Neighbour& n : neighbours(bins[b])) {
+        if (n.bin < 0 || marked[n.bin] || bins[n.bin].cover < criteria.rim_cover) continue;
         marked[n.bin] = 1;
         next.push_back(n.bin);
       }
@@ -128,22 +124,22 @@ std::vector<char> HeightMap::mark_dune_bins(const DuneCriteria& criteria) const 
 /// Connected components; each bin takes its unwrapped position from the bin it was reached from.
 void HeightMap::label_regions(const std::vector<char>& in_dune) {
   std::vector<int> queue;
-  for (std::size_t seed = 0; seed < bins_.size(); ++seed) {
-    if (!in_dune[seed] || bins_[seed].region >= 0) continue;
-    bins_[seed].region = n_regions_;
+  for (std::size_t seed = 0; seed < bins.size(); ++seed) {
+    if (!in_dune[seed] || bins[seed].region >= 0) continue;
+    bins[seed].region = n_regions;
     queue.assign(1, static_cast<int>(seed));
     for (std::size_t head = 0; head < queue.size(); ++head) {
-      const Bin from = bins_[queue[head]];
+      const Bin from = bins[queue[head]];
       for (const Neighbour& n : neighbours(from)) {
-        if (n.bin < 0 || !in_dune[n.bin] || bins_[n.bin].region >= 0) continue;
-        Bin& to = bins_[n.bin];
-        to.region = n_regions_;
+        if (n.bin < 0 || !in_dune[n.bin] || bins[n.bin].region >= 0) continue;
+        Bin& to = bins[n.bin];
+        to.region = n_regions;
         to.ux = from.ux + n.dx;
         to.uz = from.uz + n.dz;
         queue.push_back(n.bin);
       }
     }
-    ++n_regions_;
+    ++n_regions;
   }
 }
 
@@ -151,8 +147,8 @@ double HeightMap::smoothed_surface(const Bin& bin) const {
   std::array<double, 9> heights{bin.surface};
   std::size_t n = 1;
   for (const Neighbour& neighbour : neighbours(bin)) {
-    const bool same = neighbour.bin >= 0 && bins_[neighbour.bin].region == bin.region;
-    heights[n++] = same ? bins_[neighbour.bin].surface : 0.0;
+    const bool same = neighbour.bin >= 0 && bins[neighbour.bin].region == bin.region;
+    heights[n++] = same ? bins[neighbour.bin].surface : 0.0;
   }
   std::nth_element(heights.begin(), heights.begin() + 4, heights.end());
   return heights[4];

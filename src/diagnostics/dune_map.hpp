@@ -60,8 +60,7 @@ struct DuneCriteria {
 /// region is a set of core and rim bins connected over their eight neighbours (across periodic
 /// boundaries). It is the outline that one would draw around the bedform in a top view image, which
 /// is how Alvarez & Franklin (Phys. Rev. E 96, 062906, 2017) measure W, L and the horns.
-class HeightMap {
- public:
+struct HeightMap {
   struct Bin {
     int ix = 0, iz = 0;    ///< position in the domain
     int ux = 0, uz = 0;    ///< the same, unwrapped so that a region is in one piece
@@ -73,18 +72,20 @@ class HeightMap {
   /// Throws std::invalid_argument if the arrays do not match or the domain has no extent.
   HeightMap(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria);
 
-  [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
-  /// Index into bins() for each grain; -1 for a grain whose position or size is not a number.
-  [[nodiscard]] const std::vector<int>& bin_of_grain() const { return bin_of_grain_; }
-  [[nodiscard]] int n_regions() const { return n_regions_; }
+  double mean_diameter = 0.0, bin_x = 0.0, bin_z = 0.0;  ///< [m]
+  std::vector<Bin> bins;
+  /// Index into bins for each grain; -1 for a grain whose position or size is not a number.
+  std::vector<int> bin_of_grain;
+  int n_regions = 0;
+
+  /// The region that grain p lies in, -1: in none.
+  [[nodiscard]] int region_of(std::size_t p) const {
+    return bin_of_grain[p] < 0 ? -1 : bins[bin_of_grain[p]].region;
+  }
 
   /// Median of h over the bin and its eight neighbours [m], bins outside the region counting as
   /// zero: a grain that flies over the dune does not show in it.
   [[nodiscard]] double smoothed_surface(const Bin& bin) const;
-
-  [[nodiscard]] double mean_diameter() const { return mean_diameter_; }  ///< [m]
-  [[nodiscard]] double bin_x() const { return bin_x_; }                  ///< [m]
-  [[nodiscard]] double bin_z() const { return bin_z_; }                  ///< [m]
 
   /// Coordinates of the centre of grain p (which must have a bin) with periodic images undone, so
   /// that the grains of one region lie side by side [m].
@@ -93,7 +94,7 @@ class HeightMap {
   };
   [[nodiscard]] Position unwrapped(const GrainCloud& grains, std::size_t p) const;
   [[nodiscard]] Position unwrapped_centre(const Bin& bin) const {
-    return {.x = (bin.ux + 0.5) * bin_x_, .z = (bin.uz + 0.5) * bin_z_};
+    return {.x = (bin.ux + 0.5) * bin_x, .z = (bin.uz + 0.5) * bin_z};
   }
 
  private:
@@ -104,17 +105,12 @@ class HeightMap {
 
   void choose_bins(std::span<const double> diameters, const DuneDomain& domain, double bin_size);
   void fill(const GrainCloud& grains);
-  int find_or_add(int ix, int iz);
   [[nodiscard]] std::array<Neighbour, 8> neighbours(const Bin& bin) const;
   [[nodiscard]] std::vector<char> mark_dune_bins(const DuneCriteria& criteria) const;
   void label_regions(const std::vector<char>& in_dune);
 
-  double mean_diameter_ = 0.0, bin_x_ = 0.0, bin_z_ = 0.0;
   int period_x_ = 0, period_z_ = 0;  // in bins; 0: not periodic
-  std::vector<Bin> bins_;
-  std::vector<int> bin_of_grain_;
   std::unordered_map<std::uint64_t, int> index_;
-  int n_regions_ = 0;
 };
 
 }  // namespace barchan

@@ -29,6 +29,7 @@ struct Extent {
 /// What is collected about one region; coordinates are unwrapped.
 struct Region {
   DuneRow row;
+  int n_bins = 0;
   double crest_height = 0.0;     // on the centreline
   double crest_weight = 0.0;     // sum of weights behind crest_x
   double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
@@ -45,13 +46,18 @@ class DuneMeasurement {
         domain_(domain),
         criteria_(criteria),
         map_(grains, domain, criteria),
-        regions_(map_.n_regions()) {}
+        regions_(map_.n_regions) {}
 
   Dunes run() {
     sum_grains();
     find_crests();
     collect_outlines();
-    const std::vector<int> dunes = largest_first();
+    std::vector<int> dunes;  // the regions that are dunes, largest first
+    for (int i = 0; i < map_.n_regions; ++i) {
+      if (regions_[i].row.n_grains >= criteria_.min_grains) dunes.push_back(i);
+    }
+    std::stable_sort(dunes.begin(), dunes.end(),
+                     [&](int a, int b) { return regions_[a].row.volume > regions_[b].row.volume; });
     Dunes found;
     std::vector<int> row_of_region(regions_.size(), -1);
     for (const int region : dunes) {
@@ -59,59 +65,57 @@ class DuneMeasurement {
       found.rows.push_back(finish(regions_[region]));
       found.rows.back().dune = row_of_region[region];
     }
-    for (const int bin : map_.bin_of_grain()) {
-      const int region = bin < 0 ? -1 : map_.bins()[bin].region;
+    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+      const int region = map_.region_of(p);
       found.of_grain.push_back(region < 0 ? -1 : row_of_region[region]);
     }
     return found;
   }
 
  private:
-  /// The regions that are dunes.
-  [[nodiscard]] std::vector<int> largest_first() const {
-    std::vector<int> dunes;
-    for (int i = 0; i < map_.n_regions(); ++i) {
-      if (regions_[i].row.n_grains >= criteria_.min_grains) dunes.push_back(i);
+  /// Calls f(p, region, x, z) for each grain of a region, with its unwrapped centre.
+  template <class F>
+  void for_each_grain(const F& f) {
+    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+      const int region = map_.region_of(p);
+      if (region < 0) continue;
+      const auto [x, z] = map_.unwrapped(grains_, p);
+      f(p, regions_[region], x, z);
     }
-    std::stable_sort(dunes.begin(), dunes.end(),
-                     [&](int a, int b) { return regions_[a].row.volume > regions_[b].row.volume; });
-    return dunes;
   }
-  [[nodiscard]] Region* region_of_grain(std::size_t p) {
-    const int bin = map_.bin_of_grain()[p];
-    const int region = bin < 0 ? -1 : map_.bins()[bin].region;
-    return region < 0 ? nullptr : &regions_[region];
+  /// Calls f(b, region, x, z) for each bin of a region, with its unwrapped centre.
+  template <class F>
+  void for_each_bin(const F& f) {
+    for (std::size_t b = 0; b < map_.bins.size(); ++b) {
+      const HeightMap::Bin& bin = map_.bins[b];
+      if (bin.region < 0) continue;
+      const auto [x, z] = map_.unwrapped_centre(bin);
+      f(b, regions_[bin.region], x, z);
+    }
   }
   [[nodiscard]] bool in_strip(double z, const Region& region) const {
-    const double half_width = criteria_.centreline_half_width * map_.mean_diameter();
+    const double half_width = criteria_.centreline_half_width * map_.mean_diameter;
     return std::abs(z - region.row.cz) < half_width;
   }
 
   /// Number, volume, centroid, extents.
   void sum_grains() {
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
-      Region* region = region_of_grain(p);
-      if (region == nullptr) continue;
+    for_each_grain([&](std::size_t p, Region& region, double x, double z) {
       const double d = grains_.diameters[p], volume = std::numbers::pi / 6.0 * d * d * d;
-      const auto [x, z] = map_.unwrapped(grains_, p);
-      DuneRow& row = region->row;
+      DuneRow& row = region.row;
       ++row.n_grains;
       row.volume += volume;
       row.cx += volume * x;
       row.cy += volume * grains_.centres[3 * p + 1];
       row.cz += volume * z;
       if (!grains_.u_x.empty()) row.flux += volume * grains_.u_x[p];
-      region->x.include(x - 0.5 * d, x + 0.5 * d);
-      region->z.include(z - 0.5 * d, z + 0.5 * d);
-    }
-    std::vector<int> n_bins(regions_.size(), 0);
-    for (const HeightMap::Bin& bin : map_.bins()) {
-      if (bin.region >= 0) ++n_bins[bin.region];
-    }
-    const double bin_area = map_.bin_x() * map_.bin_z();
-    for (std::size_t i = 0; i < regions_.size(); ++i) {
-      Region& region = regions_[i];
-      region.row.flux /= n_bins[i] * bin_area;
+      region.x.include(x - 0.5 * d, x + 0.5 * d);
+      region.z.include(z - 0.5 * d, z + 0.5 * d);
+    });
+    for_each_bin([](std::size_t, Region& region, double, double) { ++region.n_bins; });
+    const double bin_area = map_.bin_x * map_.bin_z;
+    for (Region& region : regions_) {
+      region.row.flux /= region.n_bins * bin_area;
       region.row.cx /= region.row.volume;
       region.row.cy /= region.row.volume;
       region.row.cz /= region.row.volume;
@@ -121,27 +125,19 @@ class DuneMeasurement {
   /// H over the region; crest_x on the centreline. The strip may miss every bin centre only when
   /// the dune has no sand there, and crest_x then stays at Cx.
   void find_crests() {
-    std::vector<double> surface(map_.bins().size(), 0.0);
-    for (std::size_t b = 0; b < surface.size(); ++b) {
-      const HeightMap::Bin& bin = map_.bins()[b];
-      if (bin.region < 0) continue;
-      Region& region = regions_[bin.region];
-      surface[b] = map_.smoothed_surface(bin);
+    std::vector<double> surface(map_.bins.size(), 0.0);
+    for_each_bin([&](std::size_t b, Region& region, double, double z) {
+      surface[b] = map_.smoothed_surface(map_.bins[b]);
       region.row.h = std::max(region.row.h, surface[b]);
-      if (in_strip(map_.unwrapped_centre(bin).z, region))
-        region.crest_height = std::max(region.crest_height, surface[b]);
-    }
-    for (std::size_t b = 0; b < surface.size(); ++b) {
-      const HeightMap::Bin& bin = map_.bins()[b];
-      if (bin.region < 0) continue;
-      Region& region = regions_[bin.region];
-      const auto [x, z] = map_.unwrapped_centre(bin);
-      const double band = std::max(0.05 * region.crest_height, 0.5 * map_.mean_diameter());
+      if (in_strip(z, region)) region.crest_height = std::max(region.crest_height, surface[b]);
+    });
+    for_each_bin([&](std::size_t b, Region& region, double x, double z) {
+      const double band = std::max(0.05 * region.crest_height, 0.5 * map_.mean_diameter);
       const double weight = surface[b] - (region.crest_height - band);
-      if (weight <= 0.0 || !in_strip(z, region)) continue;
+      if (weight <= 0.0 || !in_strip(z, region)) return;
       region.crest_weight += weight;
       region.row.crest_x += weight * x;
-    }
+    });
     for (Region& region : regions_) {
       DuneRow& row = region.row;
       row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.cx;
@@ -151,28 +147,25 @@ class DuneMeasurement {
   /// The strip along the centreline, and the most downstream edge on either side of it.
   void collect_outlines() {
     for (Region& region : regions_) {
-      region.first_column = static_cast<int>(std::floor(region.x.low / map_.bin_x())) - 1;
-      const int last = static_cast<int>(std::floor(region.x.high / map_.bin_x())) + 1;
+      region.first_column = static_cast<int>(std::floor(region.x.low / map_.bin_x)) - 1;
+      const int last = static_cast<int>(std::floor(region.x.high / map_.bin_x)) + 1;
       region.strip.resize(last - region.first_column + 1);
     }
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
-      Region* region = region_of_grain(p);
-      if (region == nullptr) continue;
+    for_each_grain([&](std::size_t p, Region& region, double x, double z) {
       const double radius = 0.5 * grains_.diameters[p];
-      const auto [x, z] = map_.unwrapped(grains_, p);
-      if (in_strip(z, *region)) {
-        const int column = map_.bins()[map_.bin_of_grain()[p]].ux - region->first_column;
-        region->strip[column].include(x - radius, x + radius);
+      if (in_strip(z, region)) {
+        const int column = map_.bins[map_.bin_of_grain[p]].ux - region.first_column;
+        region.strip[column].include(x - radius, x + radius);
       } else {
-        double& tip = z < region->row.cz ? region->left_tip : region->right_tip;
+        double& tip = z < region.row.cz ? region.left_tip : region.right_tip;
         tip = std::max(tip, x + radius);
       }
-    }
+    });
   }
 
   /// From toe to lee foot: the columns around the crest that hold sand without a gap.
   [[nodiscard]] Extent centreline(const Region& region) const {
-    const double column = region.row.crest_x / map_.bin_x() - region.first_column;
+    const double column = region.row.crest_x / map_.bin_x - region.first_column;
     const int n = static_cast<int>(region.strip.size());
     int crest = -1;
     for (int i = 0; i < n; ++i) {

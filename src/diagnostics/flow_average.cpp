@@ -1,6 +1,6 @@
 #include "src/diagnostics/flow_average.hpp"
 
-#include "src/output/field_file.hpp"
+#include "src/output/state_file.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
@@ -82,25 +82,27 @@ void FlowAverage::write(const OutputFiles& output, double t, std::int64_t step) 
                        {{"window_start", start_}, {"n_samples", static_cast<double>(n_samples_)}});
 }
 
+/// Calls f(name, field) for every field of a restart file.
+template <class F>
+void FlowAverage::for_each_saved(const F& f) const {
+  const auto each = [&](const std::string& prefix, const auto& fields) {
+    for (std::size_t q = 0; q < fields.size(); ++q) f(prefix + quantities[q].name, fields[q]);
+  };
+  each("statistics/sum_", sum_);
+  each("statistics/first_", first_);
+}
+
 void FlowAverage::save(CheckpointWriter& file) const {
-  for (std::size_t q = 0; q < sum_.size(); ++q) {
-    save_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
-  }
-  for (std::size_t q = 0; q < first_.size(); ++q) {
-    save_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
-  }
+  for_each_saved(
+      [&](const std::string& name, const Field& f) { save_field(file, name, grid_, f); });
   file.scalar("statistics/n_field_samples", n_samples_);
   file.scalar("statistics/window_start", start_);
 }
 
 void FlowAverage::load(const CheckpointReader& file) {
   if (!file.has("statistics/n_field_samples")) return;
-  for (std::size_t q = 0; q < sum_.size(); ++q) {
-    load_field(file, std::string("statistics/sum_") + quantities[q].name, grid_, sum_[q]);
-  }
-  for (std::size_t q = 0; q < first_.size(); ++q) {
-    load_field(file, std::string("statistics/first_") + quantities[q].name, grid_, first_[q]);
-  }
+  for_each_saved(
+      [&](const std::string& name, const Field& f) { load_field(file, name, grid_, f); });
   n_samples_ = file.integer("statistics/n_field_samples");
   start_ = file.real("statistics/window_start");
 }

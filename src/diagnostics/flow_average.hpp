@@ -29,6 +29,8 @@ class FlowAverage {
   void load(const CheckpointReader& file);
 
  private:
+  template <class F>
+  void for_each_saved(const F& f) const;
   static FlowSums refs(std::array<Field, n_flow_moments>& fields);
 
   Grid grid_;

@@ -33,17 +33,13 @@ void FlowStatistics::add_ranks() {
   MPI_Allreduce(MPI_IN_PLACE, sample.data(),
                 static_cast<int>(sample.size()) * PlaneSums::n_quantities, MPI_DOUBLE, MPI_SUM,
                 grid_.ranks->all());
-  for (std::size_t j = 0; j < sample.size(); ++j) {
-    for (int q = 0; q < PlaneSums::n_quantities; ++q) all_(j).value[q] += sample(j).value[q];
-  }
+  for (std::size_t j = 0; j < sample.size(); ++j) all_(j) += sample(j);
   Kokkos::deep_copy(sums_, PlaneSums{});
 }
 
 FlowStatistics::HostSums FlowStatistics::sums() const {
   if (grid_.ranks) return all_;
-  const HostSums sums("statistics: sums", sums_.extent(0));
-  Kokkos::deep_copy(sums, sums_);
-  return sums;
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
 }
 
 FlowStatisticsTable FlowStatistics::table() const {

@@ -51,11 +51,12 @@ void ForceMap::write(const std::filesystem::path& file) const {
   write_atomically(file, text);
 }
 
+static_assert(sizeof(ForceMap::Bin) == 4 * sizeof(double));
+
 void ForceMap::save(CheckpointWriter& file) const {
   std::vector<double> numbers{step_, start_, end_};
-  for (const Bin& bin : bins_) {
-    numbers.insert(numbers.end(), {bin.n, bin.force.x, bin.force.y, bin.force.z});
-  }
+  const auto* sums = reinterpret_cast<const double*>(bins_.data());
+  numbers.insert(numbers.end(), sums, sums + 4 * bins_.size());
   file.array("statistics/force_map", std::span<const double>(numbers));
 }
 
@@ -64,10 +65,7 @@ void ForceMap::load(const CheckpointReader& file) {
   const auto numbers = file.array<double>("statistics/force_map");
   if (numbers.size() != 3 + 4 * bins_.size()) return;  // of other bins: begin anew
   step_ = numbers[0], start_ = numbers[1], end_ = numbers[2];
-  for (std::size_t b = 0; b < bins_.size(); ++b) {
-    const double* of_bin = &numbers[3 + 4 * b];
-    bins_[b] = {of_bin[0], {of_bin[1], of_bin[2], of_bin[3]}};
-  }
+  std::copy(numbers.begin() + 3, numbers.end(), reinterpret_cast<double*>(bins_.data()));
 }
 
 }  // namespace barchan

@@ -1,5 +1,7 @@
 #include "src/diagnostics/gathered_grains.hpp"
 
+#include <algorithm>
+
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -51,15 +53,10 @@ GatheredGrains::GatheredGrains(const GrainState& grains) {
 
 std::vector<Vec3> gathered(const GrainState& grains, const Kokkos::View<Vec3*>& of_grain) {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, of_grain);
-  std::vector<double> numbers;
-  for (int g = 0; g < grains.n; ++g) {
-    const Vec3& v = host(g);
-    numbers.insert(numbers.end(), {v.x, v.y, v.z});
-  }
-  numbers = on_rank_0(grains.ranks, numbers);
-  std::vector<Vec3> vectors;
-  for (std::size_t q = 0; q < numbers.size(); q += 3)
-    vectors.push_back({numbers[q], numbers[q + 1], numbers[q + 2]});
+  const auto* mine = reinterpret_cast<const double*>(host.data());
+  const std::vector<double> all = on_rank_0(grains.ranks, {mine, mine + 3 * grains.n});
+  std::vector<Vec3> vectors(all.size() / 3);
+  std::copy(all.begin(), all.end(), reinterpret_cast<double*>(vectors.data()));
   return vectors;
 }
 

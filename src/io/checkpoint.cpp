@@ -69,10 +69,6 @@ std::pair<std::string, std::string> split(const std::string& path) {
 
 }  // namespace
 
-std::string checkpoint_name(std::int64_t step) {
-  return fmt::format("{}{:010}{}", prefix, step, ending);
-}
-
 bool is_checkpoint_name(const std::filesystem::path& name) { return step_of(name.string()) >= 0; }
 
 std::map<std::int64_t, std::filesystem::path> list_checkpoints(
@@ -89,14 +85,13 @@ std::map<std::int64_t, std::filesystem::path> list_checkpoints(
 
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder) {
   const auto files = list_checkpoints(folder);
-  if (files.empty()) return {};
-  return files.rbegin()->second;
+  return files.empty() ? std::nullopt : std::optional(files.rbegin()->second);
 }
 
 CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int64_t step,
                                    const Provenance& provenance, MPI_Comm communicator)
     : step_(step),
-      target_(folder / checkpoint_name(step)),
+      target_(folder / fmt::format("{}{:010}{}", prefix, step, ending)),
       file_(temporary_of(target_), Hdf5File::Mode::create_sealable, communicator),
       communicator_(communicator) {
   write_provenance(file_, provenance);
@@ -111,16 +106,13 @@ CheckpointWriter::~CheckpointWriter() {
 }
 
 template <class T>
-void CheckpointWriter::put_scalar(const std::string& path, T value) {
+void CheckpointWriter::scalar(const std::string& path, T value) {
   const auto [group, name] = split(path);
   file_.make_group(group);
   file_.set_attribute(group, name, value);
 }
-
-void CheckpointWriter::scalar(const std::string& name, double value) { put_scalar(name, value); }
-void CheckpointWriter::scalar(const std::string& name, std::int64_t value) {
-  put_scalar(name, value);
-}
+template void CheckpointWriter::scalar(const std::string&, double);
+template void CheckpointWriter::scalar(const std::string&, std::int64_t);
 
 void CheckpointWriter::array(const std::string& name, std::span<const double> values,
                              const Extents& extents, const Share& share) {
@@ -146,16 +138,16 @@ std::filesystem::path CheckpointWriter::commit(int keep) {
     }
   }
   committed_ = true;
-  if (mpi_runs()) MPI_Barrier(communicator_);  // the file is there for every rank that returns
+  synchronise(communicator_);  // the file is there for every rank that returns
   return target_;
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm communicator)
     : sealed_(is_sealed(file, communicator)), file_(file, Hdf5File::Mode::read, communicator) {
-  if (!file_.has_attribute("/", "kind") || file_.text_attribute("/", "kind") != "restart") {
+  if (!file_.has_attribute("/", "kind") || file_.attribute<std::string>("/", "kind") != "restart") {
     fail("it is not a restart file");
   }
-  const auto format = file_.integer_attribute("/", "format");
+  const auto format = file_.attribute<std::int64_t>("/", "format");
   const bool newer = format > format_version;
   if (newer || format < oldest_format) {
     fail(fmt::format("it was written in format {} by {} {}; this version reads {} to {}{}", format,
@@ -168,7 +160,7 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
 
 void CheckpointReader::fail(const std::string& what) const { refuse(path(), what); }
 
-std::int64_t CheckpointReader::step() const { return file_.integer_attribute("/", "step"); }
+std::int64_t CheckpointReader::step() const { return file_.attribute<std::int64_t>("/", "step"); }
 
 bool CheckpointReader::has(const std::string& name) const {
   const auto [group, attribute] = split(name);
@@ -176,20 +168,18 @@ bool CheckpointReader::has(const std::string& name) const {
 }
 
 template <class T>
-T CheckpointReader::scalar(const std::string& path, Get<T> get) const {
+T CheckpointReader::scalar(const std::string& path) const {
   const auto [group, name] = split(path);
   if (!file_.exists(group) || !file_.has_attribute(group, name)) {
     fail("it holds no \"" + path + "\", which this run needs");
   }
-  return (file_.*get)(group, name);
+  return file_.attribute<T>(group, name);
 }
 
-double CheckpointReader::real(const std::string& name) const {
-  return scalar(name, &Hdf5File::real_attribute);
-}
+double CheckpointReader::real(const std::string& name) const { return scalar<double>(name); }
 
 std::int64_t CheckpointReader::integer(const std::string& name) const {
-  return scalar(name, &Hdf5File::integer_attribute);
+  return scalar<std::int64_t>(name);
 }
 
 Extents CheckpointReader::extents(const std::string& name) const {

@@ -3,8 +3,8 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,7 +15,6 @@
 
 #include "kernels/math/vec3.hpp"
 #include "src/io/hdf5_file.hpp"
-#include "src/io/provenance.hpp"
 
 namespace barchan {
 
@@ -28,7 +27,8 @@ struct Stored {
   static_assert(std::is_trivially_copyable_v<T>);
   static_assert(std::is_integral_v<T> || sizeof(T) % sizeof(double) == 0);
   static constexpr bool integer = std::is_integral_v<T>;
-  using type = std::conditional_t<integer, std::int64_t, double>;
+  using type = std::conditional_t<integer, std::int64_t, double>;  // in the file
+  using element = std::conditional_t<integer, T, double>;          // in memory
   // NOLINTNEXTLINE(bugprone-sizeof-expression): T may be double itself
   static constexpr std::size_t count = integer ? 1 : sizeof(T) / sizeof(double);
 };
@@ -56,33 +56,22 @@ auto dense_like(const View& view) {
 /// Numbers of a view (host or device, any layout) in file order.
 template <class View>
 auto to_numbers(const View& view) {
-  using Value = typename View::non_const_value_type;
-  using Number = typename Stored<Value>::type;
+  using Number = Stored<typename View::non_const_value_type>;
   const auto dense = dense_like(view);
   Kokkos::deep_copy(dense, view);
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, dense);
-  std::vector<Number> numbers(host.size() * Stored<Value>::count);
-  if constexpr (Stored<Value>::integer) {
-    for (std::size_t p = 0; p < host.size(); ++p) {
-      numbers[p] = static_cast<std::int64_t>(host.data()[p]);
-    }
-  } else if (!numbers.empty()) {
-    std::memcpy(numbers.data(), host.data(), numbers.size() * sizeof(Number));
-  }
-  return numbers;
+  const auto* elements = reinterpret_cast<const typename Number::element*>(host.data());
+  return std::vector<typename Number::type>(elements, elements + host.size() * Number::count);
 }
 
 /// The reverse; the view has the extents that file_extents() gave.
 template <class View, class Number>
 void from_numbers(const std::vector<Number>& numbers, const View& view) {
-  using Value = typename View::non_const_value_type;
+  using Element = typename Stored<typename View::non_const_value_type>::element;
   const auto dense = dense_like(view);
   const auto host = Kokkos::create_mirror_view(dense);
-  if constexpr (Stored<Value>::integer) {
-    for (std::size_t p = 0; p < host.size(); ++p) host.data()[p] = static_cast<Value>(numbers[p]);
-  } else if (!numbers.empty()) {
-    std::memcpy(static_cast<void*>(host.data()), numbers.data(), numbers.size() * sizeof(Number));
-  }
+  std::transform(numbers.begin(), numbers.end(), reinterpret_cast<Element*>(host.data()),
+                 [](Number number) { return static_cast<Element>(number); });
   Kokkos::deep_copy(dense, host);
   Kokkos::deep_copy(view, dense);
 }
@@ -101,8 +90,9 @@ class CheckpointWriter {
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-  void scalar(const std::string& name, double value);
-  void scalar(const std::string& name, std::int64_t value);
+  /// T is double or std::int64_t.
+  template <class T>
+  void scalar(const std::string& name, T value);
 
   /// `extents` slowest first; empty: one row of values. `share`: see Hdf5File.
   void array(const std::string& name, std::span<const double> values, const Extents& extents = {},
@@ -125,9 +115,6 @@ class CheckpointWriter {
   std::filesystem::path commit(int keep);
 
  private:
-  template <class T>
-  void put_scalar(const std::string& path, T value);
-
   std::int64_t step_;
   std::filesystem::path target_;
   Hdf5File file_;
@@ -172,13 +159,12 @@ class CheckpointReader {
   }
 
   const std::filesystem::path& path() const { return file_.path(); }
+  /// Throws InputError: "cannot restart from <file>: <what>".
+  [[noreturn]] void fail(const std::string& what) const;
 
  private:
   template <class T>
-  using Get = T (Hdf5File::*)(const std::string& object, const std::string& name) const;
-  template <class T>
-  T scalar(const std::string& path, Get<T> get) const;
-  [[noreturn]] void fail(const std::string& what) const;
+  T scalar(const std::string& path) const;
 
   bool sealed_ = false;
   Hdf5File file_;
@@ -192,8 +178,5 @@ std::map<std::int64_t, std::filesystem::path> list_checkpoints(const std::filesy
 
 /// The restart file of the highest step in a folder, if there is one.
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);
-
-/// "restart_0000012000.h5".
-std::string checkpoint_name(std::int64_t step);
 
 }  // namespace barchan

@@ -28,8 +28,8 @@ int frame_number(const std::string& name) {
 
 FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
   FrameInfo frame{.name = name,
-                  .t = file.real_attribute(name, "time"),
-                  .step = file.integer_attribute(name, "step"),
+                  .t = file.attribute<double>(name, "time"),
+                  .step = file.attribute<std::int64_t>(name, "step"),
                   .arrays = {}};
   for (const auto& array : file.children(name)) {
     frame.arrays.push_back({array, file.info(name + "/" + array)});
@@ -57,10 +57,7 @@ FrameFile::FrameFile(std::filesystem::path path, Provenance provenance,
       communicator_(communicator),
       describe_(describe) {
   if (!restart_time || !std::filesystem::exists(path_)) return;
-  {
-    const Hdf5File file(path_, Hdf5File::Mode::read, communicator_);
-    frames_ = list_frames(file);
-  }
+  frames_ = list_frames(Hdf5File(path_, Hdf5File::Mode::read, communicator_));
   made_ = true;
   drop_after(*restart_time);
   if (frames_.empty()) return;
@@ -103,7 +100,7 @@ void FrameFile::replace_file(const Preamble& fill) const {
     fill(file);
     file.close();
     if (root) std::filesystem::rename(beside, path_);
-    if (rank_count(communicator_) > 1) MPI_Barrier(communicator_);
+    synchronise(communicator_);
   } catch (...) {
     std::error_code ignored;
     if (root) std::filesystem::remove(beside, ignored);

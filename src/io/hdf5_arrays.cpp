@@ -1,9 +1,12 @@
-// Arrays of an Hdf5File.
+// Arrays and attributes of an Hdf5File.
 #include <algorithm>
+#include <array>
 #include <type_traits>
+#include <utility>
 
 #include "src/io/hdf5_file.hpp"
 #include "src/io/hdf5_handle.hpp"
+#include "src/parallel/communicator.hpp"
 
 namespace barchan {
 
@@ -17,6 +20,14 @@ hid_t memory_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+}
+
+/// Text of variable length, which Python reads as str.
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
 }
 
 ElementType element_type(hid_t type) {
@@ -152,19 +163,14 @@ std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whol
 }
 
 template <class T>
-std::vector<T> Hdf5File::read(const std::string& name) const {
-  return read<T>(name, info(name).extents);
-}
-
-template <class T>
 std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) const {
-  return read_block<T>(name, expected, Extents(expected.size(), 0), expected);
+  const Extents whole = expected.empty() ? info(name).extents : expected;
+  return read_block<T>(name, whole, Extents(whole.size(), 0), whole);
 }
 
 #define BARCHAN_HDF5_ARRAYS(T)                                                                     \
   template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&,            \
                                 std::string_view, const Share&);                                   \
-  template std::vector<T> Hdf5File::read(const std::string&) const;                                \
   template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;                \
   template std::vector<T> Hdf5File::read_block(const std::string&, const Extents&, const Extents&, \
                                                const Extents&) const;
@@ -173,5 +179,117 @@ BARCHAN_HDF5_ARRAYS(double)
 BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
+
+void Hdf5File::put_attribute(const std::string& object, const std::string& name, Id type,
+                             const void* value) {
+  const std::string label = object + "@" + name;
+  const auto [base, path] = locate(object);
+  if (has_attribute(object, name)) {
+    check(H5Adelete_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT), label);
+  }
+  const Handle space(check(H5Screate(H5S_SCALAR), label), H5Sclose);
+  const Handle attribute(
+      check(H5Acreate_by_name(base, path.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
+                              H5P_DEFAULT, H5P_DEFAULT),
+            label),
+      H5Aclose);
+  check(H5Awrite(attribute.get(), type, value), label);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  put_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             std::int64_t value) {
+  put_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             std::string_view value) {
+  const std::string terminated(value);
+  const char* text = terminated.c_str();
+  put_attribute(object, name, text_type().get(), static_cast<const void*>(&text));
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+  const auto [base, path] = locate(object);
+  return check(H5Aexists_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT),
+               object + "@" + name) > 0;
+}
+
+template <class T>
+T Hdf5File::attribute(const std::string& object, const std::string& name) const {
+  constexpr bool is_text = std::is_same_v<T, std::string>;
+  constexpr auto kind = is_text ? H5T_STRING : std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT;
+  const std::string label = object + "@" + name;
+  if (!exists(object) || !has_attribute(object, name)) {
+    fail("it has no attribute \"" + name + "\" at \"" + object + "\"", {});
+  }
+  const auto [base, path] = locate(object);
+  const Handle attribute(
+      check(H5Aopen_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), label),
+      H5Aclose);
+  const Handle stored(check(H5Aget_type(attribute.get()), label), H5Tclose);
+  const Handle space(check(H5Aget_space(attribute.get()), label), H5Sclose);
+  if (H5Tget_class(stored.get()) != kind || H5Sget_simple_extent_npoints(space.get()) != 1) {
+    fail("the attribute \"" + name + "\" is of another type", object);
+  }
+  if constexpr (is_text) {
+    if (H5Tis_variable_str(stored.get()) <= 0)
+      fail("the attribute \"" + name + "\" is a text of fixed length", object);
+    char* text = nullptr;
+    check(H5Aread(attribute.get(), text_type().get(), static_cast<void*>(&text)), label);
+    std::string result(text == nullptr ? "" : text);
+    H5free_memory(text);
+    return result;
+  } else {
+    T value = 0;
+    check(H5Aread(attribute.get(), memory_type<T>(), &value), label);
+    return value;
+  }
+}
+template double Hdf5File::attribute(const std::string&, const std::string&) const;
+template std::int64_t Hdf5File::attribute(const std::string&, const std::string&) const;
+template std::string Hdf5File::attribute(const std::string&, const std::string&) const;
+
+Share share_of_rows(std::uint64_t n, MPI_Comm ranks) {
+  if (rank_count(ranks) == 1) return {};
+  std::uint64_t before = 0, all = 0;
+  MPI_Exscan(&n, &before, 1, MPI_UINT64_T, MPI_SUM, ranks);
+  MPI_Allreduce(&n, &all, 1, MPI_UINT64_T, MPI_SUM, ranks);
+  return {.whole = {all}, .first = {rank_of(ranks) == 0 ? 0 : before}};
+}
+
+Share share_of(const Share& rows, const Extents& extents, std::size_t row_dimension) {
+  if (rows.whole.empty()) return {};
+  Share share{.whole = extents, .first = Extents(extents.size(), 0)};
+  share.whole[row_dimension] = rows.whole[0];
+  share.first[row_dimension] = rows.first[0];
+  return share;
+}
+
+namespace {
+
+using Member = std::string Provenance::*;
+constexpr std::array<std::pair<const char*, Member>, 5> origin{{{"title", &Provenance::title},
+                                                                {"config", &Provenance::config},
+                                                                {"version", &Provenance::version},
+                                                                {"git_hash", &Provenance::git_hash},
+                                                                {"backend", &Provenance::backend}}};
+
+}  // namespace
+
+void write_provenance(Hdf5File& file, const Provenance& provenance) {
+  for (const auto& [name, member] : origin) file.set_attribute("/", name, provenance.*member);
+}
+
+Provenance read_provenance(const Hdf5File& file) {
+  Provenance provenance;
+  for (const auto& [name, member] : origin) {
+    if (file.has_attribute("/", name)) provenance.*member = file.attribute<std::string>("/", name);
+  }
+  return provenance;
+}
 
 }  // namespace barchan

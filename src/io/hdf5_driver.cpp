@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 #include "src/io/hdf5_handle.hpp"
 #if H5_VERSION_GE(1, 13, 0)
@@ -67,9 +68,8 @@ herr_t close_file(H5FD_t* file) {
 
 int compare(const H5FD_t* a, const H5FD_t* b) {
   const OpenFile &f = own(a), &g = own(b);
-  if (f.device != g.device) return f.device < g.device ? -1 : 1;
-  if (f.inode != g.inode) return f.inode < g.inode ? -1 : 1;
-  return 0;
+  const std::pair first(f.device, f.inode), second(g.device, g.inode);
+  return first < second ? -1 : first > second ? 1 : 0;
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {

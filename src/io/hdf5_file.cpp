@@ -1,5 +1,8 @@
 #include "src/io/hdf5_file.hpp"
 
+#include <fmt/ranges.h>
+
+#include <array>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -53,15 +56,43 @@ Handle creation_list(bool sealable) {
   return list;
 }
 
+herr_t take_first(unsigned, const H5E_error2_t* entry, void* reason) {
+  auto& text = *static_cast<std::string*>(reason);
+  if (text.empty() && entry->desc != nullptr) text = entry->desc;
+  return 0;
+}
+
+/// The innermost message of the library's error stack in the user's words.
+/// Call it before any other HDF5 function: each clears the stack.
+std::string last_reason() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
+  struct Plain {
+    const char *theirs, *ours;
+  };
+  static constexpr std::array<Plain, 3> plain{
+      {{"file signature not found", "it is not an HDF5 file"},
+       {"truncated file", "it is cut short (an incomplete copy, or a run that was killed)"},
+       {"object doesn't exist", "it has no such entry"}}};
+  for (const auto& [theirs, ours] : plain) {
+    if (text.find(theirs) != std::string::npos) return ours;
+  }
+  return text.empty() ? "unknown HDF5 error" : text;
+}
+
 }  // namespace
 
+void hdf5::start_library() {
+  static const bool started = [] {
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
 std::string to_string(const Extents& extents) {
-  std::string text;
-  for (const auto extent : extents) {
-    if (!text.empty()) text += " x ";
-    text += std::to_string(extent);
-  }
-  return text;
+  return fmt::format("{}", fmt::join(extents, " x "));
 }
 
 void Hdf5File::fail(const std::string& reason, const std::string& object) const {
@@ -77,9 +108,8 @@ void Hdf5File::fail(const std::string& reason, const std::string& object) const 
 template <class Code>
 Code Hdf5File::check(Code code, const std::string& object) const {
   if (code < 0)
-    fail(
-        *system_error_ != 0 ? std::generic_category().message(*system_error_) : hdf5::last_reason(),
-        object);
+    fail(*system_error_ != 0 ? std::generic_category().message(*system_error_) : last_reason(),
+         object);
   return code;
 }
 template int Hdf5File::check(int, const std::string&) const;
@@ -120,11 +150,6 @@ void Hdf5File::check_writes() const {
 void Hdf5File::close() {
   if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
   if (file_ >= 0) check(H5Fclose(std::exchange(file_, -1)));
-  check_writes();
-}
-
-void Hdf5File::flush() {
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
   check_writes();
 }
 
@@ -187,7 +212,8 @@ void Hdf5File::begin_hidden_group(const std::string& as) {
 }
 
 void Hdf5File::publish_group() {
-  flush();  // all that the new link leads to is there before the link
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL));  // all the new link leads to is there before the link
+  check_writes();
   check(H5Olink(hidden_, file_, hidden_name_.c_str(), H5P_DEFAULT, H5P_DEFAULT), hidden_name_);
   check(H5Gclose(std::exchange(hidden_, -1)), hidden_name_);
 }

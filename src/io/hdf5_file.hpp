@@ -38,6 +38,12 @@ struct Share {
   Extents whole, first;
 };
 
+/// This rank's n rows among those of all ranks, one rank after the other; the default on one rank.
+Share share_of_rows(std::uint64_t n, MPI_Comm ranks);
+
+/// The share of an array of `extents`, one of which is that of the rows.
+Share share_of(const Share& rows, const Extents& extents, std::size_t row_dimension);
+
 /// One open HDF5 file. With a communicator of more than one rank it is opened in parallel; every
 /// call is then collective, with equal arguments except the values and the shares.
 /// Object names are paths ("grid/x_face"); groups on the way to an array are made as needed.
@@ -57,7 +63,6 @@ class Hdf5File {
   ~Hdf5File();
 
   void close();
-  void flush();
 
   bool exists(const std::string& name) const;
   bool is_group(const std::string& name) const;
@@ -89,21 +94,19 @@ class Hdf5File {
   /// Type and extents of an array; extents are checked against the file's size before they are
   /// believed.
   ArrayInfo info(const std::string& name) const;
-  /// The whole array (converted to T where the file holds another number type).
+  /// The whole array (converted to T where the file holds another number type). Empty `expected`:
+  /// any extents.
   template <class T>
-  std::vector<T> read(const std::string& name) const;
-  /// As read(), but the array must have these extents.
-  template <class T>
-  std::vector<T> read(const std::string& name, const Extents& expected) const;
+  std::vector<T> read(const std::string& name, const Extents& expected = {}) const;
 
   /// Attributes of a group or an array; "/" is the file.
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
   bool has_attribute(const std::string& object, const std::string& name) const;
-  double real_attribute(const std::string& object, const std::string& name) const;
-  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
-  std::string text_attribute(const std::string& object, const std::string& name) const;
+  /// T is double, std::int64_t or std::string.
+  template <class T>
+  T attribute(const std::string& object, const std::string& name) const;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -124,9 +127,6 @@ class Hdf5File {
   void check_writes() const;
   void put_attribute(const std::string& object, const std::string& name, Id type,
                      const void* value);
-  /// `kind`: the H5T_class_t the stored attribute must have.
-  void get_attribute(const std::string& object, const std::string& name, int kind, Id type,
-                     void* value) const;
 
   std::filesystem::path path_;
   Mode mode_;
@@ -136,5 +136,19 @@ class Hdf5File {
   Id hidden_ = -1;
   std::string hidden_name_;
 };
+
+/// Where a file came from: written into every result and restart file.
+struct Provenance {
+  std::string title{};    // of the case
+  std::string config{};   // resolved TOML text
+  std::string version{};  // of Barchan
+  std::string git_hash{};
+  std::string backend{};  // Kokkos backend and device
+};
+
+/// As attributes of the file's root. Throws Hdf5Error.
+void write_provenance(Hdf5File& file, const Provenance& provenance);
+/// What the file says of itself; empty where it says nothing.
+Provenance read_provenance(const Hdf5File& file);
 
 }  // namespace barchan

@@ -1,9 +1,8 @@
-// Inside of hdf5_file: an identifier that closes itself, and the reason of the last failure.
+// Inside of hdf5_file: an identifier that closes itself, and the serial driver.
 #pragma once
 
 #include <hdf5.h>
 
-#include <string>
 #include <utility>
 
 namespace barchan::hdf5 {
@@ -39,9 +38,5 @@ struct DriverInfo {
 
 /// The serial driver of hdf5_driver.cpp, for H5Pset_driver() with a DriverInfo.
 hid_t file_driver();
-
-/// The innermost message of the library's error stack in the user's words.
-/// Call it before any other HDF5 function: each clears the stack.
-std::string last_reason();
 
 }  // namespace barchan::hdf5

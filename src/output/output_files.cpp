@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "kernels/coupling/frame_values.hpp"
-#include "src/io/row_share.hpp"
-#include "src/io/xdmf.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -19,9 +17,19 @@ auto on_host(const View& view) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
 }
 
+/// An array of this rank's grains, scalars (n) or vectors (n, 3), among those of all ranks.
 template <class View>
-auto values_of(const View& host) {
-  return std::span<const typename View::non_const_value_type>(host.data(), host.size());
+void write_rows(Hdf5File& file, const std::string& name, const View& view, const char* units,
+                const Share& rows) {
+  const auto host = on_host(view);
+  Extents extents{host.extent(0)};
+  if (View::rank() == 2) extents.push_back(host.extent(1));
+  file.write(name, std::span<const typename View::non_const_value_type>(host.data(), host.size()),
+             extents, units, share_of(rows, extents, 0));
+}
+
+auto ids_of(const GrainState& grains) {
+  return Kokkos::subview(grains.id, std::make_pair(0, grains.n));
 }
 
 /// Brings one field after the other to the host and into the group of a frame.
@@ -60,7 +68,8 @@ class FieldWriter {
 
   void write(const std::string& name, const std::string& units) {
     const auto host = on_host(values_);
-    file_.write(group_ + "/" + name, values_of(host), extents_, units, share_);
+    file_.write(group_ + "/" + name, std::span<const float>(host.data(), host.size()), extents_,
+                units, share_);
   }
 
   Hdf5File& file_;
@@ -71,50 +80,36 @@ class FieldWriter {
   Share share_;
 };
 
-void write_flow(Hdf5File& file, const std::string& group, const FluidState& fluid,
-                std::span<const NamedField> more) {
-  FieldWriter writer(file, group, fluid.grid);
-  writer.velocity(fluid.u);
-  writer.centred("p", fluid.p, "Pa");
-  writer.centred("alpha_f", fluid.alpha_f, "1");
-  writer.centred("nu_t", fluid.nu_t, "m^2/s");
-  for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
+void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
+                  const Share& rows) {
+  if (dunes) file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", rows);
 }
 
-void write_grain_arrays(Hdf5File& file, const std::string& group, const GrainState& grains,
-                        std::span<const NamedForce> forces, const Share& rows) {
+/// Appends all of the grains: id, x and d in double precision, the others in single precision.
+void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
+                   std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes,
+                   const Share& rows) {
   const auto n = static_cast<std::size_t>(grains.n);
   const Rows range(0, grains.n);
-  const Share vectors = share_of(rows, {n, 3}, 0);
-  const auto write = [&](const std::string& name, const auto& view, const char* units) {
-    const auto host = on_host(view);
-    const bool scalar = host.size() == n && decltype(host)::rank() == 1;
-    file.write(group + "/" + name, values_of(host), scalar ? Extents{n} : Extents{n, 3}, units,
-               scalar ? rows : vectors);
-  };
-
   const SplitGrains<GrainKinematics> split{.grains = grains.kin,
                                            .x = FrameVectors<double>("output: x", n),
                                            .d = Kokkos::View<double*>("output: d", n),
                                            .u = FrameVectors<float>("output: u", n),
                                            .omega = FrameVectors<float>("output: omega", n)};
   Kokkos::parallel_for("output: split grains", range, split);
-  write("id", Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)), "1");
-  write("x", split.x, "m");
-  write("d", split.d, "m");
-  write("u", split.u, "m/s");
-  write("omega", split.omega, "rad/s");
-
-  for (const auto& force : forces) {
-    const FrameVectors<float> out("output: force", n);
-    Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
-    write(force.name, out, "N");
-  }
-}
-
-void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
-                  const Share& rows) {
-  if (dunes) file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", rows);
+  frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
+    write_rows(file, group + "/id", ids_of(grains), "1", rows);
+    write_rows(file, group + "/x", split.x, "m", rows);
+    write_rows(file, group + "/d", split.d, "m", rows);
+    write_rows(file, group + "/u", split.u, "m/s", rows);
+    write_rows(file, group + "/omega", split.omega, "rad/s", rows);
+    for (const auto& force : forces) {
+      const FrameVectors<float> out("output: force", n);
+      Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
+      write_rows(file, group + "/" + force.name, out, "N", rows);
+    }
+    write_labels(file, group, dunes, rows);
+  });
 }
 
 void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& faces) {
@@ -137,6 +132,20 @@ void write_grid(Hdf5File& file, const Grid& grid) {
   write_axis(file, "grid/z", z);
 }
 
+/// Appends all of the flow, and the grid where the file is new.
+void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int64_t step,
+                 std::span<const NamedField> more) {
+  const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
+  frames.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
+    FieldWriter writer(file, group, fluid.grid);
+    writer.velocity(fluid.u);
+    writer.centred("p", fluid.p, "Pa");
+    writer.centred("alpha_f", fluid.alpha_f, "1");
+    writer.centred("nu_t", fluid.nu_t, "m^2/s");
+    for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
+  });
+}
+
 }  // namespace
 
 OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
@@ -148,32 +157,29 @@ OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& 
       grains_(folder / "grains.h5", provenance, restart_time, communicator, grains_xdmf),
       tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {}
 
-void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
-                               std::span<const NamedField> more) {
-  const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
-  fields_.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
-    write_flow(file, group, fluid, more);
-  });
+FrameFile OutputFiles::anew(const std::string& name, FrameFile::Describe describe) const {
+  return {folder_ / (name + ".h5"), provenance_, {}, communicator_, describe};
 }
 
-void OutputFiles::write_single(const std::string& name, double t, std::int64_t step,
-                               const FrameFile::Preamble& preamble,
-                               const FrameFile::Content& content,
-                               FrameFile::Describe describe) const {
-  FrameFile file(folder_ / (name + ".h5"), provenance_, {}, communicator_, describe);  // anew
-  file.append(t, step, preamble, content);
+Share OutputFiles::rows_of(const GrainState& grains) const {
+  return share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
+}
+
+void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
+                               std::span<const NamedField> more) {
+  append_flow(fields_, fluid, t, step, more);
 }
 
 void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
                                 std::span<const NamedField> fields,
                                 const std::map<std::string, double>& attributes) const {
   const auto preamble = [&](Hdf5File& h5) { write_grid(h5, grid); };
-  const auto content = [&](Hdf5File& h5, const std::string& group) {
+  FrameFile file = anew("flow_average", fields_xdmf);
+  file.append(t, step, preamble, [&](Hdf5File& h5, const std::string& group) {
     FieldWriter writer(h5, group, grid);
     for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
     for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
-  };
-  write_single("flow_average", t, step, preamble, content, fields_xdmf);
+  });
 }
 
 std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
@@ -181,20 +187,14 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
                                                     std::int64_t step) const {
   std::vector<std::string> names;
   if (grains != nullptr) {
-    const Share rows = share_of_rows(static_cast<std::uint64_t>(grains->n), communicator_);
+    FrameFile file = anew("failure_grains", grains_xdmf);
     const NamedForce contacts{"force_contact", grains->contact_force};
-    const auto content = [&](Hdf5File& file, const std::string& group) {
-      write_grain_arrays(file, group, *grains, std::span(&contacts, 1), rows);
-    };
-    write_single("failure_grains", t, step, {}, content, grains_xdmf);
+    append_grains(file, *grains, t, step, std::span(&contacts, 1), {}, rows_of(*grains));
     names.emplace_back("failure_grains.xdmf");
   }
   if (fluid != nullptr) {
-    const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid->grid); };
-    const auto content = [&](Hdf5File& file, const std::string& group) {
-      write_flow(file, group, *fluid, {});
-    };
-    write_single("failure_fields", t, step, preamble, content, fields_xdmf);
+    FrameFile file = anew("failure_fields", fields_xdmf);
+    append_flow(file, *fluid, t, step, {});
     names.emplace_back("failure_fields.xdmf");
   }
   return names;
@@ -202,28 +202,21 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
 
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
                                const DuneLabels& dunes) {
-  const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
-  const auto n = static_cast<std::size_t>(grains.n);
-  const FrameVectors<float> x("output: track", n);
+  const Share rows = rows_of(grains);
+  const FrameVectors<float> x("output: track", static_cast<std::size_t>(grains.n));
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
   tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    const auto id = on_host(Kokkos::subview(grains.id, std::make_pair(std::size_t{0}, n)));
-    const auto positions = on_host(x);
-    file.write(group + "/id", values_of(id), {n}, "1", rows);
+    write_rows(file, group + "/id", ids_of(grains), "1", rows);
     write_labels(file, group, dunes, rows);
-    file.write(group + "/x", values_of(positions), {n, 3}, "m", share_of(rows, {n, 3}, 0));
+    write_rows(file, group + "/x", x, "m", rows);
   });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
                                std::span<const NamedForce> forces, const DuneLabels& dunes) {
-  const Share rows = share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
-  grains_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    write_grain_arrays(file, group, grains, forces, rows);
-    write_labels(file, group, dunes, rows);
-  });
+  append_grains(grains_, grains, t, step, forces, dunes, rows_of(grains));
 }
 
 }  // namespace barchan

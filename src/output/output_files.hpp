@@ -15,7 +15,6 @@
 #include "src/grains/grain_state.hpp"
 #include "src/grains/named_force.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/io/provenance.hpp"
 
 namespace barchan {
 
@@ -65,10 +64,9 @@ class OutputFiles {
   const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
 
  private:
-  /// A file of one frame, replaced as a whole, and its description.
-  void write_single(const std::string& name, double t, std::int64_t step,
-                    const FrameFile::Preamble& preamble, const FrameFile::Content& content,
-                    FrameFile::Describe describe) const;
+  /// A file of one frame, replaced as a whole.
+  FrameFile anew(const std::string& name, FrameFile::Describe describe) const;
+  Share rows_of(const GrainState& grains) const;
 
   std::filesystem::path folder_;
   Provenance provenance_;

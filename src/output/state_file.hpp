@@ -1,7 +1,8 @@
-// The state of a run in restart files, bit for bit.
+// The state of a run in restart files, bit for bit. Any number of ranks can go on from a file; the
+// same number goes on with the same bits. All functions: all ranks together.
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/io/checkpoint.hpp"
@@ -17,5 +18,23 @@ void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& s
 
 /// Only the flow, as the start of another run on the same mesh.
 void load_flow(const CheckpointReader& file, FluidState& fluid);
+
+/// A field of the grid: the cells of all ranks with the ghosts around the whole domain; ghosts of
+/// `f` must be valid as far as the next step reads them.
+void save_field(CheckpointWriter& file, const std::string& name, const Grid& grid, const Field& f);
+/// This rank's part of it, ghosts included.
+void load_field(const CheckpointReader& file, const std::string& name, const Grid& grid,
+                const Field& f);
+
+/// The grains: rows of all ranks one after the other, contacts by the ids of their grains.
+void save_grains(CheckpointWriter& file, const GrainState& grains, const NeighborList& list);
+
+/// This rank's rows of a restart file without their history, to size the state: those it wrote if
+/// as many ranks did, else an equal share.
+GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks);
+
+/// All that save_grains() wrote, into `grains` from grains_in_file(). On another number of ranks
+/// the neighbour list is built anew.
+void load_grains(const CheckpointReader& file, GrainState& grains, NeighborList& list);
 
 }  // namespace barchan

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "src/config/config.hpp"
-#include "src/io/provenance.hpp"
+#include "src/io/hdf5_file.hpp"
 
 namespace barchan {
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstring>
 #include <fstream>
 
 #include "src/grains/grain_state.hpp"

@@ -9,7 +9,6 @@
 #include <limits>
 #include <numeric>
 
-#include "src/io/provenance.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -59,7 +58,7 @@ TEST(Hdf5File, ArraysOfAllRanksAndTypesComeBack) {
   EXPECT_EQ(file.info("empty").extents, (Extents{0, 3}));
   EXPECT_EQ(file.info("c").type, ElementType::float32);
   EXPECT_EQ(file.info("d").type, ElementType::int64);
-  EXPECT_EQ(file.text_attribute("group/deep/b", "units"), "m/s");
+  EXPECT_EQ(file.attribute<std::string>("group/deep/b", "units"), "m/s");
   EXPECT_EQ(file.children(), (std::vector<std::string>{"a", "c", "d", "empty", "group"}));
   EXPECT_TRUE(file.is_group("group/deep"));
   EXPECT_FALSE(file.is_group("a"));
@@ -86,13 +85,13 @@ TEST(Hdf5File, AttributesComeBackAndAreReplaced) {
   file.set_attribute("/", "text", "first");
   file.set_attribute("/", "text", "[case]\ntitle = \"d\u00fcne\"\n");
   file.set_attribute("/", "nothing", "");
-  EXPECT_EQ(file.real_attribute("/", "x"), 0.1);
-  EXPECT_EQ(file.integer_attribute("/", "n"), std::int64_t{1} << 60);
-  EXPECT_EQ(file.text_attribute("/", "text"), "[case]\ntitle = \"d\u00fcne\"\n");
-  EXPECT_EQ(file.text_attribute("/", "nothing"), "");
+  EXPECT_EQ(file.attribute<double>("/", "x"), 0.1);
+  EXPECT_EQ(file.attribute<std::int64_t>("/", "n"), std::int64_t{1} << 60);
+  EXPECT_EQ(file.attribute<std::string>("/", "text"), "[case]\ntitle = \"d\u00fcne\"\n");
+  EXPECT_EQ(file.attribute<std::string>("/", "nothing"), "");
   EXPECT_FALSE(file.has_attribute("/", "other"));
-  EXPECT_THROW(file.real_attribute("/", "n"), Hdf5Error);
-  EXPECT_THROW(file.text_attribute("/", "other"), Hdf5Error);
+  EXPECT_THROW(file.attribute<double>("/", "n"), Hdf5Error);
+  EXPECT_THROW(file.attribute<std::string>("/", "other"), Hdf5Error);
 }
 
 TEST(Hdf5File, ProblemsAreSentences) {
@@ -221,7 +220,7 @@ TEST(Hdf5File, AHiddenGroupAppearsWhenPublished) {
   const Hdf5File file(folder / "a.h5", Mode::read);
   EXPECT_EQ(file.children(), std::vector<std::string>{"frame"});
   EXPECT_EQ(file.read<double>("frame/a"), counting<double>(3));
-  EXPECT_EQ(file.real_attribute("frame", "time"), 2.0);
+  EXPECT_EQ(file.attribute<double>("frame", "time"), 2.0);
 }
 
 TEST(Provenance, ComesBackAndMayBeMissing) {

@@ -89,11 +89,11 @@ TEST(Output, FieldsAreCentredWithoutGhosts) {
       }
     }
   }
-  EXPECT_EQ(file.real_attribute("frame_000000", "time"), 0.5);
-  EXPECT_EQ(file.integer_attribute("frame_000000", "step"), 2000);
-  EXPECT_EQ(file.text_attribute("frame_000000/p", "units"), "Pa");
-  EXPECT_EQ(file.text_attribute("/", "title"), "flow");
-  EXPECT_EQ(file.text_attribute("/", "config"), "[case]\n");
+  EXPECT_EQ(file.attribute<double>("frame_000000", "time"), 0.5);
+  EXPECT_EQ(file.attribute<std::int64_t>("frame_000000", "step"), 2000);
+  EXPECT_EQ(file.attribute<std::string>("frame_000000/p", "units"), "Pa");
+  EXPECT_EQ(file.attribute<std::string>("/", "title"), "flow");
+  EXPECT_EQ(file.attribute<std::string>("/", "config"), "[case]\n");
 
   EXPECT_EQ(file.read<double>("grid/y_face", {ny + 1}), y_faces);
   EXPECT_EQ(file.read<double>("grid/x_face", {nx + 1}).back(), 12.5);
@@ -169,7 +169,7 @@ TEST(Output, GrainsAreTheOnesInside) {
   EXPECT_EQ(file.read<double>("frame_000000/u", {3, 3})[6], 3.0);
   EXPECT_EQ(file.read<double>("frame_000000/omega", {3, 3})[8], 8.0);
   EXPECT_FLOAT_EQ(file.read<float>("frame_000000/force_drag", {3, 3})[4], 2e-9f);
-  EXPECT_EQ(file.text_attribute("frame_000000/force_drag", "units"), "N");
+  EXPECT_EQ(file.attribute<std::string>("frame_000000/force_drag", "units"), "N");
   EXPECT_EQ(file.info("frame_000000/x").type, ElementType::float64);
   EXPECT_EQ(file.read<std::int32_t>("frame_000000/dune", {3}), (std::vector<int>{0, -1, 1}));
   EXPECT_EQ(
