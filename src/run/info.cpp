@@ -1,4 +1,4 @@
-#include "src/run/info.hpp"
+#include "src/run/commands.hpp"
 
 #include <fmt/format.h>
 
