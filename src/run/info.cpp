@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <exception>
-#include <optional>
-#include <stdexcept>
-
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/seal.hpp"
