@@ -131,17 +131,17 @@ void RunState::count_grains() {
   if (state.grains) n_grains = sum_over(ranks, state.grains->n);
 }
 
-void RunAccounts::begin() {
-  start = WallClock::now();
-  messages_at_start = message_counts();
-}
-
 void FluidStepSums::add(const FluidStepReport& report, double fluid_step) {
   ++steps;
   iterations += report.pressure_iterations;
   most_iterations = std::max<std::int64_t>(most_iterations, report.pressure_iterations);
   continuity_residual = std::max(continuity_residual, report.continuity_residual / fluid_step);
   courant = std::max(courant, report.courant);
+}
+
+void RunAccounts::begin() {
+  start = WallClock::now();
+  messages_at_start = message_counts();
 }
 
 void RunAccounts::save(CheckpointWriter& file) const {

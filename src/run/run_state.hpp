@@ -53,9 +53,8 @@ struct RunState {
 
 /// Sums and extremes over fluid steps.
 struct FluidStepSums {
-  std::int64_t steps = 0, iterations = 0;
+  std::int64_t steps = 0, iterations = 0, most_iterations = 0;
   double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
-  std::int64_t most_iterations = 0;
 
   void add(const FluidStepReport& report, double fluid_step);
   double mean_iterations() const {
