@@ -1,59 +1,14 @@
-#include "src/run/command_line.hpp"
-
-#include <algorithm>
+// From what the user typed to a CommandLine.
 #include <sstream>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "src/base/words.hpp"
+#include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {
-
-void add_overrides(CLI::App& command, CommandLine& line) {
-  command.add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml
-}
-
-CLI::App* add_run(CLI::App& app, CommandLine& line) {
-  CLI::App* run = app.add_subcommand("run", "run a case");
-  run->add_option("CONFIG", line.file, "the case, a TOML file")->required();
-  add_overrides(*run, line);
-  run->add_option("--out", line.out, "run folder (default: runs/<config name>)")->type_name("DIR");
-  run->add_option("--restart", line.restart, "go on from this restart file")->type_name("FILE");
-  run->add_option("--threads", line.threads, "threads per rank (default: all)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
-  run->add_option("--patience", line.patience,
-                  "wall time without progress after which several ranks give up (default: 600, "
-                  "0: never)")
-      ->type_name("SECONDS")
-      ->check(CLI::Range(0, 1'000'000));
-  run->add_flag("--dry-run", line.dry_run,
-                "check the case and show its numbers; nothing is run or written");
-  run->add_flag("--starts-only", line.starts_only,
-                "run the cases this one starts from where their results are missing, then stop");
-  run->add_flag("--quiet", line.quiet, "no live line on the terminal");
-  return run;
-}
-
-CLI::App* add_check(CLI::App& app, CommandLine& line) {
-  CLI::App* check =
-      app.add_subcommand("check", "validate a case; print it resolved, with derived numbers");
-  check->add_option("CONFIG", line.file, "the case, a TOML file")->required();
-  add_overrides(*check, line);
-  check->add_flag("--resolved-only", line.resolved_only,
-                  "print the case with every default as TOML, nothing else");
-  return check;
-}
-
-CLI::App* add_info(CLI::App& app, CommandLine& line) {
-  CLI::App* info = app.add_subcommand("info", "what a result or restart file holds");
-  info->add_option("FILE", line.file, "an HDF5 file")->required();
-  return info;
-}
 
 CommandLine bad_usage(const std::string& complaint) {
   CommandLine line;
@@ -106,15 +61,45 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
                "barchan"};
   app.require_subcommand(1);
   app.set_version_flag("--version", version);
-  const CLI::App* run = add_run(app, line);
-  const CLI::App* check = add_check(app, line);
-  const CLI::App* keys = app.add_subcommand("keys", "all keys of a case, as in docs/keys.md");
-  add_info(app, line);
+  const auto add_command = [&](Command command, const char* name, const char* what) {
+    CLI::App* added = app.add_subcommand(name, what);
+    added->callback([&line, command] { line.command = command; });
+    return added;
+  };
+  CLI::App* run = add_command(Command::run, "run", "run a case");
+  CLI::App* check = add_command(Command::check, "check",
+                                "validate a case; print it resolved, with derived numbers");
+  add_command(Command::keys, "keys", "all keys of a case, as in docs/keys.md");
+  add_command(Command::info, "info", "what a result or restart file holds")
+      ->add_option("FILE", line.file, "an HDF5 file")
+      ->required();
+  for (CLI::App* command : {run, check}) {
+    command->add_option("CONFIG", line.file, "the case, a TOML file")->required();
+    command->add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml
+  }
+  run->add_option("--out", line.out, "run folder (default: runs/<config name>)")->type_name("DIR");
+  run->add_option("--restart", line.restart, "go on from this restart file")->type_name("FILE");
+  run->add_option("--threads", line.threads, "threads per rank (default: all)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  run->add_option("--patience", line.patience,
+                  "wall time without progress after which several ranks give up (default: 600, "
+                  "0: never)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0, 1'000'000));
+  run->add_flag("--dry-run", line.dry_run,
+                "check the case and show its numbers; nothing is run or written");
+  run->add_flag("--starts-only", line.starts_only,
+                "run the cases this one starts from where their results are missing, then stop");
+  run->add_flag("--quiet", line.quiet, "no live line on the terminal");
+  check->add_flag("--resolved-only", line.resolved_only,
+                  "print the case with every default as TOML, nothing else");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& stop) {
-    const CLI::App& command = *app.get_subcommands().front();
-    const std::string found = not_expected(app, command);
+    const std::string found = not_expected(app, *app.get_subcommands().front());
     return bad_usage(found.empty() ? std::string(stop.what()) + "\n" : found);
   } catch (const CLI::ParseError& stop) {
     std::ostringstream out, err;
@@ -123,10 +108,6 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     shown.text = out.str();
     return shown;
   }
-  line.command = run->parsed()     ? Command::run
-                 : check->parsed() ? Command::check
-                 : keys->parsed()  ? Command::keys
-                                   : Command::info;
   return line;
 }
 

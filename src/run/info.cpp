@@ -1,11 +1,6 @@
-#include "src/run/info.hpp"
+#include "src/run/commands.hpp"
 
 #include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
-#include <optional>
-#include <stdexcept>
 
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"

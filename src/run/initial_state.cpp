@@ -58,20 +58,17 @@ void wrap(InitialGrains& grains, const Config& config) {
 
 /// Refuses grains that the domain does not hold.
 void check_inside(const InitialGrains& grains, const Config& config, const std::string& source) {
+  const auto [lx, ly, lz] = config.size;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3& x = grains.x[g];
     const double r = grains.diameter[g] / 2;
-    const bool inside = x.x >= 0 && x.x <= config.size[0] && x.y >= -r && x.y <= config.size[1] &&
-                        x.z >= 0 && x.z <= config.size[2];
-    if (!inside) {
-      const bool far_out = norm(x) > 10 * (config.size[0] + config.size[1] + config.size[2]);
-      throw InputError(
-          fmt::format("{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to "
-                      "({:.6g}, {:.6g}, "
-                      "{:.6g}) m (domain.size){}",
-                      source, grains.id[g], x.x, x.y, x.z, config.size[0], config.size[1],
-                      config.size[2], far_out ? "; lengths are in m, not mm" : ""));
-    }
+    if (x.x >= 0 && x.x <= lx && x.y >= -r && x.y <= ly && x.z >= 0 && x.z <= lz) continue;
+    const bool far_out = norm(x) > 10 * (lx + ly + lz);
+    throw InputError(
+        fmt::format("{}: grain {} at ({:.6g}, {:.6g}, {:.6g}) m lies outside the domain, 0 to "
+                    "({:.6g}, {:.6g}, {:.6g}) m (domain.size){}",
+                    source, grains.id[g], x.x, x.y, x.z, lx, ly, lz,
+                    far_out ? "; lengths are in m, not mm" : ""));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/grains/grain_sums.hpp"
+#include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
@@ -14,6 +15,14 @@ namespace barchan {
 
 namespace {
 
+DuneDomain dune_domain(const Config& config) {
+  const bool grains = config.grains.has_value();
+  return {.length_x = config.size[0],
+          .length_z = config.size[2],
+          .periodic_x = grains && config.grains->boundary_x == GrainBoundaryX::periodic,
+          .periodic_z = grains && config.grains->boundary_z == GrainBoundaryZ::periodic};
+}
+
 double kinetic_energy(const GrainState& grains) {
   double energy = 0;
   Kokkos::parallel_reduce("history: kinetic energy of the grains", grains.n,
@@ -22,6 +31,69 @@ double kinetic_energy(const GrainState& grains) {
 }
 
 }  // namespace
+
+RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_domain(run.config)) {
+  const auto& config = run.config.statistics;
+  if (!config) return;
+  statistics_.emplace(*run.config.fluid, run.state.fluid->grid);
+  if (config->fields) flow_average_.emplace(run.state.fluid->grid);
+  if (config->grain_forces) force_map_.emplace(dune_domain(run.config));
+}
+
+std::vector<DuneRow> RunDiagnostics::find_dunes() {
+  const GatheredGrains grains(*run_.state.grains);
+  largest_dune_.reset();
+  if (rank_of(run_.ranks) != 0) return {};
+  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains.cloud());
+  for (const DuneRow& dune : dunes) {
+    if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
+  }
+  return dunes;
+}
+
+std::vector<int> RunDiagnostics::dune_labels() const {
+  const GrainState& grains = *run_.state.grains;
+  const GatheredGrains all(grains);
+  std::vector<int> labels;
+  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all.cloud());
+  return from_rank_0(run_.ranks, labels, grains.n);
+}
+
+bool RunDiagnostics::sample_due() const {
+  const auto& config = run_.config.statistics;
+  return config && run_.clock.time() >= config->start && run_.clock.due(config->interval);
+}
+
+void RunDiagnostics::sample() {
+  statistics_->sample(*run_.state.fluid);
+  if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
+  if (!force_map_) return;
+  const GrainState& grains = *run_.state.grains;
+  const GatheredGrains all(grains);
+  const auto force = gathered(grains, run_.coupled_step.mean_resultant_force(grains));
+  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all.cloud(), force);
+}
+
+void RunDiagnostics::write(const RunFolder& folder, const OutputFiles& output) {
+  if (statistics_) statistics_->write(folder.file("statistics.csv"));
+  if (flow_average_) flow_average_->write(output, run_.clock.time(), run_.clock.step);
+  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder.file("force_map.csv"));
+}
+
+void RunDiagnostics::save(CheckpointWriter& file) const {
+  const std::vector<double> dunes = broadcast(tracker_.state(), run_.ranks);
+  file.array("dunes", std::span<const double>(dunes));
+  if (statistics_) statistics_->save(file);
+  if (flow_average_) flow_average_->save(file);
+  if (force_map_) force_map_->save(file);
+}
+
+void RunDiagnostics::load(const CheckpointReader& file) {
+  tracker_.set_state(file.array<double>("dunes"));
+  if (statistics_) statistics_->load(file);
+  if (flow_average_) flow_average_->load(file);
+  if (force_map_) force_map_->load(file);
+}
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
                              RunDiagnostics& diagnostics, RunAccounts& accounts)
@@ -39,14 +111,14 @@ void ResultsWriter::write_due() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing results", clock.step, clock.time());
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
-    const PhaseTimer timer(accounts_.phases(), "analytics");
-    write_dunes();
+    const PhaseTimer timer(accounts_.phases, "analytics");
+    for (const DuneRow& dune : diagnostics_.find_dunes()) folder_.append(dune);
   }
-  if (diagnostics_.sample_due(clock)) {
-    const PhaseTimer timer(accounts_.phases(), "analytics");
-    diagnostics_.sample(run_);
+  if (diagnostics_.sample_due()) {
+    const PhaseTimer timer(accounts_.phases, "analytics");
+    diagnostics_.sample();
   }
-  const PhaseTimer timer(accounts_.phases(), "output");
+  const PhaseTimer timer(accounts_.phases, "output");
   const bool history = clock.due(run_.config.output.history_interval);
   if (history) write_history();
   write_frames();
@@ -56,7 +128,7 @@ void ResultsWriter::write_due() {
 }
 
 void ResultsWriter::write_history() {
-  const HistoryInterval& interval = accounts_.interval();
+  const FluidStepSums& interval = accounts_.interval;
   HistoryRow row;
   row.t = run_.clock.time();
   row.step = run_.clock.step;
@@ -77,25 +149,21 @@ void ResultsWriter::write_history() {
     row.n_grains = run_.n_grains;
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
-    accounts_.add_overlap(contacts.max_overlap);
+    accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
   }
   folder_.append(row);
-  accounts_.begin_interval();
-}
-
-void ResultsWriter::write_dunes() {
-  for (const DuneRow& dune : diagnostics_.find_dunes(run_)) folder_.append(dune);
+  accounts_.interval = {};
 }
 
 void ResultsWriter::write_frames() {
   const RunClock& clock = run_.clock;
   const OutputConfig& o = run_.config.output;
   const double t = clock.time();
-  SystemState& now = run_.state;
+  const SystemState& now = run_.state;
   const bool grains = now.grains && clock.due(o.grains_interval);
   const bool tracks = now.grains && clock.due(o.tracks_interval);
   std::optional<std::vector<int>> dunes;
-  if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels(run_);
+  if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels();
   if (grains) {
     std::vector<NamedForce> forces;
     if (o.grain_forces) forces = run_.coupled_step.grain_forces(now);
@@ -121,8 +189,8 @@ void ResultsWriter::write_restart() {
   file.scalar("t", clock.time());
   file.scalar("step", clock.step);
   accounts_.save(file);
-  diagnostics_.save(file, run_.ranks);
-  diagnostics_.write(run_, folder_, output_);
+  diagnostics_.save(file);
+  diagnostics_.write(folder_, output_);
   Watchdog::last_good_restart(file.commit(run_.config.restart.keep));
   last_restart_ = WallClock::now();
 }

@@ -1,21 +1,51 @@
-// What a run writes, and when: tables, frames, restart files, summary.
+// What a run measures as it goes, what it writes, and when.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
-#include "src/base/errors.hpp"
-#include "src/base/stopwatch.hpp"
+#include "src/diagnostics/dune_analytics.hpp"
+#include "src/diagnostics/flow_average.hpp"
+#include "src/diagnostics/flow_statistics.hpp"
+#include "src/diagnostics/force_map.hpp"
 #include "src/output/output_files.hpp"
-#include "src/run/run_accounts.hpp"
-#include "src/run/run_diagnostics.hpp"
 #include "src/run/run_folder.hpp"
 #include "src/run/run_state.hpp"
 
 namespace barchan {
 
-/// Owns the run folder; refers to the rest. All ranks call every member together. Members throw
-/// std::runtime_error with a sentence for the user.
+/// The dunes, and means of the flow and of the forces over time. All ranks call every member
+/// together.
+class RunDiagnostics {
+ public:
+  explicit RunDiagnostics(const RunState& run);
+
+  /// The dunes now, in order of label, on rank 0; nothing on others.
+  std::vector<DuneRow> find_dunes();
+  /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
+  /// this step; -1: in none.
+  std::vector<int> dune_labels() const;
+  /// The largest of the dunes last found.
+  const std::optional<DuneRow>& largest_dune() const { return largest_dune_; }
+
+  /// From statistics.start on, every statistics.interval.
+  bool sample_due() const;
+  /// Adds the state of now to the means.
+  void sample();
+  /// statistics.csv, flow_average.h5 and force_map.csv.
+  void write(const RunFolder& folder, const OutputFiles& output);
+
+  void save(CheckpointWriter& file) const;
+  void load(const CheckpointReader& file);
+
+ private:
+  const RunState& run_;
+  DuneTracker tracker_;
+  std::optional<DuneRow> largest_dune_;
+  std::optional<FlowStatistics> statistics_;
+  std::optional<FlowAverage> flow_average_;
+  std::optional<ForceMap> force_map_;
+};
+
+/// Tables, frames, restart files and summary. Owns the run folder; refers to the rest. All ranks
+/// call every member together. Members throw std::runtime_error with a sentence for the user.
 class ResultsWriter {
  public:
   /// Makes the folder ready: removes the results of an earlier run, or those later than the
@@ -35,7 +65,6 @@ class ResultsWriter {
 
  private:
   void write_history();
-  void write_dunes();
   void write_frames();
   bool restart_due() const;
 

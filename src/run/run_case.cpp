@@ -1,16 +1,14 @@
-#include "src/run/run_case.hpp"
-
+// The commands run and check.
 #include <unistd.h>
 
-#include "src/base/errors.hpp"
-#include "src/base/report.hpp"
+#include <ostream>
+
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
+#include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/run/out_folder.hpp"
-#include "src/run/run_folder.hpp"
+#include "src/run/commands.hpp"
 #include "src/run/simulation.hpp"
 #include "src/run/watchdog.hpp"
 
@@ -20,50 +18,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A start that was stopped on request stops the case that wanted it.
-struct StoppedInPrerequisite {};
+/// The case was stopped on request, or one that it starts from.
+struct Stopped {};
 
-bool is_toml(const std::string& source) { return fs::path(source).extension() == ".toml"; }
-
-/// True if `folder` holds the finished run of exactly this configuration.
-bool is_finished(const fs::path& folder, const Config& config) {
-  return is_written_in(folder / "config.toml", config) && status_in(folder / "run.json") == "done";
-}
-
-/// Restart file of an unfinished run of the same configuration.
-std::optional<fs::path> unfinished(const fs::path& folder, const Config& config) {
-  if (!is_written_in(folder / "config.toml", config)) return {};
-  return latest_checkpoint(folder);
-}
-
-void show_warnings(const Config& config, const std::vector<SizeClass>& sizes) {
+/// What follows from the case, and what looks wrong in it.
+void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
+  report::info("{}", to_text(derive(config, sizes)));
   for (const Finding& f : validate(config, sizes)) {
     if (f.severity == Finding::Severity::warning) report::warn("{}: {}", f.keys.front(), f.message);
   }
 }
 
-Outcome run_one(const Config& config, const RunOptions& options);
+void run_one(const Config& config, const RunOptions& options);
 
-/// Last state of the case in `toml`, which is run, or run to its end, where that is missing.
-fs::path final_state(const std::string& toml, const fs::path& beside) {
-  const Config config = load_config(toml);
-  const fs::path folder = beside / fs::path(toml).stem();
+/// The file a case starts from. Where that is the last state of another case, in a .toml, that case
+/// is run, or run to its end, if the state is missing.
+fs::path start_file(const fs::path& source, const fs::path& beside) {
+  if (source.extension() != ".toml") return source.extension().empty() ? fs::path() : source;
+  const Config config = load_config(source);
+  const fs::path folder = beside / source.stem();
+  const bool same = is_written_in(folder / "config.toml", config);
   // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
-  if (!broadcast(is_finished(folder, config), MPI_COMM_WORLD)) {
+  if (!broadcast(same && status_in(folder / "run.json") == "done", MPI_COMM_WORLD)) {
     report::info("first the case it starts from: {} -> {}", config.title, folder.string());
-    const auto restart = unfinished(folder, config);
-    if (run_one(config, {.folder = folder, .restart = restart}) == Outcome::stopped) {
-      throw StoppedInPrerequisite{};
-    }
+    const auto restart = same ? latest_checkpoint(folder) : std::nullopt;
+    run_one(config, {.folder = folder, .restart = restart});
   }
   const auto state = latest_checkpoint(folder);
   if (!state) throw std::runtime_error(folder.string() + " holds no restart file to start from");
   return *state;
-}
-
-fs::path start_file(const std::string& source, const fs::path& beside) {
-  if (is_toml(source)) return final_state(source, beside);
-  return fs::path(source).extension().empty() ? fs::path{} : fs::path(source);
 }
 
 /// The files a case starts from; what is missing of them is run.
@@ -87,32 +70,27 @@ void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
       config.file.string(), need / 1e9, have / 1e9));
 }
 
-/// Rank 0 looks, all end if it finds something.
-template <class Check>
-void on_rank_0(const Check& check) {
+/// Before hours go into what a case starts from. Rank 0 looks, all end if it finds something.
+void check_folder(const Config& config, const RunOptions& options) {
   std::string problem;
   try {
-    if (rank_of(MPI_COMM_WORLD) == 0) check();
+    if (rank_of(MPI_COMM_WORLD) == 0) {
+      check_out_folder(options.folder);
+      if (options.restart) {
+        check_results_go_on(options.folder);
+      } else {
+        check_nothing_is_lost(config, options.folder);
+      }
+    }
   } catch (const InputError& found) {
     problem = found.what();
   }
   if (broadcast(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
 }
 
-/// Before hours go into what a case starts from.
-void check_folder(const Config& config, const RunOptions& options) {
-  on_rank_0([&] {
-    check_out_folder(options.folder);
-    if (options.restart) {
-      check_results_go_on(options.folder);
-    } else {
-      check_nothing_is_lost(config, options.folder);
-    }
-  });
-}
-
-Outcome run_one(const Config& config, const RunOptions& options) {
-  check_memory(config, known_sizes(config));
+void run_one(const Config& config, const RunOptions& options) {
+  const auto sizes = known_sizes(config);
+  check_memory(config, sizes);
   check_folder(config, options);
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
@@ -121,11 +99,9 @@ Outcome run_one(const Config& config, const RunOptions& options) {
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation(config, options, files);
   simulation.open_folder();
-  const auto sizes = known_sizes(config);
-  report::info("{}", to_text(derive(config, sizes)));
-  show_warnings(config, sizes);
+  show_numbers(config, sizes);
   try {
-    return simulation.run();
+    if (simulation.run() == Outcome::stopped) throw Stopped{};
   } catch (const std::exception& problem) {
     const auto last = simulation.last_restart();
     throw std::runtime_error(std::string(problem.what()) +
@@ -135,33 +111,47 @@ Outcome run_one(const Config& config, const RunOptions& options) {
 
 }  // namespace
 
-fs::path default_run_folder(const fs::path& config_file) {
-  return fs::path("runs") / config_file.stem();
-}
-
 int run_command(const CommandLine& line) {
   const Watchdog watchdog(line.patience, MPI_COMM_WORLD);
   const Config config = load_config(line.file, line.overrides);
   if (line.dry_run) {
-    const auto sizes = known_sizes(config);
-    report::info("{}\n{}", config.title, to_text(derive(config, sizes)));
-    show_warnings(config, sizes);
+    report::info("{}", config.title);
+    show_numbers(config, known_sizes(config));
     report::info("nothing was run (--dry-run)");
     return 0;
   }
-  const RunOptions options{.folder = line.out.value_or(default_run_folder(line.file)),
+  const RunOptions options{.folder = line.out.value_or(fs::path("runs") / line.file.stem()),
                            .restart = line.restart};
   try {
     if (line.starts_only) {
       start_files(config, options.folder);
-      return 0;
+    } else {
+      run_one(config, options);
+      report::info("results in {}", options.folder.string());
     }
-    const Outcome outcome = run_one(config, options);
-    if (outcome == Outcome::done) report::info("results in {}", options.folder.string());
-    return outcome == Outcome::done ? 0 : 3;
-  } catch (const StoppedInPrerequisite&) {
+    return 0;
+  } catch (const Stopped&) {
     return 3;
   }
+}
+
+int run_check(const CommandLine& line, std::ostream& out) {
+  const Config config = load_config(line.file, line.overrides);
+  if (line.resolved_only) {
+    out << to_toml(config);
+    return 0;
+  }
+  const auto sizes = known_sizes(config);
+  out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
+  out << "\n# What follows from it\n\n" << to_text(derive(config, sizes));
+  if (config.grains && sizes.empty()) {
+    out << "  grain sizes             as in " << config.initial.grains.string()
+        << ": the grain step is checked against them in the run\n";
+  }
+  const auto warnings = config_warnings(config, sizes);
+  if (!warnings.empty()) out << '\n';
+  for (const std::string& warning : warnings) out << warning << '\n';
+  return 0;
 }
 
 }  // namespace barchan

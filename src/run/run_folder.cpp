@@ -4,21 +4,22 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <Kokkos_Core.hpp>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <stdexcept>
-#include <system_error>
 
+#include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
+#include "src/config/resolved.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -38,30 +39,28 @@ constexpr const char* result_names[] = {
     "fields.xdmf",     "grains.h5",         "grains.xdmf",   "tracks.h5", "statistics.csv",
     "flow_average.h5", "flow_average.xdmf", "force_map.csv", "log.txt"};
 
-/// Results of an earlier run; pictures and everything that is not ours stay.
-void remove_results(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (is_result(entry.path().filename())) std::filesystem::remove(entry.path());
-  }
-}
-
-void make_folder(const std::filesystem::path& folder) {
+void make_folder(const fs::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  fs::create_directories(folder, error);
   if (error) {
     throw InputError("cannot make the folder " + folder.string() + ": " + error.message() +
                      "; take another --out");
   }
 }
 
-bool is_one_of(std::span<const char* const> names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// True for names of files that a new run removes from its folder; pictures and everything that is
+/// not ours stay.
+bool is_result(const fs::path& name) {
+  const auto is_name = [&](const char* known) { return name == known; };
+  return std::ranges::any_of(result_names, is_name) ||
+         std::ranges::any_of(failure_names, is_name) || name.extension() == ".tmp" ||
+         is_checkpoint_name(name);
 }
 
 /// The text of a table to go on with; empty if there is none yet.
-std::string text_of_table(const std::filesystem::path& file, const std::string& header) {
+std::string text_of_table(const fs::path& file, const std::string& header) {
   const std::string first_line = header + "\n";
-  const std::string text = std::filesystem::exists(file) ? read_text(file) : std::string();
+  const std::string text = fs::exists(file) ? read_text(file) : std::string();
   if (!text.empty() && !text.starts_with(first_line) && !first_line.starts_with(text)) {
     throw std::runtime_error("cannot continue " + file.string() + ": its columns are not \"" +
                              header + "\"");
@@ -69,26 +68,115 @@ std::string text_of_table(const std::filesystem::path& file, const std::string& 
   return text;
 }
 
-}  // namespace
-
-bool is_result(const std::filesystem::path& name) {
-  return is_one_of(result_names, name) || is_one_of(failure_names, name) ||
-         name.extension() == ".tmp" || is_checkpoint_name(name);
+[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
+  throw InputError(
+      fmt::format("cannot write results to {}: {}; take another --out", folder.string(), why));
 }
 
-std::string status_in(const std::filesystem::path& run_json) {
+/// The nearest folder on the way up that is there.
+fs::path existing_part(const fs::path& folder) {
+  fs::path at = fs::absolute(folder).lexically_normal();
+  for (;; at = at.parent_path()) {
+    std::error_code error;
+    const auto status = fs::symlink_status(at, error);
+    if (error && status.type() != fs::file_type::not_found && error.value() != ENOTDIR) {
+      refuse(folder, error.message());
+    }
+    if (fs::exists(status) || at == at.parent_path()) return at;
+  }
+}
+
+bool same_folder(const fs::path& a, const fs::path& b) {
+  // What is not there yet is compared by name, which must not depend on where we are.
+  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+void check_start(const std::string& key, const std::string& source, const fs::path& folder) {
+  const fs::path start = source;
+  const auto lost = [&](const std::string& what) {
+    throw InputError(
+        fmt::format("{} = {}: {} {}, whose results a new run removes; take another --out", key,
+                    source, what, folder.string()));
+  };
+  if (start.extension() == ".toml") {
+    const fs::path results = fs::absolute(folder).parent_path() / start.stem();
+    if (same_folder(results, folder))
+      lost("the results of that case go to the folder of this one,");
+  } else if (!start.extension().empty() && is_result(start.filename()) &&
+             same_folder(start.parent_path(), folder)) {
+    lost("it is in the run folder");
+  }
+}
+
+}  // namespace
+
+std::string device_name() {
+  return std::string(Kokkos::DefaultExecutionSpace::name()) + ", " +
+         std::to_string(Kokkos::DefaultExecutionSpace().concurrency()) + " threads";
+}
+
+Provenance make_provenance(const Config& config) {
+  return {.title = config.title,
+          .config = to_toml(config),
+          .version = BARCHAN_VERSION,
+          .git_hash = BARCHAN_GIT_HASH,
+          .backend = device_name()};
+}
+
+void check_out_folder(const fs::path& folder) {
+  if (folder.empty()) throw InputError("--out: must name a folder, and the name is empty");
+  const fs::path there = existing_part(folder);
+  std::error_code error;
+  if (!fs::is_directory(there, error)) {
+    const bool link = fs::is_symlink(there, error);
+    refuse(folder, fmt::format("{} is {}", there.string(),
+                               link ? "a link that leads nowhere" : "a file, not a folder"));
+  }
+  if (::access(there.c_str(), W_OK | X_OK) != 0) {
+    refuse(folder, fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
+  }
+  if (!same_folder(there, folder)) return;
+  for (const auto& entry : fs::directory_iterator(there)) {
+    if (is_result(entry.path().filename()) && entry.is_directory()) {
+      refuse(folder, entry.path().filename().string() + " in it is a folder");
+    }
+  }
+}
+
+void check_nothing_is_lost(const Config& config, const fs::path& folder) {
+  if (config.fluid) check_start("initial.fluid", config.initial.fluid, folder);
+  if (config.grains) check_start("initial.grains", config.initial.grains, folder);
+  const fs::path own = fs::path(folder) / "config.toml";
+  std::error_code error;
+  if (fs::equivalent(own, config.file, error) && read_text(own) != to_toml(config)) {
+    throw InputError(
+        fmt::format("{}: the run would write its own config.toml over this case; take another "
+                    "--out, or rename it",
+                    config.file.string()));
+  }
+}
+
+void check_results_go_on(const fs::path& folder) {
+  try {
+    text_of_table(folder / history_name, history_header);
+    text_of_table(folder / dune_name, dune_header);
+    for (const char* name : {"grains.h5", "fields.h5", "tracks.h5"}) {
+      if (fs::exists(folder / name)) list_frames(Hdf5File(folder / name, Hdf5File::Mode::read));
+    }
+  } catch (const std::runtime_error& problem) {
+    throw InputError(
+        fmt::format("{}; move it away, or go on in another folder with --out", problem.what()));
+  }
+}
+
+std::string status_in(const fs::path& run_json) {
   std::ifstream in(run_json);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   const auto status = json.find("status");
   return status != json.end() && status->is_string() ? status->get<std::string>() : std::string();
 }
 
-void check_tables(const std::filesystem::path& folder) {
-  text_of_table(folder / history_name, history_header);
-  text_of_table(folder / dune_name, dune_header);
-}
-
-void cut_table(const std::filesystem::path& file, const std::string& header, double t) {
+void cut_table(const fs::path& file, const std::string& header, double t) {
   std::string kept = header + "\n";
   const std::string text = text_of_table(file, header);
   const auto columns = std::count(header.begin(), header.end(), ',');
@@ -107,14 +195,17 @@ void cut_table(const std::filesystem::path& file, const std::string& header, dou
   write_atomically(file, kept);
 }
 
-RunFolder::RunFolder(std::filesystem::path folder, std::optional<double> restart_time,
-                     MPI_Comm communicator)
+RunFolder::RunFolder(fs::path folder, std::optional<double> restart_time, MPI_Comm communicator)
     : folder_(std::move(folder)), root_(rank_of(communicator) == 0) {
   synchronise(communicator);  // others may still read what is about to go
   if (root_) {
     make_folder(folder_);
-    for (const char* name : failure_names) std::filesystem::remove(folder_ / name);
-    if (!restart_time) remove_results(folder_);
+    for (const char* name : failure_names) fs::remove(folder_ / name);
+    if (!restart_time) {
+      for (const auto& entry : fs::directory_iterator(folder_)) {
+        if (is_result(entry.path().filename())) fs::remove(entry.path());
+      }
+    }
     const double t = restart_time.value_or(0.0);
     cut_table(file(history_name), history_header, t);
     cut_table(file(dune_name), dune_header, t);

@@ -1,18 +1,32 @@
-// The folder of one run: configuration, summary and the two CSV tables (formats:
-// docs/conventions.md).
+// The folder of one run: whether results can go there, asked before anything is computed; its
+// configuration, summary and two CSV tables (formats: docs/conventions.md).
 #pragma once
 
 #include <mpi.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <string>
 
+#include "src/config/config.hpp"
 #include "src/diagnostics/dune_shape.hpp"
+#include "src/io/provenance.hpp"
 
 namespace barchan {
+
+/// Backend and what it runs on, in words.
+std::string device_name();
+/// Title and resolved text of the case, version of the program, backend.
+Provenance make_provenance(const Config& config);
+
+/// Throws InputError if `folder` cannot be made or written, or holds folders where results go.
+/// Makes nothing.
+void check_out_folder(const std::filesystem::path& folder);
+/// Throws InputError if a new run in `folder` would remove what it starts from, the case itself
+/// included.
+void check_nothing_is_lost(const Config& config, const std::filesystem::path& folder);
+/// Throws InputError if the tables and frames in `folder` are not such as a restart goes on with.
+void check_results_go_on(const std::filesystem::path& folder);
 
 /// One line of history.csv.
 struct HistoryRow {
@@ -64,12 +78,6 @@ class RunFolder {
 
 /// The "status" in a run.json; empty if the file is missing or damaged.
 std::string status_in(const std::filesystem::path& run_json);
-
-/// True for names of files that a new run removes from its folder.
-bool is_result(const std::filesystem::path& name);
-
-/// Throws std::runtime_error when a table in the folder is not one that a restart can go on with.
-void check_tables(const std::filesystem::path& folder);
 
 /// Keeps the lines of a CSV table whose first column is at most `t`; a last line that was not
 /// written to its end goes too. A missing or empty file becomes one with the header only.

@@ -2,7 +2,8 @@
 
 #include <fmt/ranges.h>
 
-#include "src/base/errors.hpp"
+#include <nlohmann/json.hpp>
+
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
@@ -10,18 +11,19 @@
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/run/run_identity.hpp"
+#include "src/run/run_folder.hpp"
 
 namespace barchan {
 
 namespace {
 
-/// Refuses a restart file that does not fit the case.
-void check_restart(const Config& config, const CheckpointReader& file) {
+/// What changed since the restart file was written. Refuses a file that does not fit the case.
+std::vector<std::string> changes_since(const CheckpointReader& file, const Config& config) {
   const std::string resolved = file.provenance().config;
-  if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
-  const auto conflicts = restart_conflicts(config, config_as_written(resolved, file.path()));
-  if (conflicts.empty()) return;
+  if (resolved.empty()) return {};  // not ours: its arrays must speak for themselves
+  const Config written = config_as_written(resolved, file.path());
+  const auto conflicts = restart_conflicts(config, written);
+  if (conflicts.empty()) return changed_keys(config, written);
   throw InputError(
       fmt::format("cannot restart from {}: it does not fit this case\n  {}\nkeep these keys "
                   "as they were, or start anew",
@@ -32,11 +34,51 @@ void check_restart(const Config& config, const CheckpointReader& file) {
 SystemState first_state(const Config& config, const CheckpointReader* restart,
                         const InitialFiles& files, MPI_Comm ranks, const Decomposition* pencils) {
   if (restart == nullptr) return make_initial_state(config, files, ranks, pencils);
-  check_restart(config, *restart);
   SystemState state;
   if (config.fluid) state.fluid = make_fluid_state(make_grid(config, pencils));
   if (config.grains) state.grains = grains_in_file(*restart, ranks);
   return state;
+}
+
+double per_step(const RunState& run, double sum) {
+  return sum / std::max<double>(1, static_cast<double>(run.clock.steps_done()));
+}
+
+/// Cells of all ranks, each as often as it was computed.
+double cell_steps(const RunState& run) {
+  if (!run.state.fluid) return 0;
+  const Grid& g = run.state.fluid->grid;
+  const std::int64_t cells = std::int64_t{1} * g.nx_all * g.ny * g.nz_all;
+  return static_cast<double>(run.clock.steps_done()) * static_cast<double>(cells);
+}
+
+/// Wall seconds per fluid step, by phase.
+Phases phases_per_step(const RunState& run, const Phases& others) {
+  Phases all;
+  for (const Phases* phases : {&run.coupled_step.phases(), &others}) {
+    for (const auto& [name, seconds] : *phases) all[name] = per_step(run, seconds);
+  }
+  return all;
+}
+
+/// Per fluid step, of this rank; the imbalance is that of all.
+std::map<std::string, double> communication(const RunState& run, const MessageCounts& start) {
+  const MessageCounts& now = message_counts();
+  const auto since = [&](auto all, auto before, double unit = 1) {
+    return per_step(run, unit * static_cast<double>(all - before));
+  };
+  std::map<std::string, double> c;
+  c["messages"] = since(now.messages, start.messages);
+  c["megabytes"] = since(now.bytes, start.bytes, 1e-6);
+  c["reductions"] = since(now.reductions, start.reductions);
+  c["all_to_alls"] = since(now.all_to_alls, start.all_to_alls);
+  if (!run.state.grains) return c;
+  const NeighborList& list = run.coupled_step.neighbor_list();
+  c["grains"] = run.state.grains->n;
+  c["ghost_grains"] = run.state.grains->n_ghosts;
+  c["grain_imbalance"] = list.partition()->imbalance();
+  c["list_rebuilds"] = per_step(run, static_cast<double>(list.rebuilds()));
+  return c;
 }
 
 }  // namespace
@@ -47,6 +89,8 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
       pencils(make_decomposition(config, ranks)),
+      changed_config(as_input(
+          [&] { return restart ? changes_since(*restart, config) : std::vector<std::string>{}; })),
       state(as_input([&] { return first_state(config, restart, files, ranks, pencils.get()); })),
       coupled_step(as_input([&] { return CoupledStep(config, state); })) {
   as_input([&] {
@@ -74,9 +118,6 @@ void RunState::go_on_from(const CheckpointReader& file) {
     throw InputError(fmt::format("cannot restart from {}: its time {:.6g} s is not that of step {}",
                                  file.path().string(), *restart_time, clock.step));
   }
-  const std::string resolved = file.provenance().config;
-  if (!resolved.empty())
-    changed_config = changed_keys(config, config_as_written(resolved, file.path()));
 }
 
 void RunState::advance() {
@@ -89,10 +130,83 @@ void RunState::count_grains() {
   if (state.grains) n_grains = sum_over(ranks, state.grains->n);
 }
 
-std::int64_t RunState::n_cells() const {
-  if (!state.fluid) return 0;
-  const Grid& g = state.fluid->grid;
-  return std::int64_t{1} * g.nx_all * g.ny * g.nz_all;
+void FluidStepSums::add(const FluidStepReport& report, double fluid_step) {
+  ++steps;
+  iterations += report.pressure_iterations;
+  most_iterations = std::max<std::int64_t>(most_iterations, report.pressure_iterations);
+  continuity_residual = std::max(continuity_residual, report.continuity_residual / fluid_step);
+  courant = std::max(courant, report.courant);
+}
+
+void RunAccounts::begin() {
+  start = WallClock::now();
+  messages_at_start = message_counts();
+}
+
+void RunAccounts::save(CheckpointWriter& file) const {
+  const std::array<double, 4> numbers{static_cast<double>(interval.steps),
+                                      static_cast<double>(interval.iterations),
+                                      interval.continuity_residual, interval.courant};
+  file.array("since_history_row", std::span<const double>(numbers));
+}
+
+void RunAccounts::load(const CheckpointReader& file) {
+  if (!file.has("since_history_row")) return;
+  const auto numbers = file.array<double>("since_history_row", {4});
+  interval = {.steps = static_cast<std::int64_t>(numbers[0]),
+              .iterations = static_cast<std::int64_t>(numbers[1]),
+              .continuity_residual = numbers[2],
+              .courant = numbers[3]};
+}
+
+Progress RunAccounts::progress(const RunState& run) const {
+  const double seconds = std::max(seconds_since(start), 1e-9);
+  Progress p;
+  p.t = run.clock.time();
+  p.t_start = static_cast<double>(run.clock.start) * run.clock.fluid_step;
+  p.t_end = run.config.time.end;
+  p.grain_steps_per_second = static_cast<double>(grain_steps) / seconds;
+  if (run.state.fluid) {
+    p.cell_steps_per_second = cell_steps(run) / seconds;
+    p.cfl = run.coupled_step.fluid_report().courant;
+    p.pressure_iterations = run.coupled_step.fluid_report().pressure_iterations;
+  }
+  p.n_grains = run.n_grains;
+  return p;
+}
+
+nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::string& status,
+                                            const std::string& message) const {
+  const double wall = seconds_since(start), for_rates = std::max(wall, 1e-9);
+  const int ranks = rank_count(run.ranks);
+  const std::int64_t grains_at_start = run.state.grains ? run.state.grains->n_initial : 0;
+  nlohmann::ordered_json json;
+  json["status"] = status;
+  json["message"] = message;
+  json["title"] = run.provenance.title;
+  json["version"] = run.provenance.version;
+  json["git_hash"] = run.provenance.git_hash;
+  json["backend"] = Kokkos::DefaultExecutionSpace::name();
+  json["device"] = device_name();
+  json["threads"] = Kokkos::DefaultExecutionSpace().concurrency();
+  json["ranks"] = ranks;
+  json["steps"] = run.clock.step;
+  json["simulated_seconds"] = run.clock.time();
+  json["wall_seconds"] = wall;
+  json["phases"] = phases_per_step(run, phases);
+  json["grain_steps_per_second"] = static_cast<double>(grain_steps) / for_rates;
+  json["cell_steps_per_second"] = cell_steps(run) / for_rates;
+  json["pressure_iterations_mean"] = per_step(run, static_cast<double>(all.iterations));
+  json["pressure_iterations_max"] = all.most_iterations;
+  json["max_cfl"] = all.courant;
+  json["max_overlap"] = max_overlap;
+  json["max_continuity_residual"] = all.continuity_residual;
+  if (ranks > 1) json["communication"] = communication(run, messages_at_start);
+  json["ledger"] = run.coupled_step.ledger().entries();
+  json["grains_initial"] = grains_at_start;
+  json["grains_inside"] = run.n_grains;
+  json["grains_left"] = grains_at_start - run.n_grains;
+  return json;
 }
 
 }  // namespace barchan

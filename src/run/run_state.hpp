@@ -1,18 +1,12 @@
-// A run in memory: the case, its state, what advances it, and how far it has come.
+// A run in memory: the case, its state, what advances it, how far it has come, and its accounts.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <nlohmann/json_fwd.hpp>
 
-#include "src/config/config.hpp"
-#include "src/coupling/coupled_step.hpp"
+#include "src/base/errors.hpp"
+#include "src/base/report.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/parallel/decomposition.hpp"
+#include "src/parallel/exchange.hpp"
 #include "src/run/initial_state.hpp"
 
 namespace barchan {
@@ -40,22 +34,53 @@ struct RunState {
 
   /// One fluid step.
   void advance();
-  std::int64_t n_cells() const;  // of all ranks; 0 without a flow
 
   MPI_Comm ranks = MPI_COMM_WORLD;
   Config config;
   Provenance provenance;
   RunClock clock;
   std::unique_ptr<const Decomposition> pencils;  // none: one rank has all of the grid
+  std::vector<std::string> changed_config;       // keys, since the restart file was written
   SystemState state;
   CoupledStep coupled_step;
-  std::int64_t n_grains = 0;                // inside, of all ranks
-  std::optional<double> restart_time;       // [s]; none: a new run
-  std::vector<std::string> changed_config;  // keys, since the restart file was written
+  std::int64_t n_grains = 0;           // inside, of all ranks
+  std::optional<double> restart_time;  // [s]; none: a new run
 
  private:
   void go_on_from(const CheckpointReader& file);
   void count_grains();
+};
+
+/// Sums and extremes over fluid steps.
+struct FluidStepSums {
+  std::int64_t steps = 0, iterations = 0, most_iterations = 0;
+  double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
+
+  void add(const FluidStepReport& report, double fluid_step);
+  double mean_iterations() const {
+    return static_cast<double>(iterations) / std::max<double>(1, static_cast<double>(steps));
+  }
+};
+
+/// Sums, extremes and rates for history.csv, the progress line and run.json.
+struct RunAccounts {
+  FluidStepSums interval, all;  // since the last row of history.csv; since begin()
+  double max_overlap = 0;       // over the mean diameter of the pair
+  std::int64_t grain_steps = 0;
+  Phases phases;  // wall time, besides those of the coupled step
+  WallClock::time_point start = WallClock::now();
+  MessageCounts messages_at_start;
+
+  /// Wall time and messages count from now on.
+  void begin();
+  /// The interval in restart files; those of earlier versions have none.
+  void save(CheckpointWriter& file) const;
+  void load(const CheckpointReader& file);
+  Progress progress(const RunState& run) const;
+  /// run.json. `status`: "running", "done", "stopped" or "failed"; `message`: why it stopped or
+  /// failed. Wall seconds of phases are per fluid step, what is communicated is of this rank.
+  nlohmann::ordered_json summary(const RunState& run, const std::string& status,
+                                 const std::string& message) const;
 };
 
 }  // namespace barchan

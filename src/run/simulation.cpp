@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include "src/base/errors.hpp"
 #include "src/base/stop_request.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/watchdog.hpp"
@@ -10,12 +9,6 @@
 namespace barchan {
 
 namespace {
-
-std::unique_ptr<const CheckpointReader> open_restart(const RunOptions& options) {
-  if (!options.restart) return {};
-  return as_input(
-      [&] { return std::make_unique<const CheckpointReader>(*options.restart, MPI_COMM_WORLD); });
-}
 
 /// Where the state of a start comes from, for messages.
 std::string source_of(const Config& config, const RunOptions& options, const InitialFiles& files) {
@@ -27,7 +20,11 @@ std::string source_of(const Config& config, const RunOptions& options, const Ini
 }  // namespace
 
 Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
-    : Simulation(config, options, files, open_restart(options)) {}
+    : Simulation(config, options, files, as_input([&] {
+                   return options.restart ? std::make_unique<const CheckpointReader>(
+                                                *options.restart, MPI_COMM_WORLD)
+                                          : nullptr;
+                 })) {}
 
 Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
                        const std::unique_ptr<const CheckpointReader>& restart)
@@ -52,25 +49,19 @@ void Simulation::open_folder() {
     report::info("changed since: {}", fmt::join(run_.changed_config, ", "));
 }
 
-void Simulation::begin() {
+Outcome Simulation::run() {
   catch_stop_signals();
   if (!results_) open_folder();
   accounts_.begin();
   results_->write_summary("running", "");
   if (!run_.restart_time) results_->write_due();
-}
-
-Outcome Simulation::run() {
-  begin();
   try {
     return loop();
   } catch (const StateError& problem) {
-    progress_.finish();
     const std::string message = results_->write_failure(problem);
     say_failed(message);
     throw std::runtime_error(message);
   } catch (const std::exception& problem) {
-    progress_.finish();
     say_failed(problem.what());
     throw;
   }
@@ -95,20 +86,22 @@ Outcome Simulation::loop() {
 /// Advances the state, keeps the accounts, and stops a run that has gone wrong.
 void Simulation::one_step() {
   Watchdog::beat("computing", run_.clock.step + 1, run_.clock.time());
-  accounts_.add_grain_steps(run_.n_grains, run_.coupled_step.substeps());
+  accounts_.grain_steps += run_.n_grains * run_.coupled_step.substeps();
   run_.advance();
   {
-    const PhaseTimer timer(accounts_.phases(), "state_checks");
+    const PhaseTimer timer(accounts_.phases, "state_checks");
     state_checks_.check(run_.state, run_.coupled_step);
   }
-  if (run_.state.fluid)
-    accounts_.add_fluid_step(run_.coupled_step.fluid_report(), run_.clock.fluid_step);
+  if (!run_.state.fluid) return;
+  for (FluidStepSums* sums : {&accounts_.interval, &accounts_.all})
+    sums->add(run_.coupled_step.fluid_report(), run_.clock.fluid_step);
 }
 
 /// Empty to go on. Clocks and signals may differ between ranks; all get the same answer.
 std::string Simulation::reason_to_stop() const {
   const double limit = run_.config.time.wall_clock_limit;
-  const bool out_of_time = limit > 0 && broadcast(accounts_.wall_seconds() > limit, run_.ranks);
+  const bool out_of_time =
+      limit > 0 && broadcast(seconds_since(accounts_.start) > limit, run_.ranks);
   const bool requested = any_rank(stop_signal() != 0, run_.ranks);
   if (out_of_time) return "the wall-clock limit was reached";
   return requested ? "stopped on request" : "";
@@ -124,6 +117,7 @@ void Simulation::show_progress() {
 
 /// In run.json, if the disk that may be the problem lets us.
 void Simulation::say_failed(const std::string& message) {
+  progress_.finish();
   try {
     results_->write_summary("failed", message);
   } catch (const std::exception&) {

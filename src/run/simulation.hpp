@@ -1,19 +1,8 @@
 // One run: the time loop, from the first step to an outcome.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-
-#include "src/base/report.hpp"
-#include "src/config/config.hpp"
 #include "src/coupling/state_checks.hpp"
-#include "src/run/initial_state.hpp"
 #include "src/run/results_writer.hpp"
-#include "src/run/run_accounts.hpp"
-#include "src/run/run_diagnostics.hpp"
-#include "src/run/run_state.hpp"
 
 namespace barchan {
 
@@ -35,8 +24,10 @@ class Simulation {
 
   /// Makes the folder ready: see ResultsWriter.
   void open_folder();
+
   /// To the end of the configured time, or until a signal or the wall-clock limit.
   Outcome run();
+
   /// The last restart file written, or the one the run went on from; if any.
   std::optional<std::filesystem::path> last_restart() const;
   const SystemState& state() const { return run_.state; }
@@ -44,7 +35,6 @@ class Simulation {
  private:
   Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
              const std::unique_ptr<const CheckpointReader>& restart);
-  void begin();
   Outcome loop();
   void one_step();
   std::string reason_to_stop() const;

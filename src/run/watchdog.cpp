@@ -20,16 +20,15 @@ namespace barchan {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
 
 constexpr auto look_interval = std::chrono::milliseconds(250);
-// More than this between two looks: the process was stopped (Ctrl-Z, a suspended job), and the rest
-// of it is no waiting.
-constexpr Seconds longest_look{1.0};
-// Rank k speaks k times this later: the lowest waiting rank ends the others before they speak, too.
-constexpr Seconds turn{2.0};
-// The others hear of that by SIGTERM, and have this long until they are killed.
-constexpr Seconds farewell{60.0};
+// More than this between two looks [s]: the process was stopped (Ctrl-Z, a suspended job), and the
+// rest of it is no waiting.
+constexpr double longest_look = 1;
+// Rank k speaks k times this later [s]: the lowest waiting rank ends the others before they speak.
+constexpr double turn = 2;
+// The others hear of that by SIGTERM, and have this long until they are killed [s].
+constexpr double farewell = 60;
 constexpr auto time_to_abort = std::chrono::seconds(5);
 
 /// Written by the main thread alone. The others read it when it no longer changes.
@@ -38,39 +37,10 @@ struct Pulse {
   std::atomic<const char*> doing{"starting"};
   std::atomic<std::int64_t> step{0};
   std::atomic<double> time{0};
+  std::mutex mutex;     // of the next
+  std::string restart;  // the last good one
 };
 Pulse pulse;
-
-struct {
-  std::mutex mutex;
-  std::string file;
-} restart;
-
-std::string host_name() {
-  std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
-  int length = 0;
-  MPI_Get_processor_name(name.data(), &length);
-  return {name.data(), static_cast<std::size_t>(length)};
-}
-
-/// Seconds without a beat, of those in which this process ran.
-class Wait {
- public:
-  double seconds() {
-    const auto now = Clock::now();
-    const auto beats = pulse.beats.load(std::memory_order_acquire);
-    const bool beaten = beats != beats_;
-    waited_ = beaten ? Seconds{0} : waited_ + std::min<Seconds>(now - looked_, longest_look);
-    beats_ = beats;
-    looked_ = now;
-    return waited_.count();
-  }
-
- private:
-  std::uint64_t beats_ = pulse.beats.load(std::memory_order_acquire);
-  Clock::time_point looked_ = Clock::now();
-  Seconds waited_{0};
-};
 
 /// MPI is not promised calls from two threads at once (that would cost every message), so this one
 /// may get stuck like the main thread. mpirun also ends all ranks when one leaves by itself.
@@ -84,29 +54,35 @@ class Wait {
 }
 
 void say(LongWait wait) {
-  wait.doing = pulse.doing.load(std::memory_order_relaxed);
-  wait.step = pulse.step.load(std::memory_order_relaxed);
-  wait.time = pulse.time.load(std::memory_order_relaxed);
+  wait.doing = pulse.doing;
+  wait.step = pulse.step;
+  wait.time = pulse.time;
   {
-    const std::lock_guard lock(restart.mutex);
-    wait.restart = restart.file;
+    const std::lock_guard lock(pulse.mutex);
+    wait.restart = pulse.restart;
   }
   // At once and whole; the locks of the streams may be what the main thread is stuck in.
   const std::string line = to_text(wait);
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
+/// Counts the seconds without a beat, of those in which this process ran.
 void watch(const std::stop_token& stop, LongWait wait, int patience, MPI_Comm communicator) {
-  const double limit = patience + wait.rank * turn.count();
-  const auto limit_now = [limit] { return stop_signal() == 0 ? limit : limit + farewell.count(); };
+  const double limit = patience + wait.rank * turn;
   std::mutex mutex;
   std::unique_lock lock(mutex);
   std::condition_variable_any stopped;
-  Wait pause;
-  while (wait.seconds < limit_now()) {
+  auto last_beats = pulse.beats.load(std::memory_order_acquire);
+  auto last_look = Clock::now();
+  while (wait.seconds < (stop_signal() == 0 ? limit : limit + farewell)) {
     stopped.wait_for(lock, stop, look_interval, [] { return false; });
     if (stop.stop_requested()) return;
-    wait.seconds = pause.seconds();
+    const auto beats = pulse.beats.load(std::memory_order_acquire);
+    const auto now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - last_look).count();
+    wait.seconds = beats == last_beats ? wait.seconds + std::min(passed, longest_look) : 0;
+    last_beats = beats;
+    last_look = now;
   }
   say(wait);
   end_all(communicator);
@@ -127,9 +103,12 @@ std::string to_text(const LongWait& wait) {
 
 Watchdog::Watchdog(int patience, MPI_Comm communicator) {
   if (patience <= 0 || rank_count(communicator) == 1) return;
+  std::array<char, MPI_MAX_PROCESSOR_NAME> host{};
+  int length = 0;
+  MPI_Get_processor_name(host.data(), &length);
   LongWait wait;
   wait.rank = rank_of(communicator);
-  wait.host = host_name();
+  wait.host.assign(host.data(), static_cast<std::size_t>(length));
   thread_ = std::jthread([wait, patience, communicator](const std::stop_token& stop) {
     watch(stop, wait, patience, communicator);
   });
@@ -144,8 +123,8 @@ void Watchdog::beat(const char* doing, std::int64_t step, double time) {
 }
 
 void Watchdog::last_good_restart(const std::filesystem::path& file) {
-  const std::lock_guard lock(restart.mutex);
-  restart.file = file.string();
+  const std::lock_guard lock(pulse.mutex);
+  pulse.restart = file.string();
 }
 
 }  // namespace barchan

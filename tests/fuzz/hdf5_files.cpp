@@ -8,7 +8,7 @@
 #include "src/grains/grain_files.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/run/info.hpp"
+#include "src/run/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan::fuzz {

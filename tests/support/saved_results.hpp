@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "src/run/run_identity.hpp"
+#include "src/run/run_folder.hpp"
 
 namespace barchan::test {
 

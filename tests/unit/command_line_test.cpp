@@ -1,4 +1,4 @@
-#include "src/run/command_line.hpp"
+#include "src/run/commands.hpp"
 
 #include <gtest/gtest.h>
 

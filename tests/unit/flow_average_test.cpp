@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "src/fluid/fluid_solver.hpp"
-#include "src/run/run_identity.hpp"
+#include "src/run/run_folder.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/temporary_folder.hpp"

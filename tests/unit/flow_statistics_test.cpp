@@ -5,7 +5,7 @@
 
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/run/run_identity.hpp"
+#include "src/run/run_folder.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/flow_fields.hpp"
 

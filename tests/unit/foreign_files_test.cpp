@@ -9,7 +9,7 @@
 #include "src/io/frame_file.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/io/seal.hpp"
-#include "src/run/info.hpp"
+#include "src/run/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/run/info.hpp"
+#include "src/run/commands.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,16 +21,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-int quiet_info(const std::filesystem::path& path, std::string* said = nullptr) {
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = run_info(path);
-  const std::string out = testing::internal::GetCapturedStdout();
-  const std::string err = testing::internal::GetCapturedStderr();
-  if (said != nullptr) *said = code == 0 ? out : err;
-  return code;
-}
-
 TEST(Info, DescribesResults) {
   const TemporaryFolder folder;
   FrameFile file(folder / "grains.h5", origin, {}, MPI_COMM_SELF);
@@ -42,8 +32,7 @@ TEST(Info, DescribesResults) {
           h.write(group + "/x", std::span<const double>(x), {10, 3}, "m");
         });
   }
-  std::string text;
-  EXPECT_EQ(quiet_info(folder / "grains.h5", &text), 0);
+  const std::string text = describe_file(folder / "grains.h5");
   EXPECT_TRUE(contains(text, "Ten thousand grains")) << text;
   EXPECT_TRUE(contains(text, "barchan 0.1.0 (abc1234), OpenMP")) << text;
   EXPECT_TRUE(contains(text, "3: frame_000000 ... frame_000002")) << text;
@@ -57,8 +46,7 @@ TEST(Info, DescribesRestarts) {
   writer.scalar("t", 0.3);
   const std::vector<double> p(24);
   writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
-  std::string text;
-  EXPECT_EQ(quiet_info(writer.commit(1), &text), 0);
+  const std::string text = describe_file(writer.commit(1));
   EXPECT_TRUE(contains(text, "restart file of step 1200")) << text;
   EXPECT_TRUE(contains(text, "0.3 s")) << text;
   EXPECT_TRUE(contains(text, "fluid/p")) << text;
@@ -69,14 +57,16 @@ TEST(Info, OtherFilesAreBadInput) {
   const TemporaryFolder folder;
   std::ofstream(folder / "text.h5") << "text\n";
   { Hdf5File(folder / "foreign.h5", Hdf5File::Mode::create).close(); }
-  std::string text;
-  EXPECT_EQ(quiet_info(folder / "no.h5", &text), 2);
-  EXPECT_EQ(text, "cannot read " + (folder / "no.h5").string() + ": No such file or directory\n");
-  EXPECT_EQ(quiet_info(folder / "text.h5", &text), 2);
-  EXPECT_TRUE(contains(text, "not an HDF5 file")) << text;
-  EXPECT_EQ(quiet_info(folder / "foreign.h5", &text), 2);
-  EXPECT_TRUE(contains(text, "not one that barchan wrote")) << text;
-  EXPECT_EQ(quiet_info(folder.path(), &text), 2);
+  const auto refusal = [&](const char* name) {
+    return message_of([&] { describe_file(folder / name); });
+  };
+  EXPECT_TRUE(contains(refusal("text.h5"), "not an HDF5 file")) << refusal("text.h5");
+  EXPECT_TRUE(contains(refusal("foreign.h5"), "not one that barchan wrote"));
+  EXPECT_NE(refusal("."), "");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_info(folder / "no.h5"), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "cannot read " + (folder / "no.h5").string() + ": No such file or directory\n");
 }
 
 TEST(Info, NoCutIsTakenForAWholeFile) {
@@ -90,7 +80,7 @@ TEST(Info, NoCutIsTakenForAWholeFile) {
     std::filesystem::copy_file(path, folder / "cut.h5",
                                std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(folder / "cut.h5", cut);
-    EXPECT_EQ(quiet_info(folder / "cut.h5"), 2) << cut << " of " << size;
+    EXPECT_NE(message_of([&] { describe_file(folder / "cut.h5"); }), "") << cut << " of " << size;
   }
 }
 

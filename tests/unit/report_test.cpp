@@ -9,20 +9,22 @@ namespace barchan {
 namespace {
 
 struct Said {
-  std::string out, err;
+  std::string out, err, log;  // log.txt; empty if there is none
 };
 
 template <class Talk>
-Said heard(const Talk& talk) {
+Said heard(const Talk& talk, bool quiet = false, int rank = 0) {
+  const TemporaryFolder folder;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
+  report::start(quiet, rank);
+  report::log_to(folder / "log.txt", false);
   talk();
   report::stop_log();
   report::start(false);
-  Said said;
-  said.out = testing::internal::GetCapturedStdout();
-  said.err = testing::internal::GetCapturedStderr();
-  return said;
+  return {.out = testing::internal::GetCapturedStdout(),
+          .err = testing::internal::GetCapturedStderr(),
+          .log = exists(folder / "log.txt") ? read_text(folder / "log.txt") : ""};
 }
 
 void say_all() {
@@ -31,39 +33,25 @@ void say_all() {
   report::error("disk full");
 }
 
+const std::string warnings = "warning: step is 25.0 % of the limit\nerror: disk full\n";
+
 TEST(Report, LinesGoToTheTerminalAndTheLog) {
-  const TemporaryFolder folder;
-  const Said said = heard([&] {
-    report::log_to(folder / "log.txt", false);
-    say_all();
-  });
+  const Said said = heard(say_all);
   EXPECT_EQ(said.out, "grains 3000\n");
-  EXPECT_EQ(said.err, "warning: step is 25.0 % of the limit\nerror: disk full\n");
-  EXPECT_EQ(read_text(folder / "log.txt"),
-            "grains 3000\nwarning: step is 25.0 % of the limit\nerror: disk full\n");
+  EXPECT_EQ(said.err, warnings);
+  EXPECT_EQ(said.log, said.out + warnings);
 }
 
 TEST(Report, QuietHidesInformationButLogsIt) {
-  const TemporaryFolder folder;
-  const Said said = heard([&] {
-    report::start(true);
-    report::log_to(folder / "log.txt", false);
-    say_all();
-  });
+  const Said said = heard(say_all, true);
   EXPECT_EQ(said.out, "");
-  EXPECT_EQ(said.err, "warning: step is 25.0 % of the limit\nerror: disk full\n");
-  EXPECT_TRUE(read_text(folder / "log.txt").starts_with("grains 3000\n"));
+  EXPECT_EQ(said.err, warnings);
+  EXPECT_EQ(said.log, "grains 3000\n" + warnings);
 }
 
 TEST(Report, OtherRanksAreSilent) {
-  const TemporaryFolder folder;
-  const Said said = heard([&] {
-    report::start(false, 1);
-    report::log_to(folder / "log.txt", false);
-    say_all();
-  });
-  EXPECT_EQ(said.out + said.err, "");
-  EXPECT_FALSE(std::filesystem::exists(folder / "log.txt"));
+  const Said said = heard(say_all, false, 1);
+  EXPECT_EQ(said.out + said.err + said.log, "");
 }
 
 TEST(Report, TheLogIsContinuedOrReplaced) {
@@ -114,10 +102,8 @@ TEST(Progress, DurationsRead) {
 }
 
 TEST(ProgressLine, PrintsPlainLinesNowAndThenWhereThereIsNoTerminal) {
-  const TemporaryFolder folder;
   const Progress p{.t = 2, .t_start = 0, .t_end = 2};
   const Said said = heard([&] {
-    report::log_to(folder / "log.txt", false);
     ProgressLine seldom(std::chrono::hours(1));
     EXPECT_FALSE(seldom.due());
     seldom.update(p);
@@ -127,16 +113,15 @@ TEST(ProgressLine, PrintsPlainLinesNowAndThenWhereThereIsNoTerminal) {
     always.finish();
   });
   EXPECT_EQ(said.out, "t 2 s  100.0 %  left 0 s\n");
-  EXPECT_EQ(read_text(folder / "log.txt"), said.out);
+  EXPECT_EQ(said.log, said.out);
 }
 
 TEST(ProgressLine, QuietShowsNone) {
-  const Said said = heard([] {
-    report::start(true);
+  const auto talk = [] {
     ProgressLine line(std::chrono::milliseconds(0));
     line.update({.t = 1, .t_start = 0, .t_end = 2});
-  });
-  EXPECT_EQ(said.out, "");
+  };
+  EXPECT_EQ(heard(talk, true).out, "");
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
+// Where results cannot go is told before anything is computed, and nothing that is needed is
+// removed; the tables, the summary and what a restart makes of them.
 #include "src/run/run_folder.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/config/resolved.hpp"
+#include "tests/support/config_problems.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,12 +24,7 @@ const std::string dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux\n";
 
 HistoryRow history_row(double t) {
-  HistoryRow row;
-  row.t = t;
-  row.step = 400;
-  row.u_star = 0.0168;
-  row.n_grains = 99999;
-  return row;
+  return {.t = t, .step = 400, .u_star = 0.0168, .n_grains = 99999};
 }
 
 std::vector<std::string> files_in(const std::filesystem::path& folder) {
@@ -107,20 +105,19 @@ TEST(RunFolder, ARestartCutsTheTables) {
 
 TEST(RunFolder, CutTableHandlesMissingEmptyAndForeignFiles) {
   const TemporaryFolder folder;
-  cut_table(folder / "new.csv", "t,a", 1.0);
-  EXPECT_EQ(read_text(folder / "new.csv"), "t,a\n");
-  std::ofstream(folder / "empty.csv").close();
-  cut_table(folder / "empty.csv", "t,a", 1.0);
-  EXPECT_EQ(read_text(folder / "empty.csv"), "t,a\n");
-  std::ofstream(folder / "half.csv") << "t,";  // killed while the header was written
-  cut_table(folder / "half.csv", "t,a", 1.0);
-  EXPECT_EQ(read_text(folder / "half.csv"), "t,a\n");
-  std::ofstream(folder / "other.csv") << "t,b\n1,2\n";
-  EXPECT_THROW(cut_table(folder / "other.csv", "t,a", 1.0), std::runtime_error);
-  EXPECT_EQ(read_text(folder / "other.csv"), "t,b\n1,2\n");
-  std::ofstream(folder / "bad.csv") << "t,a\n0,1\n1\nx,2\n0.5,3,4\n1,5\n2,6\n";
-  cut_table(folder / "bad.csv", "t,a", 1.0);
-  EXPECT_EQ(read_text(folder / "bad.csv"), "t,a\n0,1\n1,5\n");
+  const auto file = folder / "a.csv";
+  const auto cut = [&](const char* text) {
+    std::ofstream(file) << text;
+    cut_table(file, "t,a", 1.0);
+    return read_text(file);
+  };
+  cut_table(file, "t,a", 1.0);
+  EXPECT_EQ(read_text(file), "t,a\n");
+  EXPECT_EQ(cut(""), "t,a\n");
+  EXPECT_EQ(cut("t,"), "t,a\n");  // killed while the header was written
+  EXPECT_EQ(cut("t,a\n0,1\n1\nx,2\n0.5,3,4\n1,5\n2,6\n"), "t,a\n0,1\n1,5\n");
+  EXPECT_THROW(cut("t,b\n1,2\n"), std::runtime_error);
+  EXPECT_EQ(read_text(file), "t,b\n1,2\n");
 }
 
 TEST(RunFolder, ANewRunRemovesOnlyResults) {
@@ -180,6 +177,71 @@ TEST(RunFolder, SummaryIsReplacedAsAWhole) {
   run.write_summary({{"message", std::string(1000, 'm')}});
   run.write_summary({{"message", ""}});
   EXPECT_EQ(read_text(run.file("run.json")), "{\n  \"message\": \"\"\n}\n");
+}
+
+class OutFolder : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& text = "mine\n") {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string refused(const std::string& name) {
+    return message_of([&] { check_out_folder(folder_ / name); });
+  }
+  std::string lost(const Config& config, const std::string& name) {
+    return message_of([&] { check_nothing_is_lost(config, folder_ / name); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(OutFolder, IsAFolderOrCanBecomeOne) {
+  write("file");
+  std::filesystem::create_directories(folder_ / "here/grains.h5");
+  std::filesystem::create_symlink("nowhere", folder_ / "link");
+  EXPECT_EQ(refused("new/and/deep"), "");
+  EXPECT_EQ(refused("."), "");
+  EXPECT_NE(refused("file").find("file is a file, not a folder; take another --out"),
+            std::string::npos);
+  EXPECT_NE(refused("file/run").find("file is a file, not a folder"), std::string::npos);
+  EXPECT_NE(refused("link").find("a link that leads nowhere"), std::string::npos);
+  EXPECT_NE(refused("here").find("grains.h5 in it is a folder"), std::string::npos);
+  EXPECT_NE(refused(std::string(300, 'a')).find("too long"), std::string::npos);
+  EXPECT_NE(message_of([] { check_out_folder({}); }).find("must name a folder"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
+}
+
+TEST_F(OutFolder, DoesNotHoldWhatTheCaseStartsFrom) {
+  Config config = load_config_text(test::grain_case(), folder_ / "case.toml");
+  EXPECT_EQ(lost(config, "out"), "");
+  config.initial.grains = folder_ / "out/grains.h5";
+  EXPECT_NE(lost(config, "out").find("it is in the run folder"), std::string::npos);
+  EXPECT_EQ(lost(config, "other"), "");
+  config.initial.grains = folder_ / "out/heap.csv";  // no result: it stays
+  EXPECT_EQ(lost(config, "out"), "");
+  config.initial.grains = folder_ / "elsewhere/out.toml";  // its results go to out as well
+  EXPECT_NE(lost(config, "out").find("go to the folder of this one"), std::string::npos);
+}
+
+TEST_F(OutFolder, DoesNotHoldTheCaseItself) {
+  const std::string text = test::grain_case();
+  write("out/config.toml", text);
+  const Config config = load_config_text(text, folder_ / "out/config.toml");
+  EXPECT_NE(lost(config, "out").find("over this case"), std::string::npos);
+  EXPECT_EQ(lost(config, "other"), "");
+  write("out/config.toml", to_toml(config));  // the same again: a run repeated from its own words
+  EXPECT_EQ(lost(config, "out"), "");
+}
+
+TEST_F(OutFolder, HoldsTablesAndFramesThatARestartGoesOnWith) {
+  const auto refused_to_go_on = [&] {
+    return message_of([&] { check_results_go_on(folder_.path()); });
+  };
+  EXPECT_EQ(refused_to_go_on(), "");
+  write("dune.csv", "t,other\n");
+  EXPECT_NE(refused_to_go_on().find("its columns are not"), std::string::npos);
+  std::filesystem::remove(folder_ / "dune.csv");
+  write("grains.h5");
+  EXPECT_NE(refused_to_go_on().find("it is not an HDF5 file"), std::string::npos);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
-#include "src/run/check.hpp"
+#include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {

@@ -19,13 +19,11 @@ TEST(Watchdog, SaysWhoWaitedWhereAndWhatToDo) {
 }
 
 TEST(Watchdog, BeforeTheFirstStepThereIsNothingToGoOnFrom) {
-  EXPECT_EQ(to_text({.rank = 0,
-                     .host = "node1",
-                     .seconds = 20,
-                     .doing = "setting up",
-                     .step = 0,
-                     .time = 0,
-                     .restart = ""}),
+  LongWait wait;
+  wait.host = "node1";
+  wait.seconds = 20;
+  wait.doing = "setting up";
+  EXPECT_EQ(to_text(wait),
             "error: rank 0 on node1 has waited 20 s while setting up: another rank, the network or "
             "a disk hangs, or --patience is too short\n");
 }

@@ -1,7 +1,8 @@
-// What the user typed, as a struct.
+// What the user typed, and the commands run, check and info.
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,5 +32,22 @@ struct CommandLine {
 /// Reads the command line; prints nothing and never exits, so that one rank can speak for all.
 /// `version` is the text for --version.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);
+
+/// A case from its configuration to its results, and the cases it starts from. Returns the exit
+/// code: 0 done, 3 stopped on request. Throws ConfigError (exit code 2) and std::runtime_error
+/// (exit code 1).
+int run_command(const CommandLine& line);
+
+/// Writes the resolved configuration, its derived numbers and its warnings to `out`, the first
+/// alone with --resolved-only; returns the exit code 0. Throws ConfigError when the case is not
+/// valid.
+int run_check(const CommandLine& line, std::ostream& out);
+
+/// What a result or restart file holds, and where it came from: several lines. Throws
+/// std::runtime_error with a sentence for the user when it is missing, cut short, or not one of
+/// ours.
+std::string describe_file(const std::filesystem::path& path);
+/// Prints the description to standard output, or the problem to standard error. Exit code 0 or 2.
+int run_info(const std::filesystem::path& file);
 
 }  // namespace barchan
