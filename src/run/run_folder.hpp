@@ -10,7 +10,7 @@
 
 #include "src/config/config.hpp"
 #include "src/diagnostics/dune_shape.hpp"
-#include "src/io/provenance.hpp"
+#include "src/io/hdf5_file.hpp"
 
 namespace barchan {
 
