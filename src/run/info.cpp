@@ -16,8 +16,9 @@ constexpr const char* type_names[] = {"float32", "float64", "int32", "int64", "o
 std::string describe_array(const Hdf5File& file, const std::string& path,
                            const std::string& label) {
   const auto info = file.info(path);
-  const std::string units =
-      file.has_attribute(path, "units") ? file.attribute<std::string>(path, "units") : std::string("?");
+  const std::string units = file.has_attribute(path, "units")
+                                ? file.attribute<std::string>(path, "units")
+                                : std::string("?");
   return fmt::format("  {:<24} {:<18} {:<8} [{}]\n", label, to_string(info.extents),
                      type_names[static_cast<int>(info.type)], units);
 }
