@@ -30,16 +30,13 @@ struct GrainKineticEnergy {
   }
 };
 
-/// Outside 0 .. lx along the flow, or nowhere.
-KOKKOS_FORCEINLINE_FUNCTION bool is_beyond_outlet(const Vec3& x, Real lx) {
-  return !(x.x >= 0 && x.x <= lx);
-}
-
+/// Grains outside 0 .. lx along the flow, or nowhere.
 struct CountBeyondOutlet {
   Kokkos::View<const GrainKinematics*> grains;
   Real lx;  // [m]
   KOKKOS_FUNCTION void operator()(int g, int& count) const {
-    count += is_beyond_outlet(grains(g).x, lx) ? 1 : 0;
+    const Real x = grains(g).x.x;
+    count += x >= 0 && x <= lx ? 0 : 1;
   }
 };
 
