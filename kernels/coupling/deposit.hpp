@@ -5,7 +5,7 @@
 #include "kernels/coupling/void_fraction.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
-#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/grain.hpp"
 
 namespace barchan {
 
@@ -79,26 +79,23 @@ struct DepositGrain {
   }
 };
 
-/// One quantity of the deposits as a density on cells: sum / cell volume.
+/// The largest solid fraction that CFDEM's void fraction models leave: its alphaMin is 0.1.
+inline constexpr Real kMostSolid = 1 - 0.1;
+
+/// One quantity of the deposits as a density on cells, sum / cell volume, without what is above
+/// `most`.
 struct DecodeDeposit {
   GridRef grid;
   Deposits deposits;
   FixedPoint point;
   int quantity = 0;
+  Real most = Kokkos::Experimental::infinity_v<Real>;
   FieldRef density;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
-    density(i, j, k) = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
-  }
-};
-
-/// Drops the volume above the largest solid fraction that CFDEM's void fraction models leave.
-struct LimitSolidFraction {
-  FieldRef solid;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real most = 1 - Real(0.1);  // alphaMin of CFDEM: 0.1
-    solid(i, j, k) = Kokkos::min(solid(i, j, k), most);
+    const Real all = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
+    density(i, j, k) = Kokkos::min(all, most);
   }
 };
 

@@ -3,7 +3,7 @@
 // velocity, force in the sense of model A (no further 1 / alpha_f). Finite at zero slip.
 #pragma once
 
-#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/grain.hpp"
 
 namespace barchan {
 

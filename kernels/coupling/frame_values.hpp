@@ -2,22 +2,15 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
+#include "kernels/grains/grain.hpp"
 
 namespace barchan {
 
 /// Single precision, x fastest, no ghosts: rows (nz, ny, nx) of a file.
 using FrameField = Kokkos::View<float***, Kokkos::LayoutLeft>;
 
-/// A cell-centred field without its ghosts.
-struct CopyToFrame {
-  ConstFieldRef field;
-  FrameField out;
-  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
-    out(i, j, k) = static_cast<float>(field(i, j, k));
-  }
-};
-
-/// Mean of the two faces of a cell; `di, dj, dk` is the step from the lower to the upper one.
+/// Mean of the two faces of a cell; `di, dj, dk` is the step from the lower to the upper one, zero
+/// for a field of cells.
 struct AverageToFrame {
   ConstFieldRef face;
   int di = 0, dj = 0, dk = 0;
@@ -39,15 +32,13 @@ KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3&
 }
 
 /// Position [m], diameter [m], velocity [m/s] and spin [rad/s] of each grain.
-/// `Kinematics` has members x, r, u, omega.
-template <class Kinematics>
 struct SplitGrains {
-  Kokkos::View<const Kinematics*> grains;
+  Kokkos::View<const GrainKinematics*> grains;
   FrameVectors<double> x;
   Kokkos::View<double*> d;
   FrameVectors<float> u, omega;
   KOKKOS_FUNCTION void operator()(int p) const {
-    const Kinematics grain = grains(p);
+    const GrainKinematics grain = grains(p);
     store(x, p, grain.x);
     d(p) = 2.0 * grain.r;
     store(u, p, grain.u);

@@ -23,8 +23,7 @@ struct PencilOwners {
   PeriodicBox box;
 
   KOKKOS_FUNCTION static int cell(Real at, Real spacing, int n) {
-    const int i = GridRef::cell_along(at, spacing);
-    return i < 0 ? 0 : (i >= n ? n - 1 : i);
+    return Kokkos::clamp(GridRef::cell_along(at, spacing), 0, n - 1);
   }
   KOKKOS_FUNCTION int operator()(const Vec3& position) const {
     const Vec3 p = box.wrap(position);

@@ -1,7 +1,7 @@
 // How far the state is from where it cannot be right.
 #pragma once
 
-#include "kernels/fluid/time_step_limits.hpp"
+#include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/contact_geometry.hpp"
 
 namespace barchan {

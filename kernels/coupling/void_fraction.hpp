@@ -118,11 +118,10 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
     int i = column_x(p.x);
     if (box.lx > 0) i = wrap(i, grid.nx);
-    i = i < i_low ? i_low : (i > i_high ? i_high : i);
     int k = column_z(p.z);
     if (box.lz > 0) k = wrap(k, grid.nz);
-    k = k < k_low ? k_low : (k > k_high ? k_high : k);
-    return {i, row_of(p.y, row_nearby), k};
+    return {Kokkos::clamp(i, i_low, i_high), row_of(p.y, row_nearby),
+            Kokkos::clamp(k, k_low, k_high)};
   }
   /// All points lie between those at -reach and +reach: true when over and under each other.
   KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {

@@ -141,14 +141,6 @@ struct RelaxColumns {
   }
 };
 
-struct ClearColumns {
-  ColumnHeights height;
-  FieldRef z;
-  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
-    for (int j = 0; j < height(i, k); ++j) z(i, j, k) = 0;
-  }
-};
-
 /// Before the global solve: r becomes r - A z in the columns and around them, after a copy.
 struct SubtractLocal {
   GridRef grid;
@@ -163,15 +155,16 @@ struct SubtractLocal {
     }
   }
 };
-/// After it: r as before, and the local z added to the global one.
+/// After it: r as before, and the local z added to the global one and cleared.
 struct AddLocal {
   ColumnHeights height;  // the same
-  ConstFieldRef local, copy;
-  FieldRef r, z;
+  ConstFieldRef copy;
+  FieldRef local, r, z;
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
     for (int j = 0; j < height(i, k); ++j) {
       r(i, j, k) = copy(i, j, k);
       z(i, j, k) += local(i, j, k);
+      local(i, j, k) = 0;
     }
   }
 };

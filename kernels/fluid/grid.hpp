@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
-#include "kernels/math/periodic_box.hpp"
 #include "kernels/math/vec3.hpp"
 
 namespace barchan {
@@ -13,17 +13,20 @@ namespace barchan {
 /// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
 /// stretched in y. The corner of the domain is the origin. The geometry of ghost rows mirrors the
 /// first row inside.
-/// `Rows` holds the heights: a Kokkos view (src/parallel/grid.hpp) or a bare pointer (GridRef).
-template <class Rows>
-struct BasicGrid {
+struct GridExtents {
   int nx = 0, ny = 0, nz = 0;
   Real dx = 0, dz = 0;           // spacing [m]
   Real x0 = 0, z0 = 0;           // corner of the owned part [m]
   Real lx = 0, ly = 0, lz = 0;   // extent of the owned part [m]
   int i_begin = 0, k_begin = 0;  // the first owned cell among those of all ranks
   Real lx_all = 0, lz_all = 0;   // extent of the domain [m]
-  Rows y_face_{};                // [ny + 3], faces -1 .. ny + 1
-  Rows y_centre_{};              // [ny + 2], cells -1 .. ny
+};
+
+/// `Rows` holds the heights: a Kokkos view (src/parallel/grid.hpp) or a bare pointer (GridRef).
+template <class Rows>
+struct BasicGrid : GridExtents {
+  Rows y_face_{};    // [ny + 3], faces -1 .. ny + 1
+  Rows y_centre_{};  // [ny + 2], cells -1 .. ny
 
   KOKKOS_FORCEINLINE_FUNCTION Real y_face(int j) const { return y_face_[j + 1]; }
   KOKKOS_FORCEINLINE_FUNCTION Real y_centre(int j) const { return y_centre_[j + 1]; }
@@ -71,40 +74,25 @@ struct BasicGrid {
 /// it was made from.
 using GridRef = BasicGrid<const Real*>;
 
-namespace grid_detail {
-/// Value at (i, j, k); the row first: its address does not depend on i, and compilers then see
-/// plain strides.
+/// A field as kernels see it: trivially copyable, so that a compiler can keep it in registers.
 template <class Value>
-KOKKOS_FORCEINLINE_FUNCTION Value& at(Value* origin, int stride_y, int stride_z, int i, int j,
-                                      int k) {
-  return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
-                    static_cast<std::ptrdiff_t>(stride_z) * k))[i];
-}
-}  // namespace grid_detail
-
-/// A field that kernels read: trivially copyable, so that a compiler can keep it in registers.
-struct ConstFieldRef {
-  const Real* origin = nullptr;
+struct BasicFieldRef {
+  Value* origin = nullptr;
   int stride_y = 0, stride_z = 0;
 
-  KOKKOS_FORCEINLINE_FUNCTION const Real& operator()(int i, int j, int k) const {
-    return grid_detail::at(origin, stride_y, stride_z, i, j, k);
-  }
-};
-
-/// A field that kernels write.
-struct FieldRef {
-  Real* origin = nullptr;
-  int stride_y = 0, stride_z = 0;
-
-  KOKKOS_FORCEINLINE_FUNCTION Real& operator()(int i, int j, int k) const {
-    return grid_detail::at(origin, stride_y, stride_z, i, j, k);
+  /// The row first: its address does not depend on i, and compilers then see plain strides.
+  KOKKOS_FORCEINLINE_FUNCTION Value& operator()(int i, int j, int k) const {
+    return (origin + (static_cast<std::ptrdiff_t>(stride_y) * j +
+                      static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
   // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
-  KOKKOS_FORCEINLINE_FUNCTION operator ConstFieldRef() const {
+  KOKKOS_FORCEINLINE_FUNCTION operator BasicFieldRef<const Value>() const
+      requires(!std::is_const_v<Value>) {
     return {origin, stride_y, stride_z};
   }
 };
+using FieldRef = BasicFieldRef<Real>;             // that kernels write
+using ConstFieldRef = BasicFieldRef<const Real>;  // that they read
 
 /// A scalar on the grid with its ghost layer; x runs fastest in memory on every backend.
 /// Indexing is by cell, ghosts at -1 and n. The raw origin keeps inner loops vectorisable. Copies
@@ -132,25 +120,25 @@ struct Field {
   }
 };
 
-/// A vector on the faces that kernels read.
-struct ConstFaceRef {
-  ConstFieldRef x, y, z;
-};
-
-/// A vector on the faces that kernels write.
-struct FaceRef {
-  FieldRef x, y, z;
-  // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
-  KOKKOS_FORCEINLINE_FUNCTION operator ConstFaceRef() const { return {x, y, z}; }
-};
-
 /// A vector on the faces: x component on x-faces, y on y-faces, z on z-faces.
-struct FaceVector {
-  Field x, y, z;
-  // NOLINTNEXTLINE(google-explicit-constructor): they are
-  KOKKOS_FORCEINLINE_FUNCTION operator FaceRef() { return {x, y, z}; }
-  // NOLINTNEXTLINE(google-explicit-constructor): they are
-  KOKKOS_FORCEINLINE_FUNCTION operator ConstFaceRef() const { return {x, y, z}; }
+template <class Component>
+struct BasicFaceVector {
+  Component x, y, z;
+  // NOLINTNEXTLINE(google-explicit-constructor): as its components convert
+  template <class Other>
+  requires(std::is_convertible_v<Component&, Other>) KOKKOS_FORCEINLINE_FUNCTION
+  operator BasicFaceVector<Other>() {
+    return {x, y, z};
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): as its components convert
+  template <class Other>
+  requires(std::is_convertible_v<const Component&, Other>) KOKKOS_FORCEINLINE_FUNCTION
+  operator BasicFaceVector<Other>() const {
+    return {x, y, z};
+  }
 };
+using FaceVector = BasicFaceVector<Field>;
+using FaceRef = BasicFaceVector<FieldRef>;            // that kernels write
+using ConstFaceRef = BasicFaceVector<ConstFieldRef>;  // that they read
 
 }  // namespace barchan

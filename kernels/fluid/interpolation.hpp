@@ -19,7 +19,8 @@ struct PointStencil {
 
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point) {
     const Vec3 inside = box.wrap(point);
-    const Real x = clamp(inside.x, g.lx_all), y = clamp(inside.y, g.ly), z = inside.z;
+    const Real x = Kokkos::clamp(inside.x, Real(0), g.lx_all), z = inside.z;
+    const Real y = Kokkos::clamp(inside.y, Real(0), g.ly);
     x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
     x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
     z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
@@ -31,13 +32,9 @@ struct PointStencil {
   }
 
  private:
-  KOKKOS_INLINE_FUNCTION static Real clamp(Real a, Real most) {
-    return a < 0 ? 0 : (a > most ? most : a);
-  }
   /// The weight is counted over the whole domain: the same bits on any number of ranks.
   KOKKOS_INLINE_FUNCTION static LinearStencil uniform(Real s, int begin, int low, int high) {
-    int i = static_cast<int>(Kokkos::floor(s)) - begin;
-    i = i < low ? low : (i > high ? high : i);
+    const int i = Kokkos::clamp(static_cast<int>(Kokkos::floor(s)) - begin, low, high);
     return {i, s - (i + begin)};
   }
 };

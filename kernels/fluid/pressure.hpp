@@ -3,7 +3,7 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/momentum.hpp"
-#include "kernels/fluid/time_step_limits.hpp"
+#include "kernels/fluid/stencil.hpp"
 
 namespace barchan {
 
@@ -94,13 +94,14 @@ struct AdvanceIterate {
     return value * value * grid.dy(j);
   }
 };
-/// d = z + b d.
-struct NextDirection {
+/// d = a z + b d: the next direction; a first guess, linear in time through two pressures.
+struct Combine {
+  Real a;
   ConstFieldRef z;
-  FieldRef d;
   Real b;
+  FieldRef d;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    d(i, j, k) = z(i, j, k) + b * d(i, j, k);
+    d(i, j, k) = a * z(i, j, k) + b * d(i, j, k);
   }
 };
 /// Adds up <a, b>.
@@ -115,14 +116,6 @@ struct Subtract {
   FieldRef a;
   Real constant;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
-};
-/// A first guess: linear in time through the last two pressures; replaces the older one.
-struct ExtrapolatePressure {
-  ConstFieldRef last;
-  FieldRef before;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    before(i, j, k) = 2 * last(i, j, k) - before(i, j, k);
-  }
 };
 
 /// b = -(rho / dt) [div(alpha u) + (alpha - alpha_before) / dt] of -div(c grad p) = b [Pa/m^2],

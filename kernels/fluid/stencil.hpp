@@ -1,8 +1,8 @@
-// Differences and averages on the staggered grid; the names carry where the result lives.
+// Differences and averages on the staggered grid; the names carry where the result lives. And what
+// follows from them alone: Courant number, convective acceleration.
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
-#include "kernels/math/mat3.hpp"
 
 namespace barchan {
 
@@ -58,25 +58,63 @@ KOKKOS_FORCEINLINE_FUNCTION Real ddy_of_three(Real low, Real mid, Real high, Rea
   return (high - mid) * (below * share / above) + (mid - low) * (above * share / below);
 }
 
-/// Velocity gradient at a cell centre [1/s]; second order, ghosts at the walls included.
-KOKKOS_FORCEINLINE_FUNCTION Mat3 gradient_at_cell(const GridRef& grid, const ConstFaceRef& u, int i,
-                                                  int j, int k) {
-  const Real rx = 1 / grid.dx, ry = 1 / grid.dy(j), rz = 1 / grid.dz;
-  const Real below = grid.dy_centre(j), above = grid.dy_centre(j + 1);
-  const auto ux = [&](int jj, int kk) { return u.x(i, jj, kk) + u.x(i + 1, jj, kk); };
-  const auto vy = [&](int ii, int kk) { return u.y(ii, j, kk) + u.y(ii, j + 1, kk); };
-  const auto wz = [&](int ii, int jj) { return u.z(ii, jj, k) + u.z(ii, jj, k + 1); };
-  Mat3 g;
-  g.xx = (u.x(i + 1, j, k) - u.x(i, j, k)) * rx;
-  g.xy = Real(0.5) * ddy_of_three(ux(j - 1, k), ux(j, k), ux(j + 1, k), below, above);
-  g.xz = Real(0.25) * rz * (ux(j, k + 1) - ux(j, k - 1));
-  g.yx = Real(0.25) * rx * (vy(i + 1, k) - vy(i - 1, k));
-  g.yy = (u.y(i, j + 1, k) - u.y(i, j, k)) * ry;
-  g.yz = Real(0.25) * rz * (vy(i, k + 1) - vy(i, k - 1));
-  g.zx = Real(0.25) * rx * (wz(i + 1, j) - wz(i - 1, j));
-  g.zy = Real(0.5) * ddy_of_three(wz(i, j - 1), wz(i, j), wz(i, j + 1), below, above);
-  g.zz = (u.z(i, j, k + 1) - u.z(i, j, k)) * rz;
-  return g;
+/// Courant number dt (|u|/dx + |v|/dy + |w|/dz) of a velocity [m/s] in a cell of the given
+/// spacing [m]. Central convection with Adams-Bashforth wants it below about 0.5.
+KOKKOS_FORCEINLINE_FUNCTION Real courant_number(const Vec3& u, const Vec3& spacing, Real dt) {
+  return dt * (Kokkos::abs(u.x) / spacing.x + Kokkos::abs(u.y) / spacing.y +
+               Kokkos::abs(u.z) / spacing.z);
 }
+
+/// (u . grad) u on faces [m/s^2], not the conservative form: what a fluid element feels along its
+/// path. Second order inside; ghosts carry the walls.
+struct ConvectiveAcceleration {
+  GridRef grid;
+  ConstFaceRef u;  // with ghosts
+
+  /// Linear in y between two rows, on y-face j.
+  KOKKOS_FORCEINLINE_FUNCTION Real on_yface(Real below, Real above, int j) const {
+    const Real h0 = grid.dy(j - 1), h1 = grid.dy(j);
+    return (h1 * below + h0 * above) * (1 / (h0 + h1));
+  }
+  /// d/dy of a component that lives in the middle of row j.
+  KOKKOS_FORCEINLINE_FUNCTION Real ddy_in_row(const ConstFieldRef& q, int i, int j, int k) const {
+    return ddy_of_three(q(i, j - 1, k), q(i, j, k), q(i, j + 1, k), grid.dy_centre(j),
+                        grid.dy_centre(j + 1));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real ddx(const ConstFieldRef& q, int i, int j, int k) const {
+    return (q(i + 1, j, k) - q(i - 1, j, k)) * (Real(0.5) / grid.dx);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real ddz(const ConstFieldRef& q, int i, int j, int k) const {
+    return (q(i, j, k + 1) - q(i, j, k - 1)) * (Real(0.5) / grid.dz);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
+    const ConstFieldRef &v = u.y, &w = u.z;
+    const Real v_here =
+        Real(0.25) * (v(i - 1, j, k) + v(i, j, k) + v(i - 1, j + 1, k) + v(i, j + 1, k));
+    const Real w_here =
+        Real(0.25) * (w(i - 1, j, k) + w(i, j, k) + w(i - 1, j, k + 1) + w(i, j, k + 1));
+    return u.x(i, j, k) * ddx(u.x, i, j, k) + v_here * ddy_in_row(u.x, i, j, k) +
+           w_here * ddz(u.x, i, j, k);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
+    const ConstFieldRef& v = u.y;
+    const auto mean_u = [&](int jj) { return Real(0.5) * (u.x(i, jj, k) + u.x(i + 1, jj, k)); };
+    const auto mean_w = [&](int jj) { return Real(0.5) * (u.z(i, jj, k) + u.z(i, jj, k + 1)); };
+    return on_yface(mean_u(j - 1), mean_u(j), j) * ddx(v, i, j, k) +
+           v(i, j, k) * ddy_of_three(v(i, j - 1, k), v(i, j, k), v(i, j + 1, k), grid.dy(j - 1),
+                                     grid.dy(j)) +
+           on_yface(mean_w(j - 1), mean_w(j), j) * ddz(v, i, j, k);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
+    const ConstFieldRef &q = u.x, &v = u.y;
+    const Real u_here =
+        Real(0.25) * (q(i, j, k - 1) + q(i, j, k) + q(i + 1, j, k - 1) + q(i + 1, j, k));
+    const Real v_here =
+        Real(0.25) * (v(i, j, k - 1) + v(i, j, k) + v(i, j + 1, k - 1) + v(i, j + 1, k));
+    return u_here * ddx(u.z, i, j, k) + v_here * ddy_in_row(u.z, i, j, k) +
+           u.z(i, j, k) * ddz(u.z, i, j, k);
+  }
+};
 
 }  // namespace barchan

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "kernels/grains/contact_law.hpp"
-#include "kernels/grains/rolling_resistance.hpp"
 
 namespace barchan {
 

@@ -37,12 +37,10 @@ struct SearchColumns {
   bool periodic_x = false, periodic_z = false;
   std::uint32_t origin = 0;  // position on the Morton curve
 
-  KOKKOS_FUNCTION static int clamp(int a, int n) { return a < 0 ? 0 : (a >= n ? n - 1 : a); }
-
   /// Number on the Morton curve of the column around a position.
   KOKKOS_FUNCTION std::uint32_t place_of(const Vec3& x) const {
-    const int ix = clamp(static_cast<int>(x.x * inverse_width_x), nx);
-    const int iz = clamp(static_cast<int>(x.z * inverse_width_z), nz);
+    const int ix = Kokkos::clamp(static_cast<int>(x.x * inverse_width_x), 0, nx - 1);
+    const int iz = Kokkos::clamp(static_cast<int>(x.z * inverse_width_z), 0, nz - 1);
     return code_of(ix, iz);
   }
   KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const { return place_of(x) - origin; }
@@ -52,8 +50,8 @@ struct SearchColumns {
   }
   /// Sort key: column, then height. The largest key is kept for grains to be dropped.
   KOKKOS_FUNCTION std::uint64_t key_of(const Vec3& x) const {
-    Real level = (x.y / height + 1) / 3;  // heights of -1 .. 2 domain heights
-    level = level < 0 ? 0 : (level > 1 ? 1 : level);
+    // Heights of -1 .. 2 domain heights.
+    const Real level = Kokkos::clamp((x.y / height + 1) / 3, Real(0), Real(1));
     const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
     return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
   }

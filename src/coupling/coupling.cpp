@@ -171,15 +171,15 @@ void Coupling::choose_scales(const GrainState& grains, Real dt) {
 
 /// One quantity of the deposits as a density on cells, smoothed.
 void Coupling::decode(int quantity, const FixedPoint& point, Field& density) const {
-  for_each_cell("coupling: decode deposit", grid_,
-                DecodeDeposit{.grid = grid_,
-                              .deposits = deposits_,
-                              .point = point,
-                              .quantity = quantity,
-                              .density = density});
+  DecodeDeposit functor{.grid = grid_,
+                        .deposits = deposits_,
+                        .point = point,
+                        .quantity = quantity,
+                        .density = density};
   if (quantity == 0 && config_.void_fraction == VoidFraction::cfdem_faithful) {
-    for_each_cell("coupling: drop volume above the limit", grid_, LimitSolidFraction{density});
+    functor.most = kMostSolid;
   }
+  for_each_cell("coupling: decode deposit", grid_, functor);
   if (smooths_) smoother_.solve(density, density);
 }
 

@@ -1,5 +1,5 @@
 // Each force on every grain separately, for output.
-#include "kernels/coupling/grain_forces.hpp"
+#include "kernels/coupling/gather.hpp"
 #include "src/coupling/coupled_step.hpp"
 
 namespace barchan {

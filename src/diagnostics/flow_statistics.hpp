@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/fluid/plane_means.hpp"
+#include "kernels/fluid/flow_statistics.hpp"
 #include "src/config/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/checkpoint.hpp"

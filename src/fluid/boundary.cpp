@@ -5,17 +5,9 @@
 namespace barchan {
 
 GhostRule ghost_rule(FieldKind kind, WallFlow wall) {
-  switch (kind) {
-    case FieldKind::velocity_y:
-      return GhostRule::wall_face;
-    case FieldKind::velocity_x:
-    case FieldKind::velocity_z:
-    case FieldKind::eddy_viscosity:
-      return wall == WallFlow::no_slip ? GhostRule::opposite : GhostRule::same;
-    case FieldKind::scalar:
-      break;
-  }
-  return GhostRule::same;
+  if (kind == FieldKind::velocity_y) return GhostRule::wall_face;
+  const bool follows_wall = kind != FieldKind::scalar && wall == WallFlow::no_slip;
+  return follows_wall ? GhostRule::opposite : GhostRule::same;
 }
 
 void Boundary::fill(Field& f, FieldKind kind) const {

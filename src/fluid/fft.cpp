@@ -49,7 +49,7 @@ PlaneFft::PlaneFft(const Grid& grid)
     modes_of_rows_ = spectrum_of("fft: modes of rows", planes_.cut_extents());
   if (!columns_.is_trivial())
     modes_of_planes_ = spectrum_of("fft: modes of planes", planes_.joined_extents());
-  spectrum_ = make_spectrum("fft: spectrum");
+  spectrum_ = spectrum_of("fft: spectrum", columns_.joined_extents());
 }
 
 PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {

@@ -21,10 +21,6 @@ class PlaneFft {
  public:
   explicit PlaneFft(const Grid& grid);
 
-  Spectrum make_spectrum(const char* label) const {
-    const auto extents = columns_.joined_extents();
-    return Spectrum(label, extents[0], extents[1], extents[2]);
-  }
   /// Room for one spectrum, for those who transform there and straight back.
   const Spectrum& spectrum() const { return spectrum_; }
   /// Wave number of the first mode of this rank along x and z.

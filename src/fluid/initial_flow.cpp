@@ -16,6 +16,8 @@ namespace {
 
 using std::numbers::pi;
 using HostArray = Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace>;
+using HostRow = Kokkos::View<Real*, Kokkos::HostSpace>;
+using HostGrid = BasicGrid<HostRow>;
 
 constexpr double perturbation_rms = 0.1;  // over the bulk velocity
 constexpr int n_vortex_modes = 6;
@@ -84,30 +86,25 @@ std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size
 }
 
 /// Component c of the potential on its edges: between faces along c, on faces across it.
-HostArray potential(int c, const Grid& grid, const std::vector<double>& y_faces,
-                    const Profile& profile, const std::vector<Mode>& modes) {
+HostArray potential(std::size_t c, const Grid& grid, const HostGrid& rows, const Profile& profile,
+                    const std::vector<Mode>& modes) {
   const int nx = grid.nx + 1, ny = grid.ny + 1, nz = grid.nz + 1;
   HostArray psi("potential", nx, ny, nz);
-  const auto component = static_cast<std::size_t>(c);
-  std::vector<double> along_x(static_cast<std::size_t>(nx)), envelope;
+  const HostRow along_x("potential: along x", nx), envelope("potential: envelope", ny);
   for (int j = 0; j < ny; ++j) {
-    const auto row = static_cast<std::size_t>(j);
-    const std::size_t next = std::min(row + 1, y_faces.size() - 1);
-    const double y = c == 1 ? 0.5 * (y_faces[row] + y_faces[next]) : y_faces[row];
-    envelope.push_back(profile.envelope(y));
+    envelope(j) = profile.envelope(c == 1 ? rows.y_centre(j) : rows.y_face(j));
   }
   for (const Mode& mode : modes) {
     for (int i = 0; i < nx; ++i) {
       const double x = (grid.i_begin + i + (c == 0 ? 0.5 : 0)) / grid.nx_all;
-      along_x[static_cast<std::size_t>(i)] =
-          mode.strength[component] * std::cos(2 * pi * mode.mx * x + mode.phase_x[component]);
+      along_x(i) = mode.strength[c] * std::cos(2 * pi * mode.mx * x + mode.phase_x[c]);
     }
     for (int k = 0; k < nz; ++k) {
       const double z = (grid.k_begin + k + (c == 2 ? 0.5 : 0)) / grid.nz_all;
-      const double along_z = std::cos(2 * pi * mode.mz * z + mode.phase_z[component]);
+      const double along_z = std::cos(2 * pi * mode.mz * z + mode.phase_z[c]);
       for (int j = 0; j < ny; ++j) {
-        const double factor = along_z * envelope[static_cast<std::size_t>(j)];
-        for (int i = 0; i < nx; ++i) psi(i, j, k) += factor * along_x[static_cast<std::size_t>(i)];
+        const double factor = along_z * envelope(j);
+        for (int i = 0; i < nx; ++i) psi(i, j, k) += factor * along_x(i);
       }
     }
   }
@@ -116,53 +113,49 @@ HostArray potential(int c, const Grid& grid, const std::vector<double>& y_faces,
 
 /// The discrete curl of the potential at faces; its discrete divergence vanishes to round-off.
 struct Curl {
+  HostGrid grid;
   HostArray x, y, z;
-  double dx, dz;
-  std::vector<double> dy;
   double u(int i, int j, int k) const {
-    return (z(i, j + 1, k) - z(i, j, k)) / dy[static_cast<std::size_t>(j)] -
-           (y(i, j, k + 1) - y(i, j, k)) / dz;
+    return (z(i, j + 1, k) - z(i, j, k)) / grid.dy(j) - (y(i, j, k + 1) - y(i, j, k)) / grid.dz;
   }
   double v(int i, int j, int k) const {
-    return (x(i, j, k + 1) - x(i, j, k)) / dz - (z(i + 1, j, k) - z(i, j, k)) / dx;
+    return (x(i, j, k + 1) - x(i, j, k)) / grid.dz - (z(i + 1, j, k) - z(i, j, k)) / grid.dx;
   }
   double w(int i, int j, int k) const {
-    return (y(i + 1, j, k) - y(i, j, k)) / dx -
-           (x(i, j + 1, k) - x(i, j, k)) / dy[static_cast<std::size_t>(j)];
+    return (y(i + 1, j, k) - y(i, j, k)) / grid.dx - (x(i, j + 1, k) - x(i, j, k)) / grid.dy(j);
   }
 };
 
-std::vector<double> host_faces(const Grid& grid) {
-  const auto view = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
-  return {view.data() + 1, view.data() + 2 + grid.ny};
-}
-
 /// Mean velocity of every row [m/s], with the bulk velocity exact on the grid.
-std::vector<double> mean_profile(const FluidNumbers& numbers, const Profile& profile,
-                                 const std::vector<double>& y_faces, double viscosity) {
-  std::vector<double> mean;
+HostRow mean_profile(const FluidNumbers& numbers, const Profile& profile, const HostGrid& rows,
+                     double viscosity) {
+  const HostRow mean("mean profile", rows.ny);
   double flow = 0;
-  for (std::size_t j = 0; j + 1 < y_faces.size(); ++j) {
-    const double y = 0.5 * (y_faces[j] + y_faces[j + 1]);
+  for (int j = 0; j < rows.ny; ++j) {
+    const double y = rows.y_centre(j);
     double distance = profile.bottom ? y : profile.height - y;
     if (profile.bottom && profile.top) distance = std::min(y, profile.height - y);
-    const double value =
-        profile.delta > 0 ? reichardt_profile(distance * numbers.u_star / viscosity) : 1;
-    mean.push_back(value);
-    flow += value * (y_faces[j + 1] - y_faces[j]);
+    mean(j) = profile.delta > 0 ? reichardt_profile(distance * numbers.u_star / viscosity) : 1;
+    flow += mean(j) * rows.dy(j);
   }
-  for (double& value : mean) value *= numbers.bulk_velocity * profile.height / flow;
+  const double scale = numbers.bulk_velocity * profile.height / flow;
+  for (int j = 0; j < rows.ny; ++j) mean(j) *= scale;
   return mean;
 }
 
-template <class Value>
-void set_owned(Field& f, const Grid& grid, Value value) {
-  const auto host = Kokkos::create_mirror_view(f.storage);
+template <class Action>
+void for_each_owned(const Grid& grid, const Action& action) {
   for (int k = 0; k < grid.nz; ++k) {
     for (int j = 0; j < grid.ny; ++j) {
-      for (int i = 0; i < grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
+      for (int i = 0; i < grid.nx; ++i) action(i, j, k);
     }
   }
+}
+
+template <class Value>
+void set_owned(Field& f, const Grid& grid, const Value& value) {
+  const auto host = Kokkos::create_mirror_view(f.storage);
+  for_each_owned(grid, [&](int i, int j, int k) { host(i + 1, j + 1, k + 1) = value(i, j, k); });
   Kokkos::deep_copy(f.storage, host);
 }
 
@@ -181,27 +174,20 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
                         .delta = numbers.delta,
                         .bottom = setup.bottom == WallFlow::no_slip,
                         .top = setup.top == WallFlow::no_slip};
-  const std::vector<double> faces = host_faces(grid);
+  const HostGrid rows = grid.on_host();
   const std::vector<Mode> modes = draw_modes(grid, config.size, profile, config.initial.seed);
-  const auto psi = [&](int c) { return potential(c, grid, faces, profile, modes); };
-  Curl curl{psi(0), psi(1), psi(2), grid.dx, grid.dz, {}};
-  for (std::size_t j = 0; j + 1 < faces.size(); ++j) curl.dy.push_back(faces[j + 1] - faces[j]);
-
+  const auto psi = [&](std::size_t c) { return potential(c, grid, rows, profile, modes); };
+  const Curl curl{rows, psi(0), psi(1), psi(2)};
   double sum = 0;
-  for (int k = 0; k < grid.nz; ++k) {
-    for (int j = 0; j < grid.ny; ++j) {
-      for (int i = 0; i < grid.nx; ++i) {
-        const double u = curl.u(i, j, k), v = curl.v(i, j, k), w = curl.w(i, j, k);
-        sum += (u * u + v * v + w * w) * curl.dy[static_cast<std::size_t>(j)];
-      }
-    }
-  }
+  for_each_owned(grid, [&](int i, int j, int k) {
+    const double u = curl.u(i, j, k), v = curl.v(i, j, k), w = curl.w(i, j, k);
+    sum += (u * u + v * v + w * w) * rows.dy(j);
+  });
   const double rms = std::sqrt(sum_over_ranks(grid, sum) / grid.height_of_all_columns());
   const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
-  const std::vector<double> mean = mean_profile(numbers, profile, faces, setup.kinematic_viscosity);
-  set_owned(fluid.u.x, grid, [&](int i, int j, int k) {
-    return mean[static_cast<std::size_t>(j)] + scale * curl.u(i, j, k);
-  });
+  const HostRow mean = mean_profile(numbers, profile, rows, setup.kinematic_viscosity);
+  set_owned(fluid.u.x, grid,
+            [&](int i, int j, int k) { return mean(j) + scale * curl.u(i, j, k); });
   set_owned(fluid.u.y, grid,
             [&](int i, int j, int k) { return j > 0 ? scale * curl.v(i, j, k) : 0; });
   set_owned(fluid.u.z, grid, [&](int i, int j, int k) { return scale * curl.w(i, j, k); });

@@ -25,23 +25,6 @@ cufftDoubleComplex* as_cufft(Kokkos::complex<Real>* z) {
 // cuFFT wants complex alignment also of real data, which the inside of a field does not have.
 using Inside = Kokkos::View<Real***, Kokkos::LayoutLeft>;  // (n, rows, planes)
 
-struct Pack {
-  const Real* real;
-  std::ptrdiff_t row_stride, plane_stride;
-  Inside inside;
-  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
-    inside(i, j, k) = real[i + j * row_stride + k * plane_stride];
-  }
-};
-struct Unpack {
-  Real* real;
-  std::ptrdiff_t row_stride, plane_stride;
-  Inside inside;
-  KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
-    real[i + j * row_stride + k * plane_stride] = inside(i, j, k);
-  }
-};
-
 }  // namespace
 
 struct LineFft::Library {
@@ -85,8 +68,11 @@ LineFft::~LineFft() = default;
 void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
   const Library& library = *library_;
   if (library.x_forward == 0) return;
-  for_each_cell("fft: pack", library.cells,
-                Pack{real, x_.row_stride, x_.plane_stride, library.inside});
+  const Inside inside = library.inside;
+  const std::ptrdiff_t row = x_.row_stride, plane = x_.plane_stride;
+  for_each_cell(
+      "fft: pack", library.cells,
+      KOKKOS_LAMBDA(int i, int j, int k) { inside(i, j, k) = real[i + j * row + k * plane]; });
   check(cufftExecD2Z(library.x_forward, library.inside.data(), as_cufft(modes)),
         "transform forward");
 }
@@ -96,8 +82,11 @@ void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
   if (library.x_backward == 0) return;
   check(cufftExecZ2D(library.x_backward, as_cufft(modes), library.inside.data()),
         "transform backward");
-  for_each_cell("fft: unpack", library.cells,
-                Unpack{real, x_.row_stride, x_.plane_stride, library.inside});
+  const Inside inside = library.inside;
+  const std::ptrdiff_t row = x_.row_stride, plane = x_.plane_stride;
+  for_each_cell(
+      "fft: unpack", library.cells,
+      KOKKOS_LAMBDA(int i, int j, int k) { real[i + j * row + k * plane] = inside(i, j, k); });
 }
 
 void LineFft::forward_z(Kokkos::complex<Real>* modes) const {

@@ -29,9 +29,11 @@ void transform_rows(const char* label, fftw_plan plan, const ComplexLines& z,
   });
 }
 
-fftw_plan checked(fftw_plan plan) {
+using Plan = std::unique_ptr<fftw_plan_s, decltype([](fftw_plan p) { fftw_destroy_plan(p); })>;
+
+Plan checked(fftw_plan plan) {
   if (plan == nullptr) throw std::runtime_error("FFTW could not make a plan for this grid");
-  return plan;
+  return Plan(plan);
 }
 
 }  // namespace
@@ -39,15 +41,7 @@ fftw_plan checked(fftw_plan plan) {
 /// One-dimensional plans, applied to one z plane (x) or one row (z) at a time: FFTW's own threads
 /// would plan the strided z direction badly without measuring.
 struct LineFft::Library {
-  fftw_plan x_forward = nullptr, x_backward = nullptr, z_forward = nullptr, z_backward = nullptr;
-  Library() = default;
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-  ~Library() {
-    for (fftw_plan plan : {x_forward, x_backward, z_forward, z_backward}) {
-      if (plan != nullptr) fftw_destroy_plan(plan);
-    }
-  }
+  Plan x_forward, x_backward, z_forward, z_backward;
 };
 
 LineFft::LineFft(const RealLines& x, const ComplexLines& z)
@@ -79,7 +73,7 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
 LineFft::~LineFft() = default;
 
 void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
-  const fftw_plan plan = library_->x_forward;
+  const fftw_plan plan = library_->x_forward.get();
   const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: forward x", x_.planes, [=](int k) {
@@ -88,7 +82,7 @@ void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
 }
 
 void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
-  const fftw_plan plan = library_->x_backward;
+  const fftw_plan plan = library_->x_backward.get();
   const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
   if (plan == nullptr) return;
   Kokkos::parallel_for("fft: backward x", x_.planes, [=](int k) {
@@ -97,11 +91,11 @@ void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
 }
 
 void LineFft::forward_z(Kokkos::complex<Real>* modes) const {
-  transform_rows("fft: forward z", library_->z_forward, z_, modes);
+  transform_rows("fft: forward z", library_->z_forward.get(), z_, modes);
 }
 
 void LineFft::backward_z(Kokkos::complex<Real>* modes) const {
-  transform_rows("fft: backward z", library_->z_backward, z_, modes);
+  transform_rows("fft: backward z", library_->z_backward.get(), z_, modes);
 }
 
 }  // namespace barchan

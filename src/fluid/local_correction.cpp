@@ -28,8 +28,8 @@ LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
       height_("local: columns", flat_),
       around_("local: around", flat_),
       pivot_("local: pivot", grid),
-      local_("local: correction", grid),
-      copy_("local: copy of r", grid) {}
+      copy_("local: copy of r", grid),
+      local_("local: correction", grid) {}
 
 template <class Functor>
 void LocalCorrection::each_column(const char* label, const Functor& functor) const {
@@ -38,7 +38,6 @@ void LocalCorrection::each_column(const char* label, const Functor& functor) con
 
 void LocalCorrection::update(const FaceVector& c) {
   c_ = c;
-  Kokkos::deep_copy(local_.storage, Real(0));  // also in the columns of the step before
   const ColumnHeights height = heights(height_);
   each_column("local: find columns", FindColumns{c, grid_.ny, hindered_below, heights(found_)});
   flat_halo_.fill(found_);
@@ -66,12 +65,11 @@ void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
 }
 
 void LocalCorrection::apply(const PoissonFft& poisson, Field& r, Field& z) {
-  each_column("local: clear", ClearColumns{heights(around_), local_});
   relax(r, local_, true);
   halo_.fill(local_);
   each_column("local: subtract", SubtractLocal{grid_, c_, heights(around_), local_, r, copy_});
   poisson.solve(r, z);
-  each_column("local: add", AddLocal{heights(around_), local_, copy_, r, z});
+  each_column("local: add", AddLocal{heights(around_), copy_, local_, r, z});
   relax(r, z, false);
 }
 

@@ -35,7 +35,8 @@ class LocalCorrection {
   Grid flat_;  // one row of cells
   Halo flat_halo_;
   Field found_, height_, around_;  // ColumnHeights: hindered; and one layer; and another
-  Field pivot_, local_, copy_;
+  Field pivot_, copy_;
+  Field local_;  // zero between two calls of apply()
 };
 
 }  // namespace barchan

@@ -48,14 +48,12 @@ void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
   columns_.weight = Kokkos::View<Real*>("poisson: weight", ny);
   columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
   columns_.pivot = Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
-  const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
-  const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_centre_);
+  const auto rows = grid.on_host();
   const auto weight = Kokkos::create_mirror_view(columns_.weight);
   const auto coupling = Kokkos::create_mirror_view(columns_.coupling);
   const auto pivot = Kokkos::create_mirror_view(columns_.pivot);
-  const auto dy = [&](int j) { return face(j + 2) - face(j + 1); };
-  for (int j = 0; j < ny; ++j) weight(j) = dy(j) / (Real(grid.nx_all) * grid.nz_all);
-  for (int j = 1; j < ny; ++j) coupling(j) = diffusion / (centre(j + 1) - centre(j));
+  for (int j = 0; j < ny; ++j) weight(j) = rows.dy(j) / (Real(grid.nx_all) * grid.nz_all);
+  for (int j = 1; j < ny; ++j) coupling(j) = diffusion / rows.dy_centre(j);
 
   for (int kz = 0; kz < planes; ++kz) {
     for (int kx = 0; kx < n_modes; ++kx) {
@@ -63,7 +61,8 @@ void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
                           eigenvalue(fft_->first_mode_z() + kz, grid.nz_all, grid.dz);
       for (int j = 0; j < ny; ++j) {
         const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(kx, j - 1, kz) : 0;
-        const Real diagonal = (mass + diffusion * lambda) * dy(j) + coupling(j) + coupling(j + 1);
+        const Real diagonal =
+            (mass + diffusion * lambda) * rows.dy(j) + coupling(j) + coupling(j + 1);
         pivot(kx, j, kz) = 1 / (diagonal - below);
       }
     }

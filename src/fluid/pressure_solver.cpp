@@ -48,7 +48,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, Field& b, Field& p, Re
     precondition();
     const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
     const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
-    for_each_cell("pressure: direction", grid_, NextDirection{z_, direction_, b_factor});
+    for_each_cell("pressure: direction", grid_, Combine{1, z_, b_factor, direction_});
     halo_.fill(direction_);
     const Real curvature =
         sum_each_cell("pressure: operator", grid_, ApplyOperator{grid_, c, direction_, image_});

@@ -1,8 +1,8 @@
 // Grains that have come into columns of another rank go there, with all they remember.
 #pragma once
 
-#include "kernels/grains/contact_history.hpp"
 #include "kernels/grains/grain_owners.hpp"
+#include "kernels/grains/neighbor_search.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/parallel/pack.hpp"
 

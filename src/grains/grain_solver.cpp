@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/grains/contact_parts.hpp"
 #include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/pair_forces.hpp"

@@ -7,7 +7,6 @@
 
 #include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/grain_motion.hpp"
-#include "kernels/grains/rolling_resistance.hpp"
 #include "src/config/config.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/grains/neighbor_list.hpp"

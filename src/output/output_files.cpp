@@ -48,25 +48,20 @@ class FieldWriter {
 
   void centred(const std::string& name, const Field& field, const std::string& units) {
     if (field.origin == nullptr) return;  // a run without grains has no use for some
-    Kokkos::parallel_for("output: copy field", cells_, CopyToFrame{field, values_});
-    write(name, units);
+    average(name, {.face = field, .out = values_}, units);
   }
 
   void velocity(const FaceVector& u) {
-    average("u", {.face = u.x, .di = 1, .dj = 0, .dk = 0, .out = values_});
-    average("v", {.face = u.y, .di = 0, .dj = 1, .dk = 0, .out = values_});
-    average("w", {.face = u.z, .di = 0, .dj = 0, .dk = 1, .out = values_});
+    average("u", {.face = u.x, .di = 1, .out = values_}, "m/s");
+    average("v", {.face = u.y, .dj = 1, .out = values_}, "m/s");
+    average("w", {.face = u.z, .dk = 1, .out = values_}, "m/s");
   }
 
  private:
   static std::uint64_t size(int n) { return static_cast<std::uint64_t>(n); }
 
-  void average(const std::string& name, const AverageToFrame& functor) {
+  void average(const std::string& name, const AverageToFrame& functor, const std::string& units) {
     Kokkos::parallel_for("output: average to centres", cells_, functor);
-    write(name, "m/s");
-  }
-
-  void write(const std::string& name, const std::string& units) {
     const auto host = on_host(values_);
     file_.write(group_ + "/" + name, std::span<const float>(host.data(), host.size()), extents_,
                 units, share_);
@@ -91,11 +86,11 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
                    const Share& rows) {
   const auto n = static_cast<std::size_t>(grains.n);
   const Rows range(0, grains.n);
-  const SplitGrains<GrainKinematics> split{.grains = grains.kin,
-                                           .x = FrameVectors<double>("output: x", n),
-                                           .d = Kokkos::View<double*>("output: d", n),
-                                           .u = FrameVectors<float>("output: u", n),
-                                           .omega = FrameVectors<float>("output: omega", n)};
+  const SplitGrains split{.grains = grains.kin,
+                          .x = FrameVectors<double>("output: x", n),
+                          .d = Kokkos::View<double*>("output: d", n),
+                          .u = FrameVectors<float>("output: u", n),
+                          .omega = FrameVectors<float>("output: omega", n)};
   Kokkos::parallel_for("output: split grains", range, split);
   frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
     write_rows(file, group + "/id", ids_of(grains), "1", rows);

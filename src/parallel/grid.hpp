@@ -14,24 +14,15 @@ struct Grid : BasicGrid<Kokkos::View<Real*>> {
 
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
+  /// With the heights on the host.
+  BasicGrid<Kokkos::View<Real*, Kokkos::HostSpace>> on_host() const {
+    const Kokkos::HostSpace host;
+    return {*this, Kokkos::create_mirror_view_and_copy(host, y_face_),
+            Kokkos::create_mirror_view_and_copy(host, y_centre_)};
+  }
   // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
-    return {nx,
-            ny,
-            nz,
-            dx,
-            dz,
-            x0,
-            z0,
-            lx,
-            ly,
-            lz,
-            i_begin,
-            k_begin,
-            lx_all,
-            lz_all,
-            y_face_.data(),
-            y_centre_.data()};
+    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data()};
   }
 };
 

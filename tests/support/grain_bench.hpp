@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/grains/contact_law.hpp"
-#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/grain.hpp"
 #include "tests/support/grain_cases.hpp"
 #include "tests/support/measured.hpp"
 #include "tests/support/reference_table.hpp"

@@ -6,7 +6,7 @@
 
 #include "kernels/grains/contact_force.hpp"
 #include "kernels/grains/contact_geometry.hpp"
-#include "kernels/grains/sphere.hpp"
+#include "kernels/grains/grain.hpp"
 
 namespace barchan {
 namespace {

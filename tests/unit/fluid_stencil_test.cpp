@@ -1,9 +1,9 @@
 // Stencils on fields whose derivatives are known, on a grid that tells the axes apart.
 #include <gtest/gtest.h>
 
-#include "kernels/fluid/convective_acceleration.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/momentum.hpp"
+#include "kernels/fluid/stencil.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
