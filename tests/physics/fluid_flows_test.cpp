@@ -139,7 +139,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   EXPECT_NE(of_seed(2), u);
 }
 
-// Laminar flows between walls on stretched rows: order of profile, drive and wall shear.
+// --- Laminar flows between walls on stretched rows: order of profile, drive and wall shear.
 
 constexpr double kHeight = 0.02, kNu = 1e-5, kVelocity = 0.1;  // [m], [m^2/s], [m/s]
 constexpr double kViscousTime = kHeight * kHeight / kNu;       // [s]

@@ -170,7 +170,7 @@ TEST(GrainOnMesh, MomentumIsConserved) {
                            last.total() - start.total(), given, 1e-3);
 }
 
-// The forces in the output against Newton's second law: without contacts the resultant is what
+// --- The forces in the output against Newton's second law: without contacts the resultant is what
 // changed the grain's momentum over the step, and the parts add up to it.
 
 void expect_newtons_law(const char* what, Config c, double displaced_density) {

@@ -61,8 +61,8 @@ TEST(ReposeNightly, GrowsWithSlidingAndRollingFriction) {
   EXPECT_LT(both, rough);
 }
 
-// A heap of 100,000 grains that another program settled and published the motion of: the file of
-// rows id,diameter,x,y,z in BARCHAN_HEAP_CSV. Skipped without it.
+// --- A heap of 100,000 grains that another program settled and published the motion of: the file
+// of rows id,diameter,x,y,z in BARCHAN_HEAP_CSV. Skipped without it.
 
 /// Material and box of the reference run: submerged weight, e = 0.1, mu = 0.6, no rolling friction.
 Config heap_config() {

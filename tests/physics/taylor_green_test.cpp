@@ -1,4 +1,4 @@
-// The two-dimensional Taylor-Green vortex, at rest and carried along: errors of u and p.
+// Taylor-Green vortices. In two dimensions, at rest and carried along: errors of u and p.
 #include <numbers>
 
 #include "kernels/fluid/wale.hpp"
@@ -99,7 +99,7 @@ TEST(FluidVortex, ConvectionIsSecondOrderInThePeriodicPlane) {
   expect_second_order({.a = 2, .b = 0, .mean_a = -0.8, .mean_b = 1.2});
 }
 
-// The three-dimensional Taylor-Green vortex at Re = 1600: transition and decay of turbulence.
+// --- The three-dimensional Taylor-Green vortex at Re = 1600: transition and decay of turbulence.
 
 /// One time of the spectral reference or of a run; volume means, V0 = L = 1.
 struct Record {

@@ -91,7 +91,7 @@ TEST(FlowStatistics, SurviveARestart) {
   }
 }
 
-// Averages of the flow on the grid against a flow whose means and second moments are known.
+// --- Averages of the flow on the grid against a flow whose means and second moments are known.
 
 constexpr int kSamples = 8;
 

@@ -1,3 +1,4 @@
+// Grains of a case: poured, or from a file into the domain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ TEST(Pour, RefusesAConeThatDoesNotFit) {
   EXPECT_THROW(pour_grains(edge, kSizes, {0.02, 0.02, 0.012}), std::runtime_error);
 }
 
-// Grains of a file in the domain of a case.
+// --- Grains of a file in the domain of a case.
 
 /// Where a grain of a file ends up in a domain of 0.1 x 0.02 x 0.05 m; throws as
 /// make_initial_state.
