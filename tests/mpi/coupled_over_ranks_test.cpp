@@ -43,17 +43,8 @@ struct Coupled {
 
 std::vector<int> shapes(const Config& c) { return test::shapes(c.fluid->cells); }
 
-/// Largest difference of a field in the owned cells, absolute.
 double difference(const Field& whole, const Field& mine, const Grid& grid) {
-  const auto a = test::to_host(whole), b = test::to_host(mine);
-  double largest = 0;
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i) {
-        const double off = std::abs(a(i + grid.i_begin, j, k + grid.k_begin) - b(i, j, k));
-        largest = off <= largest ? largest : off;
-      }
-  return max_over(MPI_COMM_WORLD, largest);
+  return test::difference_over_ranks(whole, mine, grid).largest;
 }
 
 /// A drag coefficient of its own for every grain.

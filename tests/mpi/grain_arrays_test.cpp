@@ -6,7 +6,6 @@
 #include "src/output/state_file.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/grain_cases.hpp"
-#include "tests/support/pair_marks.hpp"
 #include "tests/support/shared_folder.hpp"
 #include "tests/support/shared_grid.hpp"
 

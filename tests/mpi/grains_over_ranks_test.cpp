@@ -5,7 +5,6 @@
 
 #include "src/parallel/reduce.hpp"
 #include "tests/support/packing.hpp"
-#include "tests/support/pair_marks.hpp"
 #include "tests/support/shared_grains.hpp"
 
 namespace barchan {
@@ -14,8 +13,8 @@ namespace {
 using testing::by_id;
 using testing::from_all_ranks;
 using testing::GrainSystem;
+using testing::host_copy;
 using testing::numbers_of;
-using testing::on_host;
 using testing::SharedGrains;
 
 int n_ranks() { return rank_count(MPI_COMM_WORLD); }
@@ -35,9 +34,9 @@ Config box(std::array<double, 3> size) {
 
 /// Pairs of a list by ids and how many of their grains are owned; or those in contact alone.
 std::vector<double> pairs_of(const GrainState& s, bool touching_only = false) {
-  const auto i = on_host(s.list.i), j = on_host(s.list.j);
-  const auto touching = on_host(s.list.touching);
-  const auto id = on_host(s.id);
+  const auto i = host_copy(s.list.i), j = host_copy(s.list.j);
+  const auto touching = host_copy(s.list.touching);
+  const auto id = host_copy(s.id);
   std::vector<double> pairs;
   for (int p = 0; p < s.list.n_pairs; ++p) {
     if (touching_only && !touching(p)) continue;

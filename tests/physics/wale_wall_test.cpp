@@ -17,16 +17,12 @@ template <class Velocity>
 test::HostField wale_rate(const Grid& grid, const Velocity& velocity) {
   const HostGrid h(grid);
   const FaceVector u = test::make_faces(grid);
-  const auto fill = [&](const Field& f, auto value) {
-    decltype(test::HostField::values) host("host", grid.nx + 2, grid.ny + 2, grid.nz + 2);
-    for (int k = -1; k <= grid.nz; ++k)
-      for (int j = -1; j <= grid.ny; ++j)
-        for (int i = -1; i <= grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
-    Kokkos::deep_copy(f.storage, host);
-  };
-  fill(u.x, [&](int i, int j, int k) { return velocity(h.x_face(i), h.y(j), h.z(k)).x; });
-  fill(u.y, [&](int i, int j, int k) { return velocity(h.x(i), h.y_face(j), h.z(k)).y; });
-  fill(u.z, [&](int i, int j, int k) { return velocity(h.x(i), h.y(j), h.z_face(k)).z; });
+  test::set_everywhere(
+      u.x, grid, [&](int i, int j, int k) { return velocity(h.x_face(i), h.y(j), h.z(k)).x; });
+  test::set_everywhere(
+      u.y, grid, [&](int i, int j, int k) { return velocity(h.x(i), h.y_face(j), h.z(k)).y; });
+  test::set_everywhere(
+      u.z, grid, [&](int i, int j, int k) { return velocity(h.x(i), h.y(j), h.z_face(k)).z; });
   const Kokkos::View<Real*> one("one", grid.ny);
   Kokkos::deep_copy(one, Real(1));
   Field rate("rate", grid);

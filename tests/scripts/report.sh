@@ -7,10 +7,9 @@ set -u
 report() {  # report KIND FAKE_ARGUMENT...: a run folder of that name, its page, and what is in it
   local kind=$1
   shift
-  "$python" "$root/tests/support/make_fake_run.py" "$dir/$kind" "$@" || fail "make_fake_run $kind"
+  fake "$dir/$kind" "$@"
   if [ "$kind" = nasty ]; then cp "$dir/nasty.json" "$dir/nasty/run.json"; fi
-  "$python" "$root/analysis/plot.py" "$dir/$kind" report > "$dir/out" 2> "$dir/err" ||
-    fail "no report of $kind: $(cat "$dir/err")"
+  plot 0 "$dir/$kind" report
   [ "$(cat "$dir/out")" = "$dir/$kind/report.html" ] || fail "$kind: said '$(cat "$dir/out")'"
   [ ! -s "$dir/err" ] || fail "$kind: $(cat "$dir/err")"
   "$python" "$root/tests/support/check_report.py" "$dir/$kind" "$kind" || fail "the page about $kind"
@@ -30,8 +29,8 @@ report flow --without grains
 report nasty --cut --without tables
 
 mkdir "$dir/empty"
-"$python" "$root/analysis/plot.py" "$dir/empty" report > /dev/null 2> "$dir/err" && fail "a report of nothing"
-grep -q "report needs" "$dir/err" || fail "an empty folder: $(cat "$dir/err")"
+plot 2 "$dir/empty" report
+says "report needs"
 
 [ "$failures" = 0 ] && echo "all pages as expected"
 exit $((failures > 0))

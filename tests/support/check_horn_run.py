@@ -74,8 +74,7 @@ def straight(run):
     same("in the horns at the end", found["in_horn_at_end"].sum(), 360)
     same("left horn", horns["horn_left"], D * np.array([0, 0, 10, 10, 9]), 1e-9)
     same("right horn", horns["horn_right"], D * np.array([0, 0, 15, 15, 15]), 1e-9)
-    upstream = [np.nan, np.nan, 300 / 375, 300 / 375]
-    same("upstream share", horns["upstream_share"][2:4], upstream[2:], 1e-9)
+    same("upstream share", horns["upstream_share"][2:4], [300 / 375] * 2, 1e-9)
     said = values(run)
     same("share in the sectors", said["share_in_sectors"], 0.8, 1e-9)
     same("uniform", said["share_in_sectors_uniform"], 105 / 360, 1e-9)

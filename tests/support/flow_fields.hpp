@@ -47,6 +47,20 @@ void set_field(const Field& f, const Grid& grid, const Value& value) {
   Kokkos::deep_copy(f.storage, host);
 }
 
+/// value(i, j, k) in all cells, ghosts included.
+template <class Value>
+HostField host_field(const GridRef& grid, const Value& value) {
+  HostField f{decltype(HostField::values)("f", grid.nx + 2, grid.ny + 2, grid.nz + 2)};
+  for (int k = -1; k <= grid.nz; ++k)
+    for (int j = -1; j <= grid.ny; ++j)
+      for (int i = -1; i <= grid.nx; ++i) f.values(i + 1, j + 1, k + 1) = value(i, j, k);
+  return f;
+}
+template <class Value>
+void set_everywhere(const Field& f, const GridRef& grid, const Value& value) {
+  Kokkos::deep_copy(f.storage, host_field(grid, value).values);
+}
+
 inline FaceVector make_faces(const Grid& grid) {
   return {Field("x", grid), Field("y", grid), Field("z", grid)};
 }

@@ -73,4 +73,38 @@ inline void set_weight(const GrainState& s, const Vec3& g) {
       "test: weight", s.n, KOKKOS_LAMBDA(int p) { force(p) = kin(p).m * g; });
 }
 
+/// Moves every grain by `distance` [m] along its velocity.
+inline void drift(const GrainState& s, Real distance) {
+  const auto kin = s.kin;
+  Kokkos::parallel_for(
+      "test: drift", s.n,
+      KOKKOS_LAMBDA(int g) { kin(g).x += (distance / norm(kin(g).u)) * kin(g).u; });
+}
+
+/// Writes marks in the place of contact histories, which tell whose they are: the pair's ids, seen
+/// from the grain of lower id; or counts the touching pairs whose marks are wrong.
+inline int handle_marks(const GrainState& s, bool write) {
+  const PairList l = s.list;
+  const auto id = s.id;
+  int wrong = 0;
+  Kokkos::parallel_reduce(
+      "test: marks", l.n_pairs,
+      KOKKOS_LAMBDA(int p, int& errors) {
+        const auto a = static_cast<Real>(id(l.i(p))), b = static_cast<Real>(id(l.j(p)));
+        const Real sign = a < b ? 1 : -1;
+        const Vec3 expected = sign * Vec3{Kokkos::min(a, b), Kokkos::max(a, b), 1};
+        if (write) {
+          l.xi_t(p) = expected;
+          l.rolling(p) = Real(2) * expected;
+          l.force(p) = Real(3) * expected;
+          l.touching(p) = 1;
+        } else if (l.touching(p)) {
+          errors += norm(l.xi_t(p) - expected) > 0 || norm(l.rolling(p) - Real(2) * expected) > 0 ||
+                    norm(l.force(p) - Real(3) * expected) > 0;
+        }
+      },
+      wrong);
+  return wrong;
+}
+
 }  // namespace barchan::testing

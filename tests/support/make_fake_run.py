@@ -154,6 +154,10 @@ def write_average(folder):
         file["frame_000000"].attrs.update(window_start=0.5 * END, n_samples=400)
 
 
+def write_csv(path, header, columns):
+    np.savetxt(path, np.stack(columns, axis=1), delimiter=",", fmt="%.9g", header=header, comments="")
+
+
 def write_tables(folder, cut, wider=1.0):
     random = np.random.default_rng(2)
     t = np.linspace(0, END, 400)
@@ -166,8 +170,7 @@ def write_tables(folder, cut, wider=1.0):
     header = ("t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,"
               "grain_kinetic_energy,cfl,continuity_residual,pressure_iterations,n_grains,"
               "n_contacts,max_overlap")
-    np.savetxt(folder / "history.csv", np.stack(history, axis=1), delimiter=",", fmt="%.9g",
-               header=header, comments="")
+    write_csv(folder / "history.csv", header, history)
     lines = ["t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost"]
     for i, time in enumerate(np.linspace(0, END, 161)):
         wiggle = 1e-4 * random.normal(size=7)
@@ -196,8 +199,7 @@ def write_statistics(folder):
                0.9 * (total + uv), 0.1 * (total + uv), total, 0 * y, nu * wall, 480 + 0 * y]
     header = ("y,y_plus,U,U_plus,uu,vv,ww,uv,k,viscous_stress,subgrid_stress,total_stress,p,nu_t,"
               "n_samples")
-    np.savetxt(folder / "statistics.csv", np.stack(columns, axis=1), delimiter=",", fmt="%.9g",
-               header=header, comments="")
+    write_csv(folder / "statistics.csv", header, columns)
 
 
 # name, varied key, values of friction and restitution, width over that of the base, what is there

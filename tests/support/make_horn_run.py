@@ -12,13 +12,11 @@ is in expected.csv: from the coordinates before they are wrapped, without bins o
 """
 
 import argparse
-import os
 from pathlib import Path
 
 import numpy as np
 
-os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
-import h5py  # noqa: E402
+from make_fake_run import h5py, write_frame
 
 D = 2e-4
 SIZE = (0.06, 0.01, 0.02)
@@ -79,10 +77,9 @@ def make_frames(options):
     other = D * block((0, 12), (-6, 6), 4) + middle + (0.03, 0, 0)
     frames = []
     for number, _ in enumerate(TIMES):
-        main = np.full_like(heap, np.nan)  # the grains that the dune does not need leave the domain
-        main[:] = heap if number < 2 else main
+        main = heap.copy()
         if number >= 2:
-            main[:len(dune)] = dune
+            main[:len(dune)], main[len(dune):] = dune, np.nan  # those that the dune does not need leave the domain
         if number == 4:
             tip = tip_rows()
             main[tip] = np.stack([15e-3 + 1e-3 * np.arange(len(tip)), 0 * tip + 0.5 * D, 0.0 * tip], axis=1)
@@ -120,21 +117,14 @@ def write_h5(folder, options, frames, measured, n_heap):
         for number, (t, x) in enumerate(zip(TIMES, frames)):
             ids = random.permutation(np.nonzero(np.isfinite(x[:, 0]))[0])
             wrapped = x[ids] % (SIZE[0], 1.0, SIZE[2])
-            group = tracks.create_group(f"frame_{number:06d}")
-            group.attrs.update(time=t, step=number)
-            group["id"], group["x"] = 10 + 2 * ids, wrapped.astype(np.float32)
             label = np.where(ids < n_heap, 0, 1)
             label[~np.isin(ids, main_rows(x, number, n_heap)) & (ids < n_heap)] = -1
-            if "dune" not in options.without:
-                group["dune"] = label
-            if number and options.tracks:
-                continue
-            group = grains.create_group(f"frame_{number:06d}")
-            group.attrs.update(time=t, step=number)
-            group["id"], group["x"], group["d"] = 10 + 2 * ids, wrapped, np.full(len(ids), D)
-            if "dune" not in options.without:
-                group["dune"] = label
-            group["force_total"] = force(x[ids], measured[number][0], t).astype(np.float32)
+            arrays = {"id": 10 + 2 * ids} | ({} if "dune" in options.without else {"dune": label})
+            write_frame(tracks, number, t, arrays | {"x": wrapped.astype(np.float32)})
+            if not (number and options.tracks):
+                total = force(x[ids], measured[number][0], t).astype(np.float32)
+                write_frame(grains, number, t,
+                            arrays | {"x": wrapped, "d": np.full(len(ids), D), "force_total": total})
     if not options.tracks:
         (folder / "tracks.h5").unlink()
 

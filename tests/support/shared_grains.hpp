@@ -25,17 +25,12 @@ inline std::vector<double> from_all_ranks(const std::vector<double>& mine) {
   return all;
 }
 
-template <class View>
-auto on_host(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-}
-
 /// Position, velocity, spin, contact force and torque of the owned grains by id.
 using GrainNumbers = std::map<std::int64_t, std::vector<double>>;
 inline std::vector<double> numbers_of(const GrainState& s) {
-  const auto kin = on_host(s.kin);
-  const auto id = on_host(s.id);
-  const auto force = on_host(s.contact_force), torque = on_host(s.contact_torque);
+  const auto kin = host_copy(s.kin);
+  const auto id = host_copy(s.id);
+  const auto force = host_copy(s.contact_force), torque = host_copy(s.contact_torque);
   std::vector<double> numbers;
   for (int g = 0; g < s.n; ++g) {
     numbers.push_back(static_cast<double>(id(g)));

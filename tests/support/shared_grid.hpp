@@ -12,6 +12,24 @@
 
 namespace barchan::test {
 
+/// Largest difference over the owned cells of all ranks, and largest magnitude.
+struct Difference {
+  double largest = 0, magnitude = 0;
+};
+inline Difference difference_over_ranks(const Field& of_whole, const Field& of_mine,
+                                        const Grid& mine) {
+  const HostField a = to_host(of_whole), b = to_host(of_mine);
+  Difference d;
+  for_owned_cells(mine, [&](int i, int j, int k) {
+    const double exact = a(i + mine.i_begin, j, k + mine.k_begin);
+    const double off = std::abs(b(i, j, k) - exact);
+    d.largest = off <= d.largest ? d.largest : off;  // keeps what is not a number
+    d.magnitude = std::max(d.magnitude, std::abs(exact));
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &d, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return d;
+}
+
 /// Every rank has all of the grid, and its pencil of it.
 struct SharedGrid {
   SharedGrid(std::array<int, 3> n, std::array<double, 3> size, double first, int along_x = 0)
@@ -29,18 +47,8 @@ struct SharedGrid {
 
   /// Largest difference over the owned cells of all ranks, relative to the largest magnitude.
   double difference(const Field& of_whole, const Field& of_mine) const {
-    const HostField a = to_host(of_whole), b = to_host(of_mine);
-    double numbers[2] = {0, 0};
-    for (int k = 0; k < mine.nz; ++k)
-      for (int j = 0; j < mine.ny; ++j)
-        for (int i = 0; i < mine.nx; ++i) {
-          const double exact = a(i + mine.i_begin, j, k + mine.k_begin);
-          const double off = std::abs(b(i, j, k) - exact);
-          numbers[0] = off <= numbers[0] ? numbers[0] : off;  // keeps what is not a number
-          numbers[1] = std::max(numbers[1], std::abs(exact));
-        }
-    MPI_Allreduce(MPI_IN_PLACE, numbers, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return numbers[0] / numbers[1];
+    const Difference d = difference_over_ranks(of_whole, of_mine, mine);
+    return d.largest / d.magnitude;
   }
 
   std::unique_ptr<const Decomposition> ranks;

@@ -119,24 +119,6 @@ TEST(Coupling, BulkVelocityIsHeld) {
   EXPECT_NEAR(c.step.bulk_velocity(c.state), 0.2, 2e-4);
 }
 
-/// One heavy grain falls in still water: buoyancy, drag and added mass alone decide.
-TEST(Coupling, ALoneGrainSettlesAtItsTerminalVelocity) {
-  Config config = coupled_config();
-  config.initial.fluid = "still";
-  config.fluid->mean_velocity = 0;
-  config.fluid->turbulence = Turbulence::none;
-  config.fluid->top = WallFlow::no_slip;
-  config.grains->sizes = {{2e-4, 1}};
-  config.initial.pour->drop_height = 0.0045;
-  // The grain's own wake slows the water it is compared with; spread its momentum widely.
-  config.coupling.smoothing_length = 2e-3;
-  Coupled c(config);
-  c.advance(200);  // 50 ms, seven response times
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.grains->kin);
-  EXPECT_NEAR(kin(0).u.y / -0.02291683, 1, 0.05);
-  EXPECT_NEAR(kin(0).u.x, 0, 1e-5);
-}
-
 TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
   Config config = coupled_config();
   config.grains->frozen = true;

@@ -1,13 +1,16 @@
 // Turbulence statistics against fields whose means are known.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "src/diagnostics/flow_average.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/run/run_folder.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/flow_fields.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
@@ -86,6 +89,107 @@ TEST(FlowStatistics, SurviveARestart) {
     EXPECT_EQ(again.table().rows[j].uv, flow.statistics.table().rows[j].uv);
     EXPECT_EQ(again.table().rows[j].total, flow.statistics.table().rows[j].total);
   }
+}
+
+// --- Averages of the flow on the grid against a flow whose means and second moments are known.
+
+constexpr int kSamples = 8;
+
+/// A steady shear of 40 m/s with small swings in time: u' = a cos, v' = -b cos, w' = c sin.
+struct SwingingFlow {
+  Config config = test::flow_config({6, 5, 4}, {0.04, 0.02, 0.03}, 1e-3);
+  Grid grid = make_grid(config);
+  FluidState fluid = make_fluid_state(grid);
+  double a = 0.02, b = 0.01, c = 0.03;
+
+  void set(int sample) {
+    const test::HostGrid h(grid);
+    const double phase = 2 * std::numbers::pi * (sample + 0.3) / kSamples;
+    test::set_field(fluid.u.x, grid,
+                    [&](int, int j, int) { return 40 + 8 * h.y(j) + a * std::cos(phase); });
+    test::set_field(fluid.u.y, grid,
+                    [&](int, int j, int) { return j > 0 ? -b * std::cos(phase) : 0.0; });
+    test::set_field(fluid.u.z, grid, [&](int, int, int) { return c * std::sin(phase); });
+    test::set_field(fluid.p, grid, [&](int i, int, int) { return 1.0 * i + sample; });
+    FluidSolver(config, grid).fill_ghosts(fluid);
+  }
+};
+
+double at(const std::vector<NamedField>& fields, const std::string& name, int i, int j, int k) {
+  for (const NamedField& field : fields) {
+    if (field.name == name) return test::to_host(*field.field)(i, j, k);
+  }
+  return NAN;
+}
+
+void expect_known(const std::vector<NamedField>& m, const SwingingFlow& flow) {
+  const test::HostGrid h(flow.grid);
+  ASSERT_EQ(m.size(), 12u);
+  const int i = 2, j = 2, k = 1;  // away from the walls
+  EXPECT_NEAR(at(m, "u", i, j, k), 40 + 8 * h.y(j), 1e-13);
+  EXPECT_NEAR(at(m, "v", i, j, k), 0, 1e-15);
+  EXPECT_NEAR(at(m, "w", i, j, k), 0, 1e-15);
+  EXPECT_NEAR(at(m, "p", i, j, k), i + (kSamples - 1) / 2.0, 1e-13);
+  EXPECT_NEAR(at(m, "alpha_f", i, j, k), 1, 1e-15);
+  EXPECT_NEAR(at(m, "uu", i, j, k), flow.a * flow.a / 2, 1e-15);
+  EXPECT_NEAR(at(m, "vv", i, j, k), flow.b * flow.b / 2, 1e-15);
+  EXPECT_NEAR(at(m, "ww", i, j, k), flow.c * flow.c / 2, 1e-15);
+  EXPECT_NEAR(at(m, "uv", i, j, k), -flow.a * flow.b / 2, 1e-15);
+  EXPECT_NEAR(at(m, "uw", i, j, k), 0, 1e-15);
+  EXPECT_NEAR(at(m, "vw", i, j, k), 0, 1e-15);
+  // In the first row v' is half of what it is above: the floor stands still.
+  EXPECT_NEAR(at(m, "uv", i, 0, k), -flow.a * flow.b / 4, 1e-15);
+}
+
+TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
+  SwingingFlow flow;
+  FlowAverage average(flow.grid);
+  EXPECT_TRUE(average.means().empty());
+  for (int n = 0; n < kSamples; ++n) {
+    flow.set(n);
+    average.sample(flow.fluid, 1 + 0.1 * n);
+  }
+  expect_known(average.means(), flow);
+}
+
+TEST(FlowAverage, GoesOnAcrossARestart) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "run");
+  SwingingFlow flow;
+  FlowAverage first(flow.grid), second(flow.grid);
+  for (int n = 0; n < 3; ++n) {
+    flow.set(n);
+    first.sample(flow.fluid, n);
+  }
+  CheckpointWriter writer(folder / "run", 7, make_provenance(flow.config));
+  first.save(writer);
+  second.load(CheckpointReader(writer.commit(1)));
+  for (int n = 3; n < kSamples; ++n) {
+    flow.set(n);
+    second.sample(flow.fluid, n);
+  }
+  expect_known(second.means(), flow);
+}
+
+TEST(FlowAverage, FileHoldsOneFrameWithItsWindow) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "run");
+  SwingingFlow flow;
+  FlowAverage average(flow.grid);
+  const OutputFiles output(folder / "run", make_provenance(flow.config));
+  for (int n = 0; n < 2; ++n) {
+    flow.set(n);
+    average.sample(flow.fluid, 1 + 0.1 * n);
+    average.write(output, 1 + 0.1 * n, 10 + n);  // the second one replaces the first
+  }
+  const Hdf5File file(folder / "run" / "flow_average.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(list_frames(file).size(), 1u);
+  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "window_start"), 1);
+  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "time"), 1.1);
+  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "n_samples"), 2);
+  EXPECT_TRUE(file.exists("frame_000000/uv"));
+  EXPECT_TRUE(file.exists("grid/y_face"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run" / "flow_average.xdmf"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // The direct solver, the smoothing step made of it, and the conjugate gradients.
 #include <gtest/gtest.h>
 
-#include <Eigen/SparseCholesky>
 #include <numbers>
 
 #include "kernels/fluid/pressure.hpp"
@@ -113,74 +112,6 @@ FaceVector heap_mobility(const Grid& grid, const Boundary& boundary) {
   sum_each_cell("test", grid, UpdateMobility{grid, alpha, implicit, 1e-3, c});
   boundary.fill_periodic(c);
   return c;
-}
-
-/// Eigen's own reductions trip a warning of g++ 12 about its vector intrinsics.
-double largest_magnitude(const Eigen::VectorXd& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-TEST(FluidPressure, AgreesWithADirectSparseSolve) {
-  const Grid grid = test::stretched_grid({12, 7, 9}, {0.05, 0.025, 0.036}, 1e-3);
-  const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
-  const FaceVector c = heap_mobility(grid, boundary);
-  Field b("b", grid), p("p", grid);
-  test::set_random(b, grid, 8);
-  const auto host_b = test::to_host(b);
-
-  const HostGrid h(grid);
-  const auto cx = test::to_host(c.x), cy = test::to_host(c.y), cz = test::to_host(c.z);
-  const int n = grid.nx * grid.ny * grid.nz;
-  const auto index = [&](int i, int j, int k) {
-    return (i + grid.nx) % grid.nx + grid.nx * (j + grid.ny * ((k + grid.nz) % grid.nz));
-  };
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto couple = [&](int row, int column, double value) {
-    entries.emplace_back(row, row, value);
-    entries.emplace_back(column, column, value);
-    entries.emplace_back(row, column, -value);
-    entries.emplace_back(column, row, -value);
-  };
-  Eigen::VectorXd rhs(n);
-  double mean = 0, height = 0;
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i) {
-        const int here = index(i, j, k);
-        couple(here, index(i - 1, j, k), cx(i, j, k) * h.dy(j) / (grid.dx * grid.dx));
-        couple(here, index(i, j, k - 1), cz(i, j, k) * h.dy(j) / (grid.dz * grid.dz));
-        if (j > 0) couple(here, index(i, j - 1, k), cy(i, j, k) / (h.y(j) - h.y(j - 1)));
-        rhs(here) = host_b(i, j, k) * h.dy(j);
-        mean += rhs(here);
-        height += h.dy(j);
-      }
-  for (int row = 0; row < n; ++row) {
-    rhs(row) -= mean / height * h.dy((row / grid.nx) % grid.ny);
-  }
-  entries.emplace_back(0, 0, 1.0);  // pins the constant; the rhs has no mean, so nothing else moves
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::VectorXd exact =
-      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(rhs);
-
-  for (const Preconditioner kind : {Preconditioner::fft, Preconditioner::local_fft}) {
-    SolverConfig config;
-    config.preconditioner = kind;
-    config.max_iterations = 2000;
-    test::set_field(b, grid, [&](int i, int j, int k) { return host_b(i, j, k); });
-    Kokkos::deep_copy(p.storage, Real(0));
-    PressureSolver solver(grid, boundary.halo(), std::make_shared<const PlaneFft>(grid), config);
-    solver.solve(c, b, p, 1e-12);
-    const auto got = test::to_host(p);
-    const double shift = exact(0) - got(0, 0, 0), scale = largest_magnitude(exact);
-    for (int k = 0; k < grid.nz; ++k)
-      for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i) {
-          ASSERT_NEAR(got(i, j, k) + shift, exact(index(i, j, k)), 1e-9 * scale);
-        }
-  }
 }
 
 TEST(FluidPressure, IterationsForAHeap) {

@@ -22,27 +22,17 @@ using test::HostGrid;
 
 Grid awkward_grid() { return test::stretched_grid({8, 5, 12}, {0.4, 0.3, 0.9}, 0.02); }
 
-/// Sets a field everywhere, ghosts included, to a function of place.
-template <class Value>
-void set_everywhere(const Field& f, const Grid& grid, Value value) {
-  decltype(test::HostField::values) host("host", grid.nx + 2, grid.ny + 2, grid.nz + 2);
-  for (int k = -1; k <= grid.nz; ++k)
-    for (int j = -1; j <= grid.ny; ++j)
-      for (int i = -1; i <= grid.nx; ++i) host(i + 1, j + 1, k + 1) = value(i, j, k);
-  Kokkos::deep_copy(f.storage, host);
-}
-
 /// u = a + g x + parabolas in y, sampled on the faces.
 FaceVector linear_velocity(const Grid& grid, const Mat3& g, double parabola) {
   const HostGrid h(grid);
   const FaceVector u = test::make_faces(grid);
-  set_everywhere(u.x, grid, [&](int i, int j, int k) {
+  test::set_everywhere(u.x, grid, [&](int i, int j, int k) {
     return 1 + g.xx * h.x_face(i) + g.xy * h.y(j) + g.xz * h.z(k) + parabola * h.y(j) * h.y(j);
   });
-  set_everywhere(u.y, grid, [&](int i, int j, int k) {
+  test::set_everywhere(u.y, grid, [&](int i, int j, int k) {
     return 2 + g.yx * h.x(i) + g.yy * h.y_face(j) + g.yz * h.z(k);
   });
-  set_everywhere(u.z, grid, [&](int i, int j, int k) {
+  test::set_everywhere(u.z, grid, [&](int i, int j, int k) {
     return 3 + g.zx * h.x(i) + g.zy * h.y(j) + g.zz * h.z_face(k) + parabola * h.y(j) * h.y(j);
   });
   return u;

@@ -136,22 +136,16 @@ TEST(GrainFiles, AHundredThousandRowsAreQuick) {
 }
 
 GrainState two_grains() {
-  GrainState state;
-  state.n = 2;
-  state.kin = Kokkos::View<GrainKinematics*>("kin", 3);  // one row more than grains
-  state.id = Kokkos::View<std::int64_t*>("id", 3);
-  const auto kin = Kokkos::create_mirror_view(state.kin);
-  const auto id = Kokkos::create_mirror_view(state.id);
+  InitialGrains g;
+  g.id = {70, 69, 68};
+  g.diameter = {2e-4, 2e-4, 2e-4};
   for (int p = 0; p < 3; ++p) {
-    kin(p) = GrainKinematics{};
-    kin(p).x = {0.1 + p, 0.2, 0.3};
-    kin(p).r = 1e-4;
-    kin(p).u = {1.0, 2.0, 3.0 + p};
-    kin(p).omega = {4.0, 5.0, 6.0};
-    id(p) = 70 - p;
+    g.x.push_back({0.1 + p, 0.2, 0.3});
+    g.u.push_back({1.0, 2.0, 3.0 + p});
+    g.omega.push_back({4.0, 5.0, 6.0});
   }
-  Kokkos::deep_copy(state.kin, kin);
-  Kokkos::deep_copy(state.id, id);
+  GrainState state = make_grain_state(g, 2500);
+  state.n = 2;  // one row more than grains
   return state;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "kernels/coupling/gather.hpp"
 #include "tests/support/grain_cases.hpp"
 
 namespace barchan {
@@ -76,25 +75,6 @@ TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
   const Real scale = m * 1e-4 * 0.05;
   EXPECT_LT(norm(angular() - before), 2e-6 * scale);
   EXPECT_GT(norm(rows_by_id(c.state)[1].omega - Vec3{50, -20, 10}), 1) << "they did collide";
-}
-
-TEST(GrainSolver, SlidingGrainEndsRollingAtFiveSevenths) {
-  Config config = grain_config();
-  config.grains->material.sliding_friction = 0.3;
-  config.grains->wall = config.grains->material;
-  InitialGrains g;
-  // Resting at the overlap that carries the weight: (3 m g / (4 E sqrt R))^(2/3).
-  const Real m = sphere_volume(1e-4) * 2500;
-  const Elastic glass{.youngs_modulus = 5e6, .poisson_ratio = 0.45};
-  const Real rest = std::pow(
-      0.75 * m * 9.81 / (effective_youngs_modulus(glass, glass) * std::sqrt(1e-4)), 2.0 / 3);
-  add_grain(g, 2e-4, {0.002, 1e-4 - rest, 0.005}, {0.01, 0, 0});
-  Case c(config, g);
-  set_weight(c.state, {0, -9.81, 0});
-  c.solver.advance(c.state, 8000, 2.5e-6);  // sliding ends after 2 u / (7 mu g) = 1 ms
-  const auto row = rows_by_id(c.state)[1];
-  EXPECT_NEAR(row.u.x, 0.01 * 5 / 7, 2e-5);
-  EXPECT_NEAR(row.omega.z, -row.u.x / 1e-4, 0.01 * 5 / 7 / 1e-4 * 0.01);
 }
 
 TEST(GrainSolver, DragRelaxesToTheFluid) {
@@ -204,44 +184,6 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
     EXPECT_EQ(norm(a[n].x - b[n].x), 0);
     EXPECT_EQ(norm(a[n].omega - b[n].omega), 0);
   }
-}
-
-TEST(GrainSolver, RollingHistorySurvivesAPeriodicCrossing) {
-  // A pair that rolls across z = 0 behaves as the same pair in the middle.
-  for (const bool crossing : {false, true}) {
-    Config config = grain_config();
-    config.grains->material.rolling_friction = 0.2;
-    InitialGrains g;
-    const Real z = crossing ? 0.00001 : 0.005;
-    add_grain(g, 2e-4, {0.005, 0.005, z}, {0, 0, -0.05}, {3, 400, 0});
-    add_grain(g, 2e-4, {0.0051999, 0.005, z}, {0, 0, -0.05}, {0, -300, 100});
-    Case c(config, g);
-    c.solver.advance(c.state, 400, 1e-6);
-    static Vec3 reference;
-    const auto row = rows_by_id(c.state)[1];
-    if (!crossing) reference = row.omega;
-    EXPECT_LT(norm(row.omega - reference), 1e-6 * norm(reference));
-  }
-}
-
-TEST(StillFluid, TerminalVelocityOfSchillerNaumann) {
-  // Table of derived numbers, d = 0.2 mm in water: 0.02291683 m/s.
-  Config config = grain_config();
-  config.size = {0.01, 0.1, 0.01};
-  InitialGrains g;
-  add_grain(g, 2e-4, {0.005, 0.09, 0.005});
-  Case c(config, g);
-  add_fluid(c.state);
-  for (int n = 0; n < 400; ++n) {
-    Kokkos::parallel_for("test: still fluid", 1,
-                         GatherStillFluid{.rho_f = 1000,
-                                          .mu_f = 1e-3,
-                                          .weight = {{0, -9.81, 0}, 1000},
-                                          .grains = c.state.kin,
-                                          .on_grains = c.state.fluid});
-    c.solver.advance(c.state, 10, 2.5e-5);
-  }
-  EXPECT_NEAR(rows_by_id(c.state)[1].u.y, -0.02291683, 0.001 * 0.0229);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "tests/support/grain_cases.hpp"
-#include "tests/support/pair_marks.hpp"
 
 namespace barchan {
 namespace {

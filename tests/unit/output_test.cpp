@@ -5,6 +5,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
+#include "tests/support/flow_fields.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
@@ -14,45 +15,24 @@ constexpr int nx = 5, ny = 4, nz = 3;
 const std::vector<double> y_faces{0.0, 0.1, 0.3, 0.7, 1.5};
 
 Grid awkward_grid() {
-  Grid grid;
-  grid.nx = nx;
-  grid.ny = ny;
-  grid.nz = nz;
-  grid.dx = 0.5;
-  grid.dz = 0.25;
+  Grid grid = make_grid(nx, nz, nx * 0.5, nz * 0.25, y_faces);
   grid.x0 = 10;
   grid.z0 = 20;
-  grid.y_face_ = Kokkos::View<Real*>("y faces", ny + 3);
-  const auto host = Kokkos::create_mirror_view(grid.y_face_);
-  for (int j = 0; j <= ny; ++j) host(j + 1) = y_faces[static_cast<std::size_t>(j)];
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid.y_face_);
   host(0) = host(ny + 2) = -99;  // ghosts must not be written
   Kokkos::deep_copy(grid.y_face_, host);
   return grid;
 }
 
-/// f(i, j, k) in the owned cells and the ghosts.
-template <class F>
-Field make_field(const Grid& grid, const F& f) {
-  const Field field("field", grid);
-  const auto host = Kokkos::create_mirror_view(field.storage);
-  for (int k = -1; k <= nz; ++k) {
-    for (int j = -1; j <= ny; ++j) {
-      for (int i = -1; i <= nx; ++i) host(i + 1, j + 1, k + 1) = f(i, j, k);
-    }
-  }
-  Kokkos::deep_copy(field.storage, host);
-  return field;
-}
-
 FluidState make_flow() {
-  FluidState flow;
-  flow.grid = awkward_grid();
-  flow.u.x = make_field(flow.grid, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
-  flow.u.y = make_field(flow.grid, [](int i, int j, int k) { return 100 * i + j * j + k; });
-  flow.u.z = make_field(flow.grid, [](int i, int j, int k) { return i + j + 8 * k; });
-  flow.p = make_field(flow.grid, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
-  flow.alpha_f = make_field(flow.grid, [](int, int, int) { return 0.5; });
-  flow.nu_t = make_field(flow.grid, [](int, int j, int) { return 1e-6 * j; });
+  const FluidState flow = make_fluid_state(awkward_grid());
+  const auto set = [&](const Field& f, auto value) { test::set_everywhere(f, flow.grid, value); };
+  set(flow.u.x, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
+  set(flow.u.y, [](int i, int j, int k) { return 100 * i + j * j + k; });
+  set(flow.u.z, [](int i, int j, int k) { return i + j + 8 * k; });
+  set(flow.p, [](int i, int j, int k) { return i + 10 * j + 100 * k; });
+  set(flow.alpha_f, [](int, int, int) { return 0.5; });
+  set(flow.nu_t, [](int, int j, int) { return 1e-6 * j; });
   return flow;
 }
 
@@ -131,24 +111,18 @@ TEST(Output, FieldsXdmfPointsAtTheArrays) {
   EXPECT_LT(text.find("y_face"), text.find("z_face"));
 }
 
+/// Two rows more than grains.
 GrainState make_grains(int n) {
-  GrainState grains;
-  grains.n = n;
-  const auto capacity = static_cast<std::size_t>(n) + 2;
-  grains.kin = Kokkos::View<GrainKinematics*>("kin", capacity);
-  grains.id = Kokkos::View<std::int64_t*>("id", capacity);
-  const auto kin = Kokkos::create_mirror_view(grains.kin);
-  const auto id = Kokkos::create_mirror_view(grains.id);
-  for (int q = 0; q < n; ++q) {
-    kin(q) = GrainKinematics{};
-    kin(q).x = {q + 0.1, q + 0.2, q + 0.3};
-    kin(q).r = 1e-4 * (q + 1);
-    kin(q).u = {1.0 + q, 2.0, 3.0};
-    kin(q).omega = {4.0, 5.0, 6.0 + q};
-    id(q) = 1000 - q;
+  InitialGrains g;
+  for (int q = 0; q < n + 2; ++q) {
+    g.id.push_back(1000 - q);
+    g.diameter.push_back(2e-4 * (q + 1));
+    g.x.push_back({q + 0.1, q + 0.2, q + 0.3});
+    g.u.push_back({1.0 + q, 2.0, 3.0});
+    g.omega.push_back({4.0, 5.0, 6.0 + q});
   }
-  Kokkos::deep_copy(grains.kin, kin);
-  Kokkos::deep_copy(grains.id, id);
+  GrainState grains = make_grain_state(g, 2500);
+  grains.n = n;
   return grains;
 }
 

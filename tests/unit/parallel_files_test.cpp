@@ -5,6 +5,7 @@
 #include <array>
 
 #include "src/diagnostics/gathered_grains.hpp"
+#include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/checkpoint.hpp"
@@ -20,33 +21,16 @@ const MPI_Comm world = MPI_COMM_WORLD;
 
 constexpr int nx = 3, ny = 2, nz = 2;  // of each rank; the ranks follow each other along x
 
-FluidState flow_of(int rank, const Decomposition* ranks) {
-  FluidState flow;
-  Grid& grid = flow.grid;
-  grid.nx = nx;
-  grid.ny = ny;
-  grid.nz = nz;
-  grid.dx = grid.dz = 1;
-  grid.ranks = ranks;
-  grid.nx_all = nx * rank_count(world);
-  grid.nz_all = nz;
-  grid.i_begin = nx * rank;
-  grid.x0 = nx * rank;
-  grid.y_face_ = Kokkos::View<Real*>("y faces", ny + 3);
-  flow.u = {.x = Field("u", grid), .y = Field("v", grid), .z = Field("w", grid)};
-  flow.p = Field("p", grid);
-  flow.alpha_f = Field("alpha_f", grid);
-  flow.nu_t = Field("nu_t", grid);
+FluidState flow_of(int rank, const Decomposition* pencils) {
+  const int wide = nx * rank_count(world);
+  FluidState flow = make_fluid_state(make_grid(wide, nz, wide, nz, {0, 1, 2}, pencils));
   Kokkos::deep_copy(flow.p.storage, 10.0 + rank);
   return flow;
 }
 
 /// Rank r has r grains: none on the first.
 GrainState grains_of(int rank) {
-  GrainState grains;
-  grains.n = rank;
-  grains.kin = Kokkos::View<GrainKinematics*>("kin", static_cast<std::size_t>(rank));
-  grains.id = Kokkos::View<std::int64_t*>("id", static_cast<std::size_t>(rank));
+  GrainState grains = make_grain_rows(rank, world);
   Kokkos::deep_copy(grains.id, rank);
   return grains;
 }

@@ -17,25 +17,33 @@ using testing::add_grain;
 
 constexpr Real d = 2e-4;
 
-/// Two grains apart, one of them on the floor, in a box of 6 x 4 x 5 cells of a millimetre.
-CoupledRun sound_run(int max_iterations = 200) {
-  Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
-  c.solver.max_iterations = max_iterations;
+/// A box of 6 x 4 x 5 cells of a millimetre.
+Config box() { return test::water_box({6, 4, 5}, {0.006, 0.004, 0.005}); }
+
+CoupledRun run_of_two(const Config& c, const Vec3& first, const Vec3& second) {
   InitialGrains grains;
-  add_grain(grains, d, {0.001, 0.5 * d, 0.001});
-  add_grain(grains, d, {0.003, 0.002, 0.0025});
+  add_grain(grains, d, first);
+  add_grain(grains, d, second);
   return {c, grains};
 }
 
-std::string complaint(const CoupledRun& run) {
+/// Two grains apart, one of them on the floor.
+CoupledRun sound_run(int max_iterations = 200) {
+  Config c = box();
+  c.solver.max_iterations = max_iterations;
+  return run_of_two(c, {0.001, 0.5 * d, 0.001}, {0.003, 0.002, 0.0025});
+}
+
+std::string complaint(const Config& config, const SystemState& state, const CoupledStep& step) {
   try {
-    StateChecks(run.config, MPI_COMM_SELF).check(run.state, run.step);
+    StateChecks(config, MPI_COMM_SELF).check(state, step);
   } catch (const StateError& problem) {
     EXPECT_TRUE(problem.on_all_ranks);
     return problem.what();
   }
   return "none";
 }
+std::string complaint(const CoupledRun& run) { return complaint(run.config, run.state, run.step); }
 
 template <class Change>
 void change_grain(const CoupledRun& run, std::int64_t id, const Change& change) {
@@ -67,11 +75,9 @@ TEST(StateChecks, SaysNothingOfASoundState) {
 
 TEST(StateChecks, OverlapOfAPairBeyondATenth) {
   for (const Real overlap : {0.09, 0.11}) {
-    const Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
-    InitialGrains grains;
-    add_grain(grains, d, {0.003, 0.002, 0.0025});
-    add_grain(grains, d, {0.003 + (1 - overlap) * d, 0.002, 0.0025});
-    const CoupledRun run(c, grains);
+    const Config c = box();
+    const CoupledRun run =
+        run_of_two(c, {0.003, 0.002, 0.0025}, {0.003 + (1 - overlap) * d, 0.002, 0.0025});
     if (overlap < c.grains->max_overlap) {
       EXPECT_EQ(complaint(run), "none");
       continue;
@@ -84,11 +90,9 @@ TEST(StateChecks, OverlapOfAPairBeyondATenth) {
 }
 
 TEST(StateChecks, OverlapAcrossThePeriodicSide) {
-  const Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
-  InitialGrains grains;
-  add_grain(grains, d, {0.006 - 0.4 * d, 0.002, 0.0025});
-  add_grain(grains, d, {0.4 * d, 0.002, 0.0025});
-  expect_words(complaint(CoupledRun(c, grains)), {"20.0 %", "overlap"});
+  expect_words(
+      complaint(run_of_two(box(), {0.006 - 0.4 * d, 0.002, 0.0025}, {0.4 * d, 0.002, 0.0025})),
+      {"20.0 %", "overlap"});
 }
 
 TEST(StateChecks, AGrainPressedIntoTheFloorAndOneThroughIt) {
@@ -123,16 +127,14 @@ TEST(StateChecks, FluidFractionOutOfBounds) {
     const CoupledRun run = sound_run();
     set_cell(run.state.fluid->alpha_f, 4, 2, 3, alpha);
     expect_words(complaint(run), {"alpha_f is outside 0 to 1",
-                                  "cell (4, 2, 3) at (0.0045, 0.0025, "
-                                  "0.0035) m",
-                                  "fluid.cells"});
+                                  "cell (4, 2, 3) at (0.0045, 0.0025, 0.0035) m", "fluid.cells"});
   }
 }
 
 /// The same water without grains, after a step from velocity u everywhere along x but `odd` in one
 /// face along z [m/s].
 std::string complaint_of_flow(Real u, Real odd) {
-  Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
+  Config c = box();
   c.grains.reset();
   SystemState state{.fluid = make_fluid_state(make_grid(c)), .grains = {}};
   CoupledStep step(c, state);
@@ -140,12 +142,7 @@ std::string complaint_of_flow(Real u, Real odd) {
   set_cell(state.fluid->u.z, 2, 1, 3, odd);
   step.start(state);
   step.advance(state);
-  try {
-    StateChecks(c, MPI_COMM_SELF).check(state, step);
-  } catch (const StateError& problem) {
-    return problem.what();
-  }
-  return "none";
+  return complaint(c, state, step);
 }
 
 TEST(StateChecks, CourantNumberBeyondStability) {  // dt / dx = 0.25 s/m
@@ -167,12 +164,9 @@ TEST(StateChecks, APressureThatWasNotSolved) {
 }
 
 TEST(StateChecks, FrozenGrainsMayLieAsTheyLike) {
-  Config c = test::water_box({6, 4, 5}, {0.006, 0.004, 0.005});
+  Config c = box();
   c.grains->frozen = true;
-  InitialGrains grains;
-  add_grain(grains, d, {0.003, 0.002, 0.0025});
-  add_grain(grains, d, {0.0031, 0.002, 0.0025});
-  EXPECT_EQ(complaint(CoupledRun(c, grains)), "none");
+  EXPECT_EQ(complaint(run_of_two(c, {0.003, 0.002, 0.0025}, {0.0031, 0.002, 0.0025})), "none");
 }
 
 }  // namespace

@@ -103,25 +103,15 @@ TEST(FixedPoint, SumsDoNotDependOnTheOrder) {
   EXPECT_GT(fixed.encode(1000), std::int64_t{1} << 60);
 }
 
-/// A component on the host, ghosts included: value(i, j, k).
-template <class Value>
-test::HostField host_field(const GridRef& grid, Value value) {
-  test::HostField f{decltype(test::HostField::values)("f", grid.nx + 2, grid.ny + 2, grid.nz + 2)};
-  for (int k = -1; k <= grid.nz; ++k)
-    for (int j = -1; j <= grid.ny; ++j)
-      for (int i = -1; i <= grid.nx; ++i) f.ref()(i, j, k) = value(i, j, k);
-  return f;
-}
-
 TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
   const test::HostGrid host = awkward_grid();
   const GridRef g = host.ref();
   const auto value = [](Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
-  const test::HostField u = host_field(
+  const test::HostField u = test::host_field(
       g, [&](int i, int j, int k) { return value(g.x_face(i), g.y_centre(j), g.z_centre(k)); });
-  const test::HostField v = host_field(
+  const test::HostField v = test::host_field(
       g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_face(j), g.z_centre(k)); });
-  const test::HostField w = host_field(
+  const test::HostField w = test::host_field(
       g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_centre(j), g.z_face(k)); });
   const FaceRef f{u.ref(), v.ref(), w.ref()};
   const PeriodicBox box{.lx = 0, .lz = g.lz_all};
