@@ -30,7 +30,7 @@ struct ContactHistory {
 /// Calls f(row, id of the partner, sign) for the grains that keep the history of the contact in a
 /// slot: its first grain, or with `both` each one that is owned. History is that of the first
 /// grain; seen from the second one it has the sign -1.
-struct KeepingGrains {
+struct GrainsWithHistory {
   PairList list;
   Kokkos::View<const std::int64_t*> id;
   bool both = false;
@@ -45,29 +45,29 @@ struct KeepingGrains {
 
 /// Number of contacts under each grain; `count` starts at zero.
 struct CountContacts {
-  KeepingGrains keeping;
+  GrainsWithHistory grains;
   Kokkos::View<int*> count;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    if (!keeping.list.touching(slot)) return;
-    keeping(slot, [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
+    if (!grains.list.touching(slot)) return;
+    grains(slot, [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
   }
 };
 
 /// Copies their history, that of one grain in whatever order the threads come; `cursor` starts as
-/// kept.first.
-struct KeepContacts {
-  KeepingGrains keeping;
-  ContactHistory kept;
+/// history.first.
+struct FillContactHistory {
+  GrainsWithHistory grains;
+  ContactHistory history;
   Kokkos::View<int*> cursor;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    const PairList& list = keeping.list;
+    const PairList& list = grains.list;
     if (!list.touching(slot)) return;
-    keeping(slot, [&](int g, std::int64_t partner, Real sign) {
+    grains(slot, [&](int g, std::int64_t partner, Real sign) {
       const int k = Kokkos::atomic_fetch_add(&cursor(g), 1);
-      kept.partner(k) = partner;
-      kept.xi_t(k) = sign * list.xi_t(slot);
-      if (list.has_rolling()) kept.rolling(k) = sign * list.rolling(slot);
-      if (list.has_force()) kept.force(k) = sign * list.force(slot);
+      history.partner(k) = partner;
+      history.xi_t(k) = sign * list.xi_t(slot);
+      if (list.has_rolling()) history.rolling(k) = sign * list.rolling(slot);
+      if (list.has_force()) history.force(k) = sign * list.force(slot);
     });
   }
 };

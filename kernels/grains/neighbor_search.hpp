@@ -88,15 +88,15 @@ struct CountPairs {
 };
 
 /// Writes the pairs of each grain and their contact history. `old_row` is the row under which
-/// `kept` has each owned grain.
+/// `history` has each owned grain.
 struct FillPairs {
   PairSearch search;
   NotedPartners noted;
   PairList list;
-  ContactHistory kept;
+  ContactHistory history;
   Kokkos::View<const int*> old_row;
   Kokkos::View<const std::int64_t*> id;
-  bool has_kept = false;
+  bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
     int crossing = list.first(i), inner = list.inner_first(i);
@@ -116,21 +116,21 @@ struct FillPairs {
   KOKKOS_FUNCTION void remember(int slot, int i, int j) const {
     int k = -1;
     Real sign = 1;
-    if (has_kept) {
+    if (has_history) {
       const int n_owned = list.chunks.n;
-      if (i < n_owned) k = kept.find(old_row(i), id(j));
+      if (i < n_owned) k = history.find(old_row(i), id(j));
       if (k < 0 && j < n_owned) {
-        k = kept.find(old_row(j), id(i));
+        k = history.find(old_row(j), id(i));
         sign = -1;  // forces and displacements are those of the first grain
       }
     }
     const bool known = k >= 0;
     list.touching(slot) = known ? 1 : 0;
-    list.xi_t(slot) = known ? sign * kept.xi_t(k) : Vec3{};
-    if (list.has_rolling()) list.rolling(slot) = known ? sign * kept.rolling(k) : Vec3{};
+    list.xi_t(slot) = known ? sign * history.xi_t(k) : Vec3{};
+    if (list.has_rolling()) list.rolling(slot) = known ? sign * history.rolling(k) : Vec3{};
     if (list.has_force()) {
-      const bool has = known && kept.has_force();  // restart files do without
-      list.force(slot) = has ? sign * kept.force(k) : Vec3{};
+      const bool has = known && history.has_force();  // restart files do without
+      list.force(slot) = has ? sign * history.force(k) : Vec3{};
     }
     if (slot < list.n_crossing) list.pair_force(slot) = PairForce{};
   }
