@@ -196,7 +196,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
       }
     }
   }
-  const double rms = std::sqrt(sum_over_ranks(grid, sum) / grid.height_of_all_columns());
+  const double rms = std::sqrt(sum_over(ranks_of(grid), sum) / grid.height_of_all_columns());
   const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
   const std::vector<double> mean = mean_profile(numbers, profile, faces, setup.kinematic_viscosity);
   set_owned(fluid.u.x, grid, [&](int i, int j, int k) {

@@ -14,7 +14,7 @@
 
 #include "src/base/nearest.hpp"
 #include "src/base/printable.hpp"
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

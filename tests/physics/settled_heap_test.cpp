@@ -2,7 +2,7 @@
 // rows id,diameter,x,y,z in BARCHAN_HEAP_CSV. Skipped without it.
 #include <cstdlib>
 
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "tests/support/packing.hpp"
 
 namespace barchan {

@@ -1,9 +1,10 @@
-#include "src/grains/pour.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "src/config/config.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 namespace {
