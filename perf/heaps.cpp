@@ -10,7 +10,7 @@
 #include "perf/cases.hpp"
 #include "perf/options.hpp"
 #include "src/base/atomic_file.hpp"
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "src/run/initial_state.hpp"
 
 namespace barchan {

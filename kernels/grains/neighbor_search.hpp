@@ -31,7 +31,7 @@ struct ContactHistory {
 /// Calls f(row, id of the partner, sign) for the grains that keep the history of the contact in a
 /// slot: its first grain, or with `both` each one that is owned. History is that of the first
 /// grain; seen from the second one it has the sign -1.
-struct KeepingGrains {
+struct GrainsWithHistory {
   PairList list;
   Kokkos::View<const std::int64_t*> id;
   bool both = false;
@@ -46,29 +46,29 @@ struct KeepingGrains {
 
 /// Number of contacts under each grain; `count` starts at zero.
 struct CountContacts {
-  KeepingGrains keeping;
+  GrainsWithHistory grains;
   Kokkos::View<int*> count;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    if (!keeping.list.touching(slot)) return;
-    keeping(slot, [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
+    if (!grains.list.touching(slot)) return;
+    grains(slot, [&](int g, std::int64_t, Real) { Kokkos::atomic_inc(&count(g)); });
   }
 };
 
 /// Copies their history, that of one grain in whatever order the threads come; `cursor` starts as
-/// kept.first.
-struct KeepContacts {
-  KeepingGrains keeping;
-  ContactHistory kept;
+/// history.first.
+struct FillContactHistory {
+  GrainsWithHistory grains;
+  ContactHistory history;
   Kokkos::View<int*> cursor;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    const PairList& list = keeping.list;
+    const PairList& list = grains.list;
     if (!list.touching(slot)) return;
-    keeping(slot, [&](int g, std::int64_t partner, Real sign) {
+    grains(slot, [&](int g, std::int64_t partner, Real sign) {
       const int k = Kokkos::atomic_fetch_add(&cursor(g), 1);
-      kept.partner(k) = partner;
-      kept.xi_t(k) = sign * list.xi_t(slot);
-      if (list.has_rolling()) kept.rolling(k) = sign * list.rolling(slot);
-      if (list.has_force()) kept.force(k) = sign * list.force(slot);
+      history.partner(k) = partner;
+      history.xi_t(k) = sign * list.xi_t(slot);
+      if (list.has_rolling()) history.rolling(k) = sign * list.rolling(slot);
+      if (list.has_force()) history.force(k) = sign * list.force(slot);
     });
   }
 };
@@ -154,15 +154,15 @@ struct CountPairs {
 };
 
 /// Writes the pairs of each grain and their contact history. `old_row` is the row under which
-/// `kept` has each owned grain.
+/// `history` has each owned grain.
 struct FillPairs {
   PairSearch search;
   NotedPartners noted;
   PairList list;
-  ContactHistory kept;
+  ContactHistory history;
   Kokkos::View<const int*> old_row;
   Kokkos::View<const std::int64_t*> id;
-  bool has_kept = false;
+  bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
     int crossing = list.first(i), inner = list.inner_first(i);
@@ -182,21 +182,21 @@ struct FillPairs {
   KOKKOS_FUNCTION void remember(int slot, int i, int j) const {
     int k = -1;
     Real sign = 1;
-    if (has_kept) {
+    if (has_history) {
       const int n_owned = list.chunks.n;
-      if (i < n_owned) k = kept.find(old_row(i), id(j));
+      if (i < n_owned) k = history.find(old_row(i), id(j));
       if (k < 0 && j < n_owned) {
-        k = kept.find(old_row(j), id(i));
+        k = history.find(old_row(j), id(i));
         sign = -1;  // forces and displacements are those of the first grain
       }
     }
     const bool known = k >= 0;
     list.touching(slot) = known ? 1 : 0;
-    list.xi_t(slot) = known ? sign * kept.xi_t(k) : Vec3{};
-    if (list.has_rolling()) list.rolling(slot) = known ? sign * kept.rolling(k) : Vec3{};
+    list.xi_t(slot) = known ? sign * history.xi_t(k) : Vec3{};
+    if (list.has_rolling()) list.rolling(slot) = known ? sign * history.rolling(k) : Vec3{};
     if (list.has_force()) {
-      const bool has = known && kept.has_force();  // restart files do without
-      list.force(slot) = has ? sign * kept.force(k) : Vec3{};
+      const bool has = known && history.has_force();  // restart files do without
+      list.force(slot) = has ? sign * history.force(k) : Vec3{};
     }
     if (slot < list.n_crossing) list.pair_force(slot) = PairForce{};
   }

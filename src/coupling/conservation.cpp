@@ -1,9 +1,10 @@
-#include "src/coupling/conservation.hpp"
+// The ledger of mass and momentum over a run.
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 
+#include "src/coupling/coupling.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -15,12 +16,6 @@ double relative(const Vec3& difference, const Vec3& reference) {
   return size > 0 ? norm(difference) / size : norm(difference);
 }
 
-void put(std::map<std::string, double>& entries, const std::string& name, const Vec3& v) {
-  entries[name + "_x"] = v.x;
-  entries[name + "_y"] = v.y;
-  entries[name + "_z"] = v.z;
-}
-
 }  // namespace
 
 void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
@@ -28,13 +23,13 @@ void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
   sum_over(grains.ranks, counts);
   if (counts[0] + counts[1] != grains.n_initial) {
     throw std::runtime_error(
-        "grains inside and left do not add up to those at the start: " + std::to_string(counts[0]) +
-        " + " + std::to_string(counts[1]) + " is not " + std::to_string(grains.n_initial));
+        fmt::format("grains inside and left do not add up to those at the start: {} + {} is not {}",
+                    counts[0], counts[1], grains.n_initial));
   }
-  given_ += step.given_to_grains;
-  taken_ += step.taken_from_fluid;
-  implicit_ += step.implicit_on_fluid;
-  carried_sum_ += step.carried_to_grains;
+  sum_.given_to_grains += step.given_to_grains;
+  sum_.taken_from_fluid += step.taken_from_fluid;
+  sum_.implicit_on_fluid += step.implicit_on_fluid;
+  sum_.carried_to_grains += step.carried_to_grains;
   if (step.grain_volume > 0) {
     volume_ = std::max(volume_, std::abs(step.deposited_volume / step.grain_volume - 1));
   }
@@ -45,14 +40,16 @@ void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
 }
 
 std::map<std::string, double> Ledger::entries() const {
-  std::map<std::string, double> e;
-  put(e, "impulse_given_to_grains", given_);
-  put(e, "impulse_taken_from_fluid", taken_);
-  put(e, "impulse_implicit_on_fluid", implicit_);
-  put(e, "impulse_carried_to_grains", carried_sum_);
-  e["largest_volume_mismatch"] = volume_;
-  e["largest_exchange_mismatch"] = exchange_;
-  e["largest_carried_mismatch"] = carried_;
+  std::map<std::string, double> e{{"largest_volume_mismatch", volume_},
+                                  {"largest_exchange_mismatch", exchange_},
+                                  {"largest_carried_mismatch", carried_}};
+  const auto add = [&e](const std::string& name, const Vec3& v) {
+    e[name + "_x"] = v.x, e[name + "_y"] = v.y, e[name + "_z"] = v.z;
+  };
+  add("impulse_given_to_grains", sum_.given_to_grains);
+  add("impulse_taken_from_fluid", sum_.taken_from_fluid);
+  add("impulse_implicit_on_fluid", sum_.implicit_on_fluid);
+  add("impulse_carried_to_grains", sum_.carried_to_grains);
   return e;
 }
 

@@ -8,12 +8,10 @@
 
 #include "src/base/stopwatch.hpp"
 #include "src/config/config.hpp"
-#include "src/coupling/conservation.hpp"
 #include "src/coupling/coupling.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/grains/grain_solver.hpp"
-#include "src/grains/named_force.hpp"
 
 namespace barchan {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/coupling/deposit_stencil.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -78,9 +77,9 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
                           ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
                           Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
   // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
-  x0 = -max_over_ranks(grid_, -x0), x1 = max_over_ranks(grid_, x1);
-  z0 = -max_over_ranks(grid_, -z0), z1 = max_over_ranks(grid_, z1);
-  y1 = max_over_ranks(grid_, y1);
+  x0 = -max_over(ranks_of(grid_), -x0), x1 = max_over(ranks_of(grid_), x1);
+  z0 = -max_over(ranks_of(grid_), -z0), z1 = max_over(ranks_of(grid_), z1);
+  y1 = max_over(ranks_of(grid_), y1);
   CellRange cells = owned_cells(grid_);
   if (!(x0 <= x1)) return cells;  // no grains
   // One more on either side for the interpolation; everything where that reaches a periodic side.
@@ -161,7 +160,7 @@ void Coupling::choose_scales(const GrainState& grains, Real dt) {
   std::vector<Real> sum(6);
   Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
                           sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
-  sum_over_ranks(grid_, sum);
+  sum_over(ranks_of(grid_), sum);
   deposits_.implicit = fixed_point_for(sum[1]);
   deposits_.impulse = fixed_point_for(sum[2]);
   ledger_ = ExchangeLedger{};
@@ -229,19 +228,17 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 }
 
 void Coupling::sum_faces(Real dt, const FluidState& fluid) {
-  const ExchangeOnFaces& e = on_faces_;
-  const FaceVector& rate = fluid.du_dt;
-  const auto sum = [&](const Field& impulse, const Field& implicit, const Field& du, bool y_faces,
-                       Real& taken, Real& implicit_taken) {
-    const FaceVolume volume{grid_, y_faces};
-    taken = -sum_each_cell("ledger: taken from the fluid", grid_, SumImpulse{volume, impulse});
-    implicit_taken =
-        dt * sum_each_cell("ledger: implicit drag", grid_, SumImplicit{volume, implicit, du});
+  const auto sum = [&](Real Vec3::*axis, Field FaceVector::*faces) {
+    const FaceVolume volume{grid_, faces == &FaceVector::y};
+    ledger_.taken_from_fluid.*axis = -sum_each_cell("ledger: taken from the fluid", grid_,
+                                                    SumImpulse{volume, on_faces_.impulse.*faces});
+    ledger_.implicit_on_fluid.*axis =
+        dt * sum_each_cell("ledger: implicit drag", grid_,
+                           SumImplicit{volume, on_faces_.implicit.*faces, fluid.du_dt.*faces});
   };
-  ExchangeLedger& l = ledger_;
-  sum(e.impulse.x, e.implicit.x, rate.x, false, l.taken_from_fluid.x, l.implicit_on_fluid.x);
-  sum(e.impulse.y, e.implicit.y, rate.y, true, l.taken_from_fluid.y, l.implicit_on_fluid.y);
-  sum(e.impulse.z, e.implicit.z, rate.z, false, l.taken_from_fluid.z, l.implicit_on_fluid.z);
+  sum(&Vec3::x, &FaceVector::x);
+  sum(&Vec3::y, &FaceVector::y);
+  sum(&Vec3::z, &FaceVector::z);
 }
 
 void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
@@ -265,7 +262,7 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                        .z = cell_[3],
                                        .carried_impulse = grains.exchange.carried_impulse},
                           total[0], total[1], total[2]);
-  sum_over_ranks(grid_, total);
+  sum_over(ranks_of(grid_), total);
   ledger_.carried_to_grains = {total[0], total[1], total[2]};
   sum_faces(dt, fluid);
 }

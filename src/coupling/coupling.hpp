@@ -1,6 +1,8 @@
 // Fluid and grains exchange volume and momentum once per fluid step.
 #pragma once
 
+#include <map>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -26,6 +28,26 @@ struct ExchangeLedger {
   Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
   Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
 };
+
+/// Adds up what changed sides over a run and keeps the largest mismatch of any step.
+class Ledger {
+ public:
+  /// After each coupled step. Throws std::runtime_error if a grain is unaccounted for.
+  void close_step(const ExchangeLedger& step, const GrainState& grains);
+  /// Names and values for run.json; momentum along x, y, z [N s], mismatches relative.
+  std::map<std::string, double> entries() const;
+  double volume_mismatch() const { return volume_; }
+  double exchange_mismatch() const { return exchange_; }
+  double carried_mismatch() const { return carried_; }
+
+ private:
+  ExchangeLedger sum_;  // of the impulses
+  double volume_ = 0, exchange_ = 0, carried_ = 0;
+};
+
+/// The cells that grains up to a radius of r_max [m] deposit their volume in. Where the grid is
+/// cut, points of a grain may lie in ghosts; throws ConfigError if it could reach beyond.
+DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max);
 
 /// Unresolved coupling, model A: gather before the sub-steps, deposit after them, carry after the
 /// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil

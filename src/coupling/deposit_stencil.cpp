@@ -1,11 +1,10 @@
-#include "src/coupling/deposit_stencil.hpp"
-
+// The cells that a grain's volume is deposited in, by the configuration and the cuts of the grid.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "src/config/load.hpp"
-#include "src/parallel/decomposition.hpp"
+#include "src/coupling/coupling.hpp"
 
 namespace barchan {
 
@@ -40,8 +39,8 @@ DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real
   const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
   if (along_x.count > 1) {
     stencil.box.lx = 0;
-    if (periodic_x || along_x.place > 0) stencil.i_low = -1;
-    if (periodic_x || along_x.place + 1 < along_x.count) stencil.i_high = grid.nx;
+    if (periodic_x || along_x.position > 0) stencil.i_low = -1;
+    if (periodic_x || along_x.position + 1 < along_x.count) stencil.i_high = grid.nx;
   }
   if (along_z.count > 1) {
     stencil.box.lz = 0;

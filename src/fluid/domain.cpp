@@ -19,10 +19,10 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   grid.dx = lx / nx;
   grid.dz = lz / nz;
   if (ranks) {
-    grid.nx = ranks->x().count(ranks->along_x().place);
-    grid.nz = ranks->z().count(ranks->along_z().place);
-    grid.i_begin = ranks->x().begin(ranks->along_x().place);
-    grid.k_begin = ranks->z().begin(ranks->along_z().place);
+    grid.nx = ranks->x().count(ranks->along_x().position);
+    grid.nz = ranks->z().count(ranks->along_z().position);
+    grid.i_begin = ranks->x().begin(ranks->along_x().position);
+    grid.k_begin = ranks->z().begin(ranks->along_z().position);
     grid.x0 = grid.i_begin * grid.dx;
     grid.z0 = grid.k_begin * grid.dz;
     grid.lx = grid.nx * grid.dx;

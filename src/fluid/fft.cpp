@@ -36,9 +36,10 @@ PlaneFft::PlaneFft(const Grid& grid)
       columns_(along_x(grid), {planes_.joined_extents()[0], grid.ny, grid.nz_all}, 1, 2, 2),
       lines_(rows_.is_trivial() ? lines_in_field(grid) : lines_in_a_row(rows_.joined_extents()),
              {grid.nz_all, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
-      first_x_(
-          Split{.n = grid.nx_all / 2 + 1, .parts = along_z(grid).count}.begin(along_z(grid).place)),
-      first_z_(Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).place)) {
+      first_x_(Split{.n = grid.nx_all / 2 + 1, .parts = along_z(grid).count}.begin(
+          along_z(grid).position)),
+      first_z_(
+          Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).position)) {
   if (!rows_.is_trivial()) {
     const auto [nx, rows, planes] = rows_.joined_extents();
     lines_of_x_ = Kokkos::View<Real*>("fft: lines of x", static_cast<std::size_t>(nx) *

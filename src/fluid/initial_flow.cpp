@@ -183,7 +183,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
     const double u = curl.u(i, j, k), v = curl.v(i, j, k), w = curl.w(i, j, k);
     sum += (u * u + v * v + w * w) * rows.dy(j);
   });
-  const double rms = std::sqrt(sum_over_ranks(grid, sum) / grid.height_of_all_columns());
+  const double rms = std::sqrt(sum_over(ranks_of(grid), sum) / grid.height_of_all_columns());
   const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
   const HostRow mean = mean_profile(numbers, profile, rows, setup.kinematic_viscosity);
   set_owned(fluid.u.x, grid,

@@ -1,6 +1,7 @@
 #include "src/grains/grain_migration.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -15,15 +16,7 @@ using Rows = Kokkos::View<int*>;
 
 Rows make_rows(const char* label, int n) { return Rows(label, static_cast<std::size_t>(n)); }
 
-Rows to_device(const char* label, const std::vector<int>& values) {
-  const Rows rows = make_rows(label, static_cast<int>(values.size()));
-  const auto host = Kokkos::create_mirror_view(rows);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(rows, host);
-  return rows;
-}
-
-/// What is kept of a contact.
+/// The history of a contact.
 PackLayout layout_of(const ContactHistory& history) {
   PackLayout layout;
   const auto add = [&layout](const auto& array) {
@@ -33,9 +26,11 @@ PackLayout layout_of(const ContactHistory& history) {
   return layout;
 }
 
+/// Room for the same of n contacts.
 template <class View>
-View of_size(const char* label, const View& like, int n) {
-  return like.extent(0) > 0 ? View(label, static_cast<std::size_t>(std::max(n, 1))) : View();
+View room_like(const View& array, int n) {
+  if (array.extent(0) == 0) return {};
+  return View("contact history", static_cast<std::size_t>(std::max(n, 1)));
 }
 
 }  // namespace
@@ -71,8 +66,7 @@ void GrainMigration::choose(const GrainState& grains, const SearchColumns& colum
 }
 
 /// Tells the ranks how many grains and contacts they will get.
-void GrainMigration::count(const GrainState& grains, const ContactHistory& history,
-                           const GrainOwners& owners) {
+void GrainMigration::count(const GrainState& grains, const ContactHistory& history) {
   const int n = static_cast<int>(leaving_.extent(0));
   const Rows contacts = make_rows("migration: contacts", n);
   n_contacts_ = Kokkos::View<Real*>(
@@ -87,17 +81,15 @@ void GrainMigration::count(const GrainState& grains, const ContactHistory& histo
         of_grain(row(p)) = contacts(p);
       });
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, contacts);
-  std::vector<int> starts, to;
-  int p = 0, total = 0;
-  for (std::size_t rank = 0; rank < owners.start.extent(0); ++rank) {
-    const int before = total;
-    for (const int end = p + grains_.to[rank]; p < end; ++p) {
-      starts.push_back(total);
-      total += host(p);
-    }
-    to.push_back(total - before);
+  std::vector<int> to;
+  const int* contact = host.data();
+  for (const int n_grains : grains_.to) {
+    to.push_back(std::accumulate(contact, contact + n_grains, 0));
+    contact += n_grains;
   }
-  first_ = to_device("migration: first contact", starts);
+  std::exclusive_scan(host.data(), host.data() + n, host.data(), 0);
+  first_ = contacts;
+  Kokkos::deep_copy(first_, host);
   grains_ = exchange_counts(grains.ranks, std::move(grains_.to));
   contacts_ = exchange_counts(grains.ranks, std::move(to));
 }
@@ -132,11 +124,8 @@ void GrainMigration::receive_contacts(ContactHistory& history) const {
         if (final) first(g + 1) = sum;
       },
       total);
-  history = {.first = first,
-             .partner = of_size("contact history: partner", old.partner, total),
-             .xi_t = of_size("contact history: xi_t", old.xi_t, total),
-             .rolling = of_size("contact history: rolling", old.rolling, total),
-             .force = of_size("contact history: force", old.force, total)};
+  history = {first, room_like(old.partner, total), room_like(old.xi_t, total),
+             room_like(old.rolling, total), room_like(old.force, total)};
   const ContactHistory now = history;
   Kokkos::parallel_for(
       "migration: contacts that stay", items(n_stay), KOKKOS_LAMBDA(int g) {
@@ -155,7 +144,7 @@ void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
                                 const SearchColumns& columns, const GrainOwners& owners,
                                 const Kokkos::View<Quad*>& room) {
   choose(grains, columns, owners);
-  count(grains, history, owners);
+  count(grains, history);
   const int n_to = grains_.n_to(), n_from = grains_.n_from();
   if (n_to == 0 && n_from == 0) return;
   PackLayout layout = layout_of(grains);

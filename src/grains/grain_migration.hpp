@@ -22,7 +22,7 @@ class GrainMigration {
 
   // Public only because nvcc takes no device lambda from a private function.
   void choose(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
-  void count(const GrainState& grains, const ContactHistory& history, const GrainOwners& owners);
+  void count(const GrainState& grains, const ContactHistory& history);
   void send_contacts(const ContactHistory& history);
   void receive_contacts(ContactHistory& history) const;
 

@@ -1,7 +1,6 @@
 #include "src/grains/grain_partition.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "src/base/report.hpp"
@@ -13,49 +12,41 @@ namespace barchan {
 namespace {
 
 /// Place on the curve (upper half) and work (lower half) of each grain, sorted.
-Kokkos::View<std::uint64_t*, Kokkos::HostSpace> work_by_place(
-    const GrainState& grains, const SearchColumns& columns,
-    const Kokkos::View<const int*>& contacts) {
-  const int n = grains.n;
-  const Kokkos::View<std::uint64_t*> of_grain("partition: work", static_cast<std::size_t>(n));
+std::vector<std::uint64_t> work_by_place(const GrainState& grains, const SearchColumns& columns,
+                                         const Kokkos::View<const int*>& contacts) {
+  const Kokkos::View<std::uint64_t*> of_grain("partition: work",
+                                              static_cast<std::size_t>(grains.n));
   const auto kin = grains.kin;
   const bool has_contacts = contacts.extent(0) > 0;
   Kokkos::parallel_for(
-      "partition: work", items(n), KOKKOS_LAMBDA(int g) {
+      "partition: work", items(grains.n), KOKKOS_LAMBDA(int g) {
         const int sides = has_contacts ? contacts(g + 1) - contacts(g) : 0;
         of_grain(g) = (std::uint64_t{columns.place_of(kin(g).x)} << 32) |
                       static_cast<std::uint64_t>(2 + sides);
       });
-  const Kokkos::View<std::uint64_t*, Kokkos::HostSpace> sorted("partition: sorted work",
-                                                               of_grain.extent(0));
-  Kokkos::deep_copy(sorted, of_grain);
-  std::sort(sorted.data(), sorted.data() + n);
+  const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, of_grain);
+  std::vector<std::uint64_t> sorted(here.data(), here.data() + here.size());
+  std::sort(sorted.begin(), sorted.end());
   return sorted;
 }
 
 /// Work by place on the curve, of the grains of one rank.
 class WorkAlongCurve {
  public:
-  WorkAlongCurve(const GrainState& grains, const SearchColumns& columns,
-                 const Kokkos::View<const int*>& contacts) {
-    const auto sorted = work_by_place(grains, columns, contacts);
-    for (int g = 0; g < grains.n; ++g) {
-      place_.push_back(static_cast<std::uint32_t>(sorted(g) >> 32));
-      before_.push_back(total());
-      sum_ += static_cast<std::int64_t>(sorted(g) & 0xffffffffu);
-    }
+  explicit WorkAlongCurve(std::vector<std::uint64_t> by_place) : grain_(std::move(by_place)) {
+    for (const std::uint64_t grain : grain_)
+      sum_.push_back(sum_.back() + static_cast<std::int64_t>(grain & 0xffffffffu));
   }
-  std::int64_t total() const { return sum_; }
+  std::int64_t total() const { return sum_.back(); }
   /// Of the places before this one.
-  std::int64_t before(std::uint64_t place) const {
-    const auto at = std::lower_bound(place_.begin(), place_.end(), place);
-    return at == place_.end() ? total() : before_[static_cast<std::size_t>(at - place_.begin())];
+  std::int64_t before(std::uint32_t place) const {
+    const auto at = std::lower_bound(grain_.begin(), grain_.end(), std::uint64_t{place} << 32);
+    return sum_[static_cast<std::size_t>(at - grain_.begin())];
   }
 
  private:
-  std::vector<std::uint32_t> place_;
-  std::vector<std::int64_t> before_;
-  std::int64_t sum_ = 0;
+  std::vector<std::uint64_t> grain_;
+  std::vector<std::int64_t> sum_{0};  // of the grains before
 };
 
 /// Where equal pieces of the work of all ranks begin, found together by bisection. Integers: the
@@ -66,7 +57,7 @@ std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& wor
   std::vector<std::int64_t> low(n, 0), high(n, std::int64_t{1} << 32), sum(n);
   for (int bit = 0; bit < 32; ++bit) {
     for (std::size_t r = 0; r < n; ++r)
-      sum[r] = work.before(static_cast<std::uint64_t>(low[r] + high[r]) / 2);
+      sum[r] = work.before(static_cast<std::uint32_t>((low[r] + high[r]) / 2));
     sum_over(ranks, sum);
     for (std::size_t r = 0; r < n; ++r) {
       const std::int64_t middle = (low[r] + high[r]) / 2;
@@ -79,8 +70,7 @@ std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& wor
   return high;
 }
 
-Real largest_over_mean(MPI_Comm ranks, std::int64_t mine, std::int64_t total, int count) {
-  const Real largest = max_over(ranks, static_cast<Real>(mine));
+Real over_mean(Real largest, std::int64_t total, int count) {
   return total > 0 ? largest * count / static_cast<Real>(total) : 1;
 }
 
@@ -93,32 +83,32 @@ GrainPartition::GrainPartition(MPI_Comm ranks)
       start_("partition: starts", static_cast<std::size_t>(count_)),
       on_host_(Kokkos::create_mirror_view(start_)) {}
 
-bool GrainPartition::balance(const GrainState& grains, const SearchColumns& columns,
+void GrainPartition::balance(const GrainState& grains, const SearchColumns& columns,
                              const Kokkos::View<const int*>& contacts) {
   int sides = 0;
   if (contacts.extent(0) > 0) Kokkos::deep_copy(sides, Kokkos::subview(contacts, grains.n));
   const std::int64_t mine = 2 * std::int64_t{grains.n} + sides;
   const std::int64_t total = sum_over(ranks_, mine);
-  before_ = now_ = largest_over_mean(ranks_, mine, total, count_);
+  before_ = now_ = over_mean(max_over(ranks_, static_cast<Real>(mine)), total, count_);
   const Real tolerable = std::max(kWorstImbalance, 1 + 2 * (at_cut_ - 1));
-  if (has_cut_ && before_ <= tolerable) return false;
+  if (has_cut_ && before_ <= tolerable) return;
   const bool first = !has_cut_;
-  const WorkAlongCurve work(grains, columns, contacts);
+  const WorkAlongCurve work(work_by_place(grains, columns, contacts));
   set_starts(equal_pieces(ranks_, work, total, count_));
   std::vector<std::int64_t> piece;  // what each rank will have, from here
   for (int r = 0; r < count_; ++r) {
-    const std::uint64_t end = r + 1 < count_ ? on_host_(r + 1) : std::uint64_t{1} << 32;
-    piece.push_back(work.before(end) - work.before(on_host_(r)));
+    const std::int64_t end = r + 1 < count_ ? work.before(on_host_(r + 1)) : work.total();
+    piece.push_back(end - work.before(on_host_(r)));
   }
   sum_over(ranks_, piece);
-  const auto largest = static_cast<Real>(*std::max_element(piece.begin(), piece.end()));
-  now_ = at_cut_ = total > 0 ? largest * count_ / static_cast<Real>(total) : 1;
-  if (first) return true;
-  report::info(
-      "grains redistributed among {} ranks: the busiest had {:.3f} of the mean work and has "
-      "{:.3f}",
-      count_, before_, now_);
-  return true;
+  now_ = at_cut_ =
+      over_mean(static_cast<Real>(*std::max_element(piece.begin(), piece.end())), total, count_);
+  if (!first) {
+    report::info(
+        "grains redistributed among {} ranks: the busiest had {:.3f} of the mean work and has "
+        "{:.3f}",
+        count_, before_, now_);
+  }
 }
 
 void GrainPartition::set_starts(const std::vector<std::int64_t>& starts) {

@@ -22,8 +22,8 @@ class GrainPartition {
   /// Cuts anew if the work is shared worse than kWorstImbalance, and than twice the imbalance that
   /// was left at the last cut (columns are not cut). A grain counts one, and one half for each side
   /// of a contact, which `contacts` holds under its grains (starts, or empty); moving a grain takes
-  /// about as long as a contact. All ranks together. True if the cuts have changed.
-  bool balance(const GrainState& grains, const SearchColumns& columns,
+  /// about as long as a contact. All ranks together.
+  void balance(const GrainState& grains, const SearchColumns& columns,
                const Kokkos::View<const int*>& contacts);
 
   /// Of a restart file: starts() and imbalance_at_cut() of the ranks that wrote it.

@@ -45,6 +45,12 @@ struct ExtraGrainArray {
   Kokkos::View<Real*> values;
 };
 
+/// One force on every grain, in the order of the grains [N].
+struct NamedForce {
+  std::string name;  // "force_drag", "force_contact_normal", ...
+  Kokkos::View<const Vec3*> values;
+};
+
 /// Grains [0, n) of this rank. Rows are in spatial order, which a list rebuild changes; `id` never
 /// changes. Arrays may have room for more rows. Behind the rows of `kin` and `id` stand ghosts,
 /// copies of grains of other ranks.

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "src/base/words.hpp"
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

@@ -1,12 +1,18 @@
-// Grains as a file or a pour gives them.
+// Initial grains: from a file or poured.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "kernels/math/vec3.hpp"
 
 namespace barchan {
+
+struct PourConfig;
+struct SizeClass;
 
 /// Grains in the order of the file; all vectors have the same length.
 struct InitialGrains {
@@ -18,5 +24,22 @@ struct InitialGrains {
 
   std::size_t size() const { return id.size(); }
 };
+
+/// By the ending: .csv, or .h5, which is a grains.h5 (its last frame) or a restart file (arrays
+/// grains/id and grains/kin). Throws std::runtime_error with a sentence for the user.
+InitialGrains read_grains(const std::filesystem::path& file);
+
+/// Columns by header in any order: id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz (SI units).
+/// Empty lines and lines that start with # are skipped. Throws std::runtime_error
+/// "heap.csv:12: ..." for a missing or unknown column, a bad or not finite number, a wrong number
+/// of columns, a diameter that is not positive, an id used twice. Overlap is not looked at.
+InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name);
+
+/// A cone of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
+/// holding the grains of `sizes` in random order: no overlap, no order that survives the collapse.
+/// Sites fill the cone of foot radius pour.radius [m] from its axis outward and upward, so the
+/// number of grains decides its height. Throws std::runtime_error if the cone leaves the domain.
+InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
+                          const std::array<double, 3>& domain);
 
 }  // namespace barchan

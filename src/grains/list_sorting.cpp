@@ -72,21 +72,21 @@ void NeighborList::sort(GrainState& grains, bool drop) {
 void NeighborList::collect_history(const GrainState& grains) {
   const PairList& list = grains.list;
   const int n = grains.n;
-  const KeepingGrains keeping{.list = list, .id = grains.id, .both = ranks_ != nullptr};
+  const GrainsWithHistory with_history{.list = list, .id = grains.id, .both = ranks_ != nullptr};
   take_scratch(idle_, history_.first, "contact history: first", n + 1);
   Kokkos::deep_copy(history_.first, 0);
   Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
-                       CountContacts{.keeping = keeping, .count = history_.first});
+                       CountContacts{.grains = with_history, .count = history_.first});
   const int n_contacts = counts_to_starts(history_.first, n);
-  take_scratch(idle_, history_.partner, "contact history: partner", n_contacts);
-  take_scratch(idle_, history_.xi_t, "contact history: xi_t", n_contacts);
-  if (list.has_rolling())
-    take_scratch(idle_, history_.rolling, "contact history: rolling", n_contacts);
-  if (list.has_force()) take_scratch(idle_, history_.force, "contact history: force", n_contacts);
+  const auto take = [&](auto& array) { take_scratch(idle_, array, "contact history", n_contacts); };
+  take(history_.partner), take(history_.xi_t);
+  if (list.has_rolling()) take(history_.rolling);
+  if (list.has_force()) take(history_.force);
   const auto rows = std::pair<int, int>(0, n);
   Kokkos::deep_copy(Kokkos::subview(row_, rows), Kokkos::subview(history_.first, rows));
-  Kokkos::parallel_for("neighbors: keep contacts", list.n_pairs,
-                       KeepContacts{.keeping = keeping, .kept = history_, .cursor = row_});
+  Kokkos::parallel_for(
+      "neighbors: fill the contact history", list.n_pairs,
+      FillContactHistory{.grains = with_history, .history = history_, .cursor = row_});
   has_history_ = true;
 }
 

@@ -30,19 +30,18 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
     : skin_(config.grains->skin),
       r_max_(r_max),
       lx_(config.size[0]),
-      ly_(config.size[1]),
-      lz_(config.size[2]),
       exit_x_(config.grains->boundary_x == GrainBoundaryX::exit) {
   const Real cutoff = 2 * r_max + skin_;
+  const Real lz = config.size[2];
   columns_.periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
   columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
   columns_.nx = column_count(lx_, cutoff, columns_.periodic_x, "x");
-  columns_.nz = column_count(lz_, cutoff, columns_.periodic_z, "z");
+  columns_.nz = column_count(lz, cutoff, columns_.periodic_z, "z");
   columns_.inverse_width_x = columns_.nx / lx_;
-  columns_.inverse_width_z = columns_.nz / lz_;
-  columns_.height = ly_;
+  columns_.inverse_width_z = columns_.nz / lz;
+  columns_.height = config.size[1];
   box_.lx = columns_.periodic_x ? lx_ : 0;
-  box_.lz = columns_.periodic_z ? lz_ : 0;
+  box_.lz = columns_.periodic_z ? lz : 0;
   if (rank_count(ranks) > 1) ranks_ = std::make_unique<Ranks>(ranks);
 }
 
@@ -145,10 +144,10 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
                        FillPairs{.search = pair_search,
                                  .noted = noted,
                                  .list = list,
-                                 .kept = history_,
+                                 .history = history_,
                                  .old_row = row_,
                                  .id = grains.id,
-                                 .has_kept = has_history_});
+                                 .has_history = has_history_});
   has_history_ = false;
   register_others(list, n);
 }
@@ -174,10 +173,6 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
 void NeighborList::find_ghosts(GrainState& grains) {
   const GrainPartition& partition = ranks_->partition;
   ranks_->ghosts.find(grains, columns_, partition.owners(), partition.ranks());
-}
-
-void NeighborList::update_ghosts(const GrainState& grains) const {
-  if (ranks_) ranks_->ghosts.update(grains.kin);
 }
 
 void NeighborList::restore(GrainState& grains) {

@@ -36,7 +36,9 @@ class NeighborList {
   /// rows of `grains` as they are now.
   void set_history(const ContactHistory& history) { history_ = history, has_history_ = true; }
   /// Brings the ghosts to where their owners have moved them. All ranks together.
-  void update_ghosts(const GrainState& grains) const;
+  void update_ghosts(const GrainState& grains) const {
+    if (ranks_) ranks_->ghosts.update(grains.kin);
+  }
   /// None where one rank has all grains.
   GrainPartition* partition() const { return ranks_ ? &ranks_->partition : nullptr; }
   const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
@@ -76,8 +78,7 @@ class NeighborList {
 
   SearchColumns columns_;
   PeriodicBox box_;
-  Real skin_ = 0, r_max_ = 0;
-  Real lx_ = 0, ly_ = 0, lz_ = 0;
+  Real skin_ = 0, r_max_ = 0, lx_ = 0;
   bool exit_x_ = false;
   std::int64_t rebuilds_ = 0;
   OccupiedColumns occupied_;

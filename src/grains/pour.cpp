@@ -1,10 +1,11 @@
-#include "src/grains/pour.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <random>
 #include <stdexcept>
+
+#include "src/config/config.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

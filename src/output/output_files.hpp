@@ -13,7 +13,6 @@
 
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
-#include "src/grains/named_force.hpp"
 #include "src/io/frame_file.hpp"
 
 namespace barchan {

@@ -1,8 +1,9 @@
 #include "src/parallel/decomposition.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace barchan {
 
@@ -45,18 +46,17 @@ int best_count_along_x(int count, int nx, int nz) {
 [[noreturn]] void refuse(int count, int nx, int nz) {
   int fewer = count - 1;
   while (best_count_along_x(fewer, nx, nz) == 0) --fewer;
-  throw std::runtime_error(
-      "--ranks: " + std::to_string(count) + " ranks cannot share " + std::to_string(nx) + " x " +
-      std::to_string(nz) + " columns of cells in pencils at least " +
-      std::to_string(Decomposition::kThinnest) +
-      " cells thick; the next smaller number that can is " + std::to_string(fewer));
+  throw std::runtime_error(fmt::format(
+      "--ranks: {} ranks cannot share {} x {} columns of cells in pencils at least {} cells thick; "
+      "the next smaller number that can is {}",
+      count, nx, nz, Decomposition::kThinnest, fewer));
 }
 
 RankLine line_of(MPI_Comm all, int colour, int key) {
   RankLine line;
   MPI_Comm_split(all, colour, key, &line.communicator);
   MPI_Comm_size(line.communicator, &line.count);
-  MPI_Comm_rank(line.communicator, &line.place);
+  MPI_Comm_rank(line.communicator, &line.position);
   return line;
 }
 

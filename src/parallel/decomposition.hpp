@@ -20,9 +20,9 @@ struct Split {
 /// The ranks side by side along one periodic direction.
 struct RankLine {
   MPI_Comm communicator = MPI_COMM_NULL;
-  int count = 1, place = 0;
-  int before() const { return (place + count - 1) % count; }
-  int after() const { return (place + 1) % count; }
+  int count = 1, position = 0;
+  int before() const { return (position + count - 1) % count; }
+  int after() const { return (position + 1) % count; }
 };
 
 /// nx x nz columns of cells, cut into pencils of full height, a rank each. The shape is the one

@@ -4,7 +4,7 @@
 #include <mpi-ext.h>
 #endif
 
-#include <array>
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -17,35 +17,28 @@ namespace {
 
 MessageCounts sent_so_far;
 
-void count_message(std::size_t numbers) {
-  ++sent_so_far.messages;
-  sent_so_far.bytes += static_cast<std::int64_t>(numbers * sizeof(Real));
-}
-
 std::vector<int> starts_of(const std::vector<int>& sizes) {
   std::vector<int> starts(sizes.size());
   std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
   return starts;
 }
-std::vector<std::size_t> starts_of(const std::vector<int>& rows, int width) {
-  std::vector<std::size_t> starts{0};
-  for (const int n : rows)
-    starts.push_back(starts.back() + static_cast<std::size_t>(n) * static_cast<std::size_t>(width));
-  return starts;
-}
 
-/// A rank's rows for itself never leave its memory.
-void copy_own(const MessageBuffer& send, std::size_t from, const MessageBuffer& receive,
-              std::size_t to, std::size_t n) {
-  using Numbers = Kokkos::View<Real*, Kokkos::MemoryUnmanaged>;
-  if (n > 0) Kokkos::deep_copy(Numbers(receive.data() + to, n), Numbers(send.data() + from, n));
+void reduce(MPI_Comm ranks, void* numbers, std::size_t n, MPI_Datatype type, MPI_Op operation) {
+  if (rank_count(ranks) == 1) return;
+  ++sent_so_far.reductions;
+  MPI_Allreduce(MPI_IN_PLACE, numbers, static_cast<int>(n), type, operation, ranks);
 }
 
 }  // namespace
 
 const MessageCounts& message_counts() { return sent_so_far; }
 
-void exchange_detail::count_reduction() { ++sent_so_far.reductions; }
+void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation) {
+  reduce(ranks, numbers.data(), numbers.size(), MPI_DOUBLE, operation);
+}
+void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation) {
+  reduce(ranks, numbers.data(), numbers.size(), MPI_INT64_T, operation);
+}
 
 bool mpi_reaches_device() {
   if (runs_on_host) return true;
@@ -85,42 +78,46 @@ void MessageBuffer::received() const {
   if (staged_.extent(0) > 0) Kokkos::deep_copy(numbers_, staged_);
 }
 
-HaloBuffers::HaloBuffers(std::size_t n)
-    : to_before("halo: to before", n),
-      to_after("halo: to after", n),
-      from_before("halo: from before", n),
-      from_after("halo: from after", n) {}
-
-void exchange(const RankLine& line, const HaloBuffers& buffers, std::size_t n_numbers) {
-  constexpr int forth = 1, back = 2;
-  const int n = static_cast<int>(n_numbers);
-  std::array<MPI_Request, 4> requests;
-  MPI_Irecv(buffers.from_before.to_receive(), n, MPI_DOUBLE, line.before(), forth,
-            line.communicator, &requests[0]);
-  MPI_Irecv(buffers.from_after.to_receive(), n, MPI_DOUBLE, line.after(), back, line.communicator,
-            &requests[1]);
-  MPI_Isend(buffers.to_after.to_send(), n, MPI_DOUBLE, line.after(), forth, line.communicator,
-            &requests[2]);
-  MPI_Isend(buffers.to_before.to_send(), n, MPI_DOUBLE, line.before(), back, line.communicator,
-            &requests[3]);
+void exchange(MPI_Comm ranks, const MessageBuffer& send, std::span<const MessageBlock> to,
+              const MessageBuffer& receive, std::span<const MessageBlock> from) {
+  constexpr int tag = 3;
+  const int me = rank_of(ranks);
+  const auto travels = [me](const MessageBlock& block) { return block.rank != me && block.n > 0; };
+  std::vector<MPI_Request> requests;
+  requests.reserve(to.size() + from.size());
+  Real* const incoming = receive.to_receive();
+  for (const MessageBlock& block : from) {
+    if (!travels(block)) continue;
+    MPI_Irecv(incoming + block.begin, static_cast<int>(block.n), MPI_DOUBLE, block.rank, tag, ranks,
+              &requests.emplace_back());
+  }
+  const Real* const outgoing = send.to_send();
+  for (const MessageBlock& block : to) {
+    if (!travels(block)) continue;
+    MPI_Isend(outgoing + block.begin, static_cast<int>(block.n), MPI_DOUBLE, block.rank, tag, ranks,
+              &requests.emplace_back());
+    ++sent_so_far.messages;
+    sent_so_far.bytes += static_cast<std::int64_t>(block.n * sizeof(Real));
+  }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  buffers.from_before.received();
-  buffers.from_after.received();
-  count_message(n_numbers);
-  count_message(n_numbers);
+  receive.received();
+  const auto sent = std::ranges::find(to, me, &MessageBlock::rank);
+  if (sent == to.end() || sent->n == 0) return;
+  const auto kept = std::ranges::find(from, me, &MessageBlock::rank);
+  using Numbers = Kokkos::View<Real*, Kokkos::MemoryUnmanaged>;
+  Kokkos::deep_copy(Numbers(receive.data() + kept->begin, kept->n),
+                    Numbers(send.data() + sent->begin, sent->n));
 }
 
-void exchange_all(const RankLine& line, const MessageBuffer& send,
-                  const std::vector<int>& send_counts, const MessageBuffer& receive,
-                  const std::vector<int>& receive_counts) {
-  const std::vector<int> from = starts_of(send_counts), to = starts_of(receive_counts);
-  MPI_Alltoallv(send.to_send(), send_counts.data(), from.data(), MPI_DOUBLE, receive.to_receive(),
-                receive_counts.data(), to.data(), MPI_DOUBLE, line.communicator);
-  receive.received();
-  for (int place = 0; place < line.count; ++place) {
-    const int n = send_counts[static_cast<std::size_t>(place)];
-    if (place != line.place && n > 0) count_message(static_cast<std::size_t>(n));
+std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int width) {
+  std::vector<MessageBlock> blocks;
+  std::size_t begin = 0;
+  for (const int n : count) {
+    const auto numbers = static_cast<std::size_t>(n) * static_cast<std::size_t>(width);
+    blocks.push_back({.rank = static_cast<int>(blocks.size()), .begin = begin, .n = numbers});
+    begin += numbers;
   }
+  return blocks;
 }
 
 int ExchangeCounts::n_to() const { return std::accumulate(to.begin(), to.end(), 0); }
@@ -148,34 +145,6 @@ ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to) {
   MPI_Alltoall(counts.to.data(), 1, MPI_INT, counts.from.data(), 1, MPI_INT, ranks);
   ++sent_so_far.all_to_alls;
   return counts;
-}
-
-void exchange(const ExchangeCounts& counts, int width, const MessageBuffer& send,
-              MessageBuffer& receive) {
-  const auto to = starts_of(counts.to, width), from = starts_of(counts.from, width);
-  receive.reserve(from.back());
-  std::vector<MPI_Request> requests;
-  const auto add = [&]() -> MPI_Request* { return &requests.emplace_back(); };
-  const std::size_t n_ranks = counts.to.size(),
-                    me = static_cast<std::size_t>(rank_of(counts.ranks));
-  requests.reserve(2 * n_ranks);
-  constexpr int tag = 3;
-  Real* const incoming = receive.to_receive();
-  for (std::size_t r = 0; r < n_ranks; ++r) {
-    if (r == me || counts.from[r] == 0) continue;
-    MPI_Irecv(incoming + from[r], counts.from[r] * width, MPI_DOUBLE, static_cast<int>(r), tag,
-              counts.ranks, add());
-  }
-  const Real* const outgoing = send.to_send();
-  for (std::size_t r = 0; r < n_ranks; ++r) {
-    if (r == me || counts.to[r] == 0) continue;
-    MPI_Isend(outgoing + to[r], counts.to[r] * width, MPI_DOUBLE, static_cast<int>(r), tag,
-              counts.ranks, add());
-    count_message(to[r + 1] - to[r]);
-  }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  receive.received();
-  copy_own(send, to[me], receive, from[me], to[me + 1] - to[me]);
 }
 
 }  // namespace barchan

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct MessageCounts {
 };
 const MessageCounts& message_counts();
 
-namespace exchange_detail {
-void count_reduction();
-}  // namespace exchange_detail
+/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
+void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation);
+void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation);
 
 /// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
 /// MPI library says so. Otherwise messages pass through the host.
@@ -51,22 +52,18 @@ class MessageBuffer {
   Kokkos::View<Real*, Kokkos::HostSpace> staged_;  // empty where MPI reaches the numbers
 };
 
-/// Messages to and from the two neighbours along a direction; none where it is not cut.
-struct HaloBuffers {
-  MessageBuffer to_before, to_after, from_before, from_after;
-
-  HaloBuffers() = default;
-  /// Room for n numbers in each.
-  explicit HaloBuffers(std::size_t n);
-  bool is_cut() const { return to_after.size() > 0; }
+/// Numbers [begin, begin + n) of a buffer that go to a rank, or come from it.
+struct MessageBlock {
+  int rank = 0;
+  std::size_t begin = 0, n = 0;
 };
-/// Sends n numbers to the rank before and as many to the one after, and receives theirs.
-void exchange(const RankLine& line, const HaloBuffers& buffers, std::size_t n);
+/// Sends the blocks `to` and receives the blocks `from`. Several for one rank arrive in the order
+/// they are sent in; an empty one is no message, and a rank's block for itself is copied.
+void exchange(MPI_Comm ranks, const MessageBuffer& send, std::span<const MessageBlock> to,
+              const MessageBuffer& receive, std::span<const MessageBlock> from);
 
-/// Block p of `send`, counts[p] numbers one after the other, goes to the p-th rank of the line.
-void exchange_all(const RankLine& line, const MessageBuffer& send,
-                  const std::vector<int>& send_counts, const MessageBuffer& receive,
-                  const std::vector<int>& receive_counts);
+/// A block for each rank, of count[rank] rows of `width` numbers, one after the other.
+std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int width);
 
 /// Rows (of grains, ghosts, contacts) that this rank sends to each rank of a communicator, and
 /// receives from it.
@@ -90,11 +87,5 @@ RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>
 
 /// Tells each rank how many rows it will receive. All ranks together.
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to);
-
-/// Sends rows of `width` numbers, those for rank 0 first, and receives those for this rank in the
-/// order of their senders; `receive` grows as needed. Ranks without rows for each other exchange no
-/// message; a rank's rows for itself are copied.
-void exchange(const ExchangeCounts& counts, int width, const MessageBuffer& send,
-              MessageBuffer& receive);
 
 }  // namespace barchan

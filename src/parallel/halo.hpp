@@ -8,6 +8,13 @@
 
 namespace barchan {
 
+/// Messages to and from the two neighbours along a direction, that for the rank before first.
+struct HaloBuffers {
+  RankLine line;
+  MessageBuffer send, receive;  // empty where the direction is not cut
+  bool is_cut() const { return line.count > 1; }
+};
+
 /// Fills the ghosts of grid fields from the cells that own them: of this rank, across the periodic
 /// sides, or of the ranks around it; and adds ghosts to their owners.
 class Halo {
@@ -30,7 +37,7 @@ class Halo {
 
  private:
   Grid grid_;
-  HaloBuffers x_, z_;  // empty where this rank has the whole width
+  HaloBuffers x_, z_;
 };
 
 }  // namespace barchan

@@ -35,36 +35,32 @@ inline Items policy(const CellRange& r) {
   return items(runs_on_host ? rows : rows * (r.i1 - r.i0));
 }
 
-/// Index of a row (host) or of a cell (device) back to i, j, k.
-struct CellOfItem {
-  int i, j, k;
-  KOKKOS_INLINE_FUNCTION static CellOfItem of_row(const CellRange& r, int row) {
-    const int rows_y = r.j1 - r.j0;
-    return {r.i0, r.j0 + row % rows_y, r.k0 + row / rows_y};
-  }
-  KOKKOS_INLINE_FUNCTION static CellOfItem of_cell(const CellRange& r, int cell) {
-    const int length = r.i1 - r.i0;
-    CellOfItem at = of_row(r, cell / length);
-    at.i += cell % length;
-    return at;
+/// The cells of a work item: a row on the host, a single cell on a device.
+struct CellsOfItem {
+  int i0, i1, j, k;
+  KOKKOS_FORCEINLINE_FUNCTION CellsOfItem(const CellRange& r, int item) {
+    const int length = runs_on_host ? 1 : r.i1 - r.i0;
+    const int rows_y = r.j1 - r.j0, row = item / length;
+    i0 = r.i0 + item % length;
+    i1 = runs_on_host ? r.i1 : i0 + 1;
+    j = r.j0 + row % rows_y;
+    k = r.k0 + row / rows_y;
   }
 };
+
+/// A functor within a work item. On the host a local copy: its members stay in registers.
+template <class Functor>
+using Body = std::conditional_t<runs_on_host, const Functor, const Functor&>;
 
 template <class Functor>
 struct Loop {
   Functor functor;
   CellRange range;
-  KOKKOS_FUNCTION void operator()(int index) const {
-    if constexpr (runs_on_host) {
-      const Functor body = functor;  // a local copy: its members stay in registers
-      const CellOfItem at = CellOfItem::of_row(range, index);
-      const int end = range.i1;
+  KOKKOS_FUNCTION void operator()(int item) const {
+    Body<Functor> body = functor;
+    const CellsOfItem at(range, item);
 #pragma omp simd
-      for (int i = at.i; i < end; ++i) body(i, at.j, at.k);
-    } else {
-      const CellOfItem at = CellOfItem::of_cell(range, index);
-      functor(at.i, at.j, at.k);
-    }
+    for (int i = at.i0; i < at.i1; ++i) body(i, at.j, at.k);
   }
 };
 
@@ -72,19 +68,13 @@ template <class Functor>
 struct SumLoop {
   Functor functor;
   CellRange range;
-  KOKKOS_FUNCTION void operator()(int index, Real& sum) const {
-    if constexpr (runs_on_host) {
-      const Functor body = functor;
-      const CellOfItem at = CellOfItem::of_row(range, index);
-      const int end = range.i1;
-      Real row_sum = 0;
+  KOKKOS_FUNCTION void operator()(int item, Real& sum) const {
+    Body<Functor> body = functor;
+    const CellsOfItem at(range, item);
+    Real row_sum = 0;
 #pragma omp simd reduction(+ : row_sum)
-      for (int i = at.i; i < end; ++i) row_sum += body(i, at.j, at.k);
-      sum += row_sum;
-    } else {
-      const CellOfItem at = CellOfItem::of_cell(range, index);
-      sum += functor(at.i, at.j, at.k);
-    }
+    for (int i = at.i0; i < at.i1; ++i) row_sum += body(i, at.j, at.k);
+    sum += row_sum;
   }
 };
 
@@ -92,25 +82,17 @@ template <class Functor>
 struct MaxLoop {
   Functor functor;
   CellRange range;
-  KOKKOS_FUNCTION void operator()(int index, Real& largest) const {
-    if constexpr (runs_on_host) {
-      const Functor body = functor;
-      const CellOfItem at = CellOfItem::of_row(range, index);
-      const int end = range.i1;
-      Real row_max = largest, row_sum = 0;
+  KOKKOS_FUNCTION void operator()(int item, Real& largest) const {
+    Body<Functor> body = functor;
+    const CellsOfItem at(range, item);
+    Real row_max = largest, row_sum = 0;
 #pragma omp simd reduction(max : row_max) reduction(+ : row_sum)
-      for (int i = at.i; i < end; ++i) {
-        const Real value = body(i, at.j, at.k);
-        row_max = value > row_max ? value : row_max;
-        row_sum += value;  // a maximum forgets what is not a number, a sum does not
-      }
-      largest = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
-    } else {
-      const CellOfItem at = CellOfItem::of_cell(range, index);
-      const Real value = functor(at.i, at.j, at.k);
-      const Real known = value == value ? value : Kokkos::Experimental::infinity_v<Real>;
-      largest = known > largest ? known : largest;
+    for (int i = at.i0; i < at.i1; ++i) {
+      const Real value = body(i, at.j, at.k);
+      row_max = value > row_max ? value : row_max;
+      row_sum += value;  // a maximum forgets what is not a number, a sum does not
     }
+    largest = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
   }
 };
 

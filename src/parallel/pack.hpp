@@ -118,9 +118,11 @@ class RowExchange {
                 const Kokkos::View<const int*>& row = {}) {
     send_.reserve(static_cast<std::size_t>(counts.n_to()) * static_cast<std::size_t>(layout.width));
     Kokkos::parallel_for(pack_, items(counts.n_to()), PackRows{layout, row, send_.data()});
-    barchan::exchange(counts, layout.width, send_, receive_);
     width_ = layout.width;
     n_received_ = counts.n_from();
+    receive_.reserve(static_cast<std::size_t>(n_received_) * static_cast<std::size_t>(width_));
+    barchan::exchange(counts.ranks, send_, consecutive_blocks(counts.to, width_), receive_,
+                      consecutive_blocks(counts.from, width_));
   }
   /// What was received, into the rows of a list, or into `first_row` and those after it.
   void unpack(const PackLayout& layout, const Kokkos::View<const int*>& row) const {

@@ -21,27 +21,30 @@ struct StridedArray {
 class Transpose {
  public:
   /// `whole`: extents with both axes whole.
-  Transpose(const RankLine& line, std::array<int, 3> whole, int shared, int split, int width);
+  Transpose(const RankLine& line, std::array<int, 3> whole, std::size_t shared, std::size_t split,
+            int width);
 
   /// With one rank in the line both arrays are the same, and nobody has to move anything.
   bool is_trivial() const { return line_.count == 1; }
   std::array<int, 3> cut_extents() const { return cut_; }
   std::array<int, 3> joined_extents() const { return joined_; }
-  void join(const StridedArray& cut, const StridedArray& joined) const;
-  void cut(const StridedArray& joined, const StridedArray& cut) const;
+  void join(const StridedArray& cut, const StridedArray& joined) const {
+    move(cut_side_, cut, joined_side_, joined);
+  }
+  void cut(const StridedArray& joined, const StridedArray& cut) const {
+    move(joined_side_, joined, cut_side_, cut);
+  }
 
  private:
-  /// The block of a cut array that the rank at `place` has in its joined one, or the other way
-  /// round.
-  struct Block {
-    std::array<int, 3> begin{}, end{};
-  };
+  /// An array in blocks along one axis: what the ranks of the line have of it on the other side.
   struct Side {
-    std::vector<Block> blocks;  // a rank of the line each
-    std::vector<int> counts;    // numbers in them
+    std::array<int, 3> extents{};
+    std::size_t axis = 0;
+    Split split;
+    std::vector<MessageBlock> blocks;
     MessageBuffer buffer;
   };
-  Side make_side(const std::array<int, 3>& extents, int axis, const Split& split,
+  Side make_side(const std::array<int, 3>& extents, std::size_t axis, const Split& split,
                  const char* label) const;
   void move(const Side& from, const StridedArray& source, const Side& to,
             const StridedArray& target) const;

@@ -10,8 +10,7 @@
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/initial_flow.hpp"
-#include "src/grains/grain_files.hpp"
-#include "src/grains/pour.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "src/output/state_file.hpp"
 
 namespace barchan {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/run/commands.hpp"

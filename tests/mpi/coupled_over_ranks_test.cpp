@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/coupling/deposit_stencil.hpp"
+#include "src/coupling/coupling.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/parallel/reduce.hpp"

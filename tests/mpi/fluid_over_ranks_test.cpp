@@ -7,7 +7,6 @@
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/fluid/local_correction.hpp"
-#include "src/parallel/exchange.hpp"
 #include "tests/support/shared_grid.hpp"
 
 namespace barchan {
@@ -36,22 +35,6 @@ TEST(HaloOverRanks, GhostsAreTheCellsAcross) {
           ASSERT_EQ(got(i, j, k),
                     noise((i + grid.mine.i_begin + nx) % nx, j, (k + grid.mine.k_begin + nz) % nz));
         }
-  }
-}
-
-TEST(HaloOverRanks, OneMessageToEachSide) {
-  for (const int along_x : test::shapes(kCells)) {
-    SCOPED_TRACE(along_x);
-    const SharedGrid grid = awkward(along_x);
-    const Halo halo(grid.mine);
-    Field f("f", grid.mine);
-    const MessageCounts before = message_counts();
-    halo.fill(f);
-    const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
-    EXPECT_EQ(message_counts().messages - before.messages, 2 * cut_x + 2 * cut_z);
-    const int rims = 2 * cut_x * (grid.mine.ny + 2) * grid.mine.nz +
-                     2 * cut_z * (grid.mine.ny + 2) * (grid.mine.nx + 2);
-    EXPECT_EQ(message_counts().bytes - before.bytes, 8 * rims);
   }
 }
 

@@ -64,8 +64,8 @@ MessageCounts shares(int place, int n_here, const Split& split, int others, int 
 /// The axis `shared` made whole at the cost of `split`, and cut again.
 MessageCounts there_and_back(const RankLine& line, const Split& shared, const Split& split,
                              int others, int width) {
-  return shares(line.place, shared.count(line.place), split, others, width) +
-         shares(line.place, split.count(line.place), shared, others, width);
+  return shares(line.position, shared.count(line.position), split, others, width) +
+         shares(line.position, split.count(line.position), shared, others, width);
 }
 
 /// Lines of x, lines of z, rows.
@@ -75,8 +75,8 @@ MessageCounts fft_solve(const Grid& grid) {
   const Split rows{grid.ny, x.count}, planes{grid.nz_all, x.count};
   const Split modes{grid.nx_all / 2 + 1, z.count};
   return there_and_back(x, cells_x, rows, grid.nz, 1) +
-         there_and_back(z, cells_z, modes, rows.count(x.place), 2) +
-         there_and_back(x, rows, planes, modes.count(z.place), 2);
+         there_and_back(z, cells_z, modes, rows.count(x.position), 2) +
+         there_and_back(x, rows, planes, modes.count(z.position), 2);
 }
 
 /// nu_t, u*_x, u*_z, p twice, u, du/dt; flow rate, Courant number, continuity.

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "tests/support/packing.hpp"
 
 namespace barchan {

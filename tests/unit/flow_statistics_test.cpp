@@ -184,9 +184,9 @@ TEST(FlowAverage, FileHoldsOneFrameWithItsWindow) {
   }
   const Hdf5File file(folder / "run" / "flow_average.h5", Hdf5File::Mode::read);
   EXPECT_EQ(list_frames(file).size(), 1u);
-  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "window_start"), 1);
-  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "time"), 1.1);
-  EXPECT_DOUBLE_EQ(file.real_attribute("frame_000000", "n_samples"), 2);
+  EXPECT_DOUBLE_EQ(file.attribute<double>("frame_000000", "window_start"), 1);
+  EXPECT_DOUBLE_EQ(file.attribute<double>("frame_000000", "time"), 1.1);
+  EXPECT_DOUBLE_EQ(file.attribute<double>("frame_000000", "n_samples"), 2);
   EXPECT_TRUE(file.exists("frame_000000/uv"));
   EXPECT_TRUE(file.exists("grid/y_face"));
   EXPECT_TRUE(std::filesystem::exists(folder / "run" / "flow_average.xdmf"));

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/hdf5_handle.hpp"

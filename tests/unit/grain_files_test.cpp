@@ -1,4 +1,4 @@
-#include "src/grains/grain_files.hpp"
+#include "src/grains/initial_grains.hpp"
 
 #include <gtest/gtest.h>
 

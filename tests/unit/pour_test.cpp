@@ -5,9 +5,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "src/grains/pour.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/temporary_folder.hpp"
+
+#include "src/config/config.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 namespace {
