@@ -12,7 +12,7 @@ namespace {
 /// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
 /// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
 /// or written six times on its way; some 40 fields whose halos are exchanged; and what a message
-/// costs however short it is, about 400 numbers a row. Measured: docs/performance.md.
+/// costs however short it is, about 400 numbers a row.
 struct Cost {
   int nx, nz;
   double of(int along_x, int along_z) const {
