@@ -2,7 +2,7 @@
 // to the grains what the implicit drag took. Equations: docs/model.md.
 #pragma once
 
-#include "kernels/coupling/void_fraction.hpp"
+#include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/grain.hpp"
@@ -39,16 +39,29 @@ struct ExchangeOfGrain {
   }
 };
 
+/// Impulse that the rows of one grain exchange through it, as a bound [N s].
+KOKKOS_INLINE_FUNCTION Real between_rows(const ExchangeOfGrain& of_grain, const ExchangeByRow& rows,
+                                         int g) {
+  const VelocityByRow v = rows(of_grain.grains(g));
+  Real sum = 0;
+  for (int r = 0; r < v.rows.n; ++r) {
+    sum += v.rows.weight(r) * (Kokkos::abs(v.x[r] - v.mean_x) + Kokkos::abs(v.z[r] - v.mean_z));
+  }
+  return of_grain.dt * of_grain.on_grains.beta(g) * sum;
+}
+
 /// What all grains together give: volume [m^3], implicit coefficient [kg], sum of |impulse|
 /// components and the impulse itself [N s].
 struct SumExchange {
   ExchangeOfGrain of_grain;
+  ExchangeByRow rows;
   KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& implicit, Real& size, Real& x, Real& y,
                                   Real& z) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
     implicit += e.implicit;
     size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
+    if (rows.on) size += between_rows(of_grain, rows, g);
     x += e.impulse.x;
     y += e.impulse.y;
     z += e.impulse.z;
@@ -59,22 +72,41 @@ struct SumExchange {
 struct DepositGrain {
   DepositStencil stencil;
   ExchangeOfGrain of_grain;
+  ExchangeByRow rows;
   Deposits deposits;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainCells cells = stencil(of_grain.grains(g));
+    if (rows.on) {
+      const VelocityByRow v = rows(of_grain.grains(g));
+      const Real drag = of_grain.dt * of_grain.on_grains.beta(g);
+      // A row that flows faster than the grain sees on average drags it more: the difference adds
+      // up to nothing over the grain.
+      add(g, cells, [&](int j) {
+        const int r = v.rows.find(j);
+        return Vec3{drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)};
+      });
+    } else {
+      add(g, cells, [](int) { return Vec3{}; });
+    }
+  }
+
+ private:
+  template <class InRow>
+  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, const InRow& of_row) const {
     const GrainExchange e = of_grain(g);
     for (int q = 0; q < cells.n; ++q) {
+      const Vec3 impulse = e.impulse + of_row(cells.cell[q].j);
       const Real w = cells.weight(q);
       const std::int64_t cell = cells.cell[q].linear(stencil.grid);
-      const auto add = [&](int quantity, const FixedPoint& point, Real value) {
+      const auto put = [&](int quantity, const FixedPoint& point, Real value) {
         Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
       };
-      add(0, deposits.volume, e.volume);
-      add(1, deposits.implicit, e.implicit);
-      add(2, deposits.impulse, e.impulse.x);
-      add(3, deposits.impulse, e.impulse.y);
-      add(4, deposits.impulse, e.impulse.z);
+      put(0, deposits.volume, e.volume);
+      put(1, deposits.implicit, e.implicit);
+      put(2, deposits.impulse, impulse.x);
+      put(3, deposits.impulse, impulse.y);
+      put(4, deposits.impulse, impulse.z);
     }
   }
 };

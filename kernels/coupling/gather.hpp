@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/coupling/drag.hpp"
+#include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/interpolation.hpp"
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/stencil.hpp"
@@ -102,6 +103,7 @@ struct GatherFluid {
   Real rho_f = 0, mu_f = 0, dt = 0;
   SubmergedWeight weight;
   FluidForces forces;
+  ExchangeByRow rows;
   bool skip_relaxation = false;  // the first step, grains that do not move
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
@@ -111,7 +113,11 @@ struct GatherFluid {
     const GrainKinematics grain = grains(g);
     const PointStencil at(grid, box, grain.x);
     const Real found = interpolate_cell(alpha_f, at);
-    const Vec3 u_f = interpolate_faces(u, at);
+    Vec3 u_f = interpolate_faces(u, at);
+    if (rows.on) {
+      const VelocityByRow by_row = rows(grain);
+      u_f.x = by_row.mean_x, u_f.z = by_row.mean_z;
+    }
     const Real volume = sphere_volume(grain.r);
     const Real added_mass = forces.added_mass * sphere_added_mass(rho_f, volume);
     const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);

@@ -109,10 +109,14 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
     return grid.cell_along(z, grid.dz) - grid.k_begin;
   }
-  /// Row of a height near a row; what is beyond a wall is mirrored back.
-  KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
+  /// A height; what is beyond a wall is mirrored back.
+  KOKKOS_INLINE_FUNCTION Real inside(Real y) const {
     y = y < 0 ? -y : y;
-    return grid.row_near(y > grid.ly ? 2 * grid.ly - y : y, row_nearby);
+    return y > grid.ly ? 2 * grid.ly - y : y;
+  }
+  /// Row of a height near a row.
+  KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
+    return grid.row_near(inside(y), row_nearby);
   }
   /// The cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {

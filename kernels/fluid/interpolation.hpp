@@ -51,6 +51,13 @@ KOKKOS_INLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const LinearSten
   return (1 - z.t) * in_plane(z.i) + z.t * in_plane(z.i + 1);
 }
 
+/// The same in the plane of row j, from its four nodes there.
+KOKKOS_INLINE_FUNCTION Real interpolate_in_row(const ConstFieldRef& f, const LinearStencil& x,
+                                               int j, const LinearStencil& z) {
+  const auto along_x = [&](int k) { return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k); };
+  return (1 - z.t) * along_x(z.i) + z.t * along_x(z.i + 1);
+}
+
 KOKKOS_INLINE_FUNCTION Real interpolate_cell(const ConstFieldRef& f, const PointStencil& s) {
   return interpolate(f, s.x_centre, s.y_centre, s.z_centre);
 }

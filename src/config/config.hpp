@@ -27,6 +27,7 @@ enum class DragLaw {
   none
 };
 enum class VoidFraction { divided, cfdem_faithful, centre };
+enum class Exchange { by_row, interpolated, smoothed };
 enum class Preconditioner { fft, local_fft };
 
 /// [time]
@@ -111,6 +112,7 @@ struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stre
 struct CouplingConfig {
   DragLaw drag = DragLaw::gidaspow;
   VoidFraction void_fraction = VoidFraction::divided;
+  Exchange exchange = Exchange::by_row;
   double smoothing_length = 6e-4;  // [m], 3 d in the paper; 0: off
   bool alpha_time_derivative = true;
   bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison

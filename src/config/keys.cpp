@@ -188,9 +188,11 @@ void add_coupling(Sections& all) {
   key("drag", &C::drag, any, "", "drag law");
   key("void_fraction", &C::void_fraction, any, "",
       "how the volume of a grain is given to the cells around it");
+  key("exchange", &C::exchange, any, "",
+      "momentum between grains and flow: each row of cells with the part of a grain in it, or at "
+      "the grain's centre, or the latter smoothed like the void fraction");
   key("smoothing_length", &C::smoothing_length, at_least(0).plausible(0, 1e6), "m",
-      "width over which void fraction and exchanged forces are smoothed (3 d in the paper); 0: "
-      "not");
+      "width over which the void fraction is smoothed (3 d in the paper); 0: not");
   key("alpha_time_derivative", &C::alpha_time_derivative, any, "",
       "the flow feels changes of the void fraction in time");
   key("relaxation", &C::relaxation, any, "",

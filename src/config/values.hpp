@@ -40,6 +40,7 @@ constexpr auto names_of(DragLaw) {
   return list("gidaspow", "di_felice", "koch_hill", "syamlal_obrien", "beetstra", "paper_repaired",
               "none");
 }
+constexpr auto names_of(Exchange) { return list("by_row", "interpolated", "smoothed"); }
 constexpr auto names_of(VoidFraction) { return list("divided", "cfdem_faithful", "centre"); }
 constexpr auto names_of(Preconditioner) { return list("fft", "local_fft"); }
 
@@ -52,6 +53,7 @@ inline constexpr auto choice_names = detail::names_of(Choice{});
 static_assert(choice_names<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
 static_assert(choice_names<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
 static_assert(choice_names<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
+static_assert(choice_names<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
 static_assert(choice_names<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
 static_assert(choice_names<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
 

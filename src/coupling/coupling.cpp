@@ -45,6 +45,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       smoother_(
           make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
       smooths_(config.coupling.smoothing_length > 0),
+      smooths_exchange_(smooths_ && config.coupling.exchange == Exchange::smoothed),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
       box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
@@ -69,6 +70,13 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
 
 ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
   return {.dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
+}
+
+ExchangeByRow Coupling::rows(const FluidState& fluid) const {
+  return {.on = config_.exchange == Exchange::by_row && stencil_.points == PointSet::divided,
+          .stencil = stencil_,
+          .box = box_,
+          .u = fluid.u};
 }
 
 CellRange Coupling::cells_around(const GrainState& grains) const {
@@ -137,6 +145,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .dt = dt,
                                          .weight = weight_,
                                          .forces = forces_,
+                                         .rows = rows(fluid),
                                          .skip_relaxation = skip_relaxation_,
                                          .grains = grains.kin,
                                          .on_grains = grains.fluid,
@@ -155,11 +164,12 @@ void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
           .grid = grid_, .box = box_, .density = force_, .grains = grains.kin, .force = force});
 }
 
-void Coupling::choose_scales(const GrainState& grains, Real dt) {
+void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, Real dt) {
   // Bounds of what one cell can receive: everything.
   std::vector<Real> sum(6);
-  Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
-                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n),
+                          SumExchange{of_grain(grains, dt), rows(fluid)}, sum[0], sum[1], sum[2],
+                          sum[3], sum[4], sum[5]);
   sum_over(ranks_of(grid_), sum);
   deposits_.implicit = fixed_point_for(sum[1]);
   deposits_.impulse = fixed_point_for(sum[2]);
@@ -179,15 +189,17 @@ void Coupling::decode(int quantity, const FixedPoint& point, Field& density) con
     functor.most = kMostSolid;
   }
   for_each_cell("coupling: decode deposit", grid_, functor);
-  if (smooths_) smoother_.solve(density, density);
+  if (quantity == 0 ? smooths_ : smooths_exchange_) smoother_.solve(density, density);
 }
 
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
-  choose_scales(grains, dt);
+  choose_scales(grains, fluid, dt);
   Kokkos::deep_copy(deposits_.sum, 0);
-  Kokkos::parallel_for(
-      "coupling: deposit", items(grains.n),
-      DepositGrain{.stencil = stencil_, .of_grain = of_grain(grains, dt), .deposits = deposits_});
+  Kokkos::parallel_for("coupling: deposit", items(grains.n),
+                       DepositGrain{.stencil = stencil_,
+                                    .of_grain = of_grain(grains, dt),
+                                    .rows = rows(fluid),
+                                    .deposits = deposits_});
   halo_.scatter_add(deposits_.sum);
   update_fraction(fluid);
   spread_exchange();
@@ -250,7 +262,7 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                       .y = cell_[2],
                                       .z = cell_[3]});
   for (int q = 1; q < 4; ++q) {
-    if (smooths_) smoother_.solve(cell_[q], cell_[q]);
+    if (smooths_exchange_) smoother_.solve(cell_[q], cell_[q]);
     if (grid_.ranks) boundary_.fill(cell_[q], FieldKind::scalar);  // grains read beyond the pencil
   }
   std::vector<Real> total(3);

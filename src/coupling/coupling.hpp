@@ -78,12 +78,13 @@ class Coupling {
   /// The cells whose faces the grains' velocities and forces are interpolated from.
   CellRange cells_around(const GrainState& grains) const;
   void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
-  void choose_scales(const GrainState& grains, Real dt);
+  void choose_scales(const GrainState& grains, const FluidState& fluid, Real dt);
   void decode(int quantity, const FixedPoint& point, Field& density) const;
   void update_fraction(FluidState& fluid);
   void spread_exchange();
   void sum_faces(Real dt, const FluidState& fluid);
   ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
+  ExchangeByRow rows(const FluidState& fluid) const;
 
   CouplingConfig config_;
   FluidForces forces_;
@@ -91,7 +92,8 @@ class Coupling {
   Grid grid_;
   Boundary boundary_;
   PoissonFft smoother_;
-  bool smooths_ = false;
+  bool smooths_ = false;                  // the void fraction
+  bool smooths_exchange_ = false;         // momentum, too
   bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
   PeriodicBox box_;

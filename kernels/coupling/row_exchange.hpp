@@ -1,0 +1,97 @@
+// Exchange row by row: the part of a grain in a row of cells feels the water of that row, and that
+// water loses what it gave. Source and reason: docs/model.md, "Exchange of momentum".
+#pragma once
+
+#include "kernels/coupling/void_fraction.hpp"
+#include "kernels/fluid/interpolation.hpp"
+
+namespace barchan {
+
+/// The smaller of two slopes, zero where they differ in sign (minmod; Roe 1986).
+KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
+  if (a * b <= 0) return 0;
+  return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
+}
+
+/// Rows of cells that share a grain: how many of its points each holds, at which mean height [m].
+struct GrainRows {
+  int n = 0;
+  int row[kDividedHeights];
+  int points[kDividedHeights];
+  Real height[kDividedHeights];
+
+  KOKKOS_INLINE_FUNCTION GrainRows(const DepositStencil& stencil, const GrainKinematics& grain) {
+    const int own = stencil.grid.row_of(grain.x.y);
+    for (int q = 0; q < kDividedHeights; ++q) {
+      const PointsAtHeight at = divided_height(q);
+      const Real y = stencil.inside(grain.x.y + grain.r * at.offset);
+      add(stencil.grid.row_near(y, own), at.points, y);
+    }
+    for (int r = 0; r < n; ++r) height[r] /= points[r];
+  }
+  /// Share of the grain in its r-th row; the shares add up to one.
+  KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(points[r]) / kDividedPoints; }
+  KOKKOS_INLINE_FUNCTION int find(int j) const {
+    int r = 0;
+    while (r + 1 < n && row[r] != j) ++r;
+    return r;
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION void add(int j, int count, Real y) {
+    int r = 0;
+    while (r < n && row[r] != j) ++r;
+    if (r == n) row[n] = j, points[n] = 0, height[n++] = 0;
+    points[r] += count;
+    height[r] += count * y;
+  }
+};
+
+/// Velocity along the floor in each row of a grain, x and z [m/s]: bilinear at its centre, and
+/// within a row along a slope that makes no new extremum. A grain that lies in one row of a linear
+/// profile sees the profile; in a bed, where the flow above is a hundred times faster than the flow
+/// between the grains, no grain sees the one for the other.
+struct VelocityByRow {
+  GrainRows rows;
+  Real x[kDividedHeights], z[kDividedHeights];
+  Real mean_x = 0, mean_z = 0;  // over the grain
+
+  KOKKOS_INLINE_FUNCTION VelocityByRow(const DepositStencil& stencil, const PeriodicBox& box,
+                                       const ConstFaceRef& u, const GrainKinematics& grain)
+      : rows(stencil, grain) {
+    const PointStencil at(stencil.grid, box, grain.x);
+    for (int r = 0; r < rows.n; ++r) {
+      x[r] = in_row(stencil.grid, u.x, at.x_face, at.z_centre, r);
+      z[r] = in_row(stencil.grid, u.z, at.x_centre, at.z_face, r);
+      mean_x += rows.weight(r) * x[r];
+      mean_z += rows.weight(r) * z[r];
+    }
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION Real in_row(const GridRef& grid, const ConstFieldRef& f,
+                                     const LinearStencil& along_x, const LinearStencil& along_z,
+                                     int r) const {
+    const int j = rows.row[r];
+    const Real here = interpolate_in_row(f, along_x, j, along_z);
+    const Real below = interpolate_in_row(f, along_x, j - 1, along_z);
+    const Real above = interpolate_in_row(f, along_x, j + 1, along_z);
+    const Real slope =
+        limited_slope((here - below) / grid.dy_centre(j), (above - here) / grid.dy_centre(j + 1));
+    return here + slope * (rows.height[r] - grid.y_centre(j));
+  }
+};
+
+/// How velocities and impulses go between a grain and the rows that it lies in.
+struct ExchangeByRow {
+  bool on = false;
+  DepositStencil stencil;
+  PeriodicBox box;
+  ConstFaceRef u;
+
+  KOKKOS_INLINE_FUNCTION VelocityByRow operator()(const GrainKinematics& grain) const {
+    return {stencil, box, u, grain};
+  }
+};
+
+}  // namespace barchan
