@@ -1,0 +1,135 @@
+// Steady shear over a held bed: what each layer of grains and the water between them get.
+#include <random>
+
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/drag_reference.hpp"
+#include "tests/support/measured.hpp"
+
+namespace barchan {
+namespace {
+
+constexpr double kDiameter = 2e-4, kSolid = 0.6, kMu = 1e-3;
+constexpr int kLayers = 5;
+constexpr double kBed = kLayers * kDiameter, kHeight = 1.8e-3;  // [m], the lid is 0.8 mm above
+constexpr double kWeight = 1500 * 9.81;                         // submerged, per volume [N/m^3]
+
+/// Drag on each layer over its submerged weight, the lowest first; stress on the bed [Pa]; the
+/// slowest water [m/s].
+struct Layers {
+  std::array<double, kLayers> drag{};
+  double stress = 0, slowest = 0;
+};
+
+/// The same column in one dimension, on many rows: mu u'' = beta u, no slip at the floor, u = lid at
+/// the top, solid fraction 0.6 up to kBed; drag of Ergun, Wen & Yu above alpha 0.8.
+Layers reference_column(double lid) {
+  constexpr int n = 900;
+  constexpr double dy = kHeight / n;
+  const auto solid = [](int j) { return (j + 0.5) * dy < kBed ? kSolid : 0.0; };
+  const auto drag = [&](int j, double u) {  // per volume and velocity [kg/(m^3 s)]
+    const double volume = test::volume_of(kDiameter), speed = std::max(std::abs(u), 1e-12);
+    return solid(j) > 0 ? kSolid / volume * test::ergun_force(speed, 1 - kSolid, kDiameter) / speed
+                        : 0;
+  };
+  std::vector<double> u(n, 0.0), upper(n), right(n);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double c = kMu / (dy * dy);
+    std::vector<double> next(n);
+    for (int j = 0; j < n; ++j) {  // Thomas
+      const double low = j > 0 ? c : 2 * c, high = j + 1 < n ? c : 2 * c;
+      const double diagonal = low + high + drag(j, u[std::size_t(j)]);
+      const double rhs = j + 1 < n ? 0 : 2 * c * lid;
+      const double below = j > 0 ? c : 0, pivot = diagonal - (j > 0 ? below * upper[std::size_t(j - 1)] : 0);
+      upper[std::size_t(j)] = (j + 1 < n ? c : 0) / pivot;
+      right[std::size_t(j)] = (rhs + (j > 0 ? below * right[std::size_t(j - 1)] : 0)) / pivot;
+    }
+    for (int j = n - 1; j >= 0; --j) {
+      const auto s = std::size_t(j);
+      next[s] = right[s] + (j + 1 < n ? upper[s] * next[s + 1] : 0);
+    }
+    for (std::size_t s = 0; s < n; ++s) u[s] = 0.5 * (u[s] + next[s]);
+  }
+  Layers result{.stress = kMu * (lid - u[n - 1]) / (dy / 2)};
+  for (int j = 0; (j + 1) * dy <= kBed * (1 + 1e-9); ++j) {
+    result.drag[std::size_t((j + 0.5) * dy / kDiameter)] += drag(j, u[std::size_t(j)]) * u[std::size_t(j)] * dy;
+  }
+  for (double& layer : result.drag) layer /= kSolid * kDiameter * kWeight;
+  return result;
+}
+
+/// Grains anywhere in their layer, the lowest on the floor: they are held and may overlap.
+InitialGrains random_bed(double length, double width) {
+  std::mt19937_64 generator(1);
+  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  const auto in_layer = static_cast<int>(kSolid * length * width * kDiameter / test::volume_of(kDiameter));
+  InitialGrains grains;
+  for (int layer = 0; layer < kLayers; ++layer) {
+    for (int g = 0; g < in_layer; ++g) {
+      const double low = layer == 0 ? 0.5 : 0.0;
+      const double y = kDiameter * (layer + low + (1 - low) * uniform());
+      testing::add_grain(grains, kDiameter, {length * uniform(), y, width * uniform()});
+    }
+  }
+  return grains;
+}
+
+Layers program(Exchange exchange, int rows, double smoothing, double lid, double step) {
+  constexpr double width = 1.6e-3;
+  Config c = test::water_box({4, rows, 4}, {width, kHeight, width});
+  c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
+  c.fluid->top_velocity = lid;
+  c.grains->frozen = true;
+  c.coupling.exchange = exchange;
+  c.coupling.smoothing_length = smoothing;
+  c.time.fluid_step = step;
+  test::CoupledRun run(c, random_bed(width, width));
+  run.advance(static_cast<int>(1.5 / step));
+  const FluidState& f = *run.state.fluid;
+  const test::HostField u = test::to_host(f.u.x);
+  Layers result{.slowest = 1e300};
+  test::for_owned_cells(f.grid, [&](int i, int j, int k) { result.slowest = std::min(result.slowest, u(i, j, k)); });
+  const double half_row = kHeight / rows / 2;
+  result.stress = kMu * (lid - test::mean_of_row(u, f.grid, rows - 1)) / half_row;
+  const auto kin = testing::host_copy(run.state.grains->kin);
+  std::array<double, kLayers> count{};
+  for (const NamedForce& force : run.step.grain_forces(run.state)) {
+    if (force.name != "force_drag") continue;
+    const auto values = testing::host_copy(force.values);
+    for (std::size_t g = 0; g < values.extent(0); ++g) {
+      const auto layer = std::size_t(std::min(kin(g).x.y / kDiameter, kLayers - 0.5));
+      result.drag[layer] += values(g).x / (kWeight * test::volume_of(kDiameter));
+      ++count[layer];
+    }
+  }
+  for (std::size_t layer = 0; layer < kLayers; ++layer) result.drag[layer] /= count[layer];
+  return result;
+}
+
+void print(const std::string& what, const Layers& layers) {
+  std::printf("[ measured ] %s: drag over weight by layer", what.c_str());
+  for (const double drag : layers.drag) std::printf(" %.4f", drag);
+  std::printf(", stress %.4f Pa, slowest water %.3g mm/s\n", layers.stress, 1e3 * layers.slowest);
+}
+
+/// The water between the grains never flows against the flow above, no layer is pushed upstream,
+/// and the top layer gets what a column on many rows gives it: on the rows of the shipped cases and
+/// finer ones, whatever the void fraction is smoothed over.
+TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
+  constexpr double lid = 0.26;
+  const Layers column = reference_column(lid);
+  print("column of 900 rows", column);
+  for (const int rows : {6, 7, 9}) {
+    for (const double smoothing : {0.0, 3e-4, 6e-4}) {
+      const Layers bed = program(Exchange::by_row, rows, smoothing, lid, 1e-3);
+      const std::string what = fmt::format("{} rows, smoothed over {} d", rows, smoothing / kDiameter);
+      print(what, bed);
+      EXPECT_GE(bed.slowest, 0) << what;
+      for (const double drag : bed.drag) EXPECT_GE(drag, 0) << what;
+      testing::expect_relative("drag on the top layer over the stress, " + what,
+                               bed.drag.back() / bed.stress, column.drag.back() / column.stress, 0.2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace barchan
