@@ -13,6 +13,7 @@ using test::grain_case;
 using test::Lines;
 using test::problems;
 using test::refused;
+using test::refused_fluid;
 
 /// True when one of the lines has `text` in it.
 bool says(const Lines& lines, const std::string& text) {
@@ -85,10 +86,8 @@ TEST(ConfigValidate, ContradictionsInTheFluid) {
   refused(fluid_case("mean_velocity = 0.2\npressure_gradient = 10\n"),
           "case.toml:8: [fluid] pressure_gradient = 10: contradicts mean_velocity: give one of the "
           "two");
-  refused(fluid_case("ramp_time = 1\n"),
-          "case.toml:7: [fluid] ramp_time = 1: must be absent without a mean_velocity to bring up");
-  refused(fluid_case("top_velocity = 1\n"),
-          "case.toml:7: [fluid] top_velocity = 1: must come with top = \"no_slip\"");
+  refused_fluid("ramp_time = 1", "must be absent without a mean_velocity to bring up");
+  refused_fluid("top_velocity = 1", "must come with top = \"no_slip\"");
   refused(fluid_case("[initial]\nfluid = \"turbulent\"\n"),
           "case.toml:8: [initial] fluid = \"turbulent\": must come with a mean_velocity or "
           "pressure_gradient, which sets its log law");
@@ -170,26 +169,30 @@ TEST(ConfigValidate, StepsFitEachOther) {
           {"time.end=1e-4"});
   EXPECT_TRUE(says(problems(grain_case(), {"time.grain_step=1e-3"}),
                    "must be at most fluid_step, 0.00025 s"));
-  EXPECT_TRUE(says(warnings(grain_case(), {"time.end=1.0001"}), "the run ends at 1.00025 s"));
-  EXPECT_FALSE(says(warnings(grain_case(), {"time.end=0.3"}), "the run ends at"));
-  EXPECT_TRUE(says(warnings(grain_case(), {"output.dune_interval=1e-5"}),
-                   "warning: [output] dune_interval is shorter than a fluid step"));
+  const Lines steps{"time.fluid_step=1e-3", "output.history_interval=1e-3"};
+  EXPECT_TRUE(problems(fluid_case(), {steps[0], steps[1], "time.end=9999999.999"}).empty());
+  EXPECT_TRUE(says(problems(fluid_case(), {steps[0], steps[1], "time.end=1e7"}),
+                   "which is 9999999999 fluid steps"));
 }
 
-TEST(ConfigValidate, UnwiseMeshesAreWarnedOf) {
-  EXPECT_TRUE(says(warnings(coupled_case(), {"fluid.first_cell_height=2.3e-4"}),
-                   "makes the smallest cell 1.15 mean grain diameters"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"fluid.first_cell_height=3.3e-4"}),
-                   "makes the smallest cell 1.65 mean grain diameters"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"coupling.smoothing_length=0"}), "alpha_f is then noisy"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"coupling.smoothing_length=5e-5"}), "no effect"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"coupling.smoothing_length=7e-3"}), "smear the dune"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"grains.boundary_x=wall"}), "boundary_x stops grains"));
-  EXPECT_FALSE(says(warnings(coupled_case(), {"grains.boundary_x=periodic"}), "boundary_x"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"grains.skin=3e-4"}), "skin is above the smallest diameter"));
+TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
+  const std::pair<std::string, std::string> unwise[] = {
+      {"fluid.first_cell_height=2.3e-4", "makes the smallest cell 1.15 mean grain diameters"},
+      {"fluid.first_cell_height=3.3e-4", "makes the smallest cell 1.65 mean grain diameters"},
+      {"coupling.smoothing_length=0", "alpha_f is then noisy"},
+      {"coupling.smoothing_length=5e-5", "no effect"},
+      {"coupling.smoothing_length=7e-3", "smear the dune"},
+      {"grains.boundary_x=wall", "boundary_x stops grains"},
+      {"grains.skin=3e-4", "skin is above the smallest diameter"},
+      {"time.end=1.0001", "the run ends at 1.00025 s"},
+      {"output.dune_interval=1e-5",
+       "warning: [output] dune_interval is shorter than a fluid step"}};
+  for (const auto& [assignment, words] : unwise) {
+    EXPECT_TRUE(says(warnings(coupled_case(), {assignment}), words)) << assignment;
+  }
+  for (const char* wise : {"grains.boundary_x=periodic", "time.end=0.3"}) {
+    EXPECT_EQ(warnings(coupled_case(), {wise}), Lines{}) << wise;
+  }
 }
 
 TEST(ConfigValidate, PeriodicDomainHoldsAGrainAndItsImage) {
