@@ -3,8 +3,7 @@
 namespace barchan {
 namespace {
 
-enum class Rule { none, required, fixed_by_restart, required_and_fixed };
-using enum Rule;
+enum Rule { none = 0, required = 1, fixed_by_restart = 2, required_and_fixed = 3 };
 
 /// What `holder` points to, or holds; nullptr if that is absent.
 template <class T>
@@ -30,8 +29,8 @@ class Keys {
     }
   }
 
-  Keys(Sections& all, const char* name, const char* meaning, Get get, Rule rule = none)
-      : Keys(all.emplace_back(Section{name, meaning, rule == required}), get) {}
+  Keys(Sections& all, const char* name, const char* meaning, Get get)
+      : Keys(all.emplace_back(Section{name, meaning}), get) {}
 
   template <class Struct, class T>
   void operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
@@ -41,6 +40,7 @@ class Keys {
   template <class Struct, class T>
   void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
                   const char* meaning, Rule rule = none) {
+    if ((rule & required) != 0 && !section_.prepare) section_.required = true;
     section_.keys.push_back(
         {.section = section_.name,
          .name = name,
@@ -48,8 +48,8 @@ class Keys {
          .range = range,
          .unit = unit,
          .meaning = meaning,
-         .required = rule == required || rule == required_and_fixed,
-         .fixed_by_restart = rule == fixed_by_restart || rule == required_and_fixed,
+         .required = (rule & required) != 0,
+         .fixed_by_restart = (rule & fixed_by_restart) != 0,
          .read =
              [get = get_, member, range](const Node& node, Config& config) {
                Plain<T> value{};
@@ -77,8 +77,7 @@ void add_case(Sections& all) {
 }
 
 void add_time(Sections& all) {
-  Keys key(
-      all, "time", "End and steps", [](auto& c) { return &c.time; }, required);
+  Keys key(all, "time", "End and steps", [](auto& c) { return &c.time; });
   key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
   key("fluid_step", &TimeConfig::fluid_step, between(1e-15, 1), "s",
       "step of the flow; without `[fluid]` the interval between checks and output",
@@ -90,8 +89,7 @@ void add_time(Sections& all) {
 }
 
 void add_domain(Sections& all) {
-  Keys key(
-      all, "domain", "The box", [](auto& c) { return &c; }, required);
+  Keys key(all, "domain", "The box", [](auto& c) { return &c; });
   key("size", &Config::size, between(1e-9, 1e6), "m",
       "[Lx, Ly, Lz]: along the stream, upwards, across", required_and_fixed);
 }
@@ -263,14 +261,6 @@ void add_solver(Sections& all) {
       "a solve by FFT; \"local_fft\" adds a relaxation where grains hinder the flow");
 }
 
-struct Removed {
-  std::string_view key, value, why;  // no value: the key as a whole
-};
-constexpr Removed removed[] = {
-    {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
-    {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
-    {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};
-
 }  // namespace
 
 const Sections& sections() {
@@ -284,14 +274,6 @@ const Sections& sections() {
     return made;
   }();
   return all;
-}
-
-std::string removal(std::string_view dotted, std::string_view value) {
-  for (const Removed& one : removed) {
-    if (one.key != dotted || one.value != value) continue;
-    return fmt::format("was removed after version 0.1.0: {}", one.why);
-  }
-  return {};
 }
 
 }  // namespace barchan

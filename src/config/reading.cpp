@@ -61,6 +61,24 @@ bool is_section(const std::string& dotted) {
                      [&](const Section& section) { return section.name == dotted; });
 }
 
+struct Removed {
+  std::string_view key, value, why;  // no value: the key as a whole
+};
+constexpr Removed removed[] = {
+    {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
+    {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
+    {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};
+
+/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
+/// never was.
+std::string removal(std::string_view dotted, std::string_view value) {
+  for (const Removed& one : removed) {
+    if (one.key != dotted || one.value != value) continue;
+    return fmt::format("was removed after version 0.1.0: {}", one.why);
+  }
+  return {};
+}
+
 }  // namespace
 
 Reading::Reading(std::string_view text, const std::filesystem::path& file)
