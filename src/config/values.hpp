@@ -83,7 +83,11 @@ constexpr Range any{};
 
 /// What is given for a T: of an optional, its value.
 template <class T>
-using Plain = typename decltype(std::optional{std::declval<T>()})::value_type;
+T plain(const T&);
+template <class T>
+T plain(const std::optional<T>&);
+template <class T>
+using Plain = decltype(plain(std::declval<T>()));
 
 /// What a value must be and is not, "a number"; nothing if all is well.
 using Mismatch = std::optional<std::string>;
