@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 namespace barchan {
@@ -22,8 +23,7 @@ struct Extent {
     low = std::min(low, a);
     high = std::max(high, b);
   }
-  [[nodiscard]] bool empty() const { return low > high; }
-  [[nodiscard]] double size() const { return empty() ? 0.0 : high - low; }
+  [[nodiscard]] double size() const { return high - low; }
 };
 
 /// What is collected about one region; coordinates are unwrapped.
@@ -34,14 +34,13 @@ struct Region {
   double crest_weight = 0.0;     // sum of weights behind crest_x
   double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
   double right_tip = -infinity;  // the same, z > Cz
-  int first_column = 0;          // ux of strip[0]
   Extent x, z;                   // of all grains
-  std::vector<Extent> strip;     // in x, of the grains on the centreline, per column of bins
+  std::map<int, Extent> strip;   // in x, of the grains on the centreline, by column of bins (ux)
 };
 
 class DuneMeasurement {
  public:
-  DuneMeasurement(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria)
+  DuneMeasurement(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria)
       : grains_(grains),
         domain_(domain),
         criteria_(criteria),
@@ -65,7 +64,7 @@ class DuneMeasurement {
       found.rows.push_back(finish(regions_[region]));
       found.rows.back().dune = row_of_region[region];
     }
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+    for (std::size_t p = 0; p < grains_.size(); ++p) {
       const int region = map_.region_of(p);
       found.of_grain.push_back(region < 0 ? -1 : row_of_region[region]);
     }
@@ -76,7 +75,7 @@ class DuneMeasurement {
   /// Calls f(p, region, x, z) for each grain of a region, with its unwrapped centre.
   template <class F>
   void for_each_grain(const F& f) {
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
+    for (std::size_t p = 0; p < grains_.size(); ++p) {
       const int region = map_.region_of(p);
       if (region < 0) continue;
       const auto [x, z] = map_.unwrapped(grains_, p);
@@ -101,14 +100,14 @@ class DuneMeasurement {
   /// Number, volume, centroid, extents.
   void sum_grains() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
-      const double d = grains_.diameters[p], volume = std::numbers::pi / 6.0 * d * d * d;
+      const double d = grains_[p].d, volume = std::numbers::pi / 6.0 * d * d * d;
       DuneRow& row = region.row;
       ++row.n_grains;
       row.volume += volume;
       row.cx += volume * x;
-      row.cy += volume * grains_.centres[3 * p + 1];
+      row.cy += volume * grains_[p].x.y;
       row.cz += volume * z;
-      if (!grains_.u_x.empty()) row.flux += volume * grains_.u_x[p];
+      row.flux += volume * grains_[p].u_x;
       region.x.include(x - 0.5 * d, x + 0.5 * d);
       region.z.include(z - 0.5 * d, z + 0.5 * d);
     });
@@ -146,15 +145,10 @@ class DuneMeasurement {
 
   /// The strip along the centreline, and the most downstream edge on either side of it.
   void collect_outlines() {
-    for (Region& region : regions_) {
-      region.first_column = static_cast<int>(std::floor(region.x.low / map_.bin_x)) - 1;
-      const int last = static_cast<int>(std::floor(region.x.high / map_.bin_x)) + 1;
-      region.strip.resize(last - region.first_column + 1);
-    }
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
-      const double radius = 0.5 * grains_.diameters[p];
+      const double radius = 0.5 * grains_[p].d;
       if (in_strip(z, region)) {
-        const int column = map_.bins[map_.bin_of_grain[p]].ux - region.first_column;
+        const int column = map_.bins[map_.bin_of_grain[p]].ux;
         region.strip[column].include(x - radius, x + radius);
       } else {
         double& tip = z < region.row.cz ? region.left_tip : region.right_tip;
@@ -163,30 +157,26 @@ class DuneMeasurement {
     });
   }
 
-  /// From toe to lee foot: the columns around the crest that hold sand without a gap.
+  /// From toe to lee foot: the columns around the crest that hold sand without a gap. Of a strip
+  /// that is not empty.
   [[nodiscard]] Extent centreline(const Region& region) const {
-    const double column = region.row.crest_x / map_.bin_x - region.first_column;
-    const int n = static_cast<int>(region.strip.size());
-    int crest = -1;
-    for (int i = 0; i < n; ++i) {
-      if (region.strip[i].empty()) continue;
-      if (crest < 0 || std::abs(i + 0.5 - column) < std::abs(crest + 0.5 - column)) crest = i;
-    }
+    const double column = region.row.crest_x / map_.bin_x;
+    const auto from_crest = [&](const auto& entry) { return std::abs(entry.first + 0.5 - column); };
+    const auto crest = std::ranges::min_element(region.strip, {}, from_crest);
     Extent line;
-    if (crest < 0) return line;
-    for (int i = crest; i >= 0 && !region.strip[i].empty(); --i)
-      line.include(region.strip[i].low, region.strip[i].high);
-    for (int i = crest; i < n && !region.strip[i].empty(); ++i)
-      line.include(region.strip[i].low, region.strip[i].high);
+    for (const int step : {-1, 1}) {
+      for (int i = crest->first; region.strip.contains(i); i += step)
+        line.include(region.strip.at(i).low, region.strip.at(i).high);
+    }
     return line;
   }
 
   [[nodiscard]] DuneRow finish(const Region& region) const {
     DuneRow row = region.row;
-    const Extent line = centreline(region);
-    if (line.empty()) {
+    if (region.strip.empty()) {
       row.l = region.x.size();
     } else {
+      const Extent line = centreline(region);
       row.l = line.size();
       row.horn_left = std::max(0.0, region.left_tip - line.high);
       row.horn_right = std::max(0.0, region.right_tip - line.high);
@@ -210,7 +200,7 @@ class DuneMeasurement {
 
 }  // namespace
 
-Dunes find_dunes(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria) {
+Dunes find_dunes(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria) {
   return DuneMeasurement(grains, domain, criteria).run();
 }
 

@@ -41,15 +41,10 @@ class FlowStatistics {
   void load(const CheckpointReader& file);
 
  private:
-  using HostSums = Kokkos::View<PlaneSums*, Kokkos::HostSpace>;
-  /// Of all ranks and samples.
-  HostSums sums() const;
-  void add_ranks();
-
   Grid grid_;
   double viscosity_;
-  Kokkos::View<PlaneSums*> sums_;  // of all samples; where the grid is cut, of the present one
-  HostSums all_;                   // there, of all samples
+  Kokkos::View<PlaneSums*> sample_;                   // of this rank
+  Kokkos::View<PlaneSums*, Kokkos::HostSpace> sums_;  // of all ranks and samples
   std::int64_t n_samples_ = 0;
 };
 

@@ -5,25 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "src/base/atomic_file.hpp"
 
 namespace barchan {
 
-void ForceMap::sample(double t, const GrainCloud& grains, std::span<const Vec3> force) {
-  const std::vector<DuneRow> dunes = measure_dunes(grains, domain_);
+void ForceMap::sample(double t, GrainCloud grains, std::span<const Vec3> force) {
+  const std::vector<DuneRow> dunes = find_dunes(grains, domain_).rows;
   if (dunes.empty()) return;
   const DuneRow& dune = dunes.front();
   if (step_ == 0) {  // kept: grains that leave must not move the bins
-    const double sum = std::accumulate(grains.diameters.begin(), grains.diameters.end(), 0.0);
-    step_ = bin_diameters * sum / static_cast<double>(grains.diameters.size());
+    double sum = 0;
+    for (const CloudGrain& grain : grains) sum += grain.d;
+    step_ = bin_diameters * sum / static_cast<double>(grains.size());
     start_ = t;
   }
   end_ = t;
   for (std::size_t g = 0; g < force.size(); ++g) {
-    const double x = domain_.nearest_x(grains.centres[3 * g] - dune.cx);
-    const double z = domain_.nearest_z(grains.centres[3 * g + 2] - dune.cz);
+    const double x = domain_.nearest_x(grains[g].x.x - dune.cx);
+    const double z = domain_.nearest_z(grains[g].x.z - dune.cz);
     const double turns = std::atan2(-z, x) / (2 * std::numbers::pi);
     const auto a = static_cast<std::size_t>((turns - std::floor(turns)) * n_angles) % n_angles;
     const double r = std::hypot(x, z) / step_;

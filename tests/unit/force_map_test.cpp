@@ -16,7 +16,7 @@ constexpr double d = 2e-4;
 
 /// A cone of 6 mm radius at (x, z) and a force on each grain.
 struct Heap {
-  std::vector<double> centres, diameters;
+  std::vector<CloudGrain> grains;
   std::vector<Vec3> force;
 
   Heap(double x, double z, const DuneDomain& domain) {
@@ -25,9 +25,8 @@ struct Heap {
         const double height = 2e-3 - std::hypot(i * d, k * d) / 3;
         for (int j = 0; j * d < height; ++j) {
           const double zz = z + k * d;
-          centres.insert(centres.end(), {x + i * d, (j + 0.5) * d,
-                                         zz - std::floor(zz / domain.length_z) * domain.length_z});
-          diameters.push_back(d);
+          const double wrapped = zz - std::floor(zz / domain.length_z) * domain.length_z;
+          grains.push_back({{x + i * d, (j + 0.5) * d, wrapped}, d});
           // F_x grows downstream, F_z points outwards.
           force.push_back({1e-7 + 1e-4 * i * d, -3e-8, k > 0 ? 2e-8 : (k < 0 ? -2e-8 : 0)});
         }
@@ -63,10 +62,10 @@ TEST(ForceMap, MeansOfAKnownForceAnywhereInTheChannel) {
   for (const double z : {0.02, 0.001, 0.0391}) {  // the last two lie across the seam
     const Heap heap(0.03, z, domain);
     ForceMap map(domain);
-    map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
-    map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
+    map.sample(0.5, heap.grains, heap.force);
+    map.sample(0.5, heap.grains, heap.force);
     EXPECT_NEAR(map.radius_step(), 2.5 * d, 1e-15);
-    expect_known(map, 2.0 * static_cast<double>(heap.diameters.size()));
+    expect_known(map, 2.0 * static_cast<double>(heap.grains.size()));
   }
 }
 
@@ -83,7 +82,7 @@ TEST(ForceMap, TableAndRestartKeepTheSums) {
   const DuneDomain domain{.length_x = 0.1, .length_z = 0.04};
   const Heap heap(0.03, 0.02, domain);
   ForceMap map(domain), again(domain);
-  map.sample(0.5, {heap.centres, heap.diameters}, heap.force);
+  map.sample(0.5, heap.grains, heap.force);
   CheckpointWriter writer(folder.path(), 1, {.title = "map", .config = "[case]\n"});
   map.save(writer);
   again.load(CheckpointReader(writer.commit(1)));
