@@ -39,7 +39,6 @@ FlowStatisticsTable FlowStatistics::table() const {
   };
   const auto at_centre = [&](int j, Q::Quantity q) { return (mean(j, q) + mean(j + 1, q)) / 2; };
   FlowStatisticsTable table;
-  table.n_samples = n_samples_;
   table.u_star = std::sqrt(std::abs(mean(0, Q::stress)));
   for (int j = 0; j < grid_.ny; ++j) {
     const double u = mean(j, Q::u), w = mean(j, Q::w);
@@ -74,7 +73,7 @@ void FlowStatistics::write(const std::filesystem::path& file) const {
                                r.subgrid, r.total, r.p, r.nu_t}) {
       text += fmt::format(",{:.9g}", value);
     }
-    text += fmt::format(",{}\n", t.n_samples);
+    text += fmt::format(",{}\n", n_samples_);
   }
   if (rank_of(grid_) == 0) write_atomically(file, text);
 }

@@ -21,7 +21,6 @@ struct StatisticsRow {
 };
 
 struct FlowStatisticsTable {
-  std::int64_t n_samples = 0;
   double u_star = 0;  // of the mean shear at the floor [m/s]
   std::vector<StatisticsRow> rows;
 };

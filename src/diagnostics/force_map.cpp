@@ -38,15 +38,14 @@ void ForceMap::write(const std::filesystem::path& file) const {
   if (step_ == 0) return;
   std::string text = "r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end\n";
   const double angle = 360.0 / n_angles;
-  for (int a = 0; a < n_angles; ++a) {
-    for (int r = 0; r < n_radii; ++r) {
-      const Bin& bin = bins_[static_cast<std::size_t>(a) * n_radii + static_cast<std::size_t>(r)];
-      if (bin.n == 0) continue;
-      const Vec3 mean = (1 / bin.n) * bin.force;
-      text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
-                          r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
-                          mean.y, mean.z, start_, end_);
-    }
+  for (int b = 0; b < n_angles * n_radii; ++b) {
+    const Bin& bin = bins_[static_cast<std::size_t>(b)];
+    if (bin.n == 0) continue;
+    const int a = b / n_radii, r = b % n_radii;
+    const Vec3 mean = (1 / bin.n) * bin.force;
+    text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
+                        r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
+                        mean.y, mean.z, start_, end_);
   }
   write_atomically(file, text);
 }
