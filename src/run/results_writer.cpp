@@ -41,10 +41,10 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 }
 
 std::vector<DuneRow> RunDiagnostics::find_dunes() {
-  const GatheredGrains grains(*run_.state.grains);
+  const std::vector<CloudGrain> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   if (rank_of(run_.ranks) != 0) return {};
-  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains.cloud());
+  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains);
   for (const DuneRow& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
@@ -53,9 +53,9 @@ std::vector<DuneRow> RunDiagnostics::find_dunes() {
 
 std::vector<int> RunDiagnostics::dune_labels() const {
   const GrainState& grains = *run_.state.grains;
-  const GatheredGrains all(grains);
+  const std::vector<CloudGrain> all = gathered_grains(grains);
   std::vector<int> labels;
-  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all.cloud());
+  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
   return from_rank_0(run_.ranks, labels, grains.n);
 }
 
@@ -69,9 +69,12 @@ void RunDiagnostics::sample() {
   if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
   if (!force_map_) return;
   const GrainState& grains = *run_.state.grains;
-  const GatheredGrains all(grains);
-  const auto force = gathered(grains, run_.coupled_step.mean_resultant_force(grains));
-  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all.cloud(), force);
+  const std::vector<CloudGrain> all = gathered_grains(grains);
+  const auto mine = Kokkos::create_mirror_view_and_copy(
+      Kokkos::HostSpace{}, run_.coupled_step.mean_resultant_force(grains));
+  const auto force =
+      on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
+  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
 }
 
 void RunDiagnostics::write(const RunFolder& folder, const OutputFiles& output) {

@@ -104,8 +104,8 @@ std::vector<GrainRow> move_bed(const Variant& v, std::int64_t& rebuilds) {
   GrainBench bench(config, grains);
   set_weight(bench.state, {0, -500, 0});  // packs within a millisecond
   bench.advance(600, 2.5e-6);
-  EXPECT_GT(bench.solver().contacts(bench.state).n_contacts, 15);
-  rebuilds = bench.solver().rebuilds();
+  EXPECT_GT(bench.solver.contacts(bench.state).n_contacts, 15);
+  rebuilds = bench.solver.rebuilds();
   return rows_by_id(bench.state);
 }
 

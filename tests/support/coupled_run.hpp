@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/fluid/domain.hpp"
@@ -36,14 +38,14 @@ inline Config still_water(std::array<double, 3> size) {
   return c;
 }
 
-/// A run that is stepped by hand.
+/// A run that is stepped by hand; without a `flow` the water is at rest.
 struct CoupledRun {
   Config config;
   SystemState state;
   CoupledStep step;
 
-  CoupledRun(const Config& c, const InitialGrains& grains)
-      : config(c), state(make_state(c, grains)), step(config, state) {
+  CoupledRun(const Config& c, const InitialGrains& grains, std::optional<FluidState> flow = {})
+      : config(c), state(make_state(c, grains, std::move(flow))), step(config, state) {
     step.start(state);
   }
   void advance(int n = 1) {
@@ -53,11 +55,10 @@ struct CoupledRun {
   Vec3 velocity_of(int id) const { return rows()[static_cast<std::size_t>(id)].u; }
 
  private:
-  static SystemState make_state(const Config& c, const InitialGrains& grains) {
-    SystemState s;
-    if (c.fluid) s.fluid = make_fluid_state(make_grid(c));
-    s.grains = make_grain_state(grains, c.grains->density);
-    return s;
+  static SystemState make_state(const Config& c, const InitialGrains& grains,
+                                std::optional<FluidState> flow) {
+    if (c.fluid && !flow) flow = make_fluid_state(make_grid(c));
+    return {.fluid = std::move(flow), .grains = make_grain_state(grains, c.grains->density)};
   }
 };
 
