@@ -3,9 +3,11 @@
 import h5py
 import numpy
 
-from entry import SHORT, TABLE, Entry, grains_csv
+from entry import SHORT, TABLE, Entry
 
-GOOD, HEADER = grains_csv(), "id,diameter,x,y,z"
+# Grains that float apart from each other; ids from 1: line 2 is grain 1.
+GOOD = "id,diameter,x,y,z\n" + "".join(
+    f"{n + 1},2e-4,{0.004 + 3e-4 * (n % 5):.10g},{4e-4 + 3e-4 * (n // 5):.10g},0.003\n" for n in range(20))
 END = "[time] end = 0.002"
 RESTART = "restart_0000000004.h5"
 AGAIN = f"run case.toml --quiet --out out --restart out/{RESTART}"

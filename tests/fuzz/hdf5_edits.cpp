@@ -137,10 +137,10 @@ class Editor {
     const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     // compact, contiguous, chunks that may grow or not, in another file, made of another array
     const std::size_t layout = tape_.pick(6);
-    const bool grows = layout == 2, pieces = grows || layout == 3;
+    const bool grows = layout == 2;
     if (layout < 2) {
       H5Pset_layout(list.get(), layout == 0 ? H5D_COMPACT : H5D_CONTIGUOUS);
-    } else if (pieces) {
+    } else if (layout < 4) {
       H5Pset_chunk(list.get(), static_cast<int>(whole.size()), extents(whole.size()).data());
       if (tape_.pick(2) == 1) H5Pset_deflate(list.get(), 1);
     } else if (layout == 4) {
@@ -150,6 +150,7 @@ class Editor {
       H5Pset_virtual(list.get(), all.get(), tape_.pick(2) == 0 ? "." : "other.h5", name(),
                      all.get());
     }
+    const bool pieces = H5Pget_layout(list.get()) == H5D_CHUNKED;
     H5Pset_alloc_time(list.get(), pieces ? H5D_ALLOC_TIME_INCR : H5D_ALLOC_TIME_LATE);
     const double fill = tape_.number();
     H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &fill);
