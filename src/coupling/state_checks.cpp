@@ -210,7 +210,7 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
     worst[3] = max_each_cell_here("state checks: fluid fraction", state.fluid->grid,
                                   FractionOutside{state.fluid->alpha_f});
   }
-  max_over(ranks_, worst);
+  all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (!(worst[0] <= limit && worst[1] <= limit && worst[2] < kMaxDisplacement)) {
     return grain_problem(*state.grains, step, worst, at_start);
   }

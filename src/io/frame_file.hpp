@@ -53,7 +53,6 @@ class FrameFile {
   void append(double t, std::int64_t step, const Preamble& preamble, const Content& content);
 
   const std::vector<FrameInfo>& frames() const { return frames_; }
-  const std::filesystem::path& path() const { return path_; }
 
  private:
   void drop_after(double t);

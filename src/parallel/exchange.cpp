@@ -14,7 +14,22 @@
 
 namespace barchan {
 
-static MessageCounts sent_so_far;
+namespace {
+
+MessageCounts sent_so_far;
+
+/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
+/// MPI library says so. Otherwise messages pass through the host.
+bool mpi_reaches_device() {
+  if (runs_on_host) return true;
+#if defined(MPIX_CUDA_AWARE_SUPPORT)
+  return MPIX_Query_cuda_support() == 1;
+#else
+  return false;
+#endif
+}
+
+}  // namespace
 
 const MessageCounts& message_counts() { return sent_so_far; }
 
@@ -27,15 +42,6 @@ void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation) {
 }
 template void all_reduce(MPI_Comm, std::span<Real>, MPI_Op);
 template void all_reduce(MPI_Comm, std::span<std::int64_t>, MPI_Op);
-
-bool mpi_reaches_device() {
-  if (runs_on_host) return true;
-#if defined(MPIX_CUDA_AWARE_SUPPORT)
-  return MPIX_Query_cuda_support() == 1;
-#else
-  return false;
-#endif
-}
 
 MessageBuffer::MessageBuffer(std::string label, std::size_t n) : label_(std::move(label)) {
   reserve(n);

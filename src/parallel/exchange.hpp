@@ -26,10 +26,6 @@ const MessageCounts& message_counts();
 template <class T>
 void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation);
 
-/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
-/// MPI library says so. Otherwise messages pass through the host.
-bool mpi_reaches_device();
-
 /// Numbers that kernels write and MPI sends, or the other way round.
 class MessageBuffer {
  public:

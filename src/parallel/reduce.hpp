@@ -17,10 +17,6 @@ void sum_over(MPI_Comm ranks, std::vector<T>& numbers) {
   all_reduce(ranks, std::span<T>(numbers), MPI_SUM);
 }
 template <class T>
-void max_over(MPI_Comm ranks, std::vector<T>& numbers) {
-  all_reduce(ranks, std::span<T>(numbers), MPI_MAX);
-}
-template <class T>
 T sum_over(MPI_Comm ranks, T number) {
   all_reduce(ranks, std::span(&number, 1), MPI_SUM);
   return number;
