@@ -72,7 +72,7 @@ void FluidSideGrains::copy_to_fluid_ranks(const GrainState& grains, unsigned use
     add_extra(copies_, grains.extra[e].name, grains.extra[e].unit, grains.extra[e].uses);
   copies_.n = counts_.n_from();
   reserve_rows(copies_, copies_.n, kFluidSide);
-  exchange_.unpack(layout_of(copies_, uses), 0);
+  exchange_.unpack(layout_of(copies_, uses), {});
   wrap_copies();
 }
 

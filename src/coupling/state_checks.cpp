@@ -207,14 +207,10 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
     worst = {mine.pair.val, mine.in_wall.val, mine.displacement.val, 0};
   }
   if (state.fluid && state.grains) {
-    const Grid& grid = state.fluid->grid;
-    const FractionOutside outside{state.fluid->alpha_f};
-    const CellRange cells = owned_cells(grid);
-    Kokkos::parallel_reduce("state checks: fluid fraction", launch_detail::policy(cells),
-                            launch_detail::MaxLoop<FractionOutside>{outside, cells},
-                            Kokkos::Max<Real>(worst[3]));
+    worst[3] = max_each_cell_here("state checks: fluid fraction", state.fluid->grid,
+                                  FractionOutside{state.fluid->alpha_f});
   }
-  max_over(ranks_, worst);
+  all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (!(worst[0] <= limit && worst[1] <= limit && worst[2] < kMaxDisplacement)) {
     return grain_problem(*state.grains, step, worst, at_start);
   }

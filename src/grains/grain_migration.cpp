@@ -137,7 +137,7 @@ void GrainMigration::receive_contacts(ContactHistory& history) const {
           if (now.has_force()) now.force(k) = old.force(from);
         }
       });
-  exchange_contacts_.unpack(layout_of(now), total - contacts_.n_from());
+  exchange_contacts_.unpack(layout_of(now), {}, total - contacts_.n_from());
 }
 
 void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
@@ -155,7 +155,7 @@ void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
 
   permute(grains, row_, n_stay_, room);
   reserve_rows(grains, n_stay_ + n_from);
-  exchange_.unpack(layout_of(grains), n_stay_);
+  exchange_.unpack(layout_of(grains), {}, n_stay_);
   grains.n = n_stay_ + n_from;
 }
 

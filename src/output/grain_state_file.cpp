@@ -58,7 +58,7 @@ void load_rows(const CheckpointReader& file, const std::string& name, const View
   Extents whole = extents, first(extents.size(), 0);
   whole[View::rank() - 1] = n_all;
   first[View::rank() - 1] = begin;
-  checkpoint_detail::from_numbers(file.part<Number>(name, whole, first, extents), mine);
+  checkpoint_detail::from_numbers(file.array<Number>(name, whole, first, extents), mine);
 }
 
 template <class T>

@@ -65,8 +65,8 @@ void load_field(const CheckpointReader& file, const std::string& name, const Gri
     return;
   }
   const std::vector<double> values =
-      file.part<double>(name, whole_extents(grid), {size(grid.k_begin), 0, size(grid.i_begin)},
-                        {size(grid.nz + 2), size(grid.ny + 2), size(grid.nx + 2)});
+      file.array<double>(name, whole_extents(grid), {size(grid.k_begin), 0, size(grid.i_begin)},
+                         {size(grid.nz + 2), size(grid.ny + 2), size(grid.nx + 2)});
   const auto host = Kokkos::create_mirror_view(f.storage);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(f.storage, host);

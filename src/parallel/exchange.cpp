@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "src/parallel/communicator.hpp"
@@ -17,29 +18,8 @@ namespace {
 
 MessageCounts sent_so_far;
 
-std::vector<int> starts_of(const std::vector<int>& sizes) {
-  std::vector<int> starts(sizes.size());
-  std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
-  return starts;
-}
-
-void reduce(MPI_Comm ranks, void* numbers, std::size_t n, MPI_Datatype type, MPI_Op operation) {
-  if (rank_count(ranks) == 1) return;
-  ++sent_so_far.reductions;
-  MPI_Allreduce(MPI_IN_PLACE, numbers, static_cast<int>(n), type, operation, ranks);
-}
-
-}  // namespace
-
-const MessageCounts& message_counts() { return sent_so_far; }
-
-void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation) {
-  reduce(ranks, numbers.data(), numbers.size(), MPI_DOUBLE, operation);
-}
-void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation) {
-  reduce(ranks, numbers.data(), numbers.size(), MPI_INT64_T, operation);
-}
-
+/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
+/// MPI library says so. Otherwise messages pass through the host.
 bool mpi_reaches_device() {
   if (runs_on_host) return true;
 #if defined(MPIX_CUDA_AWARE_SUPPORT)
@@ -48,6 +28,20 @@ bool mpi_reaches_device() {
   return false;
 #endif
 }
+
+}  // namespace
+
+const MessageCounts& message_counts() { return sent_so_far; }
+
+template <class T>
+void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation) {
+  if (rank_count(ranks) == 1) return;
+  ++sent_so_far.reductions;
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()),
+                std::is_integral_v<T> ? MPI_INT64_T : MPI_DOUBLE, operation, ranks);
+}
+template void all_reduce(MPI_Comm, std::span<Real>, MPI_Op);
+template void all_reduce(MPI_Comm, std::span<std::int64_t>, MPI_Op);
 
 MessageBuffer::MessageBuffer(std::string label, std::size_t n) : label_(std::move(label)) {
   reserve(n);
@@ -131,7 +125,8 @@ RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>
                     .to = std::vector<int>(static_cast<std::size_t>(n_ranks), 0)};
   const auto at = [&](std::size_t p) { return static_cast<std::size_t>(rank_here(p)); };
   for (std::size_t p = 0; p < row.extent(0); ++p) ++sorted.to[at(p)];
-  std::vector<int> next = starts_of(sorted.to);
+  std::vector<int> next(sorted.to.size());
+  std::exclusive_scan(sorted.to.begin(), sorted.to.end(), next.begin(), 0);
   const auto sorted_here = Kokkos::create_mirror_view(sorted.row);
   for (std::size_t p = 0; p < row.extent(0); ++p) sorted_here(next[at(p)]++) = row_here(p);
   Kokkos::deep_copy(sorted.row, sorted_here);

@@ -21,13 +21,10 @@ struct MessageCounts {
 };
 const MessageCounts& message_counts();
 
-/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
-void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation);
-void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation);
-
-/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
-/// MPI library says so. Otherwise messages pass through the host.
-bool mpi_reaches_device();
+/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction. T is
+/// Real or std::int64_t.
+template <class T>
+void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation);
 
 /// Numbers that kernels write and MPI sends, or the other way round.
 class MessageBuffer {

@@ -58,8 +58,8 @@ std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& 
       fmt::format("frames   {}: {} ... {}, t = {:.6g} s (step {}) ... {:.6g} s (step {})\n",
                   frames.size(), first.name, last.name, first.t, first.step, last.t, last.step);
   text += "arrays of the last frame:\n";
-  for (const auto& array : last.arrays) {
-    text += describe_array(file, last.name + "/" + array.name, array.name);
+  for (const auto& [name, array] : last.arrays) {
+    text += describe_array(file, last.name + "/" + name, name);
   }
   if (file.exists("grid")) text += "grid:\n" + describe_group(file, "grid");
   return text;

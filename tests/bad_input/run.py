@@ -105,7 +105,7 @@ def conditions(entry, folder):
 
 def command_of(entry, program):
     first, *words = shlex.split(entry.command)
-    scripts = {"./barchan": [str(ROOT / "barchan")], "sweep": [sys.executable, str(ROOT / "scripts/sweep.py"), program],
+    scripts = {"sweep": [sys.executable, str(ROOT / "scripts/sweep.py"), program],
                "plot": [sys.executable, str(ROOT / "analysis/plot.py")]}
     ranks = ["mpirun", "--quiet", "--bind-to", "none", "-np", str(entry.ranks)] if entry.ranks > 1 else []
     return [*scripts.get(first, [*ranks, program, first]), *words]

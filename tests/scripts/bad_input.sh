@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Broken and absurd input, 150 entries: each ends with one clear message, the right exit code and nothing written.
+# Broken and absurd input, 109 entries: each ends with one clear message, the right exit code and nothing written.
 # --only TEXT, --show: tests/bad_input/run.py.
 set -u
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"

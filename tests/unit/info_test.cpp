@@ -17,10 +17,6 @@ const Provenance origin{.title = "Ten thousand grains",
                         .git_hash = "abc1234",
                         .backend = "OpenMP"};
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Info, DescribesResults) {
   const TemporaryFolder folder;
   FrameFile file(folder / "grains.h5", origin, {}, MPI_COMM_SELF);
