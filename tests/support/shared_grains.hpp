@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/grains/grain_solver.hpp"
 #include "src/parallel/communicator.hpp"
 #include "tests/support/grain_cases.hpp"
 
@@ -68,23 +67,13 @@ inline std::vector<double> differences(const GrainNumbers& a, const GrainNumbers
   return off;
 }
 
-/// Grains with a solver; the rows of a state without neighbours yet.
-struct GrainSystem {
-  GrainSystem(const Config& c, const InitialGrains& grains, MPI_Comm ranks)
-      : state(make_grain_state(grains, c.grains->density, ranks)), solver(c, state) {
-    solver.start(state);
-  }
-  GrainState state;
-  GrainSolver solver;
-};
-
 /// The same case twice.
 struct SharedGrains {
   SharedGrains(const Config& c, const InitialGrains& grains)
       : whole(c, grains, MPI_COMM_SELF), shared(c, grains, MPI_COMM_WORLD) {}
   void advance(int n, Real dt) {
     for (GrainSystem* s : {&whole, &shared}) {
-      s->solver.advance(s->state, n, dt);
+      s->advance(n, dt);
       s->solver.remove_left(s->state);
     }
   }
