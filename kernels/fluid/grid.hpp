@@ -86,8 +86,10 @@ struct BasicFieldRef {
                       static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
   // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
-  KOKKOS_FORCEINLINE_FUNCTION operator BasicFieldRef<const Value>() const
-      requires(!std::is_const_v<Value>) {
+  template <class Other>
+  requires(!std::is_const_v<Value> &&
+           std::is_same_v<Other, const Value>) KOKKOS_FORCEINLINE_FUNCTION
+  operator BasicFieldRef<Other>() const {
     return {origin, stride_y, stride_z};
   }
 };

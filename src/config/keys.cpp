@@ -29,9 +29,6 @@ class Keys {
     }
   }
 
-  Keys(Sections& all, const char* name, const char* meaning, Get get)
-      : Keys(all.emplace_back(Section{name, meaning}), get) {}
-
   template <class Struct, class T>
   void operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
     (*this)(name, member, any, "", meaning, rule);
@@ -70,14 +67,18 @@ class Keys {
   Get get_;
 };
 
+Section& add(Sections& all, const char* name, const char* meaning) {
+  return all.emplace_back(Section{name, meaning});
+}
+
 void add_case(Sections& all) {
-  Keys key(all, "case", "What the run is called", [](auto& c) { return &c; });
+  Keys key(add(all, "case", "What the run is called"), [](auto& c) { return &c; });
   key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
   key("notes", &Config::notes, at_most(2000), "", "who ran it and why: kept with every result");
 }
 
 void add_time(Sections& all) {
-  Keys key(all, "time", "End and steps", [](auto& c) { return &c.time; });
+  Keys key(add(all, "time", "End and steps"), [](auto& c) { return &c.time; });
   key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
   key("fluid_step", &TimeConfig::fluid_step, between(1e-15, 1), "s",
       "step of the flow; without `[fluid]` the interval between checks and output",
@@ -89,13 +90,13 @@ void add_time(Sections& all) {
 }
 
 void add_domain(Sections& all) {
-  Keys key(all, "domain", "The box", [](auto& c) { return &c; });
+  Keys key(add(all, "domain", "The box"), [](auto& c) { return &c; });
   key("size", &Config::size, between(1e-9, 1e6), "m",
       "[Lx, Ly, Lz]: along the stream, upwards, across", required_and_fixed);
 }
 
 void add_fluid(Sections& all) {
-  Keys key(all, "fluid", "The flow; without the section grains move alone",
+  Keys key(add(all, "fluid", "The flow; without the section grains move alone"),
            [](auto& c) { return &c.fluid; });
   using F = FluidConfig;
   key("cells", &F::cells, between(1, 100000), "", "[nx, ny, nz]", required_and_fixed);
@@ -134,7 +135,7 @@ void add_material(Section& section, Get get) {
 }
 
 void add_grains(Sections& all) {
-  Keys key(all, "grains", "The grains; without the section water flows alone",
+  Keys key(add(all, "grains", "The grains; without the section water flows alone"),
            [](auto& c) { return &c.grains; });
   using G = GrainConfig;
   key("density", &G::density, between(1e-6, 1e9), "kg/m3", "density of the grains",
@@ -171,9 +172,9 @@ void add_wall(Sections& all) {
 }
 
 void add_ambient(Sections& all) {
-  Keys key(all, "grains.ambient",
-           "Still fluid around the grains of a case without `[fluid]`; "
-           "without the section a vacuum",
+  Keys key(add(all, "grains.ambient",
+               "Still fluid around the grains of a case without `[fluid]`; "
+               "without the section a vacuum"),
            [](auto& c) { return c.grains ? &c.grains->ambient : nullptr; });
   key("density", &AmbientConfig::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, between(1e-15, 1e6), "m2/s",
@@ -181,7 +182,8 @@ void add_ambient(Sections& all) {
 }
 
 void add_coupling(Sections& all) {
-  Keys key(all, "coupling", "Forces between grains and flow", [](auto& c) { return &c.coupling; });
+  Keys key(add(all, "coupling", "Forces between grains and flow"),
+           [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
   key("drag", &C::drag, "drag law");
   key("void_fraction", &C::void_fraction,
@@ -197,7 +199,7 @@ void add_coupling(Sections& all) {
 }
 
 void add_initial(Sections& all) {
-  Keys key(all, "initial", "The state at t = 0", [](auto& c) { return &c.initial; });
+  Keys key(add(all, "initial", "The state at t = 0"), [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid,
       "\"still\", \"turbulent\" (a log law with perturbations), a restart file `.h5`, or the end "
@@ -209,8 +211,8 @@ void add_initial(Sections& all) {
 
 void add_pour(Sections& all) {
   all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
-  Keys key(all, "initial.grains.pour",
-           "A loose cone of the grains of `grains.sizes`, which settles",
+  Keys key(add(all, "initial.grains.pour",
+               "A loose cone of the grains of `grains.sizes`, which settles"),
            [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
   key("centre", &P::centre, any, "m", "[x, z] of its axis");
@@ -220,7 +222,7 @@ void add_pour(Sections& all) {
 }
 
 void add_output(Sections& all) {
-  Keys key(all, "output", "Intervals in simulated time; 0: no such file",
+  Keys key(add(all, "output", "Intervals in simulated time; 0: no such file"),
            [](auto& c) { return &c.output; });
   using O = OutputConfig;
   key("history_interval", &O::history_interval, at_least(0), "s", "of `history.csv`");
@@ -233,7 +235,7 @@ void add_output(Sections& all) {
 }
 
 void add_restart(Sections& all) {
-  Keys key(all, "restart", "Restart files, from which a run can go on",
+  Keys key(add(all, "restart", "Restart files, from which a run can go on"),
            [](auto& c) { return &c.restart; });
   key("interval", &RestartConfig::interval, at_least(0), "s", "in simulated time; 0: none");
   key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s", "in wall time; 0: none");
@@ -241,7 +243,7 @@ void add_restart(Sections& all) {
 }
 
 void add_statistics(Sections& all) {
-  Keys key(all, "statistics", "Averages over time; none without the section",
+  Keys key(add(all, "statistics", "Averages over time; none without the section"),
            [](auto& c) { return &c.statistics; });
   using S = StatisticsConfig;
   key("start", &S::start, at_least(0), "s", "time of the first sample", required);
@@ -252,7 +254,7 @@ void add_statistics(Sections& all) {
 }
 
 void add_solver(Sections& all) {
-  Keys key(all, "solver", "The equation of the pressure", [](auto& c) { return &c.solver; });
+  Keys key(add(all, "solver", "The equation of the pressure"), [](auto& c) { return &c.solver; });
   using S = SolverConfig;
   key("pressure_tolerance", &S::pressure_tolerance, above(0).below(1), "",
       "residual over right-hand side (2-norms) at which iterations stop");

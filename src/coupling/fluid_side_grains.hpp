@@ -44,8 +44,7 @@ class FluidSideGrains {
   PencilOwners owners_;
   GrainState copies_;
   ExchangeCounts counts_;
-  Kokkos::View<int*> owner_, row_;  // of each grain; rows in the order of the owners
-  Kokkos::View<int*> count_;        // grains of each owner
+  Kokkos::View<int*> row_;  // of the grains, in the order of their owners
   RowExchange exchange_{"fluid-side grains"};
 };
 

@@ -117,20 +117,27 @@ std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int 
 int ExchangeCounts::n_to() const { return std::accumulate(to.begin(), to.end(), 0); }
 int ExchangeCounts::n_from() const { return std::accumulate(from.begin(), from.end(), 0); }
 
-RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>& row,
-                        int n_ranks) {
-  const auto rank_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, rank);
-  const auto row_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, row);
-  RowsByRank sorted{.row = Kokkos::View<int*>("rows by rank", row.extent(0)),
-                    .to = std::vector<int>(static_cast<std::size_t>(n_ranks), 0)};
-  const auto at = [&](std::size_t p) { return static_cast<std::size_t>(rank_here(p)); };
-  for (std::size_t p = 0; p < row.extent(0); ++p) ++sorted.to[at(p)];
-  std::vector<int> next(sorted.to.size());
-  std::exclusive_scan(sorted.to.begin(), sorted.to.end(), next.begin(), 0);
-  const auto sorted_here = Kokkos::create_mirror_view(sorted.row);
-  for (std::size_t p = 0; p < row.extent(0); ++p) sorted_here(next[at(p)]++) = row_here(p);
-  Kokkos::deep_copy(sorted.row, sorted_here);
-  return sorted;
+RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
+  const Kokkos::View<int*> row("rows by rank", static_cast<std::size_t>(n));
+  const Kokkos::View<int*> count("rows of a rank", static_cast<std::size_t>(n_ranks));
+  Kokkos::parallel_for(
+      "rows by rank: count", items(n), KOKKOS_LAMBDA(int p) {
+        if (rank(p) >= 0) Kokkos::atomic_inc(&count(rank(p)));
+      });
+  const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count);
+  int begin = 0;
+  for (int r = 0; r <= n_ranks && begin < n; ++r) {
+    const int wanted = r < n_ranks ? r : -1, first = begin;
+    if (wanted >= 0 && to(wanted) == 0) continue;
+    Kokkos::parallel_scan(
+        "rows by rank: list", items(n), KOKKOS_LAMBDA(int p, int& sum, bool final) {
+          if (rank(p) != wanted) return;
+          if (final) row(first + sum) = p;
+          ++sum;
+        });
+    if (wanted >= 0) begin += to(wanted);
+  }
+  return {.row = row, .to = {to.data(), to.data() + n_ranks}};
 }
 
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to) {

@@ -191,6 +191,18 @@ struct SmallCase {
   std::unique_ptr<CoupledStep> step;
 };
 
+TEST(HaloOverRanks, OneMessageToEachSide) {
+  for (const int along_x : test::shapes(SmallCase::cells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid(SmallCase::cells, SmallCase::size, 3e-4, along_x);
+    const Halo halo(grid.mine);
+    Field f("f", grid.mine);
+    const MessageCounts before = message_counts();
+    halo.fill(f);
+    expect_equal(since(before), fill(grid.mine));
+  }
+}
+
 TEST(MessageCounts, AFlowStep) {
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);

@@ -131,10 +131,8 @@ Unrest unrest(const HostGrains& h) {
   Unrest u;
   for (int g = 0; g < h.n; ++g) {
     const GrainKinematics& k = h.kin(g);
-    const Real energy =
-        0.5 * k.m * dot(k.u, k.u) + 0.5 * sphere_inertia(k.m, k.r) * dot(k.omega, k.omega);
     const Vec3 net = h.contact_force(g) + k.m * Vec3{0, -kG, 0};
-    u.energy = std::max(u.energy, energy);
+    u.energy = std::max(u.energy, kinetic_energy(k));
     u.imbalance = std::max(u.imbalance, norm(net) / (k.m * kG));
   }
   return u;

@@ -65,7 +65,7 @@ struct SharedGrains {
       : whole(c, grains, MPI_COMM_SELF), shared(c, grains, MPI_COMM_WORLD) {}
   void advance(int n, Real dt) {
     for (GrainBench* s : {&whole, &shared}) {
-      s->solver.advance(s->state, n, dt);
+      s->advance(n, dt);
       s->solver.remove_left(s->state);
     }
   }
