@@ -18,9 +18,8 @@ FlowStatistics::FlowStatistics(const FluidConfig& config, const Grid& grid)
 
 void FlowStatistics::sample(const FluidState& fluid) {
   const StressDivergence stress{grid_, fluid.u, fluid.nu_t, viscosity_};
-  const PlaneSample sample{grid_, fluid.u, fluid.p, fluid.nu_t, stress};
   Kokkos::parallel_for("statistics: plane sums", Kokkos::TeamPolicy<>(grid_.ny + 1, Kokkos::AUTO),
-                       AddPlaneMeans{sample, sums_});
+                       AddPlaneMeans{grid_, fluid.u, fluid.p, fluid.nu_t, stress, sums_});
   if (grid_.ranks) add_ranks();
   ++n_samples_;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/fluid/domain.hpp"
@@ -42,10 +43,11 @@ struct CoupledRun {
   SystemState state;
   CoupledStep step;
 
-  CoupledRun(const Config& c, const InitialGrains& grains)
-      : config(c), state(make_state(c, grains)), step(config, state) {
+  CoupledRun(const Config& c, SystemState from)
+      : config(c), state(std::move(from)), step(config, state) {
     step.start(state);
   }
+  CoupledRun(const Config& c, const InitialGrains& grains) : CoupledRun(c, make_state(c, grains)) {}
   void advance(int n = 1) {
     for (int s = 0; s < n; ++s) step.advance(state);
   }

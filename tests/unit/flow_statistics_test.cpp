@@ -25,12 +25,10 @@ struct WavyShear {
 
   /// u = 8 y + a wave, v a wave in phase with it: <u'v'> = -a b / 2 where both are away from walls.
   void set(double a, double b) {
-    const test::HostGrid h(grid);
-    const double k = 2 * pi / 0.04;
-    test::set_field(fluid.u.x, grid,
-                    [&](int i, int j, int) { return 8 * h.y(j) + a * std::cos(k * h.x_face(i)); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int i, int j, int) { return j > 0 ? -b * std::cos(k * h.x(i)) : 0.0; });
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double x, double y, double) {
+      const double wave = std::cos(2 * pi / 0.04 * x);
+      return axis == 0 ? 8 * y + a * wave : axis == 1 ? -b * wave : 0;
+    });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }
 };
@@ -73,17 +71,22 @@ TEST(FlowStatistics, FluctuationsAreAgainstTheMeanOfAllSamples) {
   EXPECT_NEAR(row.uu, 0.01, 1e-14);
 }
 
-TEST(FlowStatistics, SurviveARestart) {
+/// From one to another through a restart file.
+template <class Averages>
+void restart(const Averages& from, Averages& to, const Config& config) {
   const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "run");
+  CheckpointWriter writer(folder / "run", 7, make_provenance(config));
+  from.save(writer);
+  to.load(CheckpointReader(writer.commit(1)));
+}
+
+TEST(FlowStatistics, SurviveARestart) {
   WavyShear flow;
   flow.set(0.03, 0.02);
   flow.statistics.sample(flow.fluid);
-  std::filesystem::create_directories(folder / "run");
-  CheckpointWriter writer(folder / "run", 7, make_provenance(flow.config));
-  flow.statistics.save(writer);
-  const auto file = writer.commit(1);
   FlowStatistics again(*flow.config.fluid, flow.grid);
-  again.load(CheckpointReader(file));
+  restart(flow.statistics, again, flow.config);
   EXPECT_EQ(again.table().n_samples, 1);
   for (std::size_t j = 0; j < 10; ++j) {
     EXPECT_EQ(again.table().rows[j].uv, flow.statistics.table().rows[j].uv);
@@ -103,13 +106,11 @@ struct SwingingFlow {
   double a = 0.02, b = 0.01, c = 0.03;
 
   void set(int sample) {
-    const test::HostGrid h(grid);
-    const double phase = 2 * std::numbers::pi * (sample + 0.3) / kSamples;
-    test::set_field(fluid.u.x, grid,
-                    [&](int, int j, int) { return 40 + 8 * h.y(j) + a * std::cos(phase); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int, int j, int) { return j > 0 ? -b * std::cos(phase) : 0.0; });
-    test::set_field(fluid.u.z, grid, [&](int, int, int) { return c * std::sin(phase); });
+    const double phase = 2 * pi * (sample + 0.3) / kSamples;
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double, double y, double) {
+      if (axis == 0) return 40 + 8 * y + a * std::cos(phase);
+      return axis == 1 ? -b * std::cos(phase) : c * std::sin(phase);
+    });
     test::set_field(fluid.p, grid, [&](int i, int, int) { return 1.0 * i + sample; });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }
@@ -153,17 +154,13 @@ TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
 }
 
 TEST(FlowAverage, GoesOnAcrossARestart) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "run");
   SwingingFlow flow;
   FlowAverage first(flow.grid), second(flow.grid);
   for (int n = 0; n < 3; ++n) {
     flow.set(n);
     first.sample(flow.fluid, n);
   }
-  CheckpointWriter writer(folder / "run", 7, make_provenance(flow.config));
-  first.save(writer);
-  second.load(CheckpointReader(writer.commit(1)));
+  restart(first, second, flow.config);
   for (int n = 3; n < kSamples; ++n) {
     flow.set(n);
     second.sample(flow.fluid, n);
