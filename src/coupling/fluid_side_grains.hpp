@@ -30,8 +30,6 @@ class FluidSideGrains {
   /// A vector of each of them, of the n grains.
   Kokkos::View<Vec3*> to_grain_ranks(const Kokkos::View<Vec3*>& of_copies, int n);
 
-  bool is_cut() const { return is_cut_; }
-
   // Public only because nvcc takes no device lambda from a private function.
   void find_owners(const GrainState& grains);
   void wrap_copies() const;

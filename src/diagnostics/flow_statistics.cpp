@@ -18,9 +18,8 @@ FlowStatistics::FlowStatistics(const FluidConfig& config, const Grid& grid)
 void FlowStatistics::sample(const FluidState& fluid) {
   Kokkos::deep_copy(sample_, PlaneSums{});
   const StressDivergence stress{grid_, fluid.u, fluid.nu_t, viscosity_};
-  const PlaneSample sample{grid_, fluid.u, fluid.p, fluid.nu_t, stress};
   Kokkos::parallel_for("statistics: plane sums", Kokkos::TeamPolicy<>(grid_.ny + 1, Kokkos::AUTO),
-                       AddPlaneMeans{sample, sample_});
+                       AddPlaneMeans{grid_, fluid.u, fluid.p, fluid.nu_t, stress, sample_});
   // Summed over ranks before it is added: a restart then goes on with the same bits.
   static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
   const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sample_);

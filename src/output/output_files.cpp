@@ -115,11 +115,9 @@ void write_axis(Hdf5File& file, const std::string& name, const std::vector<doubl
 }
 
 void write_grid(Hdf5File& file, const Grid& grid) {
-  const double x0 = grid.x0 - grid.i_begin * grid.dx, z0 = grid.z0 - grid.k_begin * grid.dz;
-  const int nx = grid.ranks ? grid.nx_all : grid.nx, nz = grid.ranks ? grid.nz_all : grid.nz;
   std::vector<double> x, y, z;
-  for (int i = 0; i <= nx; ++i) x.push_back(x0 + i * grid.dx);
-  for (int k = 0; k <= nz; ++k) z.push_back(z0 + k * grid.dz);
+  for (int i = 0; i <= grid.nx_all; ++i) x.push_back(i * grid.dx);
+  for (int k = 0; k <= grid.nz_all; ++k) z.push_back(k * grid.dz);
   const auto y_face = on_host(grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y.push_back(y_face(j + 1));
   write_axis(file, "grid/x", x);

@@ -8,7 +8,7 @@
 
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/fluid/local_correction.hpp"
+#include "src/fluid/pressure_solver.hpp"
 #include "tests/support/shared_grid.hpp"
 
 namespace barchan {
@@ -115,7 +115,7 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     const SharedGrid grid = awkward(along_x);
     const Boundary here(grid.mine, WallFlow::no_slip, WallFlow::free_slip);
     const Boundary there(grid.whole, WallFlow::no_slip, WallFlow::free_slip);
-    FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
+    FaceVector c = make_faces("test", grid.mine), c_whole = make_faces("test", grid.whole);
     set_heap(grid, [&](auto share) {
       grid.set(c_whole.x, c.x, share);
       grid.set(c_whole.z, c.z, share);
@@ -199,9 +199,10 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
     flows.config.grains.emplace();
     flows.config.solver.pressure_tolerance = 1e-12;
     FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-    ExchangeOnFaces on_here{test::make_faces(flows.grid.mine), test::make_faces(flows.grid.mine)};
-    ExchangeOnFaces on_there{test::make_faces(flows.grid.whole),
-                             test::make_faces(flows.grid.whole)};
+    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine),
+                            make_faces("test", flows.grid.mine)};
+    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole),
+                             make_faces("test", flows.grid.whole)};
     set_heap(flows.grid, [&](auto share) {
       flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
       flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);

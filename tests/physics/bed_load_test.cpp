@@ -28,21 +28,22 @@ InitialGrains settled_bed() {
 /// The flow over the bed held in place, from the log law on: turbulence develops.
 FluidState developed_flow(Config c, const InitialGrains& grains, double seconds) {
   c.grains->frozen = true;
-  FluidState flow = make_fluid_state(make_grid(c));
+  test::CoupledRun run(c, grains);
+  FluidState& flow = *run.state.fluid;
   set_turbulent_flow(c, flow);
-  test::CoupledRun held(c, grains, flow);
+  run.step.fill_ghosts(run.state);
   double drive = 0;
   const int n_steps = static_cast<int>(std::lround(seconds / c.time.fluid_step));
   for (int n = 1; n <= n_steps; ++n) {
-    held.advance();
-    drive += kDensity * held.state.fluid->drive;
+    run.advance();
+    drive += kDensity * flow.drive;
     if (n % (n_steps / 4) > 0) continue;
     std::printf("[ measured ] bed held, up to %.2f s: drive %.4g Pa/m\n", n * c.time.fluid_step,
                 drive / (n_steps / 4));
     drive = 0;
   }
-  held.state.fluid->has_history = false;  // it goes on with another step: grains that move
-  return *held.state.fluid;
+  flow.has_history = false;  // it goes on with another step: grains that move
+  return flow;
 }
 
 /// What a stretch of time has seen.
@@ -61,7 +62,7 @@ struct Transport {
 class FlatBed : test::CoupledRun {
  public:
   FlatBed(const Config& c, const InitialGrains& grains, const FluidState& flow)
-      : CoupledRun(c, grains, flow) {
+      : CoupledRun(c, {flow, make_grain_state(grains, c.grains->density)}) {
     for (const double d : grains.diameter) volume_.push_back(test::volume_of(d));
     for (const double v : volume_) solid_ += v;
   }

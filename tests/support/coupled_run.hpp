@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "src/coupling/coupled_step.hpp"
@@ -38,16 +37,17 @@ inline Config still_water(std::array<double, 3> size) {
   return c;
 }
 
-/// A run that is stepped by hand; without a `flow` the water is at rest.
+/// A run that is stepped by hand; from grains alone the water is at rest.
 struct CoupledRun {
   Config config;
   SystemState state;
   CoupledStep step;
 
-  CoupledRun(const Config& c, const InitialGrains& grains, std::optional<FluidState> flow = {})
-      : config(c), state(make_state(c, grains, std::move(flow))), step(config, state) {
+  CoupledRun(const Config& c, SystemState from)
+      : config(c), state(std::move(from)), step(config, state) {
     step.start(state);
   }
+  CoupledRun(const Config& c, const InitialGrains& grains) : CoupledRun(c, make_state(c, grains)) {}
   void advance(int n = 1) {
     for (int s = 0; s < n; ++s) step.advance(state);
   }
@@ -55,10 +55,10 @@ struct CoupledRun {
   Vec3 velocity_of(int id) const { return rows()[static_cast<std::size_t>(id)].u; }
 
  private:
-  static SystemState make_state(const Config& c, const InitialGrains& grains,
-                                std::optional<FluidState> flow) {
-    if (c.fluid && !flow) flow = make_fluid_state(make_grid(c));
-    return {.fluid = std::move(flow), .grains = make_grain_state(grains, c.grains->density)};
+  static SystemState make_state(const Config& c, const InitialGrains& grains) {
+    SystemState made{.grains = make_grain_state(grains, c.grains->density)};
+    if (c.fluid) made.fluid = make_fluid_state(make_grid(c));
+    return made;
   }
 };
 

@@ -26,12 +26,10 @@ struct WavyShear {
 
   /// u = 8 y + a wave, v a wave in phase with it: <u'v'> = -a b / 2 where both are away from walls.
   void set(double a, double b) {
-    const test::HostGrid h(grid);
-    const double k = 2 * pi / 0.04;
-    test::set_field(fluid.u.x, grid,
-                    [&](int i, int j, int) { return 8 * h.y(j) + a * std::cos(k * h.x_face(i)); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int i, int j, int) { return j > 0 ? -b * std::cos(k * h.x(i)) : 0.0; });
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double x, double y, double) {
+      const double wave = std::cos(2 * pi / 0.04 * x);
+      return axis == 0 ? 8 * y + a * wave : axis == 1 ? -b * wave : 0;
+    });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }
 };
@@ -85,13 +83,11 @@ struct SwingingFlow {
   double a = 0.02, b = 0.01, c = 0.03;
 
   void set(int sample) {
-    const test::HostGrid h(grid);
-    const double phase = 2 * std::numbers::pi * (sample + 0.3) / kSamples;
-    test::set_field(fluid.u.x, grid,
-                    [&](int, int j, int) { return 40 + 8 * h.y(j) + a * std::cos(phase); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int, int j, int) { return j > 0 ? -b * std::cos(phase) : 0.0; });
-    test::set_field(fluid.u.z, grid, [&](int, int, int) { return c * std::sin(phase); });
+    const double phase = 2 * pi * (sample + 0.3) / kSamples;
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double, double y, double) {
+      if (axis == 0) return 40 + 8 * y + a * std::cos(phase);
+      return axis == 1 ? -b * std::cos(phase) : c * std::sin(phase);
+    });
     test::set_field(fluid.p, grid, [&](int i, int, int) { return 1.0 * i + sample; });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }

@@ -16,8 +16,6 @@ const std::vector<double> y_faces{0.0, 0.1, 0.3, 0.7, 1.5};
 
 Grid awkward_grid() {
   Grid grid = make_grid(nx, nz, nx * 0.5, nz * 0.25, y_faces);
-  grid.x0 = 10;
-  grid.z0 = 20;
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid.y_face_);
   host(0) = host(ny + 2) = -99;  // ghosts must not be written
   Kokkos::deep_copy(grid.y_face_, host);
@@ -76,9 +74,9 @@ TEST(Output, FieldsAreCentredWithoutGhosts) {
   EXPECT_EQ(file.attribute<std::string>("/", "config"), "[case]\n");
 
   EXPECT_EQ(file.read<double>("grid/y_face", {ny + 1}), y_faces);
-  EXPECT_EQ(file.read<double>("grid/x_face", {nx + 1}).back(), 12.5);
-  EXPECT_EQ(file.read<double>("grid/z_face", {nz + 1}).front(), 20.0);
-  EXPECT_EQ(file.read<double>("grid/x", {nx}).front(), 10.25);
+  EXPECT_EQ(file.read<double>("grid/x_face", {nx + 1}).back(), 2.5);
+  EXPECT_EQ(file.read<double>("grid/z_face", {nz + 1}).back(), nz * 0.25);
+  EXPECT_EQ(file.read<double>("grid/x", {nx}).front(), 0.25);
   EXPECT_DOUBLE_EQ(file.read<double>("grid/y", {ny}).back(), 1.1);
 }
 
