@@ -125,11 +125,7 @@ std::string format_progress(const Progress& p, double eta_seconds) {
 }
 
 ProgressLine::ProgressLine(std::chrono::milliseconds plain_interval)
-    : plain_interval_(plain_interval),
-      start_(Clock::now()),
-      last_live_(start_),
-      last_plain_(start_),
-      terminal_(isatty(STDOUT_FILENO) != 0) {}
+    : plain_interval_(plain_interval), terminal_(isatty(STDOUT_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() { finish(); }
 

@@ -75,8 +75,8 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   Clock::duration plain_interval_;
-  Clock::time_point start_, last_live_, last_plain_;
-  bool terminal_ = false;
+  Clock::time_point start_ = Clock::now(), last_live_ = start_, last_plain_ = start_;
+  bool terminal_;
 };
 
 }  // namespace barchan

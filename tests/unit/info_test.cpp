@@ -66,20 +66,5 @@ TEST(Info, OtherFilesAreBadInput) {
             "cannot read " + (folder / "no.h5").string() + ": No such file or directory");
 }
 
-TEST(Info, NoCutIsTakenForAWholeFile) {
-  const TemporaryFolder folder;
-  CheckpointWriter writer(folder.path(), 1200, origin);
-  const std::vector<double> p(24);
-  writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
-  const auto path = writer.commit(1);
-  const auto size = std::filesystem::file_size(path);
-  for (std::uintmax_t cut = 0; cut < size; cut += size / 13) {
-    std::filesystem::copy_file(path, folder / "cut.h5",
-                               std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::resize_file(folder / "cut.h5", cut);
-    EXPECT_NE(message_of([&] { describe_file(folder / "cut.h5"); }), "") << cut << " of " << size;
-  }
-}
-
 }  // namespace
 }  // namespace barchan

@@ -69,11 +69,6 @@ TEST(Report, TheLogIsContinuedOrReplaced) {
   EXPECT_EQ(read_text(folder / "log.txt"), "line\n");
 }
 
-TEST(Report, BracesInTextsAreText) {
-  const Said said = heard([] { report::info("{}", "x = {}"); });
-  EXPECT_EQ(said.out, "x = {}\n");
-}
-
 TEST(Progress, ShowsWhatARunHas) {
   Progress p{.t = 2.5, .t_start = 0, .t_end = 10};
   EXPECT_EQ(format_progress(p, -1), "t 2.5 s  25.0 %");
