@@ -89,14 +89,4 @@ std::string describe_file(const std::filesystem::path& path) {
   return text + "The configuration is in the attribute \"config\" of the file.\n";
 }
 
-int run_info(const std::filesystem::path& file) {
-  try {
-    fmt::print("{}", describe_file(file));
-    return 0;
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "{}\n", problem.what());
-    return 2;
-  }
-}
-
 }  // namespace barchan

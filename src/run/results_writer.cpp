@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/grains/grain_sums.hpp"
+#include "src/base/atomic_file.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -77,10 +78,10 @@ void RunDiagnostics::sample() {
   if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
 }
 
-void RunDiagnostics::write(const RunFolder& folder, const OutputFiles& output) {
-  if (statistics_) statistics_->write(folder.file("statistics.csv"));
+void RunDiagnostics::write(const std::filesystem::path& folder, const OutputFiles& output) {
+  if (statistics_) statistics_->write(folder / "statistics.csv");
   if (flow_average_) flow_average_->write(output, run_.clock.time(), run_.clock.step);
-  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder.file("force_map.csv"));
+  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder / "force_map.csv");
 }
 
 void RunDiagnostics::save(CheckpointWriter& file) const {
@@ -103,11 +104,11 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
     : run_(run),
       diagnostics_(diagnostics),
       accounts_(accounts),
-      folder_(folder, run.restart_time, run.ranks),
+      folder_(prepare_folder(folder, run.restart_time, run.ranks)),
       output_(folder, run.provenance, run.restart_time, run.ranks) {
-  if (rank_of(run.ranks) == 0)
-    report::log_to(folder_.file("log.txt"), run.restart_time.has_value());
-  folder_.write_config(run.provenance.config);
+  if (rank_of(run.ranks) != 0) return;
+  report::log_to(folder_ / "log.txt", run.restart_time.has_value());
+  write_atomically(folder_ / "config.toml", run.provenance.config);
 }
 
 void ResultsWriter::write_due() {
@@ -115,7 +116,7 @@ void ResultsWriter::write_due() {
   Watchdog::beat("writing results", clock.step, clock.time());
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
-    for (const DuneRow& dune : diagnostics_.find_dunes()) folder_.append(dune);
+    for (const DuneRow& dune : diagnostics_.find_dunes()) append_row(folder_, dune);
   }
   if (diagnostics_.sample_due()) {
     const PhaseTimer timer(accounts_.phases, "analytics");
@@ -154,7 +155,7 @@ void ResultsWriter::write_history() {
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
   }
-  folder_.append(row);
+  if (rank_of(run_.ranks) == 0) append_row(folder_, row);
   accounts_.interval = {};
 }
 
@@ -187,7 +188,7 @@ bool ResultsWriter::restart_due() const {
 void ResultsWriter::write_restart() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing a restart file", clock.step, clock.time());
-  CheckpointWriter file(folder_.path(), clock.step, run_.provenance, run_.ranks);
+  CheckpointWriter file(folder_, clock.step, run_.provenance, run_.ranks);
   save_state(file, run_.state, run_.coupled_step);
   file.scalar("t", clock.time());
   file.scalar("step", clock.step);
@@ -199,7 +200,8 @@ void ResultsWriter::write_restart() {
 }
 
 void ResultsWriter::write_summary(const std::string& status, const std::string& message) {
-  folder_.write_summary(accounts_.summary(run_, status, message));
+  const auto summary = accounts_.summary(run_, status, message);
+  if (rank_of(run_.ranks) == 0) barchan::write_summary(folder_, summary);
 }
 
 std::string ResultsWriter::write_failure(const StateError& problem) const {
@@ -211,7 +213,7 @@ std::string ResultsWriter::write_failure(const StateError& problem) const {
     const auto& [fluid, grains] = run_.state;
     const auto names =
         output_.write_failure(fluid ? &*fluid : nullptr, grains ? &*grains : nullptr, t, step);
-    return fmt::format("{}; look at it in {} ({})", message, folder_.path().string(),
+    return fmt::format("{}; look at it in {} ({})", message, folder_.string(),
                        fmt::join(names, ", "));
   } catch (const std::exception& second) {
     return fmt::format("{}; the state could not be written: {}", message, second.what());

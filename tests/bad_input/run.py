@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bad input: tries every entry of the tables in a folder of its own and checks how it ends.
 
-    run.py PROGRAM [--only TEXT] [--show]
+    run.py [PROGRAM] [--only TEXT] [--show]
 
 An entry is fine when the exit code is the expected one, the message holds the expected words and tells of as many
 problems as there are, nothing else is said (no signal, abort, stack trace, words of a library), nothing is written,
@@ -166,7 +166,8 @@ def attempt(entry, program, good, scratch, number):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
+    parser.add_argument("program", type=Path, nargs="?",
+                        default=os.environ.get("BARCHAN_PROGRAM", ROOT / "build/release/barchan"))
     parser.add_argument("--only", default="", help="a kind, or entries with this text in their name")
     parser.add_argument("--show", action="store_true", help="print every message")
     options = parser.parse_args()

@@ -46,7 +46,7 @@ grain_forces = true
 Simulation simulation(const std::optional<std::filesystem::path>& restart) {
   static const auto folder = fuzz::input_file("run");
   const Config config = load_config_text(small_case, "case.toml");
-  return Simulation(config, {.folder = folder, .restart = restart}, {});
+  return as_input([&] { return Simulation(config, {.folder = folder, .restart = restart}, {}); });
 }
 
 /// A restart file after two steps.
