@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "src/base/atomic_file.hpp"
 #include "src/parallel/exchange.hpp"
@@ -23,7 +24,8 @@ void FlowStatistics::sample(const FluidState& fluid) {
   // Summed over ranks before it is added: a restart then goes on with the same bits.
   static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
   const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sample_);
-  all_reduce(ranks_of(grid_), {row.data()->value, row.size() * PlaneSums::n_quantities}, MPI_SUM);
+  const std::span<Real> numbers(row.data()->value, row.size() * PlaneSums::n_quantities);
+  all_reduce(ranks_of(grid_), numbers, MPI_SUM);
   for (std::size_t j = 0; j < row.size(); ++j) sums_(j) += row(j);
   ++n_samples_;
 }

@@ -56,7 +56,8 @@ struct CoupledRun {
 
  private:
   static SystemState make_state(const Config& c, const InitialGrains& grains) {
-    SystemState made{.grains = make_grain_state(grains, c.grains->density)};
+    SystemState made;
+    made.grains = make_grain_state(grains, c.grains->density);
     if (c.fluid) made.fluid = make_fluid_state(make_grid(c));
     return made;
   }
