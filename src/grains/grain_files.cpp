@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <unordered_set>
@@ -69,10 +70,13 @@ InitialGrains read_restart(const std::filesystem::path& path) {
   InitialGrains grains;
   const auto id = file.array<std::int64_t>("grains/id");
   const std::size_t n = id.size();
-  const Kokkos::View<GrainKinematics*, Kokkos::HostSpace> kin("grains/kin", n);
-  file.array("grains/kin", kin);
-  for (std::size_t g = 0; g < n; ++g)
-    grains.add(id[g], 2.0 * kin(g).r, kin(g).x, kin(g).u, kin(g).omega);
+  constexpr std::uint64_t width = checkpoint_detail::Stored<GrainKinematics>::count;
+  const auto numbers = file.array<double>("grains/kin", {n, width});  // Kokkos may not run yet
+  for (std::size_t g = 0; g < n; ++g) {
+    GrainKinematics kin;
+    std::memcpy(static_cast<void*>(&kin), numbers.data() + g * width, sizeof(kin));
+    grains.add(id[g], 2.0 * kin.r, kin.x, kin.u, kin.omega);
+  }
   return grains;
 }
 
