@@ -18,9 +18,10 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_added_mass(Real rho_f, Real vo
   return kAddedMassCoefficient * rho_f * volume;
 }
 
-/// Which forces of the fluid act, as numbers to multiply with.
+/// Which forces of the fluid act.
 struct FluidForces {
-  Real drag = 1, pressure_gradient = 1, stress = 1, added_mass = 1, buoyancy = 1;
+  bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
+  bool buoyancy = false;
 };
 
 /// Fluid force per volume of grain on faces, -grad p + rho f e_x + rho div(2 (nu + nu_t) S) [N/m^3]
@@ -36,7 +37,7 @@ struct FluidForceDensity {
   FaceRef force, convective;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real a = -forces.pressure_gradient, b = rho_f * forces.stress;
+    const Real a = -Real(forces.pressure_gradient), b = rho_f * Real(forces.stress);
     force.x(i, j, k) = a * (ddx_at_xface(grid, p, i, j, k) - rho_f * drive) + b * stress.x(i, j, k);
     force.y(i, j, k) = a * ddy_at_yface(grid, p, i, j, k) + b * stress.y(i, j, k);
     force.z(i, j, k) = a * ddz_at_zface(grid, p, i, j, k) + b * stress.z(i, j, k);
@@ -119,7 +120,7 @@ struct GatherFluid {
       u_f.x = by_row.mean_x, u_f.z = by_row.mean_z;
     }
     const Real volume = sphere_volume(grain.r);
-    const Real added_mass = forces.added_mass * sphere_added_mass(rho_f, volume);
+    const Real added_mass = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);
     const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);
 
     const Real alpha = Kokkos::clamp(found, Real(0.1), Real(1));
@@ -128,7 +129,7 @@ struct GatherFluid {
                          .mu_f = mu_f,
                          .slip = norm(u_f - grain.u),
                          .d_p = 2 * grain.r};
-    const Real beta = forces.drag * drag(flow);
+    const Real beta = Real(forces.drag) * drag(flow);
     const Real share = skip_relaxation ? Real(1)
                                        : exchange_relaxation(grain.m + added_mass, rho_f * volume,
                                                              beta, alpha, dt);
@@ -142,7 +143,6 @@ struct GatherFluid {
     on_grains.added_mass(g) = added_mass;
     on_grains.steady_force(g) =
         weight(grain) + exchange.fluid_force(g) + added_mass_force + (1 / dt) * paid;
-    BeginFluidStep{grains, on_grains}(g);
     exchange.added_mass_force(g) = added_mass_force;
   }
 };
@@ -164,7 +164,6 @@ struct GatherStillFluid {
     on_grains.u_f(g) = Vec3{};
     on_grains.beta(g) = SchillerNaumann{}(flow);
     on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
-    BeginFluidStep{grains, on_grains}(g);
   }
 };
 

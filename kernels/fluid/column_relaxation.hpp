@@ -17,10 +17,7 @@ struct ColumnHeights {
 
 /// Neighbours and colours of the columns of one rank. Along a direction that it has to itself the
 /// neighbour across the seam is its own last column; otherwise ghosts hold it.
-struct ColumnNeighbors {
-  int nx = 0, nz = 0, nx_all = 0, nz_all = 0;
-  int i_begin = 0, k_begin = 0;
-
+struct ColumnNeighbors : GridExtents {
   KOKKOS_FORCEINLINE_FUNCTION int left(int i) const {
     return i == 0 && nx == nx_all ? nx - 1 : i - 1;
   }
@@ -111,7 +108,6 @@ struct FactoriseColumn {
 /// a block Gauss-Seidel step, whose result does not depend on the order within a colour.
 struct RelaxColumns {
   ColumnEquations equations;
-  ColumnNeighbors neighbors;
   ColumnHeights height;
   ConstFieldRef pivot, r;
   FieldRef z;
@@ -121,6 +117,7 @@ struct RelaxColumns {
     const GridRef& grid = equations.grid;
     const int rows = height(i, k);
     if (rows == 0) return;
+    const ColumnNeighbors neighbors{grid};
     if (neighbors.colour(i, k) != colour) return;
     const ConstFaceRef& c = equations.c;
     const int left = neighbors.left(i), right = neighbors.right(i);

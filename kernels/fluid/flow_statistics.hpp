@@ -97,45 +97,39 @@ struct PlaneSums {
   KOKKOS_INLINE_FUNCTION Real& operator[](Quantity q) { return value[q]; }
 };
 
-/// Values at one (i, k) of the row; j = ny is the top boundary: its faces count, its cells do not.
-struct PlaneSample {
+/// Adds one instant: a team per row. j = ny is the top boundary: its faces count, its cells do not.
+struct AddPlaneMeans {
   GridRef grid;
-  ConstFaceRef u_;
-  ConstFieldRef p_, nu_t_;
-  StressDivergence stress_;
+  ConstFaceRef u;
+  ConstFieldRef p, nu_t;
+  StressDivergence stress;
+  Kokkos::View<PlaneSums*> sums;  // (ny + 1)
 
-  KOKKOS_FORCEINLINE_FUNCTION void add(int i, int j, int k, PlaneSums& sums) const {
-    const ConstFieldRef &x = u_.x, &y = u_.y;
+  KOKKOS_FORCEINLINE_FUNCTION void add(int i, int j, int k, PlaneSums& to) const {
+    const ConstFieldRef &x = u.x, &y = u.y;
     if (j < grid.ny) {
-      const Real z = u_.z(i, j, k);
-      sums[PlaneSums::u] += x(i, j, k);
-      sums[PlaneSums::w] += z;
-      sums[PlaneSums::uu] += x(i, j, k) * x(i, j, k);
-      sums[PlaneSums::ww] += z * z;
-      sums[PlaneSums::p] += p_(i, j, k);
-      sums[PlaneSums::nu_t] += nu_t_(i, j, k);
+      const Real z = u.z(i, j, k);
+      to[PlaneSums::u] += x(i, j, k);
+      to[PlaneSums::w] += z;
+      to[PlaneSums::uu] += x(i, j, k) * x(i, j, k);
+      to[PlaneSums::ww] += z * z;
+      to[PlaneSums::p] += p(i, j, k);
+      to[PlaneSums::nu_t] += nu_t(i, j, k);
     }
     const Real v = y(i, j, k);
-    sums[PlaneSums::vv] += v * v;
-    sums[PlaneSums::uv] += Real(0.25) * (y(i - 1, j, k) + v) * (x(i, j - 1, k) + x(i, j, k));
-    sums[PlaneSums::viscous] +=
-        stress_.nu * (x(i, j, k) - x(i, j - 1, k)) * (1 / grid.dy_centre(j));
-    sums[PlaneSums::stress] += stress_.xy(i, j, k);
+    to[PlaneSums::vv] += v * v;
+    to[PlaneSums::uv] += Real(0.25) * (y(i - 1, j, k) + v) * (x(i, j - 1, k) + x(i, j, k));
+    to[PlaneSums::viscous] += stress.nu * (x(i, j, k) - x(i, j - 1, k)) * (1 / grid.dy_centre(j));
+    to[PlaneSums::stress] += stress.xy(i, j, k);
   }
-};
-
-/// Adds one instant: a team per row.
-struct AddPlaneMeans {
-  PlaneSample sample;
-  Kokkos::View<PlaneSums*> sums;  // (ny + 1)
 
   using Team = Kokkos::TeamPolicy<>::member_type;
   KOKKOS_FUNCTION void operator()(const Team& team) const {
-    const int j = team.league_rank(), nx = sample.grid.nx;
+    const int j = team.league_rank();
     PlaneSums row;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, nx * sample.grid.nz),
-        [&](int n, PlaneSums& part) { sample.add(n % nx, j, n / nx, part); },
+        Kokkos::TeamThreadRange(team, grid.nx * grid.nz),
+        [&](int n, PlaneSums& part) { add(n % grid.nx, j, n / grid.nx, part); },
         Kokkos::Sum<PlaneSums>(row));
     Kokkos::single(Kokkos::PerTeam(team), [&] { sums(j) += row; });
   }

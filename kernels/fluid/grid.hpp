@@ -9,17 +9,16 @@
 namespace barchan {
 
 /// Owned cells 0..n-1 in each direction, one ghost layer (-1 and n) around them.
-/// Cell (i,j,k) has its x-face (i,j,k) at x = x0 + i dx, its y-face at y_face(j), its z-face at
-/// z = z0 + k dz: a face carries the index of the cell on its upper side. Uniform in x and z,
-/// stretched in y. The corner of the domain is the origin. The geometry of ghost rows mirrors the
-/// first row inside.
+/// Cell (i,j,k) has its x-face (i,j,k) at x_face(i), its y-face at y_face(j), its z-face at
+/// z_face(k): a face carries the index of the cell on its upper side. Uniform in x and z, stretched
+/// in y. The corner of the domain is the origin. The geometry of ghost rows mirrors the first row
+/// inside.
 struct GridExtents {
   int nx = 0, ny = 0, nz = 0;
+  int nx_all = 0, nz_all = 0;    // cells of all ranks together
   Real dx = 0, dz = 0;           // spacing [m]
-  Real x0 = 0, z0 = 0;           // corner of the owned part [m]
-  Real lx = 0, ly = 0, lz = 0;   // extent of the owned part [m]
   int i_begin = 0, k_begin = 0;  // the first owned cell among those of all ranks
-  Real lx_all = 0, lz_all = 0;   // extent of the domain [m]
+  Real lx = 0, ly = 0, lz = 0;   // extent of the domain, of all ranks [m]
 };
 
 /// `Rows` holds the heights: a Kokkos view (src/parallel/grid.hpp) or a bare pointer (GridRef).
@@ -30,10 +29,14 @@ struct BasicGrid : GridExtents {
 
   KOKKOS_FORCEINLINE_FUNCTION Real y_face(int j) const { return y_face_[j + 1]; }
   KOKKOS_FORCEINLINE_FUNCTION Real y_centre(int j) const { return y_centre_[j + 1]; }
-  KOKKOS_FORCEINLINE_FUNCTION Real x_face(int i) const { return x0 + i * dx; }
-  KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const { return x0 + (i + Real(0.5)) * dx; }
-  KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return z0 + k * dz; }
-  KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const { return z0 + (k + Real(0.5)) * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_face(int i) const { return (i_begin + i) * dx; }
+  KOKKOS_FORCEINLINE_FUNCTION Real x_centre(int i) const {
+    return x_face(0) + (i + Real(0.5)) * dx;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_face(int k) const { return (k_begin + k) * dz; }
+  KOKKOS_FORCEINLINE_FUNCTION Real z_centre(int k) const {
+    return z_face(0) + (k + Real(0.5)) * dz;
+  }
   /// Height of row j [m].
   KOKKOS_FORCEINLINE_FUNCTION Real dy(int j) const { return y_face_[j + 2] - y_face_[j + 1]; }
   /// Distance between the centres on either side of y-face j [m].
@@ -42,7 +45,7 @@ struct BasicGrid : GridExtents {
   }
   KOKKOS_FORCEINLINE_FUNCTION Real cell_volume(int j) const { return dx * dy(j) * dz; }
   /// The domain: the flow is always periodic along z, for grains maybe not along x.
-  PeriodicBox box(bool periodic_x) const { return {periodic_x ? lx_all : 0, lz_all}; }
+  PeriodicBox box(bool periodic_x) const { return {periodic_x ? lx : 0, lz}; }
   /// Index along x or z among the cells of all ranks, the same bits on each of them.
   KOKKOS_FORCEINLINE_FUNCTION static int cell_along(Real x, Real spacing) {
     return static_cast<int>(Kokkos::floor(x * (1 / spacing)));
@@ -86,8 +89,10 @@ struct BasicFieldRef {
                       static_cast<std::ptrdiff_t>(stride_z) * k))[i];
   }
   // NOLINTNEXTLINE(google-explicit-constructor): what can be written can be read
-  KOKKOS_FORCEINLINE_FUNCTION operator BasicFieldRef<const Value>() const
-      requires(!std::is_const_v<Value>) {
+  template <class Other>
+  requires(!std::is_const_v<Value> &&
+           std::is_same_v<Other, const Value>) KOKKOS_FORCEINLINE_FUNCTION
+  operator BasicFieldRef<Other>() const {
     return {origin, stride_y, stride_z};
   }
 };

@@ -19,7 +19,7 @@ struct PointStencil {
 
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point) {
     const Vec3 inside = box.wrap(point);
-    const Real x = Kokkos::clamp(inside.x, Real(0), g.lx_all), z = inside.z;
+    const Real x = Kokkos::clamp(inside.x, Real(0), g.lx), z = inside.z;
     const Real y = Kokkos::clamp(inside.y, Real(0), g.ly);
     x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
     x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);

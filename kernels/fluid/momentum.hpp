@@ -112,18 +112,11 @@ struct StressDivergence {
   }
 };
 
-/// What the grains do to the fluid in one step, as kernels read it.
-struct ExchangeRef {
-  ConstFaceRef impulse, implicit;
-};
-
 /// What the grains do to the fluid in one step, on faces. Wall faces and ghosts are not read.
 struct ExchangeOnFaces {
   FaceVector impulse;   // momentum per volume given to the fluid at its old velocity [N s/m^3]
   FaceVector implicit;  // dt K, with the added mass where it is on: how much of it follows the
                         // change of the fluid velocity within the step [kg/m^3]
-  // NOLINTNEXTLINE(google-explicit-constructor): they are
-  operator ExchangeRef() const { return {impulse, implicit}; }
 };
 
 /// Weights of the explicit terms, now and one step ago, times dt [s].
@@ -142,17 +135,17 @@ struct Predict {
   StressDivergence stress;
   ConstFieldRef alpha, alpha_new;
   FaceRef rate, u_star;
-  ExchangeRef exchange;
+  ConstFaceRef impulse, implicit;  // of ExchangeOnFaces
   AdamsBashforth weight;
   Real per_density;  // 1 / rho [m^3/kg]
 
   KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
-                                           const Real alpha_here, const Real u, const Real impulse,
-                                           const Real implicit) const {
+                                           const Real alpha_here, const Real u, const Real given,
+                                           const Real coefficient) const {
     const Real explicit_part = momentum + weight.now * n + weight.before * n_before;
     if constexpr (with_exchange) {
-      const Real m = implicit * per_density;
-      return (explicit_part + impulse * per_density + m * u) / (alpha_here + m);
+      const Real m = coefficient * per_density;
+      return (explicit_part + given * per_density + m * u) / (alpha_here + m);
     } else {
       return explicit_part / alpha_here;
     }
@@ -170,21 +163,20 @@ struct Predict {
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
     const Real nx = convection.x(i, j, k) + cell_to_xface(alpha, i, j, k) * stress.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, u.x(i, j, k),
-                            at(exchange.impulse.x, i, j, k), at(exchange.implicit.x, i, j, k));
+                            at(impulse.x, i, j, k), at(implicit.x, i, j, k));
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
     const Real ny = convection.y(i, j, k) + cell_to_yface(grid, alpha, i, j, k) * stress.y(i, j, k);
     const Real uy =
         advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
-                u.y(i, j, k), at(exchange.impulse.y, i, j, k), at(exchange.implicit.y, i, j, k));
+                u.y(i, j, k), at(impulse.y, i, j, k), at(implicit.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
     const Real nz = convection.z(i, j, k) + cell_to_zface(alpha, i, j, k) * stress.z(i, j, k);
-    const Real uz =
-        advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
-                u.z(i, j, k), at(exchange.impulse.z, i, j, k), at(exchange.implicit.z, i, j, k));
+    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
+                            u.z(i, j, k), at(impulse.z, i, j, k), at(implicit.z, i, j, k));
     rate.z(i, j, k) = nz;
     u_star.z(i, j, k) = uz;
     return alpha_x * ux * grid.dy(j);

@@ -34,10 +34,10 @@ struct GrainKineticEnergy {
 struct CountBeyondOutlet {
   Kokkos::View<const GrainKinematics*> grains;
   Real lx;  // [m]
-  KOKKOS_FUNCTION void operator()(int g, int& count) const {
-    const Real x = grains(g).x.x;
-    count += x >= 0 && x <= lx ? 0 : 1;
+  KOKKOS_FORCEINLINE_FUNCTION bool is_beyond(int g) const {
+    return !(grains(g).x.x >= 0 && grains(g).x.x <= lx);
   }
+  KOKKOS_FUNCTION void operator()(int g, int& count) const { count += is_beyond(g) ? 1 : 0; }
 };
 
 /// Splits contact_force(g) [N] of the last sub-step. Pairs: F_t = F - (F.n) n, with n from the

@@ -4,8 +4,8 @@
 
 #include <type_traits>
 
-#include "kernels/grains/contact_force.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/contact_law.hpp"
 
 namespace barchan {
 

@@ -1,6 +1,7 @@
 // Columns for the neighbour search: grains are binned in x-z columns and sorted by height inside a
 // column, so only columns that hold grains exist and empty water costs nothing. Columns are
-// numbered along a Morton curve, so that grains of near rows are near in space.
+// numbered along a Morton curve, so that grains of near rows are near in space; each rank owns a
+// piece of the curve.
 #pragma once
 
 #include <cstdint>
@@ -68,6 +69,21 @@ struct SearchColumns {
   }
 };
 
+/// How many of n ascending values are at most `value`.
+template <class Values>
+KOKKOS_FUNCTION int count_up_to(const Values& ascending, int n, std::uint32_t value) {
+  int low = 0, high = n;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (ascending(middle) <= value) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
 inline constexpr std::uint64_t kDroppedKey = ~std::uint64_t{0};
 inline constexpr int kForwardColumns = 4;  // half of the eight columns around one
 
@@ -81,16 +97,8 @@ struct OccupiedColumns {
 
   /// Position of a column id in `id`, or -1.
   KOKKOS_FUNCTION int find(std::uint32_t column) const {
-    int low = 0, high = n;
-    while (low < high) {
-      const int middle = (low + high) / 2;
-      if (id(middle) < column) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return low < n && id(low) == column ? low : -1;
+    const int c = count_up_to(id, n, column) - 1;
+    return c >= 0 && id(c) == column ? c : -1;
   }
 };
 
@@ -136,6 +144,45 @@ struct LinkColumns {
       const bool exists = columns.neighbor(occupied.id(c), dx[m], dz[m], other);
       occupied.forward(c, m) = exists ? occupied.find(other) : -1;
     }
+  }
+};
+
+/// Rank r owns the columns from place start(r) on the Morton curve up to start(r + 1); start(0) is
+/// 0. A rank that starts where the next one does owns nothing.
+struct GrainOwners {
+  int me = 0;
+  Kokkos::View<const std::uint32_t*> start;  // (ranks)
+
+  KOKKOS_FUNCTION int of_place(std::uint32_t place) const {
+    return count_up_to(start, start.extent_int(0), place) - 1;
+  }
+};
+
+/// The other ranks that own a column next to a grain's: they need a copy of it.
+struct GhostDestinations {
+  static constexpr int kMost = 8;
+  int n = 0;
+  int rank[kMost];
+
+  KOKKOS_FUNCTION GhostDestinations(const SearchColumns& columns, const GrainOwners& owners,
+                                    const Vec3& x) {
+    const std::uint32_t column = columns.column_of(x);
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dz = -1; dz <= 1; ++dz) {
+        std::uint32_t other = 0;
+        if (!columns.neighbor(column, dx, dz, other)) continue;
+        add(owners.of_place(other + columns.origin), owners.me);
+      }
+    }
+  }
+
+ private:
+  KOKKOS_FUNCTION void add(int owner, int me) {
+    if (owner == me) return;
+    for (int q = 0; q < n; ++q) {
+      if (rank[q] == owner) return;
+    }
+    rank[n++] = owner;
   }
 };
 

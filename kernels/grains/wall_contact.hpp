@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "kernels/grains/contact_force.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/contact_law.hpp"
 
 namespace barchan {
 

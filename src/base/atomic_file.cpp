@@ -23,13 +23,19 @@ class Descriptor {
   ~Descriptor() { ::close(fd_); }
   int get() const { return fd_; }
 
+  /// All of `text`; `path` is for the complaint.
+  void write(std::string_view text, const std::filesystem::path& path) const {
+    while (!text.empty()) {
+      const auto written = ::write(fd_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) cannot("write", path);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
  private:
   int fd_;
 };
-
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-}
 
 }  // namespace
 
@@ -38,20 +44,10 @@ void cannot(const char* verb, const std::filesystem::path& path, int error) {
                            std::generic_category().message(error));
 }
 
-void write_all(int descriptor, std::string_view text, const std::filesystem::path& path) {
-  while (!text.empty()) {
-    const auto written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) cannot("write", path);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
 void write_atomically(const std::filesystem::path& path, std::string_view text) {
   const auto beside = std::filesystem::path(path).concat(".tmp");
   try {
-    const Descriptor file(beside, O_WRONLY | O_CREAT | O_TRUNC);
-    write_all(file.get(), text, path);
+    Descriptor(beside, O_WRONLY | O_CREAT | O_TRUNC).write(text, path);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);
@@ -60,11 +56,15 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
   if (std::rename(beside.c_str(), path.c_str()) != 0) cannot("write", path);
 }
 
+void append_text(const std::filesystem::path& path, std::string_view text) {
+  Descriptor(path, O_WRONLY | O_CREAT | O_APPEND).write(text, path);
+}
+
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (const Descriptor file(from, O_RDWR); ::fsync(file.get()) != 0) cannot("write", from);
   if (std::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
   // The new name is an entry of the folder. Some file systems cannot sync folders: no harm done.
-  const Descriptor folder(folder_of(to), O_RDONLY | O_DIRECTORY);
+  const Descriptor folder(to.has_parent_path() ? to.parent_path() : ".", O_RDONLY | O_DIRECTORY);
   static_cast<void>(::fsync(folder.get()));
 }
 

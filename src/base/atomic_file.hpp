@@ -19,8 +19,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view text);
 /// Throws std::runtime_error naming the file and the reason.
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Writes all of `text` to an open descriptor; `path` is for the complaint.
-void write_all(int descriptor, std::string_view text, const std::filesystem::path& path);
+/// Adds `text` to the end of `path`; it is on its way to the disk when the call returns. Throws
+/// std::runtime_error naming the file and the reason.
+void append_text(const std::filesystem::path& path, std::string_view text);
 
 /// Why `path` is not a file to read, "No such file or directory" or the like; empty if it is one.
 /// Devices and pipes count as none: reading them may never end.

@@ -84,12 +84,10 @@ void stop_log() {
   if (state().log.is_open()) state().log.close();
 }
 
-void line(Level level, std::string_view text) {
+void line(std::string_view mark, std::string_view text) {
   if (state().silent) return;
-  const std::string marked = level == Level::warning ? fmt::format("warning: {}", text)
-                             : level == Level::error ? fmt::format("error: {}", text)
-                                                     : std::string(text);
-  if (level != Level::info) {
+  const std::string marked = fmt::format("{}{}", mark, text);
+  if (!mark.empty()) {
     print(stderr, marked);
   } else if (!state().quiet) {
     print(stdout, marked);
@@ -127,34 +125,25 @@ std::string format_progress(const Progress& p, double eta_seconds) {
 }
 
 ProgressLine::ProgressLine(std::chrono::milliseconds plain_interval)
-    : plain_interval_(plain_interval),
-      start_(Clock::now()),
-      last_live_(start_),
-      last_plain_(start_),
-      terminal_(isatty(STDOUT_FILENO) != 0) {}
+    : plain_interval_(plain_interval), terminal_(isatty(STDOUT_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() { finish(); }
 
-bool ProgressLine::due() const {
-  if (state().silent) return false;
-  const auto now = Clock::now();
-  if (now - last_plain_ >= plain_interval_) return true;
-  return terminal_ && !state().quiet && now - last_live_ >= live_interval;
-}
-
 void ProgressLine::update(const Progress& progress) {
-  if (!due()) return;
   const auto now = Clock::now();
+  const bool plain = now - last_plain_ >= plain_interval_;
+  const bool live = terminal_ && !state().quiet && now - last_live_ >= live_interval;
+  if (state().silent || !(plain || live)) return;
   const double wall = std::chrono::duration<double>(now - start_).count();
   const double done = progress.t - progress.t_start;
   const double eta = done > 0 ? wall * std::max(0.0, progress.t_end - progress.t) / done : -1.0;
   const std::string text = format_progress(progress, eta);
-  if (now - last_plain_ >= plain_interval_) {
+  if (plain) {
     last_plain_ = now;
     if (!terminal_ && !state().quiet) print(stdout, text);
     log(text);
   }
-  if (terminal_ && !state().quiet) {
+  if (live) {
     last_live_ = now;
     show_live(text);
   }

@@ -15,8 +15,6 @@ namespace barchan {
 
 namespace report {
 
-enum class Level { info, warning, error };
-
 /// Terminal output from now on; `quiet` keeps warnings and errors only; ranks other than 0 are
 /// silent. Until called: not quiet, rank 0.
 void start(bool quiet, int rank = 0);
@@ -26,19 +24,20 @@ void log_to(const std::filesystem::path& file, bool append);
 /// Ends log_to(): what was said is in the file.
 void stop_log();
 
-void line(Level level, std::string_view text);
+/// `mark`: what a warning or an error begins with; empty: information.
+void line(std::string_view mark, std::string_view text);
 
 template <class... Args>
 void info(fmt::format_string<Args...> format, Args&&... args) {
-  line(Level::info, fmt::format(format, std::forward<Args>(args)...));
+  line("", fmt::format(format, std::forward<Args>(args)...));
 }
 template <class... Args>
 void warn(fmt::format_string<Args...> format, Args&&... args) {
-  line(Level::warning, fmt::format(format, std::forward<Args>(args)...));
+  line("warning: ", fmt::format(format, std::forward<Args>(args)...));
 }
 template <class... Args>
 void error(fmt::format_string<Args...> format, Args&&... args) {
-  line(Level::error, fmt::format(format, std::forward<Args>(args)...));
+  line("error: ", fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace report
@@ -70,16 +69,14 @@ class ProgressLine {
 
   /// Cheap enough for every fluid step; draws only when a line is due.
   void update(const Progress& progress);
-  /// True when the next update() would draw: lets the caller skip gathering the numbers.
-  bool due() const;
   /// Leaves the last state on the screen and ends the line.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
   Clock::duration plain_interval_;
-  Clock::time_point start_, last_live_, last_plain_;
-  bool terminal_ = false;
+  Clock::time_point start_ = Clock::now(), last_live_ = start_, last_plain_ = start_;
+  bool terminal_;
 };
 
 }  // namespace barchan

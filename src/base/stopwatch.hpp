@@ -1,6 +1,7 @@
 // Wall time by phase of the step.
 #pragma once
 
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <chrono>
 #include <map>
 #include <string>
@@ -34,20 +35,14 @@ using Phases = std::map<std::string, double>;
 /// Adds the time of its own life to one phase; also a region for Kokkos' profiling tools.
 class PhaseTimer {
  public:
-  PhaseTimer(Phases& phases, const char* name) : seconds_(phases[name]) {
-    Kokkos::Profiling::pushRegion(name);
-  }
-  ~PhaseTimer() {
-    Kokkos::fence("end of a phase: its kernels count as its own");
-    Kokkos::Profiling::popRegion();
-    seconds_ += seconds_since(start_);
-  }
+  PhaseTimer(Phases& phases, const char* name) : seconds_(phases[name]), region_(name) {}
+  ~PhaseTimer() { Kokkos::fence("end of a phase: its kernels count as its own"); }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
-  double& seconds_;
-  WallClock::time_point start_ = WallClock::now();
+  ScopedSeconds seconds_;
+  Kokkos::Profiling::ScopedRegion region_;
 };
 
 }  // namespace barchan

@@ -83,8 +83,8 @@ std::string printable(std::string_view text, std::size_t longest) {
     const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
     if (length > 0 && !is_control(character)) {
       shown += character;
-    } else if (character == "\n" || character == "\t" || character == "\r") {
-      shown += character == "\n" ? "\\n" : character == "\t" ? "\\t" : "\\r";
+    } else if (const auto letter = std::string_view("\n\t\r").find(character); letter < 3) {
+      shown += {'\\', "ntr"[letter]};
     } else {
       for (const char c : character) shown += fmt::format("\\x{:02x}", byte(c));
     }

@@ -96,14 +96,12 @@ struct GrainConfig {
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
   double skin = 4e-5;                          // [m], Verlet skin
-  double max_overlap =
-      0.1;  // of a pair's mean diameter, of a grain's in a wall; more stops the run
+  double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run
   std::optional<AmbientConfig> ambient = {};
   bool operator==(const GrainConfig&) const = default;
 };
 
-struct ForceSwitches {  // coupling.forces = ["drag", "pressure_gradient", "stress", "added_mass",
-                        // "buoyancy"]
+struct ForceSwitches {  // coupling.forces
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
   bool operator==(const ForceSwitches&) const = default;
 };

@@ -1,23 +1,26 @@
 #include "src/config/validate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "src/config/mesh.hpp"
+
 namespace barchan {
 namespace {
 
 void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
-  const Keys keys{"time.grain_step", "time.fluid_step",       "grains.sizes",
-                  "grains.density",  "grains.youngs_modulus", "grains.poisson_ratio"};
   const std::string text =
       fmt::format("{:.1f} % of the Rayleigh time {:.3g} s of the smallest grain (d = {:.4g} m)",
                   100 * n.fraction_min, n.rayleigh_min, n.d_min);
-  if (!found.error_if(n.fraction_min > 0.3, keys,
-                      "must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}",
-                      0.3 * n.rayleigh_min, true_grain_step(c.time), text))
-    found.warning_if(n.fraction_min > 0.2, keys, "is {}; above 20 % contacts are coarse", text);
+  found.limit(n.fraction_min, 0.2, 0.3,
+              {"time.grain_step", "time.fluid_step", "grains.sizes", "grains.density",
+               "grains.youngs_modulus", "grains.poisson_ratio"},
+              fmt::format("must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}",
+                          0.3 * n.rayleigh_min, true_grain_step(c.time), text),
+              fmt::format("is {}; above 20 % contacts are coarse", text));
 }
 
 /// Linear springs: the step against the duration of a contact of two of the smallest grains,
@@ -27,15 +30,58 @@ void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) 
   const double mass = c.grains->density * std::numbers::pi / 6 * std::pow(n.d_min, 3);
   const double contact = std::numbers::pi * std::sqrt(mass / (2 * c.grains->linear_stiffness));
   const double fraction = true_grain_step(c.time) / contact;
-  const Keys keys{"time.grain_step", "grains.linear_stiffness", "grains.sizes", "grains.density"};
-  if (!found.error_if(
-          fraction > 0.2, keys,
-          "must be at most {:.3g} s, a fifth of the contact of two of the smallest grains",
-          0.2 * contact))
-    found.warning_if(
-        fraction > 0.1, keys,
-        "is {:.0f} % of the contact of two of the smallest grains; above 10 % contacts are coarse",
-        100 * fraction);
+  found.limit(
+      fraction, 0.1, 0.2,
+      {"time.grain_step", "grains.linear_stiffness", "grains.sizes", "grains.density"},
+      fmt::format("must be at most {:.3g} s, a fifth of the contact of two of the smallest grains",
+                  0.2 * contact),
+      fmt::format("is {:.0f} % of the contact of two of the smallest grains; above 10 % contacts "
+                  "are coarse",
+                  100 * fraction));
+}
+
+void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, Findings& found) {
+  const double smallest = std::min({flow.dx, flow.dy_first, flow.dz});
+  const double length = c.coupling.smoothing_length;
+  found.warning_if(length == 0 && smallest < 2 * d_mean,
+                   {"coupling.smoothing_length", "fluid.cells"},
+                   "is off; with cells below two grain diameters alpha_f is then noisy");
+  if (!found.warning_if(length > 0 && length < 0.25 * smallest,
+                        {"coupling.smoothing_length", "fluid.cells"},
+                        "is under a quarter of the smallest cell, {:.3g} m: no effect", smallest))
+    found.warning_if(length > 0.25 * c.size[1], {"coupling.smoothing_length", "domain.size"},
+                     "is over a quarter of the height: it would smear the dune away");
+}
+
+void check_pour(const Config& c, Findings& found) {
+  const PourConfig& pour = *c.initial.pour;
+  found.error_if(c.grains->sizes.empty(), {"grains.sizes", "initial.grains"},
+                 "must say which grains to pour");
+  found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
+                 "contradicts pour: grains could not settle");
+  for (const int axis : {0, 1}) {
+    const double extent = c.size[axis == 0 ? 0 : 2];
+    const double at = pour.centre[static_cast<std::size_t>(axis)];
+    found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
+                   {"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
+                   "must keep the cone inside the domain; along {} it spans {:.4g} to {:.4g} m of "
+                   "0 to {:.4g} m",
+                   axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent);
+  }
+  double widest = 0, count = 0;
+  for (const SizeClass& size : c.grains->sizes) {
+    widest = std::max(widest, size.diameter);
+    count += static_cast<double>(size.count);
+  }
+  // The cone is cut from a close-packed lattice one per cent wider than the largest grain.
+  const double spacing = 1.01 * widest;
+  if (spacing >= c.size[1]) return;  // told by check_grain_sizes
+  const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
+  const double height = 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
+  found.error_if(height + pour.drop_height > c.size[1],
+                 {"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
+                 "must be larger: the cone would reach about {:.3g} m, above the domain",
+                 height + pour.drop_height);
 }
 
 }  // namespace
@@ -55,6 +101,7 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
+  if (c.initial.pour) check_pour(c, found);
   found.warning_if(!c.fluid && grains.frozen, {"grains.frozen"},
                    "and no [fluid]: nothing will move");
   if (!c.fluid) return;
@@ -66,13 +113,40 @@ void check_grains(const Config& c, Findings& found) {
                    "stops grains where the fluid, periodic, passes");
 }
 
-void check_grain_step(const Config& c, const GrainNumbers& n, Findings& found) {
-  if (c.grains->frozen) return;
-  if (c.grains->contact_model == ContactModel::hertz_mindlin) {
-    check_hertz_step(c, n, found);
-  } else {
-    check_linear_step(c, n, found);
+std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeClass>& sizes) {
+  Findings found;
+  if (!c.grains || sizes.empty()) return {};
+  if (c.fluid && !rows_fit(c.size[1], c.fluid->cells[1], c.fluid->first_cell_height)) return {};
+  const Derived derived = derive(c, sizes);
+  const GrainNumbers& n = *derived.grains;
+  const double narrowest = *std::min_element(c.size.begin(), c.size.end());
+  if (found.error_if(
+          narrowest > 0 && n.d_max >= narrowest, {"grains.sizes", "domain.size"},
+          "holds a diameter of {:.4g} m, wider than the domain, {:.4g} m; lengths are in m: "
+          "0.2 mm is 2e-4",
+          n.d_max, narrowest))
+    return found.all;
+  if (!c.grains->frozen) {
+    const bool hertz = c.grains->contact_model == ContactModel::hertz_mindlin;
+    (hertz ? check_hertz_step : check_linear_step)(c, n, found);
   }
+  found.warning_if(c.grains->skin > n.d_min, {"grains.skin", "grains.sizes"},
+                   "is above the smallest diameter: needlessly long neighbour lists");
+  // The neighbour search looks at the columns on either side, which must be three different ones.
+  const double reach = 3 * (n.d_max + c.grains->skin);
+  found.error_if(
+      (c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
+          (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach),
+      {"domain.size", "grains.sizes", "grains.skin"},
+      "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
+  if (!c.fluid) return found.all;
+  found.warning_if(
+      n.cell_ratio < 1.2 || n.cell_ratio > 1.6,
+      {"fluid.cells", "fluid.first_cell_height", "grains.sizes", "domain.size"},
+      "makes the smallest cell {:.2f} mean grain diameters; the paper recommends 1.2 to 1.6",
+      n.cell_ratio);
+  check_smoothing(c, *derived.fluid, n.d_mean, found);
+  return found.all;
 }
 
 }  // namespace barchan

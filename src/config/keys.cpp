@@ -3,8 +3,7 @@
 namespace barchan {
 namespace {
 
-enum class Rule { none, required, fixed_by_restart, required_and_fixed };
-using enum Rule;
+enum Rule { none = 0, required = 1, fixed_by_restart = 2, required_and_fixed = 3 };
 
 /// What `holder` points to, or holds; nullptr if that is absent.
 template <class T>
@@ -30,28 +29,30 @@ class Keys {
     }
   }
 
-  Keys(Sections& all, const char* name, const char* meaning, Get get, Rule rule = none)
-      : Keys(all.emplace_back(Section{name, meaning, rule == required}), get) {}
+  template <class Struct, class T>
+  void operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
+    (*this)(name, member, any, "", meaning, rule);
+  }
 
   template <class Struct, class T>
   void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
                   const char* meaning, Rule rule = none) {
+    if ((rule & required) != 0 && !section_.prepare) section_.required = true;
     section_.keys.push_back(
         {.section = section_.name,
          .name = name,
-         .type = type_text<T>(),
+         .type = type_text<Plain<T>>(),
          .range = range,
          .unit = unit,
          .meaning = meaning,
-         .required = rule == required || rule == required_and_fixed,
-         .fixed_by_restart = rule == fixed_by_restart || rule == required_and_fixed,
+         .required = (rule & required) != 0,
+         .fixed_by_restart = (rule & fixed_by_restart) != 0,
          .read =
-             [get = get_, member, range, unit](const Node& node, Config& config) {
-               T& value = held(get(config))->*member;
-               T read = value;
-               Mismatch mismatch = convert(node, read);
-               if (!mismatch) mismatch = check(read, range, unit);
-               if (!mismatch) value = read;
+             [get = get_, member, range](const Node& node, Config& config) {
+               Plain<T> value{};
+               Mismatch mismatch = convert(node, value);
+               if (!mismatch) mismatch = check(value, range);
+               if (!mismatch) held(get(config))->*member = value;
                return mismatch;
              },
          .text = [get = get_, member](const Config& config) -> std::optional<std::string> {
@@ -66,54 +67,56 @@ class Keys {
   Get get_;
 };
 
+Section& add(Sections& all, const char* name, const char* meaning) {
+  return all.emplace_back(Section{name, meaning});
+}
+
 void add_case(Sections& all) {
-  Keys key(all, "case", "What the run is called", [](auto& c) { return &c; });
+  Keys key(add(all, "case", "What the run is called"), [](auto& c) { return &c; });
   key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
   key("notes", &Config::notes, at_most(2000), "", "who ran it and why: kept with every result");
 }
 
 void add_time(Sections& all) {
-  Keys key(
-      all, "time", "End and steps", [](auto& c) { return &c.time; }, required);
+  Keys key(add(all, "time", "End and steps"), [](auto& c) { return &c.time; });
   key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
-  key("fluid_step", &TimeConfig::fluid_step, above(0).at_most(1).plausible(1e-15, 1), "s",
+  key("fluid_step", &TimeConfig::fluid_step, between(1e-15, 1), "s",
       "step of the flow; without `[fluid]` the interval between checks and output",
       fixed_by_restart);
-  key("grain_step", &TimeConfig::grain_step, above(0).at_most(1).plausible(1e-18, 1), "s",
+  key("grain_step", &TimeConfig::grain_step, between(1e-18, 1), "s",
       "longest step of the grains: a fluid step is cut into equal ones");
   key("wall_clock_limit", &TimeConfig::wall_clock_limit, at_least(0), "s",
       "wall time after which a restart file is written and the run stops (exit code 3); 0: none");
 }
 
 void add_domain(Sections& all) {
-  Keys key(
-      all, "domain", "The box", [](auto& c) { return &c; }, required);
-  key("size", &Config::size, above(0).plausible(1e-9, 1e6), "m",
+  Keys key(add(all, "domain", "The box"), [](auto& c) { return &c; });
+  key("size", &Config::size, between(1e-9, 1e6), "m",
       "[Lx, Ly, Lz]: along the stream, upwards, across", required_and_fixed);
 }
 
 void add_fluid(Sections& all) {
-  Keys key(all, "fluid", "The flow; without the section grains move alone",
+  Keys key(add(all, "fluid", "The flow; without the section grains move alone"),
            [](auto& c) { return &c.fluid; });
   using F = FluidConfig;
-  key("cells", &F::cells, at_least(1).at_most(100000), "", "[nx, ny, nz]", required_and_fixed);
+  key("cells", &F::cells, between(1, 100000), "", "[nx, ny, nz]", required_and_fixed);
   key("first_cell_height", &F::first_cell_height, at_least(0), "m",
       "height of the lowest row, from which rows grow by a constant ratio; 0: all are equal",
       fixed_by_restart);
-  key("density", &F::density, above(0).plausible(1e-6, 1e9), "kg/m3", "density of the fluid");
-  key("kinematic_viscosity", &F::kinematic_viscosity, at_least(0).plausible(0, 1e6), "m2/s",
+  key("density", &F::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
+  key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",
       "its viscosity over its density");
-  key("mean_velocity", &F::mean_velocity, at_least(0).plausible(0, 1e6), "m/s",
+  key("mean_velocity", &F::mean_velocity, between(0, 1e6), "m/s",
       "bulk velocity along x, held by a body force");
-  key("pressure_gradient", &F::pressure_gradient, any.plausible(0, 1e12), "Pa/m",
+  key("pressure_gradient", &F::pressure_gradient, between(-1e12, 1e12), "Pa/m",
       "driving force along x per volume, instead of `mean_velocity`");
   key("ramp_time", &F::ramp_time, at_least(0), "s",
       "time over which `mean_velocity` is brought up from its start");
-  key("turbulence", &F::turbulence, any, "", "subgrid model");
-  key("wale_constant", &F::wale_constant, at_least(0).at_most(2), "", "constant of the WALE model");
-  key("bottom", &F::bottom, any, "", "what the floor is to the flow");
-  key("top", &F::top, any, "", "what the top is to the flow");
-  key("top_velocity", &F::top_velocity, any.plausible(0, 1e6), "m/s",
+  key("turbulence", &F::turbulence, "subgrid model");
+  key("wale_constant", &F::wale_constant, between(0, 2), "", "constant of the WALE model");
+  key("bottom", &F::bottom, "what the floor is to the flow");
+  key("top", &F::top, "what the top is to the flow");
+  key("top_velocity", &F::top_velocity, between(-1e6, 1e6), "m/s",
       "velocity along x of a no-slip top: a lid that drags the flow");
 }
 
@@ -122,40 +125,37 @@ template <class Get>
 void add_material(Section& section, Get get) {
   Keys key(section, get);
   using M = Material;
-  key("youngs_modulus", &M::youngs_modulus, above(0).plausible(1e-3, 1e30), "Pa",
-      "Young's modulus");
-  key("poisson_ratio", &M::poisson_ratio, at_least(0).at_most(0.5), "", "Poisson's ratio");
+  key("youngs_modulus", &M::youngs_modulus, between(1e-3, 1e30), "Pa", "Young's modulus");
+  key("poisson_ratio", &M::poisson_ratio, between(0, 0.5), "", "Poisson's ratio");
   key("restitution", &M::restitution, above(0).at_most(1), "", "coefficient of restitution");
-  key("sliding_friction", &M::sliding_friction, at_least(0).plausible(0, 1e6), "",
+  key("sliding_friction", &M::sliding_friction, between(0, 1e6), "",
       "coefficient of sliding friction");
-  key("rolling_friction", &M::rolling_friction, at_least(0).plausible(0, 1e6), "",
+  key("rolling_friction", &M::rolling_friction, between(0, 1e6), "",
       "coefficient of rolling friction");
 }
 
 void add_grains(Sections& all) {
-  Keys key(all, "grains", "The grains; without the section water flows alone",
+  Keys key(add(all, "grains", "The grains; without the section water flows alone"),
            [](auto& c) { return &c.grains; });
   using G = GrainConfig;
-  key("density", &G::density, above(0).plausible(1e-6, 1e9), "kg/m3", "density of the grains",
+  key("density", &G::density, between(1e-6, 1e9), "kg/m3", "density of the grains",
       fixed_by_restart);
   add_material(all.back(), [](auto& c) { return c.grains ? &c.grains->material : nullptr; });
-  key("coulomb_limit", &G::coulomb_limit, any, "",
+  key("coulomb_limit", &G::coulomb_limit,
       "the normal force that limits friction: with its damping, or its elastic part");
-  key("rolling_model", &G::rolling_model, any, "", "model of the resistance to rolling");
-  key("rolling_theta_m", &G::rolling_theta_m, above(0).plausible(1e-9, 1e6), "rad",
+  key("rolling_model", &G::rolling_model, "model of the resistance to rolling");
+  key("rolling_theta_m", &G::rolling_theta_m, between(1e-9, 1e6), "rad",
       "angle of incipient rolling of the model \"theta_m\"");
-  key("contact_model", &G::contact_model, any, "", "law of the forces in a contact");
-  key("linear_stiffness", &G::linear_stiffness, at_least(0).plausible(0, 1e30), "N/m",
+  key("contact_model", &G::contact_model, "law of the forces in a contact");
+  key("linear_stiffness", &G::linear_stiffness, between(0, 1e30), "N/m",
       "stiffness of `contact_model` \"linear\", which requires it");
-  key("sizes", &G::sizes, any.plausible(1e-9, 1e6), "m",
+  key("sizes", &G::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the grains to pour; else the initial file decides");
-  key("frozen", &G::frozen, any, "", "grains hold still and the flow feels them");
-  key("boundary_x", &G::boundary_x, any, "", "what happens to grains at both ends in x",
-      fixed_by_restart);
-  key("boundary_z", &G::boundary_z, any, "", "what happens to grains at both sides in z",
-      fixed_by_restart);
-  key("gravity", &G::gravity, any.plausible(0, 1e6), "m/s2", "acceleration of gravity");
-  key("skin", &G::skin, at_least(0).plausible(0, 1e3), "m",
+  key("frozen", &G::frozen, "grains hold still and the flow feels them");
+  key("boundary_x", &G::boundary_x, "what happens to grains at both ends in x", fixed_by_restart);
+  key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
+  key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
+  key("skin", &G::skin, between(0, 1e3), "m",
       "margin of the neighbour lists, which last until a grain has moved half of it");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");
@@ -172,60 +172,59 @@ void add_wall(Sections& all) {
 }
 
 void add_ambient(Sections& all) {
-  Keys key(all, "grains.ambient",
-           "Still fluid around the grains of a case without `[fluid]`; "
-           "without the section a vacuum",
+  Keys key(add(all, "grains.ambient",
+               "Still fluid around the grains of a case without `[fluid]`; "
+               "without the section a vacuum"),
            [](auto& c) { return c.grains ? &c.grains->ambient : nullptr; });
-  key("density", &AmbientConfig::density, above(0).plausible(1e-6, 1e9), "kg/m3",
-      "density of the fluid");
-  key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, above(0).plausible(1e-15, 1e6),
-      "m2/s", "its viscosity over its density");
+  key("density", &AmbientConfig::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
+  key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, between(1e-15, 1e6), "m2/s",
+      "its viscosity over its density");
 }
 
 void add_coupling(Sections& all) {
-  Keys key(all, "coupling", "Forces between grains and flow", [](auto& c) { return &c.coupling; });
+  Keys key(add(all, "coupling", "Forces between grains and flow"),
+           [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
-  key("drag", &C::drag, any, "", "drag law");
-  key("void_fraction", &C::void_fraction, any, "",
+  key("drag", &C::drag, "drag law");
+  key("void_fraction", &C::void_fraction,
       "how the volume of a grain is given to the cells around it");
-  key("exchange", &C::exchange, any, "",
-      "momentum between grains and flow: each row of cells with the part of a grain in it, or at "
-      "the grain's centre, or the latter smoothed like the void fraction");
-  key("smoothing_length", &C::smoothing_length, at_least(0).plausible(0, 1e6), "m",
+  key("exchange", &C::exchange,
+      "momentum goes between each part of a grain and the row of cells it lies in; or all of it is of "
+      "the flow at the grain's centre; or that is smoothed like the void fraction as well");
+  key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
       "width over which the void fraction is smoothed (3 d in the paper); 0: not");
-  key("alpha_time_derivative", &C::alpha_time_derivative, any, "",
+  key("alpha_time_derivative", &C::alpha_time_derivative,
       "the flow feels changes of the void fraction in time");
-  key("relaxation", &C::relaxation, any, "",
+  key("relaxation", &C::relaxation,
       "exchange in dense beds is relaxed; false is unstable there, for comparison");
-  key("forces", &C::forces, any, "", "the forces of the flow on the grains");
+  key("forces", &C::forces, "the forces of the flow on the grains");
 }
 
 void add_initial(Sections& all) {
-  Keys key(all, "initial", "The state at t = 0", [](auto& c) { return &c.initial; });
+  Keys key(add(all, "initial", "The state at t = 0"), [](auto& c) { return &c.initial; });
   using I = InitialConfig;
-  key("fluid", &I::fluid, any, "",
+  key("fluid", &I::fluid,
       "\"still\", \"turbulent\" (a log law with perturbations), a restart file `.h5`, or the end "
       "of a case `.toml`");
-  key("grains", &I::grains, any, "",
+  key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
-  key("seed", &I::seed, any, "", "of the perturbations of \"turbulent\"");
+  key("seed", &I::seed, "of the perturbations of \"turbulent\"");
 }
 
 void add_pour(Sections& all) {
   all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
-  Keys key(all, "initial.grains.pour",
-           "A loose cone of the grains of `grains.sizes`, which settles",
+  Keys key(add(all, "initial.grains.pour",
+               "A loose cone of the grains of `grains.sizes`, which settles"),
            [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
   key("centre", &P::centre, any, "m", "[x, z] of its axis");
-  key("radius", &P::radius, above(0).plausible(1e-9, 1e6), "m", "of its foot", required);
-  key("drop_height", &P::drop_height, at_least(0).plausible(0, 1e6), "m",
-      "of its lowest grain above the floor");
-  key("seed", &P::seed, any, "", "of the order and the jitter of the grains");
+  key("radius", &P::radius, between(1e-9, 1e6), "m", "of its foot", required);
+  key("drop_height", &P::drop_height, between(0, 1e6), "m", "of its lowest grain above the floor");
+  key("seed", &P::seed, "of the order and the jitter of the grains");
 }
 
 void add_output(Sections& all) {
-  Keys key(all, "output", "Intervals in simulated time; 0: no such file",
+  Keys key(add(all, "output", "Intervals in simulated time; 0: no such file"),
            [](auto& c) { return &c.output; });
   using O = OutputConfig;
   key("history_interval", &O::history_interval, at_least(0), "s", "of `history.csv`");
@@ -234,45 +233,37 @@ void add_output(Sections& all) {
   key("fields_interval", &O::fields_interval, at_least(0), "s", "of `fields.h5`");
   key("tracks_interval", &O::tracks_interval, at_least(0), "s",
       "of `tracks.h5`: numbers and positions of the grains alone");
-  key("grain_forces", &O::grain_forces, any, "", "each force separately in `grains.h5`");
+  key("grain_forces", &O::grain_forces, "each force separately in `grains.h5`");
 }
 
 void add_restart(Sections& all) {
-  Keys key(all, "restart", "Restart files, from which a run can go on",
+  Keys key(add(all, "restart", "Restart files, from which a run can go on"),
            [](auto& c) { return &c.restart; });
   key("interval", &RestartConfig::interval, at_least(0), "s", "in simulated time; 0: none");
   key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s", "in wall time; 0: none");
-  key("keep", &RestartConfig::keep, at_least(1).at_most(1000), "", "how many are kept");
+  key("keep", &RestartConfig::keep, between(1, 1000), "", "how many are kept");
 }
 
 void add_statistics(Sections& all) {
-  Keys key(all, "statistics", "Averages over time; none without the section",
+  Keys key(add(all, "statistics", "Averages over time; none without the section"),
            [](auto& c) { return &c.statistics; });
   using S = StatisticsConfig;
   key("start", &S::start, at_least(0), "s", "time of the first sample", required);
   key("interval", &S::interval, above(0), "s", "between samples");
-  key("fields", &S::fields, any, "", "means and second moments in every cell, `flow_average.h5`");
-  key("grain_forces", &S::grain_forces, any, "",
+  key("fields", &S::fields, "means and second moments in every cell, `flow_average.h5`");
+  key("grain_forces", &S::grain_forces,
       "resultant force on the grains around the largest dune, `force_map.csv`");
 }
 
 void add_solver(Sections& all) {
-  Keys key(all, "solver", "The equation of the pressure", [](auto& c) { return &c.solver; });
+  Keys key(add(all, "solver", "The equation of the pressure"), [](auto& c) { return &c.solver; });
   using S = SolverConfig;
   key("pressure_tolerance", &S::pressure_tolerance, above(0).below(1), "",
       "residual over right-hand side (2-norms) at which iterations stop");
   key("max_iterations", &S::max_iterations, at_least(1), "", "of the conjugate gradients a step");
-  key("preconditioner", &S::preconditioner, any, "",
+  key("preconditioner", &S::preconditioner,
       "a solve by FFT; \"local_fft\" adds a relaxation where grains hinder the flow");
 }
-
-struct Removed {
-  std::string_view key, value, why;  // no value: the key as a whole
-};
-constexpr Removed removed[] = {
-    {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
-    {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
-    {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};
 
 }  // namespace
 
@@ -287,14 +278,6 @@ const Sections& sections() {
     return made;
   }();
   return all;
-}
-
-std::string removal(std::string_view dotted, std::string_view value) {
-  for (const Removed& one : removed) {
-    if (one.key != dotted || one.value != value) continue;
-    return fmt::format("was removed after version 0.1.0: {}", one.why);
-  }
-  return {};
 }
 
 }  // namespace barchan

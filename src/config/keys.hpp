@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "src/config/config.hpp"
@@ -33,7 +32,7 @@ struct Key {
 struct Section {
   std::string name;  // dotted
   std::string meaning = {};
-  bool required = false;
+  bool required = false;  // with a required key and no meaning in its absence
   /// Called before the keys are read: gives the section, if the file has it, its defaults.
   std::function<void(Config&, bool in_file)> prepare = {};
   std::vector<Key> keys = {};
@@ -42,9 +41,5 @@ struct Section {
 /// In the order in which they are written.
 using Sections = std::vector<Section>;
 const Sections& sections();
-
-/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
-/// never was.
-std::string removal(std::string_view dotted, std::string_view value);
 
 }  // namespace barchan

@@ -14,16 +14,18 @@ namespace barchan {
 namespace fs = std::filesystem;
 namespace {
 
-/// A start that is a file: of a known kind, there, and its path made absolute.
+/// If the start `key` is a file: is it of a known kind, and there? Makes its path absolute.
 void resolve_start(Reading& reading, const std::string& key, fs::path& start,
-                   const fs::path& folder, const std::vector<std::string>& extensions) {
-  if (std::find(extensions.begin(), extensions.end(), start.extension()) == extensions.end()) {
-    const bool flow = key == "initial.fluid";
-    reading.complain(
-        key,
-        fmt::format("must be {}a file ending in {}{}", flow ? "\"still\", \"turbulent\" or " : "",
-                    fmt::join(extensions, ", "), flow ? "" : ", or { pour = {...} }"));
-    return;
+                   const fs::path& folder) {
+  const bool flow = key == "initial.fluid";
+  const Node* node = reading.tree().find(key);
+  if (node == nullptr || node->table() != nullptr || reading.is_bad(key)) return;
+  if (flow && (start == "still" || start == "turbulent")) return;
+  if (start.extension() != ".h5" && start.extension() != ".toml" &&
+      (flow || start.extension() != ".csv")) {
+    return reading.complain(
+        key, flow ? "must be \"still\", \"turbulent\" or a file ending in .h5, .toml"
+                  : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
   }
   const fs::path path = fs::absolute(folder / start).lexically_normal();
   std::error_code ignored;
@@ -33,20 +35,6 @@ void resolve_start(Reading& reading, const std::string& key, fs::path& start,
     reading.complain(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
   } else {
     reading.complain(key, fmt::format("must be a file that exists; there is no {}", path.string()));
-  }
-}
-
-void resolve_starts(Reading& reading, InitialConfig& initial, const fs::path& folder) {
-  const std::string flow = "initial.fluid", grains = "initial.grains";
-  if (initial.fluid != "still" && initial.fluid != "turbulent" && !reading.is_bad(flow)) {
-    resolve_start(reading, flow, initial.fluid, folder, {".h5", ".toml"});
-  }
-  const Node* node = reading.tree().find(grains);
-  if (node == nullptr || reading.is_bad(grains)) return;
-  if (node->table() == nullptr) {
-    resolve_start(reading, grains, initial.grains, folder, {".csv", ".h5", ".toml"});
-  } else if (node->find("pour") == nullptr) {
-    reading.complain(grains, "must be a file or { pour = {...} }");
   }
 }
 
@@ -86,55 +74,49 @@ void report(const std::vector<Finding>& findings, Reading& reading) {
   }
 }
 
-/// The case that `key` names, if it names one: loaded, and checked against this one.
-std::optional<Loaded> load_start(const Config& config, const std::string& key, Reading& reading,
-                                 std::vector<fs::path> chain) {
-  const bool flow = key == "initial.fluid";
-  const fs::path start = flow ? config.initial.fluid : config.initial.grains;
-  if (start.extension() != ".toml" || reading.is_bad(key)) return {};
+/// The case that the start `key` names, if it names one: loaded, and checked against this one.
+Loaded load_start(const Config& config, const std::string& key, const fs::path& start,
+                  Reading& reading, std::vector<fs::path> chain) {
+  Loaded loaded;
+  if (start.extension() != ".toml" || reading.is_bad(key)) return loaded;
   chain.push_back(fs::weakly_canonical(config.file));
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(start)) != chain.end()) {
     reading.contradict(key, "must not lead back to this case");
-    return {};
+    return loaded;
   }
-  Loaded loaded;
   if (const auto text = text_of(start, loaded.problems)) loaded = load(*text, start, {}, chain);
-  if (loaded.problems.empty()) report(check_start(config, loaded.config, flow), reading);
+  if (loaded.problems.empty()) {
+    report(check_start(config, loaded.config, key == "initial.fluid"), reading);
+  }
   return loaded;
-}
-
-void sort_by_line(std::vector<Problem>& problems) {
-  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-    return unsigned(a.where.line) - 1 < unsigned(b.where.line) - 1;  // no line: last
-  });
 }
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain) {
+  Loaded loaded;
   Reading reading(text, file);
   const bool parsed = reading.problems().empty();
   reading.set(overrides);
-  Loaded loaded;
   std::vector<Problem> from_starts;
   if (parsed) {
-    loaded.config = reading.read();
-    resolve_starts(reading, loaded.config.initial, file.parent_path());
-    if (loaded.config.grains) loaded.sizes = loaded.config.grains->sizes;
-    for (const char* key : {"initial.fluid", "initial.grains"}) {
-      const auto start = load_start(loaded.config, key, reading, chain);
-      if (!start) continue;
-      // Flow and grains may come from one case: its problems once.
-      if (loaded.config.initial.fluid != loaded.config.initial.grains || from_starts.empty()) {
-        from_starts.insert(from_starts.end(), start->problems.begin(), start->problems.end());
-      }
-      if (key == std::string_view("initial.grains") && loaded.sizes.empty()) {
-        loaded.sizes = start->sizes;
-      }
-    }
-    report(validate(loaded.config, loaded.sizes), reading);
+    Config& config = loaded.config = reading.read();
+    InitialConfig& initial = config.initial;
+    resolve_start(reading, "initial.fluid", initial.fluid, file.parent_path());
+    resolve_start(reading, "initial.grains", initial.grains, file.parent_path());
+    Loaded flow = load_start(config, "initial.fluid", initial.fluid, reading, chain);
+    Loaded grains = load_start(config, "initial.grains", initial.grains, reading, chain);
+    if (initial.fluid == initial.grains) grains.problems.clear();  // one case: its problems once
+    from_starts = std::move(flow.problems);
+    from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
+    if (config.grains) loaded.sizes = config.grains->sizes;
+    if (loaded.sizes.empty()) loaded.sizes = grains.sizes;
+    report(validate(config, loaded.sizes), reading);
   }
   loaded.problems = std::move(reading.problems());
-  sort_by_line(loaded.problems);
+  const auto by_line = [](const Problem& a, const Problem& b) {
+    return unsigned(a.where.line) - 1 < unsigned(b.where.line) - 1;  // no line: last
+  };
+  std::stable_sort(loaded.problems.begin(), loaded.problems.end(), by_line);
   loaded.problems.insert(loaded.problems.end(), from_starts.begin(), from_starts.end());
   return loaded;
 }

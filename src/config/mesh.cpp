@@ -14,16 +14,23 @@ double geometric_sum(double q, int n) {
   return growth == 0 ? n : std::expm1(n * std::log1p(growth)) / growth;
 }
 
+bool uniform(double mean, double first) {
+  return first == 0 || std::abs(first - mean) <= 1e-9 * mean;
+}
+
 }  // namespace
 
+bool rows_fit(double ly, int ny, double first) {
+  if (!(ly > 0) || ny < 1 || !(first >= 0)) return false;
+  return uniform(ly / ny, first) || (first < ly / ny && ny > 1);
+}
+
 double stretching_ratio(double ly, int ny, double first) {
-  const double mean = ly / ny;
-  const bool uniform = first == 0 || std::abs(first - mean) <= 1e-9 * mean;
-  if (!(ly > 0) || ny < 1 || !(first >= 0) || (!uniform && (first > mean || ny == 1))) {
+  if (!rows_fit(ly, ny, first)) {
     throw std::invalid_argument(
         fmt::format("no mesh of {} rows over {} m from a first row of {} m", ny, ly, first));
   }
-  if (uniform) return 1;
+  if (uniform(ly / ny, first)) return 1;
   // The sum grows with q and its last term alone exceeds ly / first at the upper end.
   const double target = ly / first;
   double low = 1;

@@ -61,6 +61,24 @@ bool is_section(const std::string& dotted) {
                      [&](const Section& section) { return section.name == dotted; });
 }
 
+struct Removed {
+  std::string_view key, value, why;  // no value: the key as a whole
+};
+constexpr Removed removed[] = {
+    {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
+    {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
+    {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};
+
+/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
+/// never was.
+std::string removal(std::string_view dotted, std::string_view value) {
+  for (const Removed& one : removed) {
+    if (one.key != dotted || one.value != value) continue;
+    return fmt::format("was removed after version 0.1.0: {}", one.why);
+  }
+  return {};
+}
+
 }  // namespace
 
 Reading::Reading(std::string_view text, const std::filesystem::path& file)
@@ -74,7 +92,10 @@ Config Reading::read() {
   Config config;
   config.file = file_;
   for (const Section& section : sections()) read(section, config);
-  find_unknown(tree_, "");
+  find_unknown("", tree_);
+  for (const Section& section : sections()) {
+    if (const Node* node = tree_.find(section.name)) find_unknown(section.name, *node);
+  }
   return config;
 }
 
@@ -123,27 +144,20 @@ bool Reading::is_bad(const std::string& dotted) const {
   return false;
 }
 
-void Reading::find_unknown(const Node& table, const std::string& section) {
+void Reading::find_unknown(const std::string& section, const Node& node) {
+  if (node.table() == nullptr) return;
   const std::vector<std::string> known = names_in(section);
-  for (const auto& [name, node] : *table.table()) {
-    if (!contains(known, name)) {
-      complain_about_unknown(section, name, node);
-    } else if (node.table() != nullptr && is_section(join(section, name))) {
-      find_unknown(node, join(section, name));
+  for (const auto& [name, value] : *node.table()) {
+    if (contains(known, name)) continue;
+    const bool table = section.empty() && value.table() != nullptr;
+    std::string why = removal(join(section, name), "");
+    if (why.empty()) {
+      // A file of another kind may hold very many; they need not all be compared with ours.
+      const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, table);
+      why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
     }
+    problems_.push_back({value.where, sentence(section, name, table, nullptr, why)});
   }
-}
-
-void Reading::complain_about_unknown(const std::string& section, const std::string& name,
-                                     const Node& node) {
-  const bool table = section.empty() && node.table() != nullptr;
-  std::string why = removal(join(section, name), "");
-  if (why.empty()) {
-    // A file of another kind may hold very many; they need not all be compared with ours.
-    const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, table);
-    why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
-  }
-  problems_.push_back({node.where, sentence(section, name, table, nullptr, why)});
 }
 
 std::string Reading::suggestion(const std::string& section, const std::string& name, bool table) {

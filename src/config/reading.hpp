@@ -41,9 +41,7 @@ class Reading {
 
  private:
   void read(const Section& section, Config& config);
-  void find_unknown(const Node& table, const std::string& section);
-  void complain_about_unknown(const std::string& section, const std::string& name,
-                              const Node& node);
+  void find_unknown(const std::string& section, const Node& node);
   std::string suggestion(const std::string& section, const std::string& name, bool table);
 
   std::filesystem::path file_;

@@ -87,9 +87,8 @@ std::string keys_page() {
       "# Keys of a case\n\n"
       "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
       "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
-      "same in a restart\nas in the run that wrote the restart file. Numbers within the ranges "
-      "given here may still be refused:\nif they are too large or too small to be computed with, "
-      "or do not fit other keys.\n";
+      "same in a restart\nas in the run that wrote the restart file. Numbers within these ranges "
+      "may still be refused\nif they do not fit other keys.\n";
   Config defaults;
   for (const Section& section : sections()) {
     if (section.prepare) section.prepare(defaults, true);

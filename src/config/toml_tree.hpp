@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,9 +21,8 @@ struct Location {
 std::string to_string(const Location& where);
 
 struct Node;
-struct Entry;
 using NodeArray = std::vector<Node>;
-using NodeTable = std::vector<Entry>;
+using NodeTable = std::map<std::string, Node, std::less<>>;
 struct DateOrTime {  // no key of ours takes one; kept to say so
   std::string text;
 };
@@ -36,12 +35,6 @@ struct Node {
   NodeTable* table() { return std::get_if<NodeTable>(&value); }
   /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none.
   const Node* find(std::string_view dotted) const;
-};
-
-/// Of a table. Not a std::pair: clang could not make one of a Node that holds such pairs.
-struct Entry {
-  std::string key;
-  Node node;
 };
 
 /// Something is wrong with what was typed, at `where`.
@@ -57,14 +50,5 @@ Node parse_toml(std::string_view text, const std::string& name, std::vector<Prob
 /// Applies "a.b=value" (as after --set) to the tree, creating tables on the way. The value is
 /// TOML; anything that is not (a bare word) is a string. The value's location is "--set a.b".
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems);
-
-/// The value as one would write it in a file, cut after 60 characters.
-std::string toml_text(const Node& node);
-
-/// A string quoted and escaped for TOML.
-std::string toml_text(std::string_view text);
-
-/// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
-std::string toml_text(double value);
 
 }  // namespace barchan

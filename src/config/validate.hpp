@@ -38,10 +38,10 @@ std::vector<std::string> config_warnings(const Config& config, const std::vector
 
 using Keys = std::vector<std::string>;
 
-/// Adds a finding to `all` if a condition holds, and says whether it does.
 struct Findings {
   std::vector<Finding> all;
 
+  /// Adds a finding if a condition holds, and says whether it does.
   template <class... Args>
   bool error_if(bool wrong, const Keys& keys, fmt::format_string<Args...> message, Args&&... args) {
     using enum Finding::Severity;
@@ -55,12 +55,16 @@ struct Findings {
     if (unwise) all.push_back({warning, keys, fmt::format(message, std::forward<Args>(args)...)});
     return unwise;
   }
+  /// Adds an error if `value` is above `most`, a warning if only above `wise`; true for an error.
+  bool limit(double value, double wise, double most, const Keys& keys, const std::string& error,
+             const std::string& warning) {
+    if (error_if(value > most, keys, "{}", error)) return true;
+    warning_if(value > wise, keys, "{}", warning);
+    return false;
+  }
 };
 
-/// The keys of [grains] against each other and against the fluid. `config` has the section.
+/// [grains] and its cone against each other and against the fluid. `config` has the section.
 void check_grains(const Config& config, Findings& found);
-
-/// The grain step against what limits it: the Rayleigh time, or the duration of a linear contact.
-void check_grain_step(const Config& config, const GrainNumbers& numbers, Findings& found);
 
 }  // namespace barchan

@@ -6,15 +6,6 @@
 #include "src/base/words.hpp"
 
 namespace barchan {
-
-std::string Range::text() const {
-  std::string words;
-  if (least > -infinite) words = fmt::format("{} {}", above_least ? "above" : "at least", least);
-  if (most == infinite) return words;
-  return fmt::format("{}{}{} {}", words, words.empty() ? "" : " and ",
-                     below_most ? "below" : "at most", most);
-}
-
 namespace {
 
 template <class T>
@@ -25,18 +16,44 @@ Mismatch take(const Node& node, T& value, const char* expected) {
   return {};
 }
 
+/// A value as one would write it in a file.
+struct Printer {
+  std::string operator()(const NodeTable& table) const {
+    std::vector<std::string> entries;
+    for (const auto& [key, node] : table) {
+      entries.push_back(fmt::format("{} = {}", key, std::visit(*this, node.value)));
+    }
+    return fmt::format("{{ {} }}", fmt::join(entries, ", "));
+  }
+  std::string operator()(const NodeArray& array) const {
+    std::vector<std::string> elements;
+    for (const Node& node : array) elements.push_back(std::visit(*this, node.value));
+    return fmt::format("[{}]", fmt::join(elements, ", "));
+  }
+  std::string operator()(const DateOrTime& date) const { return date.text; }
+  template <class T>
+  std::string operator()(const T& scalar) const {
+    return toml_text(scalar);
+  }
+};
+
 }  // namespace
+
+std::string Range::text() const {
+  std::string words;
+  if (least > -infinite) words = fmt::format("{} {:g}", above_least ? "above" : "at least", least);
+  if (most == infinite) return words;
+  return fmt::format("{}{}{} {:g}", words, words.empty() ? "" : " and ",
+                     below_most ? "below" : "at most", most);
+}
 
 Mismatch convert(const Node& node, double& value) {
   if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
     value = static_cast<double>(*integer);
     return {};
   }
-  double number = 0;
-  if (Mismatch mismatch = take(node, number, "a number")) return mismatch;
-  if (!std::isfinite(number)) return "a finite number";
-  value = number;
-  return {};
+  const Mismatch mismatch = take(node, value, "a number");
+  return !mismatch && !std::isfinite(value) ? "a finite number" : mismatch;
 }
 
 Mismatch convert(const Node& node, bool& value) { return take(node, value, "true or false"); }
@@ -46,17 +63,16 @@ Mismatch convert(const Node& node, std::string& value) { return take(node, value
 Mismatch convert(const Node& node, std::filesystem::path& value) {
   std::string text;
   const Mismatch mismatch = convert(node, text);
-  if (!mismatch) value = text;
+  value = text;
   return mismatch;
 }
 
 Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
-  std::string expected = "an array of [diameter in m above 0, count above 0]";
+  const std::string expected = "an array of [diameter in m above 0, count above 0]";
   const auto* classes = std::get_if<NodeArray>(&node.value);
   if (classes == nullptr) return expected;
   constexpr std::int64_t most = std::numeric_limits<int>::max();  // what a run can number
   std::int64_t total = 0;
-  std::vector<SizeClass> read;
   for (const Node& element : *classes) {
     const auto* pair = std::get_if<NodeArray>(&element.value);
     SizeClass size;
@@ -66,26 +82,24 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
     }
     if (size.count > most - total) return fmt::format("sizes of at most {} grains in all", most);
     total += size.count;
-    read.push_back(size);
+    value.push_back(size);
   }
-  value = read;
   return {};
 }
 
 Mismatch convert(const Node& node, ForceSwitches& value) {
   std::vector<std::string_view> names;
   for (const ForceName& force : force_names) names.push_back(force.name);
-  ForceSwitches read{false, false, false, false, false};
   const auto* chosen = std::get_if<NodeArray>(&node.value);
   if (chosen == nullptr) return fmt::format("an array of \"{}\"", fmt::join(names, "\", \""));
+  value = {false, false, false, false, false};
   for (const Node& element : *chosen) {
     std::size_t at = 0;
     if (const Mismatch mismatch = convert_name(element, names, at)) {
       return fmt::format("an array; {} must be {}", toml_text(element), *mismatch);
     }
-    read.*force_names[at].on = true;
+    value.*force_names[at].on = true;
   }
-  value = read;
   return {};
 }
 
@@ -101,6 +115,29 @@ Mismatch convert_name(const Node& node, std::span<const std::string_view> names,
   }
   at = static_cast<std::size_t>(found - names.begin());
   return {};
+}
+
+std::string toml_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (c == '\n') {
+      quoted += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += fmt::format("\\u{:04X}", static_cast<int>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+std::string toml_text(double value) {
+  std::string text = fmt::format("{}", value);
+  // Only digits and a sign: an integer to TOML. (inf and nan stay as they are.)
+  if (text.find_first_not_of("-0123456789") == text.npos) text += ".0";
+  return text;
 }
 
 std::string toml_text(const std::vector<SizeClass>& sizes) {
@@ -119,18 +156,19 @@ std::string toml_text(const ForceSwitches& forces) {
   return fmt::format("[{}]", fmt::join(names, ", "));
 }
 
-Mismatch check(double value, const Range& r, const std::string& unit) {
-  const bool too_low = r.above_least ? value <= r.least : value < r.least;
-  const bool too_high = r.below_most ? value >= r.most : value > r.most;
-  if (too_low || too_high) return r.text();
-  const double size = std::abs(value);
-  if (size >= r.smallest_size && size <= r.largest_size) return {};
-  const bool small = size < r.smallest_size;
-  return fmt::format("at {} {:g}{} to be computed with", small ? "least" : "most",
-                     small ? r.smallest_size : r.largest_size, unit.empty() ? "" : " " + unit);
+std::string toml_text(const Node& node) {
+  constexpr std::size_t longest = 60;
+  const std::string text = std::visit(Printer{}, node.value);
+  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
 }
 
-Mismatch check(const std::string& value, const Range& range, const std::string& /*unit*/) {
+Mismatch check(double value, const Range& r) {
+  const bool too_low = r.above_least ? value <= r.least : value < r.least;
+  const bool too_high = r.below_most ? value >= r.most : value > r.most;
+  return too_low || too_high ? Mismatch(r.text()) : Mismatch();
+}
+
+Mismatch check(const std::string& value, const Range& range) {
   if (printable_lines(value) != value) return "text without control characters";
   if (static_cast<double>(value.size()) > range.most) {
     return fmt::format("at most {} bytes long", range.most);

@@ -22,32 +22,28 @@
 namespace barchan {
 
 // The names of the choices, in the order of the values of each enum.
-namespace detail {
-
-template <class... Names>
-constexpr auto list(Names... names) {
-  return std::array<std::string_view, sizeof...(names)>{names...};
+using namespace std::string_view_literals;
+constexpr auto names_of(Turbulence) { return std::array{"none"sv, "wale"sv}; }
+constexpr auto names_of(WallFlow) { return std::array{"no_slip"sv, "free_slip"sv}; }
+constexpr auto names_of(CoulombLimit) { return std::array{"total"sv, "elastic"sv}; }
+constexpr auto names_of(RollingModel) {
+  return std::array{"none"sv, "epsd2"sv, "theta_m"sv, "cdt"sv};
 }
-
-constexpr auto names_of(Turbulence) { return list("none", "wale"); }
-constexpr auto names_of(WallFlow) { return list("no_slip", "free_slip"); }
-constexpr auto names_of(CoulombLimit) { return list("total", "elastic"); }
-constexpr auto names_of(RollingModel) { return list("none", "epsd2", "theta_m", "cdt"); }
-constexpr auto names_of(ContactModel) { return list("hertz_mindlin", "linear"); }
-constexpr auto names_of(GrainBoundaryX) { return list("exit", "periodic", "wall"); }
-constexpr auto names_of(GrainBoundaryZ) { return list("periodic", "wall"); }
+constexpr auto names_of(ContactModel) { return std::array{"hertz_mindlin"sv, "linear"sv}; }
+constexpr auto names_of(GrainBoundaryX) { return std::array{"exit"sv, "periodic"sv, "wall"sv}; }
+constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"sv}; }
 constexpr auto names_of(DragLaw) {
-  return list("gidaspow", "di_felice", "koch_hill", "syamlal_obrien", "beetstra", "paper_repaired",
-              "none");
+  return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv, "syamlal_obrien"sv,
+                    "beetstra"sv, "paper_repaired"sv, "none"sv};
 }
-constexpr auto names_of(Exchange) { return list("by_row", "interpolated", "smoothed"); }
-constexpr auto names_of(VoidFraction) { return list("divided", "cfdem_faithful", "centre"); }
-constexpr auto names_of(Preconditioner) { return list("fft", "local_fft"); }
-
-}  // namespace detail
+constexpr auto names_of(Exchange) { return std::array{"by_row"sv, "interpolated"sv, "smoothed"sv}; }
+constexpr auto names_of(VoidFraction) {
+  return std::array{"divided"sv, "cfdem_faithful"sv, "centre"sv};
+}
+constexpr auto names_of(Preconditioner) { return std::array{"fft"sv, "local_fft"sv}; }
 
 template <class Choice>
-inline constexpr auto choice_names = detail::names_of(Choice{});
+inline constexpr auto choice_names = names_of(Choice{});
 
 // A value added at the end of an enum without its name here fails these.
 static_assert(choice_names<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
@@ -69,42 +65,36 @@ inline constexpr std::array<ForceName, 5> force_names{
      {"added_mass", &ForceSwitches::added_mass},
      {"buoyancy", &ForceSwitches::buoyancy}}};
 
-/// What a number may be: each of an array, each diameter of size classes; of a text the bytes.
+/// What a number may be: each of an array, each diameter of size classes; of a text the bytes. Wide
+/// on purpose: what is merely unusual is the user's business, but powers of it must be numbers.
 struct Range {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   double least = -infinite, most = infinite;
-  bool above_least = false, below_most = false;       // the bound itself is excluded
-  double smallest_size = 0, largest_size = infinite;  // beyond, powers of it leave double precision
+  bool above_least = false, below_most = false;  // the bound itself is excluded
 
-  constexpr Range at_most(double bound) const { return with(bound, false); }
-  constexpr Range below(double bound) const { return with(bound, true); }
-  /// Bounds on the absolute value, wide on purpose: what is merely unusual is the user's business.
-  constexpr Range plausible(double smallest, double largest) const {
-    Range range = *this;
-    range.smallest_size = smallest;
-    range.largest_size = largest;
-    return range;
-  }
+  constexpr Range at_most(double bound) const { return {least, bound, above_least, false}; }
+  constexpr Range below(double bound) const { return {least, bound, above_least, true}; }
   /// "above 0 and at most 1"; empty if there are no bounds.
   std::string text() const;
-
- private:
-  constexpr Range with(double bound, bool excluded) const {
-    Range range = *this;
-    range.most = bound;
-    range.below_most = excluded;
-    return range;
-  }
 };
 constexpr Range above(double bound) { return {.least = bound, .above_least = true}; }
 constexpr Range at_least(double bound) { return {.least = bound}; }
 constexpr Range at_most(double bound) { return {.most = bound}; }
+constexpr Range between(double least, double most) { return {least, most}; }
 constexpr Range any{};
+
+/// What is given for a T: of an optional, its value.
+template <class T>
+T plain(const T&);
+template <class T>
+T plain(const std::optional<T>&);
+template <class T>
+using Plain = decltype(plain(std::declval<T>()));
 
 /// What a value must be and is not, "a number"; nothing if all is well.
 using Mismatch = std::optional<std::string>;
 
-/// From TOML. The value stays as it was if the node does not fit.
+/// From TOML; after a mismatch the value is of no use.
 Mismatch convert(const Node& node, double& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
@@ -130,15 +120,7 @@ template <class Choice>
 requires std::is_enum_v<Choice> Mismatch convert(const Node& node, Choice& value) {
   std::size_t at = 0;
   const Mismatch mismatch = convert_name(node, choice_names<Choice>, at);
-  if (!mismatch) value = static_cast<Choice>(at);
-  return mismatch;
-}
-
-template <class T>
-Mismatch convert(const Node& node, std::optional<T>& value) {
-  T inner{};
-  const Mismatch mismatch = convert(node, inner);
-  if (!mismatch) value = inner;
+  value = static_cast<Choice>(at);
   return mismatch;
 }
 
@@ -146,19 +128,22 @@ template <class T, std::size_t N>
 Mismatch convert(const Node& node, std::array<T, N>& value) {
   const auto* elements = std::get_if<NodeArray>(&node.value);
   if (elements == nullptr || elements->size() != N) return fmt::format("an array of {} numbers", N);
-  std::array<T, N> read{};
   for (std::size_t n = 0; n < N; ++n) {
-    if (const Mismatch mismatch = convert((*elements)[n], read[n])) {
+    if (const Mismatch mismatch = convert((*elements)[n], value[n])) {
       return fmt::format("an array of {} numbers, each {}", N, *mismatch);
     }
   }
-  value = read;
   return {};
 }
 
-/// As TOML, with all digits.
+/// As TOML: a string quoted and escaped.
+std::string toml_text(std::string_view text);
+/// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
+std::string toml_text(double value);
 std::string toml_text(const std::vector<SizeClass>& value);
 std::string toml_text(const ForceSwitches& value);
+/// As one would write it in a file, cut after 60 characters.
+std::string toml_text(const Node& node);
 
 template <class T>
 requires std::is_integral_v<T> std::string toml_text(T value) { return fmt::format("{}", value); }
@@ -187,26 +172,22 @@ std::optional<std::string> optional_text(const T& value) {
   }
 }
 
-/// Within its range? `unit` of the numbers, for the answer.
-Mismatch check(double value, const Range& range, const std::string& unit);
-Mismatch check(const std::string& value, const Range& range, const std::string& unit);
+/// Within its range?
+Mismatch check(double value, const Range& range);
+Mismatch check(const std::string& value, const Range& range);
 
 template <class T>
-Mismatch check(const T& value, const Range& range, const std::string& unit) {
+Mismatch check(const T& value, const Range& range) {
   if constexpr (std::is_integral_v<T>) {
-    return check(static_cast<double>(value), range, unit);
+    return check(static_cast<double>(value), range);
   } else if constexpr (std::is_same_v<T, SizeClass>) {
-    return check(value.diameter, range, unit);
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? check(*value, range, unit) : Mismatch{};
-  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
-    return {};  // load.cpp looks whether the file is there
-  } else if constexpr (requires { value.begin(); }) {
+    return check(value.diameter, range);
+  } else if constexpr (requires { value.data(); }) {
     for (const auto& element : value) {
-      if (const Mismatch mismatch = check(element, range, unit)) return mismatch;
+      if (const Mismatch mismatch = check(element, range)) return mismatch;
     }
   }
-  return {};
+  return {};  // a choice, forces; a path: load.cpp looks whether the file is there
 }
 
 /// What one writes for it, in words: "number", "array of 3 numbers", or the choices.
@@ -214,8 +195,6 @@ template <class T>
 std::string type_text() {
   if constexpr (std::is_enum_v<T>) {
     return fmt::format("\"{}\"", fmt::join(choice_names<T>, "\", \""));
-  } else if constexpr (requires(T value) { value.has_value(); }) {
-    return type_text<typename T::value_type>();
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true or false";
   } else if constexpr (std::is_integral_v<T>) {

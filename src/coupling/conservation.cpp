@@ -26,31 +26,26 @@ void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
         fmt::format("grains inside and left do not add up to those at the start: {} + {} is not {}",
                     counts[0], counts[1], grains.n_initial));
   }
-  sum_.given_to_grains += step.given_to_grains;
-  sum_.taken_from_fluid += step.taken_from_fluid;
-  sum_.implicit_on_fluid += step.implicit_on_fluid;
-  sum_.carried_to_grains += step.carried_to_grains;
-  if (step.grain_volume > 0) {
-    volume_ = std::max(volume_, std::abs(step.deposited_volume / step.grain_volume - 1));
-  }
-  exchange_ = std::max(
-      exchange_, relative(step.taken_from_fluid - step.given_to_grains, step.given_to_grains));
-  carried_ = std::max(
-      carried_, relative(step.carried_to_grains - step.implicit_on_fluid, step.implicit_on_fluid));
+  add(step);
 }
 
-std::map<std::string, double> Ledger::entries() const {
-  std::map<std::string, double> e{{"largest_volume_mismatch", volume_},
-                                  {"largest_exchange_mismatch", exchange_},
-                                  {"largest_carried_mismatch", carried_}};
-  const auto add = [&e](const std::string& name, const Vec3& v) {
-    e[name + "_x"] = v.x, e[name + "_y"] = v.y, e[name + "_z"] = v.z;
+void Ledger::add(const ExchangeLedger& step) {
+  const auto sum = [this](const std::string& name, const Vec3& v) {
+    entries_[name + "_x"] += v.x, entries_[name + "_y"] += v.y, entries_[name + "_z"] += v.z;
   };
-  add("impulse_given_to_grains", sum_.given_to_grains);
-  add("impulse_taken_from_fluid", sum_.taken_from_fluid);
-  add("impulse_implicit_on_fluid", sum_.implicit_on_fluid);
-  add("impulse_carried_to_grains", sum_.carried_to_grains);
-  return e;
+  sum("impulse_given_to_grains", step.given_to_grains);
+  sum("impulse_taken_from_fluid", step.taken_from_fluid);
+  sum("impulse_implicit_on_fluid", step.implicit_on_fluid);
+  sum("impulse_carried_to_grains", step.carried_to_grains);
+  const auto keep = [this](const char* name, double mismatch) {
+    entries_[name] = std::max(entries_[name], mismatch);
+  };
+  const Real volume = step.grain_volume;
+  keep("largest_volume_mismatch", volume > 0 ? std::abs(step.deposited_volume / volume - 1) : 0);
+  keep("largest_exchange_mismatch",
+       relative(step.taken_from_fluid - step.given_to_grains, step.given_to_grains));
+  keep("largest_carried_mismatch",
+       relative(step.carried_to_grains - step.implicit_on_fluid, step.implicit_on_fluid));
 }
 
 }  // namespace barchan

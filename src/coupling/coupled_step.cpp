@@ -63,17 +63,17 @@ void CoupledStep::gather(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
   const PhaseTimer timer(phases_, coupling_ ? "exchange" : "grains");
-  if (!coupling_) {
+  if (coupling_) {
+    coupling_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
+    fluid_side_.to_grain_ranks(grains, kGatherWrites);
+  } else {
     still_.grains = grains.kin;
     still_.on_grains = grains.fluid;
-    Kokkos::parallel_for("grains: still fluid", grains.n, still_);
-    return;
+    Kokkos::parallel_for("grains: still fluid", items(grains.n), still_);
   }
-  coupling_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
-  fluid_side_.to_grain_ranks(grains, kGatherWrites);
-  if (fluid_side_.is_cut())  // what was gathered for are copies
-    Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
-                         BeginFluidStep{grains.kin, grains.fluid});
+  if (grains.fluid.none) return;
+  Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
+                       BeginFluidStep{grains.kin, grains.fluid});
 }
 
 void CoupledStep::move_grains(SystemState& state) {
@@ -143,9 +143,9 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
     forces.push_back({"force_added_mass", added});
   }
   if (coupling_) {
-    forces.push_back(
-        {"force_pressure_gradient", fluid_force_now("pressure gradient", {0, 1, 0, 0, 0}, state)});
-    forces.push_back({"force_stress", fluid_force_now("stress", {0, 0, 1, 0, 0}, state)});
+    forces.push_back({"force_pressure_gradient",
+                      fluid_force_now("pressure gradient", {.pressure_gradient = true}, state)});
+    forces.push_back({"force_stress", fluid_force_now("stress", {.stress = true}, state)});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   grains_->split_contacts(grains, normal, tangential);

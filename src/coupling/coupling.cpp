@@ -1,8 +1,11 @@
 #include "src/coupling/coupling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "src/config/load.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -10,42 +13,58 @@ namespace barchan {
 namespace {
 
 DragModel make_drag(const Config& config, const GrainState& grains) {
-  switch (config.coupling.drag) {
-    case DragLaw::gidaspow:
-      return Gidaspow{};
-    case DragLaw::di_felice:
-      return DiFelice{};
-    case DragLaw::koch_hill:
-      return KochHill{};
-    case DragLaw::syamlal_obrien:
-      return SyamlalOBrien{};
-    case DragLaw::paper_repaired:
-      return PaperRepaired{};
-    case DragLaw::none:
-      return NoDrag{};
-    case DragLaw::beetstra:
-      break;
-  }
-  return Beetstra{.d_mean = grains.sauter_diameter};
+  const std::map<DragLaw, DragModel> models{
+      {DragLaw::gidaspow, Gidaspow{}},
+      {DragLaw::di_felice, DiFelice{}},
+      {DragLaw::koch_hill, KochHill{}},
+      {DragLaw::syamlal_obrien, SyamlalOBrien{}},
+      {DragLaw::beetstra, Beetstra{.d_mean = grains.sauter_diameter}},
+      {DragLaw::paper_repaired, PaperRepaired{}},
+      {DragLaw::none, NoDrag{}}};
+  return models.at(config.coupling.drag);
 }
 
+Real square(Real a) { return a * a; }
+
 }  // namespace
+
+DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
+  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  const VoidFraction kind = config.coupling.void_fraction;
+  DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, periodic_x);
+  if (kind == VoidFraction::centre) stencil.points = PointSet::centre;
+  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointSet::cfdem;
+  if (!grid.ranks) return stencil;
+  const Real reach = kOuterShell * r_max;
+  if (reach > std::min(grid.dx, grid.dz)) {
+    throw ConfigError({fmt::format(
+        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
+        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
+        grid.dx, grid.dz, r_max)});
+  }
+  const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
+  if (along_x.count > 1) {
+    stencil.box.lx = 0;
+    if (periodic_x || along_x.position > 0) stencil.i_low = -1;
+    if (periodic_x || along_x.position + 1 < along_x.count) stencil.i_high = grid.nx;
+  }
+  if (along_z.count > 1) {
+    stencil.box.lz = 0;
+    stencil.k_low = -1, stencil.k_high = grid.nz;
+  }
+  return stencil;
+}
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)
     : config_(config.coupling),
-      forces_{.drag = config.coupling.forces.drag ? 1.0 : 0.0,
-              .pressure_gradient = config.coupling.forces.pressure_gradient ? 1.0 : 0.0,
-              .stress = config.coupling.forces.stress ? 1.0 : 0.0,
-              .added_mass = config.coupling.forces.added_mass ? 1.0 : 0.0,
-              .buoyancy = config.coupling.forces.buoyancy ? 1.0 : 0.0},
+      forces_{config_.forces.drag, config_.forces.pressure_gradient, config_.forces.stress,
+              config_.forces.added_mass, config_.forces.buoyancy},
       drag_(make_drag(config, grains)),
       grid_(grid),
+      rows_(grid.on_host()),
       boundary_(solver.boundary()),
-      smoother_(
-          make_smoother(grid, solver.fft(), std::max(config.coupling.smoothing_length, 1e-9))),
-      smooths_(config.coupling.smoothing_length > 0),
-      smooths_exchange_(smooths_ && config.coupling.exchange == Exchange::smoothed),
+      smoother_(grid, solver.fft(), 1, square(std::max(config_.smoothing_length, 1e-9))),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
       box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
@@ -55,12 +74,10 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       nu_(config.fluid->kinematic_viscosity),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
                           config.grains->gravity[2]},
-              .displaced = forces_.buoyancy * rho_f_},
+              .displaced = forces_.buoyancy ? rho_f_ : 0},
       force_(solver.idle().faces[0]),
       convective_(solver.idle().faces[1]),
       on_faces_{make_faces("exchange impulse", grid), make_faces("exchange implicit", grid)} {
-  const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grid.y_face_);
-  for (int j = 0; j <= grid.ny; ++j) y_face_.push_back(faces(j + 1));
   cell_[0] = Field("coupling: cell density", grid);
   std::copy_n(solver.idle().cells.begin(), 3, cell_ + 1);
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
@@ -101,8 +118,7 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
   };
   shrink(x0, x1, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
   shrink(z0, z1, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
-  const auto above = std::upper_bound(y_face_.begin(), y_face_.end(), y1);
-  cells.j1 = std::min(grid_.ny, static_cast<int>(above - y_face_.begin()) + 1);
+  cells.j1 = std::min(grid_.ny, rows_.row_of(y1) + 2);
   return cells;
 }
 
@@ -189,7 +205,7 @@ void Coupling::decode(int quantity, const FixedPoint& point, Field& density) con
     functor.most = kMostSolid;
   }
   for_each_cell("coupling: decode deposit", grid_, functor);
-  if (quantity == 0 ? smooths_ : smooths_exchange_) smoother_.solve(density, density);
+  if (smooths(quantity)) smoother_.solve(density, density);
 }
 
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
@@ -262,7 +278,7 @@ void Coupling::carry(const FluidState& fluid, GrainState& grains, Real dt) {
                                       .y = cell_[2],
                                       .z = cell_[3]});
   for (int q = 1; q < 4; ++q) {
-    if (smooths_exchange_) smoother_.solve(cell_[q], cell_[q]);
+    if (smooths(q)) smoother_.solve(cell_[q], cell_[q]);
     if (grid_.ranks) boundary_.fill(cell_[q], FieldKind::scalar);  // grains read beyond the pencil
   }
   std::vector<Real> total(3);

@@ -32,17 +32,16 @@ struct ExchangeLedger {
 /// Adds up what changed sides over a run and keeps the largest mismatch of any step.
 class Ledger {
  public:
+  Ledger() { add({}); }
   /// After each coupled step. Throws std::runtime_error if a grain is unaccounted for.
   void close_step(const ExchangeLedger& step, const GrainState& grains);
   /// Names and values for run.json; momentum along x, y, z [N s], mismatches relative.
-  std::map<std::string, double> entries() const;
-  double volume_mismatch() const { return volume_; }
-  double exchange_mismatch() const { return exchange_; }
-  double carried_mismatch() const { return carried_; }
+  const std::map<std::string, double>& entries() const { return entries_; }
 
  private:
-  ExchangeLedger sum_;  // of the impulses
-  double volume_ = 0, exchange_ = 0, carried_ = 0;
+  void add(const ExchangeLedger& step);
+
+  std::map<std::string, double> entries_;
 };
 
 /// The cells that grains up to a radius of r_max [m] deposit their volume in. Where the grid is
@@ -78,6 +77,11 @@ class Coupling {
   /// The cells whose faces the grains' velocities and forces are interpolated from.
   CellRange cells_around(const GrainState& grains) const;
   void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
+  /// The void fraction (quantity 0), the exchange (1 to 4).
+  bool smooths(int quantity) const {
+    return config_.smoothing_length > 0 &&
+           (quantity == 0 || config_.exchange == Exchange::smoothed);
+  }
   void choose_scales(const GrainState& grains, const FluidState& fluid, Real dt);
   void decode(int quantity, const FixedPoint& point, Field& density) const;
   void update_fraction(FluidState& fluid);
@@ -90,10 +94,9 @@ class Coupling {
   FluidForces forces_;
   DragModel drag_;
   Grid grid_;
+  HostGrid rows_;
   Boundary boundary_;
   PoissonFft smoother_;
-  bool smooths_ = false;                  // the void fraction
-  bool smooths_exchange_ = false;         // momentum, too
   bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
   PeriodicBox box_;
@@ -102,7 +105,6 @@ class Coupling {
   Real rho_f_ = 0, nu_ = 0;
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // valid around the grains; room of the flow solver
-  std::vector<Real> y_face_;       // of rows 0 .. ny [m]
   // Implicit coefficient and impulse densities, later velocity changes; all but the first are room
   // of the flow solver.
   Field cell_[4];

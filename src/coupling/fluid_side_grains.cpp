@@ -1,7 +1,6 @@
 #include "src/coupling/fluid_side_grains.hpp"
 
 #include <utility>
-#include <vector>
 
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
@@ -21,39 +20,19 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
   copies_ = make_grain_rows(0, ranks_);
   add_fluid(copies_);
   add_exchange(copies_);
-  count_ =
-      Kokkos::View<int*>("fluid-side grains: count", static_cast<std::size_t>(rank_count(ranks_)));
 }
 
 /// Fills row_, in the order of the owners, and counts_.
 void FluidSideGrains::find_owners(const GrainState& grains) {
-  const int n = grains.n;
-  reserve_rows(owner_, n);
-  reserve_rows(row_, n);
-  Kokkos::deep_copy(count_, 0);
+  const Kokkos::View<int*> owner("fluid-side grains: owners", grains.kin.extent(0));
   const auto kin = grains.kin;
-  const auto owner = owner_, row = row_, count = count_;
   const PencilOwners owner_of = owners_;
   Kokkos::parallel_for(
-      "fluid-side grains: owners", items(n), KOKKOS_LAMBDA(int g) {
-        owner(g) = owner_of(kin(g).x);
-        Kokkos::atomic_inc(&count(owner(g)));
-      });
-  const auto counts = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count_);
-  std::vector<int> to(counts.data(), counts.data() + counts.extent(0));
-  int begin = 0;
-  for (std::size_t rank = 0; rank < to.size(); begin += to[rank++]) {
-    if (to[rank] == 0) continue;
-    const int wanted = static_cast<int>(rank), first = begin;
-    Kokkos::parallel_scan(
-        "fluid-side grains: rows of an owner", items(n),
-        KOKKOS_LAMBDA(int g, int& sum, bool final) {
-          if (owner(g) != wanted) return;
-          if (final) row(first + sum) = g;
-          ++sum;
-        });
-  }
-  counts_ = exchange_counts(ranks_, std::move(to));
+      "fluid-side grains: owners", items(grains.n),
+      KOKKOS_LAMBDA(int g) { owner(g) = owner_of(kin(g).x); });
+  RowsByRank rows = sort_by_rank(owner, grains.n, rank_count(ranks_));
+  row_ = rows.row;
+  counts_ = exchange_counts(ranks_, std::move(rows.to));
 }
 
 void FluidSideGrains::wrap_copies() const {
@@ -72,7 +51,7 @@ void FluidSideGrains::copy_to_fluid_ranks(const GrainState& grains, unsigned use
     add_extra(copies_, grains.extra[e].name, grains.extra[e].unit, grains.extra[e].uses);
   copies_.n = counts_.n_from();
   reserve_rows(copies_, copies_.n, kFluidSide);
-  exchange_.unpack(layout_of(copies_, uses), 0);
+  exchange_.unpack(layout_of(copies_, uses), {});
   wrap_copies();
 }
 

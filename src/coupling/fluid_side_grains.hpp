@@ -30,8 +30,6 @@ class FluidSideGrains {
   /// A vector of each of them, of the n grains.
   Kokkos::View<Vec3*> to_grain_ranks(const Kokkos::View<Vec3*>& of_copies, int n);
 
-  bool is_cut() const { return is_cut_; }
-
   // Public only because nvcc takes no device lambda from a private function.
   void find_owners(const GrainState& grains);
   void wrap_copies() const;
@@ -44,8 +42,7 @@ class FluidSideGrains {
   PencilOwners owners_;
   GrainState copies_;
   ExchangeCounts counts_;
-  Kokkos::View<int*> owner_, row_;  // of each grain; rows in the order of the owners
-  Kokkos::View<int*> count_;        // grains of each owner
+  Kokkos::View<int*> row_;  // of the grains, in the order of their owners
   RowExchange exchange_{"fluid-side grains"};
 };
 

@@ -19,13 +19,11 @@ namespace {
 
 using WorstOf = Kokkos::MaxLoc<Real, int>;
 
-WorstItem nothing() { return {0, -1}; }
-
+/// Where it is worst among this rank's grains; nowhere: -1.
 struct WorstGrains {
-  WorstItem pair = nothing(), in_wall = nothing(), displacement = nothing();
+  WorstItem displacement{0, -1}, in_wall{0, -1}, pair{0, -1};
 };
 
-/// Of this rank's grains. Frozen grains may lie as they like.
 WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt) {
   WorstGrains worst;
   Kokkos::parallel_reduce("state checks: pairs", items(grains.list.n_pairs),
@@ -42,7 +40,7 @@ WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt)
 
 template <class Functor>
 WorstItem worst_cell(const Grid& grid, const Functor& functor) {
-  WorstItem worst = nothing();
+  WorstItem worst{0, -1};
   Kokkos::parallel_reduce("state checks: worst cell", items(grid.nx * grid.ny * grid.nz),
                           WorstCell<Functor>{functor, grid.nx, grid.ny}, WorstOf(worst));
   return worst;
@@ -99,85 +97,72 @@ const Plane& deepest_wall(const WallPlanes& walls, const Vec3& x) {
   return walls[deepest];
 }
 
-/// Reported values of what is not finite.
-bool is_finite(const FluidStepReport& r) {
-  return std::isfinite(r.courant) && std::isfinite(r.continuity_residual);
-}
+/// What to tell of the worst grain or pair of this rank.
+struct GrainProblems {
+  const GrainState& grains;
+  const WallPlanes& walls;
+  Real limit;  // grains.max_overlap
+  bool at_start;
 
-constexpr const char* apart = ": move them apart, or allow it with grains.max_overlap";
-constexpr const char* softer =
-    ": they meet too hard or lie too deep for their stiffness: take a larger grains.youngs_modulus "
-    "(and with it a shorter time.grain_step), or allow it with grains.max_overlap";
+  std::string displacement(const WorstItem& worst) const {
+    const GrainKinematics k = element(grains.kin, worst.loc);
+    const std::string who = grain_at(grains, worst.loc);
+    if (!std::isfinite(k.x.x + k.x.y + k.x.z + norm(k.u) + norm(k.omega))) {
+      return who + ": its position or velocity is not finite" +
+             (at_start ? ""
+                       : "; time.grain_step may be too long, or grains overlapped at the start");
+    }
+    return fmt::format(
+        "{} goes {:.2g} of its radius in a grain step (at {:.3g} m/s, spin {:.3g} 1/s; at most "
+        "{}): contacts cannot be followed; take a shorter time.grain_step",
+        who, worst.val, norm(k.u), norm(k.omega), kMaxDisplacement);
+  }
+  std::string in_wall(const WorstItem& worst) const {
+    const Vec3 x = element(grains.kin, worst.loc).x;
+    const Plane& wall = deepest_wall(walls, x);
+    const std::string who = grain_at(grains, worst.loc);
+    if (wall.distance(x) < 0) {
+      return fmt::format("{} has gone through {}{}", who, name_of(wall),
+                         at_start ? ""
+                                  : ": it was too fast or pressed too hard; take a shorter "
+                                    "time.grain_step or a larger grains.youngs_modulus");
+    }
+    return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}", who,
+                       100 * worst.val, name_of(wall), 100 * limit, remedy());
+  }
+  std::string pair(const WorstItem& worst) const {
+    const int i = element(grains.list.i, worst.loc), j = element(grains.list.j, worst.loc);
+    return fmt::format(
+        "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}",
+        grain_at(grains, i), element(grains.id, j), 100 * worst.val, 100 * limit, remedy());
+  }
+  const char* remedy() const {
+    if (at_start) return ": move them apart, or allow it with grains.max_overlap";
+    return ": they meet too hard or lie too deep for their stiffness: take a larger "
+           "grains.youngs_modulus (and with it a shorter time.grain_step), or allow it with "
+           "grains.max_overlap";
+  }
+};
 
 }  // namespace
 
-std::string StateChecks::grain_problem(const GrainState& grains, const CoupledStep& step,
-                                       const std::vector<Real>& worst, bool at_start) const {
-  const Real limit = config_.grains->max_overlap;
-  const WorstGrains mine = worst_of(grains, step, true_grain_step(config_.time));
-  // A rank without grains or pairs has Kokkos' identity for a worst item: it is nowhere.
-  const auto tell = [&](const WorstItem& item, auto message) {
-    return of_the_worst(ranks_, item.val, item.val > 0 ? message(item.loc) : std::string());
-  };
-  if (!(worst[2] < kMaxDisplacement)) {
-    return tell(mine.displacement, [&](int g) {
-      const GrainKinematics k = element(grains.kin, g);
-      const std::string who = grain_at(grains, g);
-      if (!std::isfinite(k.x.x + k.x.y + k.x.z + norm(k.u) + norm(k.omega))) {
-        return fmt::format("{}: its position or velocity is not finite{}", who,
-                           at_start ? ""
-                                    : "; time.grain_step may be too long, or grains "
-                                      "overlapped at the start");
-      }
-      return fmt::format(
-          "{} goes {:.2g} of its radius in a grain step (at {:.3g} m/s, spin {:.3g} 1/s; at most "
-          "{}): contacts cannot be followed; take a shorter time.grain_step",
-          who, mine.displacement.val, norm(k.u), norm(k.omega), kMaxDisplacement);
-    });
-  }
-  if (worst[1] > limit) {
-    return tell(mine.in_wall, [&](int g) {
-      const Vec3 x = element(grains.kin, g).x;
-      const Plane& wall = deepest_wall(step.walls(), x);
-      if (wall.distance(x) < 0) {
-        return fmt::format("{} has gone through {}{}", grain_at(grains, g), name_of(wall),
-                           at_start ? ""
-                                    : ": it was too fast or pressed too hard; take a "
-                                      "shorter time.grain_step or a larger "
-                                      "grains.youngs_modulus");
-      }
-      return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}",
-                         grain_at(grains, g), 100 * mine.in_wall.val, name_of(wall), 100 * limit,
-                         at_start ? apart : softer);
-    });
-  }
-  return tell(mine.pair, [&](int p) {
-    const auto second = element(grains.id, element(grains.list.j, p));
-    return fmt::format(
-        "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}",
-        grain_at(grains, element(grains.list.i, p)), second, 100 * mine.pair.val, 100 * limit,
-        at_start ? apart : softer);
-  });
-}
-
 std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepReport& report,
                                       Real fraction_outside, bool at_start) const {
-  const Grid& grid = fluid.grid;
   const auto where = [&](const auto& functor) {
-    const WorstItem worst = worst_cell(grid, functor);
-    return of_the_worst(ranks_, worst.val, worst.loc < 0 ? "no cell" : cell_at(grid, worst.loc));
+    const WorstItem worst = worst_cell(fluid.grid, functor);
+    return of_the_worst(ranks_, worst.val,
+                        worst.loc < 0 ? "no cell" : cell_at(fluid.grid, worst.loc));
   };
-  const CourantOfCell courant{.grid = grid, .u = fluid.u, .dt = config_.time.fluid_step};
+  const CourantOfCell courant{.grid = fluid.grid, .u = fluid.u, .dt = config_.time.fluid_step};
   if (fraction_outside > kFractionSlack) {
-    const FractionOutside outside{fluid.alpha_f};
     return fmt::format(
         "alpha_f is outside 0 to 1, by {:.3g}, in {}: more grains than the cell holds{}; take "
         "wider cells (fluid.cells, at least 1.2 grain diameters) or a longer "
         "coupling.smoothing_length",
-        fraction_outside > 1 ? fraction_outside - 1 : fraction_outside, where(outside),
-        at_start ? "" : " have come together");
+        fraction_outside > 1 ? fraction_outside - 1 : fraction_outside,
+        where(FractionOutside{fluid.alpha_f}), at_start ? "" : " have come together");
   }
-  if (!is_finite(report)) {
+  if (!std::isfinite(report.courant) || !std::isfinite(report.continuity_residual)) {
     return fmt::format(
         "the flow is no longer finite in {}: time.fluid_step is too long for the speeds or the "
         "drag there; take a shorter one",
@@ -189,6 +174,7 @@ std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepRe
         "allows; take one below {:.2e} s, or wider cells",
         report.courant, where(courant), config_.time.fluid_step * 0.5 / report.courant);
   }
+  if (report.pressure_residual <= config_.solver.pressure_tolerance) return {};
   return fmt::format(
       "the pressure equation was left at a residual of {:.2g} of its right-hand side after {} "
       "iterations (solver.pressure_tolerance = {:.2g}; the flow is fastest in {}): allow more "
@@ -199,32 +185,35 @@ std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepRe
 
 std::string StateChecks::problem_of(const SystemState& state, const CoupledStep& step,
                                     bool at_start) const {
-  const bool grains_move = state.grains && !config_.grains->frozen;
-  const Real limit = config_.grains ? config_.grains->max_overlap : 0;
-  std::vector<Real> worst(4, 0.0);  // overlap of a pair, with a wall; displacement; fluid fraction
+  const bool grains_move = state.grains && !config_.grains->frozen;  // others may lie anyhow
+  WorstGrains mine;
   if (grains_move) {
-    const WorstGrains mine = worst_of(*state.grains, step, true_grain_step(config_.time));
-    worst = {mine.pair.val, mine.in_wall.val, mine.displacement.val, 0};
+    mine = worst_of(*state.grains, step, true_grain_step(config_.time));
   }
+  Real fraction = 0;
   if (state.fluid && state.grains) {
-    const Grid& grid = state.fluid->grid;
-    const FractionOutside outside{state.fluid->alpha_f};
-    const CellRange cells = owned_cells(grid);
-    Kokkos::parallel_reduce("state checks: fluid fraction", launch_detail::policy(cells),
-                            launch_detail::MaxLoop<FractionOutside>{outside, cells},
-                            Kokkos::Max<Real>(worst[3]));
+    fraction = max_each_cell_here("state checks: fluid fraction", state.fluid->grid,
+                                  FractionOutside{state.fluid->alpha_f});
   }
-  max_over(ranks_, worst);
-  if (!(worst[0] <= limit && worst[1] <= limit && worst[2] < kMaxDisplacement)) {
-    return grain_problem(*state.grains, step, worst, at_start);
+  std::vector<Real> worst{mine.displacement.val, mine.in_wall.val, mine.pair.val, fraction};
+  all_reduce(ranks_, std::span(worst), MPI_MAX);
+  if (grains_move) {
+    const GrainProblems problems{*state.grains, step.walls(), config_.grains->max_overlap,
+                                 at_start};
+    const auto check = [&](Real of_all, Real most, const WorstItem& item, auto problem) {
+      if (of_all <= most) return std::string();
+      // A rank without grains or pairs has Kokkos' identity for a worst item: it is nowhere.
+      return of_the_worst(ranks_, item.val, item.val > 0 ? (problems.*problem)(item) : "");
+    };
+    for (const std::string& found :
+         {check(worst[0], kMaxDisplacement, mine.displacement, &GrainProblems::displacement),
+          check(worst[1], problems.limit, mine.in_wall, &GrainProblems::in_wall),
+          check(worst[2], problems.limit, mine.pair, &GrainProblems::pair)}) {
+      if (!found.empty()) return found;
+    }
   }
   if (!state.fluid) return {};
-  const FluidStepReport& report = step.fluid_report();
-  const bool solved = report.pressure_residual <= config_.solver.pressure_tolerance;
-  if (worst[3] > kFractionSlack || !is_finite(report) || report.courant > kMostCourant || !solved) {
-    return flow_problem(*state.fluid, report, worst[3], at_start);
-  }
-  return {};
+  return flow_problem(*state.fluid, step.fluid_report(), worst[3], at_start);
 }
 
 void StateChecks::check(const SystemState& state, const CoupledStep& step) const {

@@ -32,8 +32,6 @@ class StateChecks {
                    const std::string& source) const;
 
  private:
-  std::string grain_problem(const GrainState& grains, const CoupledStep& step,
-                            const std::vector<Real>& worst, bool at_start) const;
   std::string flow_problem(const FluidState& fluid, const FluidStepReport& report,
                            Real fraction_outside, bool at_start) const;
   std::string problem_of(const SystemState& state, const CoupledStep& step, bool at_start) const;

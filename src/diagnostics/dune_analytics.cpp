@@ -26,9 +26,9 @@ double slope(const Samples& samples) {
 
 }  // namespace
 
-std::vector<DuneRow> DuneTracker::update(double t, const GrainCloud& grains) {
-  const auto n_grains = static_cast<std::int64_t>(grains.diameters.size());
-  std::vector<DuneRow> rows = measure_dunes(grains, domain_, criteria_);
+std::vector<DuneRow> DuneTracker::update(double t, GrainCloud grains) {
+  const auto n_grains = static_cast<std::int64_t>(grains.size());
+  std::vector<DuneRow> rows = find_dunes(grains, domain_, criteria_).rows;
   if (n_initial_ < 0) n_initial_ = n_grains;
   n_lost_ = n_initial_ - n_grains;
   forget(t);
@@ -49,7 +49,7 @@ std::vector<DuneRow> DuneTracker::update(double t, const GrainCloud& grains) {
   return rows;
 }
 
-std::vector<int> DuneTracker::labels(const GrainCloud& grains) const {
+std::vector<int> DuneTracker::labels(GrainCloud grains) const {
   const Dunes dunes = find_dunes(grains, domain_, criteria_);
   std::vector<int> label_of_row = match(dunes.rows);
   int next_label = next_label_;
@@ -148,14 +148,12 @@ void DuneTracker::set_state(std::span<const double> numbers) {
   fresh.n_lost_ = count(most);
   fresh.next_label_ = count(last_label);
   for (auto n_tracks = count(most); n_tracks > 0; --n_tracks) {
-    Track track{.label = count(last_label), .missed = next() != 0.0};
-    track.x = next();
-    track.z = next();
-    track.reach = next();
-    for (auto n = count(most); n > 0; --n) {
-      const double t = next();
-      track.samples.push_back({t, next()});
-    }
+    Track track{.label = count(last_label),
+                .missed = next() != 0.0,
+                .x = next(),
+                .z = next(),
+                .reach = next()};
+    for (auto n = count(most); n > 0; --n) track.samples.push_back({.t = next(), .x = next()});
     demand(!track.samples.empty());
     fresh.tracks_.push_back(track);
   }

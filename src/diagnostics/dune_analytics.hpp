@@ -23,13 +23,11 @@ class DuneTracker {
 
   /// One row per dune, in order of label. Times must not go back further than a restart does:
   /// samples at or after t are forgotten. The first call fixes the initial number of grains.
-  std::vector<DuneRow> update(double t, const GrainCloud& grains);
+  std::vector<DuneRow> update(double t, GrainCloud grains);
 
   /// Of each grain the label that its dune would get in an update now, and has if that was the last
   /// one; -1: in no dune.
-  [[nodiscard]] std::vector<int> labels(const GrainCloud& grains) const;
-
-  [[nodiscard]] std::int64_t n_lost() const { return n_lost_; }
+  [[nodiscard]] std::vector<int> labels(GrainCloud grains) const;
 
   /// The memory as plain numbers for restart files; set_state() restores it exactly and throws
   /// std::runtime_error if the numbers are not from state().

@@ -21,27 +21,21 @@ int wrap(int i, int period) {
 
 }  // namespace
 
-HeightMap::HeightMap(const GrainCloud& grains, const DuneDomain& domain,
-                     const DuneCriteria& criteria) {
-  if (grains.centres.size() != 3 * grains.diameters.size())
-    throw std::invalid_argument("dune map: need three coordinates and one diameter per grain");
-  if (!grains.u_x.empty() && grains.u_x.size() != grains.diameters.size())
-    throw std::invalid_argument("dune map: need a velocity for each grain, or none");
+HeightMap::HeightMap(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria) {
   if (!(domain.length_x > 0.0 && domain.length_z > 0.0))
     throw std::invalid_argument("dune map: the domain has no extent");
-  if (grains.diameters.empty()) return;
-  choose_bins(grains.diameters, domain, criteria.bin);
+  if (grains.empty()) return;
+  choose_bins(grains, domain, criteria.bin);
   fill(grains);
   label_regions(mark_dune_bins(criteria));
 }
 
-void HeightMap::choose_bins(std::span<const double> diameters, const DuneDomain& domain,
-                            double bin_size) {
+void HeightMap::choose_bins(GrainCloud grains, const DuneDomain& domain, double bin_size) {
   double sum = 0.0;
   std::size_t n = 0;
-  for (const double d : diameters) {
-    if (!std::isfinite(d) || d <= 0.0) continue;
-    sum += d;
+  for (const CloudGrain& grain : grains) {
+    if (!std::isfinite(grain.d) || grain.d <= 0.0) continue;
+    sum += grain.d;
     ++n;
   }
   if (n == 0) throw std::invalid_argument("dune map: no grain has a positive diameter");
@@ -55,14 +49,13 @@ void HeightMap::choose_bins(std::span<const double> diameters, const DuneDomain&
   period_z_ = domain.periodic_z ? nz : 0;
 }
 
-void HeightMap::fill(const GrainCloud& grains) {
+void HeightMap::fill(GrainCloud grains) {
   const double bin_area = bin_x * bin_z;
   const double farthest = 1e9;  // in bins: keeps the conversion to int defined
-  bin_of_grain.assign(grains.diameters.size(), -1);
-  for (std::size_t p = 0; p < grains.diameters.size(); ++p) {
-    const double d = grains.diameters[p];
-    const double x = grains.centres[3 * p] / bin_x, z = grains.centres[3 * p + 2] / bin_z;
-    const double top = grains.centres[3 * p + 1] + 0.5 * d;
+  bin_of_grain.assign(grains.size(), -1);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const double d = grains[p].d, top = grains[p].x.y + 0.5 * d;
+    const double x = grains[p].x.x / bin_x, z = grains[p].x.z / bin_z;
     if (!(std::abs(x) < farthest && std::abs(z) < farthest && std::isfinite(top))) continue;
     const int ix = static_cast<int>(std::floor(x)), iz = static_cast<int>(std::floor(z));
     const int wx = wrap(ix, period_x_), wz = wrap(iz, period_z_);
@@ -75,9 +68,9 @@ void HeightMap::fill(const GrainCloud& grains) {
   }
 }
 
-HeightMap::Position HeightMap::unwrapped(const GrainCloud& grains, std::size_t p) const {
+HeightMap::Position HeightMap::unwrapped(GrainCloud grains, std::size_t p) const {
   const Bin& bin = bins[bin_of_grain[p]];
-  const double x = grains.centres[3 * p], z = grains.centres[3 * p + 2];
+  const double x = grains[p].x.x, z = grains[p].x.z;
   return {.x = bin.ux * bin_x + x - std::floor(x / bin_x) * bin_x,
           .z = bin.uz * bin_z + z - std::floor(z / bin_z) * bin_z};
 }

@@ -8,14 +8,17 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kernels/math/vec3.hpp"
+
 namespace barchan {
 
-/// The grains as plain host arrays; both spans must outlive the call they are passed to.
-struct GrainCloud {
-  std::span<const double> centres;    ///< x, y, z of grain 0, x, y, z of grain 1, ... [m]; size 3 N
-  std::span<const double> diameters;  ///< [m]; size N
-  std::span<const double> u_x = {};   ///< streamwise velocities [m/s]; size N, or none: flux zero
+/// What the dunes are found from.
+struct CloudGrain {
+  Vec3 x;            ///< centre [m]
+  double d = 0.0;    ///< diameter [m]
+  double u_x = 0.0;  ///< streamwise velocity [m/s]
 };
+using GrainCloud = std::span<const CloudGrain>;
 
 /// Horizontal extent of the domain; the wall that carries the dunes is y = 0.
 struct DuneDomain {
@@ -69,8 +72,8 @@ struct HeightMap {
     int region = -1;       ///< -1: not part of a dune
   };
 
-  /// Throws std::invalid_argument if the arrays do not match or the domain has no extent.
-  HeightMap(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria);
+  /// Throws std::invalid_argument if the domain has no extent or no grain has a size.
+  HeightMap(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria);
 
   double mean_diameter = 0.0, bin_x = 0.0, bin_z = 0.0;  ///< [m]
   std::vector<Bin> bins;
@@ -92,7 +95,7 @@ struct HeightMap {
   struct Position {
     double x, z;
   };
-  [[nodiscard]] Position unwrapped(const GrainCloud& grains, std::size_t p) const;
+  [[nodiscard]] Position unwrapped(GrainCloud grains, std::size_t p) const;
   [[nodiscard]] Position unwrapped_centre(const Bin& bin) const {
     return {.x = (bin.ux + 0.5) * bin_x, .z = (bin.uz + 0.5) * bin_z};
   }
@@ -103,8 +106,8 @@ struct HeightMap {
     int dx, dz;  // offset in bins
   };
 
-  void choose_bins(std::span<const double> diameters, const DuneDomain& domain, double bin_size);
-  void fill(const GrainCloud& grains);
+  void choose_bins(GrainCloud grains, const DuneDomain& domain, double bin_size);
+  void fill(GrainCloud grains);
   [[nodiscard]] std::array<Neighbour, 8> neighbours(const Bin& bin) const;
   [[nodiscard]] std::vector<char> mark_dune_bins(const DuneCriteria& criteria) const;
   void label_regions(const std::vector<char>& in_dune);

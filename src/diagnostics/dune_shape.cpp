@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 namespace barchan {
@@ -22,8 +23,7 @@ struct Extent {
     low = std::min(low, a);
     high = std::max(high, b);
   }
-  [[nodiscard]] bool empty() const { return low > high; }
-  [[nodiscard]] double size() const { return empty() ? 0.0 : high - low; }
+  [[nodiscard]] double size() const { return high - low; }
 };
 
 /// What is collected about one region; coordinates are unwrapped.
@@ -34,87 +34,83 @@ struct Region {
   double crest_weight = 0.0;     // sum of weights behind crest_x
   double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
   double right_tip = -infinity;  // the same, z > Cz
-  int first_column = 0;          // ux of strip[0]
   Extent x, z;                   // of all grains
-  std::vector<Extent> strip;     // in x, of the grains on the centreline, per column of bins
+  std::map<int, Extent> strip;   // in x, of the grains on the centreline, by column of bins (ux)
 };
 
-class DuneMeasurement {
- public:
-  DuneMeasurement(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria)
-      : grains_(grains),
-        domain_(domain),
-        criteria_(criteria),
-        map_(grains, domain, criteria),
-        regions_(map_.n_regions) {}
+struct DuneMeasurement {
+  GrainCloud grains;
+  DuneDomain domain;
+  DuneCriteria criteria;
+  HeightMap map{grains, domain, criteria};
+  std::vector<Region> regions = std::vector<Region>(map.n_regions);
 
   Dunes run() {
     sum_grains();
     find_crests();
     collect_outlines();
     std::vector<int> dunes;  // the regions that are dunes, largest first
-    for (int i = 0; i < map_.n_regions; ++i) {
-      if (regions_[i].row.n_grains >= criteria_.min_grains) dunes.push_back(i);
+    for (int i = 0; i < map.n_regions; ++i) {
+      if (regions[i].row.n_grains >= criteria.min_grains) dunes.push_back(i);
     }
     std::stable_sort(dunes.begin(), dunes.end(),
-                     [&](int a, int b) { return regions_[a].row.volume > regions_[b].row.volume; });
+                     [&](int a, int b) { return regions[a].row.volume > regions[b].row.volume; });
     Dunes found;
-    std::vector<int> row_of_region(regions_.size(), -1);
+    std::vector<int> row_of_region(regions.size(), -1);
     for (const int region : dunes) {
       row_of_region[region] = static_cast<int>(found.rows.size());
-      found.rows.push_back(finish(regions_[region]));
+      found.rows.push_back(finish(regions[region]));
       found.rows.back().dune = row_of_region[region];
     }
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
-      const int region = map_.region_of(p);
+    for (std::size_t p = 0; p < grains.size(); ++p) {
+      const int region = map.region_of(p);
       found.of_grain.push_back(region < 0 ? -1 : row_of_region[region]);
     }
     return found;
   }
 
- private:
   /// Calls f(p, region, x, z) for each grain of a region, with its unwrapped centre.
   template <class F>
   void for_each_grain(const F& f) {
-    for (std::size_t p = 0; p < grains_.diameters.size(); ++p) {
-      const int region = map_.region_of(p);
+    for (std::size_t p = 0; p < grains.size(); ++p) {
+      const int region = map.region_of(p);
       if (region < 0) continue;
-      const auto [x, z] = map_.unwrapped(grains_, p);
-      f(p, regions_[region], x, z);
+      const auto [x, z] = map.unwrapped(grains, p);
+      f(p, regions[region], x, z);
     }
   }
   /// Calls f(b, region, x, z) for each bin of a region, with its unwrapped centre.
   template <class F>
   void for_each_bin(const F& f) {
-    for (std::size_t b = 0; b < map_.bins.size(); ++b) {
-      const HeightMap::Bin& bin = map_.bins[b];
+    for (std::size_t b = 0; b < map.bins.size(); ++b) {
+      const HeightMap::Bin& bin = map.bins[b];
       if (bin.region < 0) continue;
-      const auto [x, z] = map_.unwrapped_centre(bin);
-      f(b, regions_[bin.region], x, z);
+      const auto [x, z] = map.unwrapped_centre(bin);
+      f(b, regions[bin.region], x, z);
     }
   }
   [[nodiscard]] bool in_strip(double z, const Region& region) const {
-    const double half_width = criteria_.centreline_half_width * map_.mean_diameter;
+    const double half_width = criteria.centreline_half_width * map.mean_diameter;
     return std::abs(z - region.row.cz) < half_width;
   }
 
   /// Number, volume, centroid, extents.
   void sum_grains() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
-      const double d = grains_.diameters[p], volume = std::numbers::pi / 6.0 * d * d * d;
+      const double d = grains[p].d, volume = std::numbers::pi / 6.0 * d * d * d;
       DuneRow& row = region.row;
       ++row.n_grains;
       row.volume += volume;
       row.cx += volume * x;
-      row.cy += volume * grains_.centres[3 * p + 1];
+      row.cy += volume * grains[p].x.y;
       row.cz += volume * z;
-      if (!grains_.u_x.empty()) row.flux += volume * grains_.u_x[p];
+      row.flux += volume * grains[p].u_x;
       region.x.include(x - 0.5 * d, x + 0.5 * d);
       region.z.include(z - 0.5 * d, z + 0.5 * d);
     });
     for_each_bin([](std::size_t, Region& region, double, double) { ++region.n_bins; });
-    const double bin_area = map_.bin_x * map_.bin_z;
-    for (Region& region : regions_) {
+    const double bin_area = map.bin_x * map.bin_z;
+    for (Region& region : regions) {
       region.row.flux /= region.n_bins * bin_area;
       region.row.cx /= region.row.volume;
       region.row.cy /= region.row.volume;
@@ -125,20 +121,20 @@ class DuneMeasurement {
   /// H over the region; crest_x on the centreline. The strip may miss every bin centre only when
   /// the dune has no sand there, and crest_x then stays at Cx.
   void find_crests() {
-    std::vector<double> surface(map_.bins.size(), 0.0);
+    std::vector<double> surface(map.bins.size(), 0.0);
     for_each_bin([&](std::size_t b, Region& region, double, double z) {
-      surface[b] = map_.smoothed_surface(map_.bins[b]);
+      surface[b] = map.smoothed_surface(map.bins[b]);
       region.row.h = std::max(region.row.h, surface[b]);
       if (in_strip(z, region)) region.crest_height = std::max(region.crest_height, surface[b]);
     });
     for_each_bin([&](std::size_t b, Region& region, double x, double z) {
-      const double band = std::max(0.05 * region.crest_height, 0.5 * map_.mean_diameter);
+      const double band = std::max(0.05 * region.crest_height, 0.5 * map.mean_diameter);
       const double weight = surface[b] - (region.crest_height - band);
       if (weight <= 0.0 || !in_strip(z, region)) return;
       region.crest_weight += weight;
       region.row.crest_x += weight * x;
     });
-    for (Region& region : regions_) {
+    for (Region& region : regions) {
       DuneRow& row = region.row;
       row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.cx;
     }
@@ -146,15 +142,10 @@ class DuneMeasurement {
 
   /// The strip along the centreline, and the most downstream edge on either side of it.
   void collect_outlines() {
-    for (Region& region : regions_) {
-      region.first_column = static_cast<int>(std::floor(region.x.low / map_.bin_x)) - 1;
-      const int last = static_cast<int>(std::floor(region.x.high / map_.bin_x)) + 1;
-      region.strip.resize(last - region.first_column + 1);
-    }
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
-      const double radius = 0.5 * grains_.diameters[p];
+      const double radius = 0.5 * grains[p].d;
       if (in_strip(z, region)) {
-        const int column = map_.bins[map_.bin_of_grain[p]].ux - region.first_column;
+        const int column = map.bins[map.bin_of_grain[p]].ux;
         region.strip[column].include(x - radius, x + radius);
       } else {
         double& tip = z < region.row.cz ? region.left_tip : region.right_tip;
@@ -163,55 +154,45 @@ class DuneMeasurement {
     });
   }
 
-  /// From toe to lee foot: the columns around the crest that hold sand without a gap.
+  /// From toe to lee foot: the columns around the crest that hold sand without a gap. Of a strip
+  /// that is not empty.
   [[nodiscard]] Extent centreline(const Region& region) const {
-    const double column = region.row.crest_x / map_.bin_x - region.first_column;
-    const int n = static_cast<int>(region.strip.size());
-    int crest = -1;
-    for (int i = 0; i < n; ++i) {
-      if (region.strip[i].empty()) continue;
-      if (crest < 0 || std::abs(i + 0.5 - column) < std::abs(crest + 0.5 - column)) crest = i;
-    }
+    const double column = region.row.crest_x / map.bin_x;
+    const auto from_crest = [&](const auto& entry) { return std::abs(entry.first + 0.5 - column); };
+    const auto crest = std::ranges::min_element(region.strip, {}, from_crest);
     Extent line;
-    if (crest < 0) return line;
-    for (int i = crest; i >= 0 && !region.strip[i].empty(); --i)
-      line.include(region.strip[i].low, region.strip[i].high);
-    for (int i = crest; i < n && !region.strip[i].empty(); ++i)
-      line.include(region.strip[i].low, region.strip[i].high);
+    for (const int step : {-1, 1}) {
+      for (int i = crest->first; region.strip.contains(i); i += step)
+        line.include(region.strip.at(i).low, region.strip.at(i).high);
+    }
     return line;
   }
 
   [[nodiscard]] DuneRow finish(const Region& region) const {
     DuneRow row = region.row;
-    const Extent line = centreline(region);
-    if (line.empty()) {
+    if (region.strip.empty()) {
       row.l = region.x.size();
     } else {
+      const Extent line = centreline(region);
       row.l = line.size();
       row.horn_left = std::max(0.0, region.left_tip - line.high);
       row.horn_right = std::max(0.0, region.right_tip - line.high);
     }
     row.w = region.z.size();
-    if (domain_.periodic_z) row.w = std::min(row.w, domain_.length_z);
-    if (domain_.periodic_x) row.l = std::min(row.l, domain_.length_x);
-    row.cx = to_period(row.cx, domain_.length_x, domain_.periodic_x);
-    row.cz = to_period(row.cz, domain_.length_z, domain_.periodic_z);
-    row.crest_x = to_period(row.crest_x, domain_.length_x, domain_.periodic_x);
+    if (domain.periodic_z) row.w = std::min(row.w, domain.length_z);
+    if (domain.periodic_x) row.l = std::min(row.l, domain.length_x);
+    row.cx = to_period(row.cx, domain.length_x, domain.periodic_x);
+    row.cz = to_period(row.cz, domain.length_z, domain.periodic_z);
+    row.crest_x = to_period(row.crest_x, domain.length_x, domain.periodic_x);
     row.celerity = not_known;
     return row;
   }
-
-  GrainCloud grains_;
-  DuneDomain domain_;
-  DuneCriteria criteria_;
-  HeightMap map_;
-  std::vector<Region> regions_;
 };
 
 }  // namespace
 
-Dunes find_dunes(const GrainCloud& grains, const DuneDomain& domain, const DuneCriteria& criteria) {
-  return DuneMeasurement(grains, domain, criteria).run();
+Dunes find_dunes(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria) {
+  return DuneMeasurement{grains, domain, criteria}.run();
 }
 
 }  // namespace barchan

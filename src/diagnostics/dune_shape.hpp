@@ -51,13 +51,6 @@ struct Dunes {
 ///            the strip; zero for a heap
 /// When the strip is empty (no sand on the centreline) L is the whole extent in x, the horns zero.
 /// Coordinates are in [0, length) along periodic directions; extents never exceed the period.
-Dunes find_dunes(const GrainCloud& grains, const DuneDomain& domain,
-                 const DuneCriteria& criteria = {});
-
-/// The rows alone.
-inline std::vector<DuneRow> measure_dunes(const GrainCloud& grains, const DuneDomain& domain,
-                                          const DuneCriteria& criteria = {}) {
-  return find_dunes(grains, domain, criteria).rows;
-}
+Dunes find_dunes(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria = {});
 
 }  // namespace barchan

@@ -10,18 +10,10 @@ namespace {
 struct Quantity {
   const char *name, *units;
 };
-constexpr std::array<Quantity, n_flow_moments> quantities{{{"u", "m/s"},
-                                                           {"v", "m/s"},
-                                                           {"w", "m/s"},
-                                                           {"p", "Pa"},
-                                                           {"alpha_f", "1"},
-                                                           {"nu_t", "m^2/s"},
-                                                           {"uu", "m^2/s^2"},
-                                                           {"vv", "m^2/s^2"},
-                                                           {"ww", "m^2/s^2"},
-                                                           {"uv", "m^2/s^2"},
-                                                           {"uw", "m^2/s^2"},
-                                                           {"vw", "m^2/s^2"}}};
+constexpr Quantity quantities[n_flow_moments] = {
+    {"u", "m/s"},      {"v", "m/s"},      {"w", "m/s"},      {"p", "Pa"},
+    {"alpha_f", "1"},  {"nu_t", "m^2/s"}, {"uu", "m^2/s^2"}, {"vv", "m^2/s^2"},
+    {"ww", "m^2/s^2"}, {"uv", "m^2/s^2"}, {"uw", "m^2/s^2"}, {"vw", "m^2/s^2"}};
 
 template <std::size_t n>
 void make(std::array<Field, n>& fields, const Grid& grid) {
@@ -70,7 +62,7 @@ std::vector<NamedField> FlowAverage::means() {
                           .first_v = first_[1],
                           .first_w = first_[2],
                           .per_sample = 1 / static_cast<double>(n_samples_)});
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
+  for (std::size_t q = 0; q < std::size(quantities); ++q) {
     named.push_back({quantities[q].name, quantities[q].units, &result_[q]});
   }
   return named;

@@ -17,7 +17,6 @@ class FlowAverage {
 
   /// Ghosts of the flow must be valid.
   void sample(const FluidState& fluid, double t);
-  std::int64_t n_samples() const { return n_samples_; }
 
   /// u, v, w, p, alpha_f, nu_t and uu, vv, ww, uv, uw, vw, in this order. Nothing without samples.
   std::vector<NamedField> means();

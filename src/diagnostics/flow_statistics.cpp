@@ -3,57 +3,43 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "src/base/atomic_file.hpp"
-#include "src/parallel/communicator.hpp"
-#include "src/parallel/decomposition.hpp"
+#include "src/parallel/exchange.hpp"
 
 namespace barchan {
 
 FlowStatistics::FlowStatistics(const FluidConfig& config, const Grid& grid)
     : grid_(grid),
       viscosity_(config.kinematic_viscosity),
-      sums_("statistics: plane sums", static_cast<std::size_t>(grid.ny) + 1),
-      all_("statistics: sums of all ranks", static_cast<std::size_t>(grid.ny) + 1) {}
+      sample_("statistics: plane sums", static_cast<std::size_t>(grid.ny) + 1),
+      sums_("statistics: sums of all samples", static_cast<std::size_t>(grid.ny) + 1) {}
 
 void FlowStatistics::sample(const FluidState& fluid) {
+  Kokkos::deep_copy(sample_, PlaneSums{});
   const StressDivergence stress{grid_, fluid.u, fluid.nu_t, viscosity_};
-  const PlaneSample sample{grid_, fluid.u, fluid.p, fluid.nu_t, stress};
   Kokkos::parallel_for("statistics: plane sums", Kokkos::TeamPolicy<>(grid_.ny + 1, Kokkos::AUTO),
-                       AddPlaneMeans{sample, sums_});
-  if (grid_.ranks) add_ranks();
-  ++n_samples_;
-}
-
-/// The sample of all ranks, added to what is known so far: a restart then goes on with the same
-/// bits.
-void FlowStatistics::add_ranks() {
+                       AddPlaneMeans{grid_, fluid.u, fluid.p, fluid.nu_t, stress, sample_});
+  // Summed over ranks before it is added: a restart then goes on with the same bits.
   static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
-  const auto sample = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
-  MPI_Allreduce(MPI_IN_PLACE, sample.data(),
-                static_cast<int>(sample.size()) * PlaneSums::n_quantities, MPI_DOUBLE, MPI_SUM,
-                grid_.ranks->all());
-  for (std::size_t j = 0; j < sample.size(); ++j) all_(j) += sample(j);
-  Kokkos::deep_copy(sums_, PlaneSums{});
-}
-
-FlowStatistics::HostSums FlowStatistics::sums() const {
-  if (grid_.ranks) return all_;
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sums_);
+  const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sample_);
+  const std::span<Real> numbers(row.data()->value, row.size() * PlaneSums::n_quantities);
+  all_reduce(ranks_of(grid_), numbers, MPI_SUM);
+  for (std::size_t j = 0; j < row.size(); ++j) sums_(j) += row(j);
+  ++n_samples_;
 }
 
 FlowStatisticsTable FlowStatistics::table() const {
   using Q = PlaneSums;
-  const HostSums sum = sums();
   const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid_.y_face_);
   const double per_sample =
       1 / (static_cast<double>(n_samples_) * grid_.nx_all * static_cast<double>(grid_.nz_all));
   const auto mean = [&](int j, Q::Quantity q) {
-    return sum(static_cast<std::size_t>(j)).value[q] * per_sample;
+    return sums_(static_cast<std::size_t>(j)).value[q] * per_sample;
   };
   const auto at_centre = [&](int j, Q::Quantity q) { return (mean(j, q) + mean(j + 1, q)) / 2; };
   FlowStatisticsTable table;
-  table.n_samples = n_samples_;
   table.u_star = std::sqrt(std::abs(mean(0, Q::stress)));
   for (int j = 0; j < grid_.ny; ++j) {
     const double u = mean(j, Q::u), w = mean(j, Q::w);
@@ -88,23 +74,19 @@ void FlowStatistics::write(const std::filesystem::path& file) const {
                                r.subgrid, r.total, r.p, r.nu_t}) {
       text += fmt::format(",{:.9g}", value);
     }
-    text += fmt::format(",{}\n", t.n_samples);
+    text += fmt::format(",{}\n", n_samples_);
   }
   if (rank_of(grid_) == 0) write_atomically(file, text);
 }
 
 void FlowStatistics::save(CheckpointWriter& file) const {
-  file.array("statistics/sums", sums());
+  file.array("statistics/sums", sums_);
   file.scalar("statistics/n_samples", n_samples_);
 }
 
 void FlowStatistics::load(const CheckpointReader& file) {
   if (!file.has("statistics/n_samples")) return;
-  if (grid_.ranks) {
-    file.array("statistics/sums", all_);
-  } else {
-    file.array("statistics/sums", sums_);
-  }
+  file.array("statistics/sums", sums_);
   n_samples_ = file.integer("statistics/n_samples");
 }
 

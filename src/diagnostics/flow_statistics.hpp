@@ -21,7 +21,6 @@ struct StatisticsRow {
 };
 
 struct FlowStatisticsTable {
-  std::int64_t n_samples = 0;
   double u_star = 0;  // of the mean shear at the floor [m/s]
   std::vector<StatisticsRow> rows;
 };
@@ -41,15 +40,10 @@ class FlowStatistics {
   void load(const CheckpointReader& file);
 
  private:
-  using HostSums = Kokkos::View<PlaneSums*, Kokkos::HostSpace>;
-  /// Of all ranks and samples.
-  HostSums sums() const;
-  void add_ranks();
-
   Grid grid_;
   double viscosity_;
-  Kokkos::View<PlaneSums*> sums_;  // of all samples; where the grid is cut, of the present one
-  HostSums all_;                   // there, of all samples
+  Kokkos::View<PlaneSums*> sample_;                   // of this rank
+  Kokkos::View<PlaneSums*, Kokkos::HostSpace> sums_;  // of all ranks and samples
   std::int64_t n_samples_ = 0;
 };
 

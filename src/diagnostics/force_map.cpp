@@ -5,25 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "src/base/atomic_file.hpp"
 
 namespace barchan {
 
-void ForceMap::sample(double t, const GrainCloud& grains, std::span<const Vec3> force) {
-  const std::vector<DuneRow> dunes = measure_dunes(grains, domain_);
+void ForceMap::sample(double t, GrainCloud grains, std::span<const Vec3> force) {
+  const std::vector<DuneRow> dunes = find_dunes(grains, domain_).rows;
   if (dunes.empty()) return;
   const DuneRow& dune = dunes.front();
   if (step_ == 0) {  // kept: grains that leave must not move the bins
-    const double sum = std::accumulate(grains.diameters.begin(), grains.diameters.end(), 0.0);
-    step_ = bin_diameters * sum / static_cast<double>(grains.diameters.size());
+    double sum = 0;
+    for (const CloudGrain& grain : grains) sum += grain.d;
+    step_ = bin_diameters * sum / static_cast<double>(grains.size());
     start_ = t;
   }
   end_ = t;
   for (std::size_t g = 0; g < force.size(); ++g) {
-    const double x = domain_.nearest_x(grains.centres[3 * g] - dune.cx);
-    const double z = domain_.nearest_z(grains.centres[3 * g + 2] - dune.cz);
+    const double x = domain_.nearest_x(grains[g].x.x - dune.cx);
+    const double z = domain_.nearest_z(grains[g].x.z - dune.cz);
     const double turns = std::atan2(-z, x) / (2 * std::numbers::pi);
     const auto a = static_cast<std::size_t>((turns - std::floor(turns)) * n_angles) % n_angles;
     const double r = std::hypot(x, z) / step_;
@@ -38,15 +38,14 @@ void ForceMap::write(const std::filesystem::path& file) const {
   if (step_ == 0) return;
   std::string text = "r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end\n";
   const double angle = 360.0 / n_angles;
-  for (int a = 0; a < n_angles; ++a) {
-    for (int r = 0; r < n_radii; ++r) {
-      const Bin& bin = bins_[static_cast<std::size_t>(a) * n_radii + static_cast<std::size_t>(r)];
-      if (bin.n == 0) continue;
-      const Vec3 mean = (1 / bin.n) * bin.force;
-      text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
-                          r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
-                          mean.y, mean.z, start_, end_);
-    }
+  for (int b = 0; b < n_angles * n_radii; ++b) {
+    const Bin& bin = bins_[static_cast<std::size_t>(b)];
+    if (bin.n == 0) continue;
+    const int a = b / n_radii, r = b % n_radii;
+    const Vec3 mean = (1 / bin.n) * bin.force;
+    text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
+                        r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
+                        mean.y, mean.z, start_, end_);
   }
   write_atomically(file, text);
 }

@@ -24,7 +24,7 @@ class ForceMap {
       : domain_(domain), bins_(std::size_t{n_radii} * n_angles) {}
 
   /// force: resultant on each grain [N], rows as in the cloud. Nothing while there is no dune.
-  void sample(double t, const GrainCloud& grains, std::span<const Vec3> force);
+  void sample(double t, GrainCloud grains, std::span<const Vec3> force);
 
   struct Bin {
     double n = 0;  // grain samples

@@ -5,29 +5,51 @@
 
 #include "src/diagnostics/dune_shape.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/parallel/communicator.hpp"
 
 namespace barchan {
 
-/// Numbers of the rows of all ranks, one rank after the other; on ranks other than 0 nothing. All
-/// ranks together.
-std::vector<double> on_rank_0(MPI_Comm ranks, const std::vector<double>& mine);
+/// On rank 0: how many numbers each rank has, and where these begin among all; on others nothing.
+struct RankShares {
+  std::vector<int> counts, starts{0};
+  RankShares(MPI_Comm ranks, int n) : counts(static_cast<std::size_t>(rank_count(ranks))) {
+    MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, ranks);
+    for (const int count : counts) starts.push_back(starts.back() + count);
+  }
+};
+
+/// Rows of doubles of all ranks, one rank after the other; on ranks other than 0 nothing. All ranks
+/// together.
+template <class Row>
+std::vector<Row> on_rank_0(MPI_Comm ranks, const std::vector<Row>& mine) {
+  if (rank_count(ranks) == 1) return mine;
+  constexpr std::size_t width = sizeof(Row) / sizeof(double);
+  const int n = static_cast<int>(mine.size() * width);
+  const RankShares of(ranks, n);
+  std::vector<Row> all(static_cast<std::size_t>(of.starts.back()) / width);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), of.counts.data(), of.starts.data(),
+              MPI_DOUBLE, 0, ranks);
+  return all;
+}
 
 /// The reverse: rank 0 has a number for each row of all ranks, in the same order; each rank gets
 /// those of its n rows. All ranks together.
-std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all, int n);
+inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all, int n) {
+  if (rank_count(ranks) == 1) return all;
+  const RankShares of(ranks, n);
+  std::vector<int> mine(static_cast<std::size_t>(n));
+  MPI_Scatterv(all.data(), of.counts.data(), of.starts.data(), MPI_INT, mine.data(), n, MPI_INT, 0,
+               ranks);
+  return mine;
+}
 
-/// Positions, diameters and velocities along x as the dune analytics take them.
-class GatheredGrains {
- public:
-  /// All ranks together; empty on ranks other than 0.
-  explicit GatheredGrains(const GrainState& grains);
-  GrainCloud cloud() const { return {centres_, diameters_, u_x_}; }
-
- private:
-  std::vector<double> centres_, diameters_, u_x_;
-};
-
-/// A vector of each grain, in the same order.
-std::vector<Vec3> gathered(const GrainState& grains, const Kokkos::View<Vec3*>& of_grain);
+/// All grains as the dune analytics take them. All ranks together; empty on ranks other than 0.
+inline std::vector<CloudGrain> gathered_grains(const GrainState& grains) {
+  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  std::vector<CloudGrain> mine;
+  for (int g = 0; g < grains.n; ++g)
+    mine.push_back({.x = kin(g).x, .d = 2 * kin(g).r, .u_x = kin(g).u.x});
+  return on_rank_0(grains.ranks, mine);
+}
 
 }  // namespace barchan

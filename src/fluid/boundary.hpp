@@ -4,6 +4,7 @@
 #include "kernels/fluid/boundary_values.hpp"
 #include "src/config/config.hpp"
 #include "src/parallel/halo.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
@@ -19,7 +20,11 @@ enum class FieldKind { velocity_x, velocity_y, velocity_z, scalar, eddy_viscosit
 /// | eddy_viscosity    | opposite  | same      | periodic |
 ///
 /// * the upper wall may move along x.
-GhostRule ghost_rule(FieldKind kind, WallFlow wall);
+inline GhostRule ghost_rule(FieldKind kind, WallFlow wall) {
+  if (kind == FieldKind::velocity_y) return GhostRule::wall_face;
+  const bool follows_wall = kind != FieldKind::scalar && wall == WallFlow::no_slip;
+  return follows_wall ? GhostRule::opposite : GhostRule::same;
+}
 
 /// Fills ghost cells: the walls at y = 0 and y = Ly by the table, x and z through the halo.
 class Boundary {
@@ -28,13 +33,25 @@ class Boundary {
   Boundary(const Grid& grid, WallFlow bottom, WallFlow top, Real top_velocity = 0)
       : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
-  void fill(Field& f, FieldKind kind) const;
-  void fill_velocity(FaceVector& u) const;
+  void fill(Field& f, FieldKind kind) const {
+    for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+                  FillWallGhosts{.f = f,
+                                 .ny = grid_.ny,
+                                 .bottom = ghost_rule(kind, bottom_),
+                                 .top = ghost_rule(kind, top_),
+                                 .top_value = kind == FieldKind::velocity_x ? top_velocity_ : 0});
+    halo_.fill(f);
+  }
+  void fill_velocity(FaceVector& u) const {
+    fill(u.x, FieldKind::velocity_x);
+    fill(u.y, FieldKind::velocity_y);
+    fill(u.z, FieldKind::velocity_z);
+  }
   /// Only x and z, for face vectors that no wall rule applies to.
-  void fill_periodic(FaceVector& f) const;
+  void fill_periodic(FaceVector& f) const {
+    for (Field* component : {&f.x, &f.y, &f.z}) halo_.fill(*component);
+  }
   const Halo& halo() const { return halo_; }
-  WallFlow bottom() const { return bottom_; }
-  WallFlow top() const { return top_; }
 
  private:
   Grid grid_;

@@ -13,9 +13,9 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   grid.nx = grid.nx_all = nx;
   grid.ny = static_cast<int>(y_faces.size()) - 1;
   grid.nz = grid.nz_all = nz;
-  grid.lx = grid.lx_all = lx;
+  grid.lx = lx;
   grid.ly = y_faces.back() - y_faces.front();
-  grid.lz = grid.lz_all = lz;
+  grid.lz = lz;
   grid.dx = lx / nx;
   grid.dz = lz / nz;
   if (ranks) {
@@ -23,10 +23,6 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
     grid.nz = ranks->z().count(ranks->along_z().position);
     grid.i_begin = ranks->x().begin(ranks->along_x().position);
     grid.k_begin = ranks->z().begin(ranks->along_z().position);
-    grid.x0 = grid.i_begin * grid.dx;
-    grid.z0 = grid.k_begin * grid.dz;
-    grid.lx = grid.nx * grid.dx;
-    grid.lz = grid.nz * grid.dz;
     grid.ranks = ranks;
   }
   grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);

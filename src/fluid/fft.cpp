@@ -14,8 +14,9 @@ StridedArray array(const Spectrum& s) {
   return contiguous(reinterpret_cast<Real*>(s.data()),
                     {s.extent_int(0), s.extent_int(1), s.extent_int(2)});
 }
-Spectrum spectrum_of(const char* label, const std::array<int, 3>& extents) {
-  return Spectrum(label, extents[0], extents[1], extents[2]);
+template <class View>
+View view_of(const char* label, const std::array<int, 3>& extents) {
+  return View(label, extents[0], extents[1], extents[2]);
 }
 
 /// Lines of x where they are: in a field, or one after the other.
@@ -40,17 +41,13 @@ PlaneFft::PlaneFft(const Grid& grid)
           along_z(grid).position)),
       first_z_(
           Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).position)) {
-  if (!rows_.is_trivial()) {
-    const auto [nx, rows, planes] = rows_.joined_extents();
-    lines_of_x_ = Kokkos::View<Real*>("fft: lines of x", static_cast<std::size_t>(nx) *
-                                                             static_cast<std::size_t>(rows) *
-                                                             static_cast<std::size_t>(planes));
-  }
+  if (!rows_.is_trivial())
+    lines_of_x_ = view_of<Field::Storage>("fft: lines of x", rows_.joined_extents());
   if (!planes_.is_trivial())
-    modes_of_rows_ = spectrum_of("fft: modes of rows", planes_.cut_extents());
+    modes_of_rows_ = view_of<Spectrum>("fft: modes of rows", planes_.cut_extents());
   if (!columns_.is_trivial())
-    modes_of_planes_ = spectrum_of("fft: modes of planes", planes_.joined_extents());
-  spectrum_ = spectrum_of("fft: spectrum", columns_.joined_extents());
+    modes_of_planes_ = view_of<Spectrum>("fft: modes of planes", planes_.joined_extents());
+  spectrum_ = view_of<Spectrum>("fft: spectrum", columns_.joined_extents());
 }
 
 PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
@@ -58,14 +55,16 @@ PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
   return {planes_.is_trivial() ? planes : modes_of_rows_, planes};
 }
 
+StridedArray PlaneFft::lines_of_x(const Field& f) const {
+  if (rows_.is_trivial()) return inside(f);
+  return contiguous(lines_of_x_.data(), rows_.joined_extents());
+}
+
 void PlaneFft::forward(const Field& in, const Spectrum& out) const {
   const Stages stage = stages(out);
-  if (rows_.is_trivial()) {
-    lines_.forward_x(in.origin, stage.rows.data());
-  } else {
-    rows_.join(inside(in), contiguous(lines_of_x_.data(), rows_.joined_extents()));
-    lines_.forward_x(lines_of_x_.data(), stage.rows.data());
-  }
+  const StridedArray lines = lines_of_x(in);
+  if (!rows_.is_trivial()) rows_.join(inside(in), lines);
+  lines_.forward_x(lines.data, stage.rows.data());
   if (!planes_.is_trivial()) planes_.join(array(stage.rows), array(stage.planes));
   lines_.forward_z(stage.planes.data());
   if (!columns_.is_trivial()) columns_.join(array(stage.planes), array(out));
@@ -76,12 +75,9 @@ void PlaneFft::backward(const Spectrum& in, Field& out) const {
   if (!columns_.is_trivial()) columns_.cut(array(in), array(stage.planes));
   lines_.backward_z(stage.planes.data());
   if (!planes_.is_trivial()) planes_.cut(array(stage.planes), array(stage.rows));
-  if (rows_.is_trivial()) {
-    lines_.backward_x(stage.rows.data(), out.origin);
-  } else {
-    lines_.backward_x(stage.rows.data(), lines_of_x_.data());
-    rows_.cut(contiguous(lines_of_x_.data(), rows_.joined_extents()), inside(out));
-  }
+  const StridedArray lines = lines_of_x(out);
+  lines_.backward_x(stage.rows.data(), lines.data);
+  if (!rows_.is_trivial()) rows_.cut(lines, inside(out));
 }
 
 }  // namespace barchan

@@ -36,10 +36,11 @@ class PlaneFft {
     Spectrum rows, planes;  // (all kx, y', z), (kx', y', all z)
   };
   Stages stages(const Spectrum& modes) const;
+  StridedArray lines_of_x(const Field& f) const;
 
   Transpose rows_, planes_, columns_;  // that make the lines of x, the lines of z, the rows whole
   LineFft lines_;
-  Kokkos::View<Real*> lines_of_x_;
+  Field::Storage lines_of_x_;
   Spectrum modes_of_rows_, modes_of_planes_;  // empty where not needed
   int first_x_ = 0, first_z_ = 0;
   Spectrum spectrum_;

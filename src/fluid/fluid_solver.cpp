@@ -40,20 +40,18 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
       u_star_(make_faces_in_one_piece("fluid: u star", grid)),
+      flux_(config.grains ? make_faces_in_one_piece("fluid: alpha u", grid) : FaceVector{}),
+      mobility_(config.grains ? make_faces_in_one_piece("fluid: mobility", grid) : FaceVector{}),
       source_("fluid: pressure source", grid),
       c_w_delta_("fluid: filter width", grid.ny) {
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
-  if (config.grains) make_coupled_fields();
-}
-
-void FluidSolver::make_coupled_fields() {
-  flux_ = make_faces_in_one_piece("fluid: alpha u", grid_);
-  mobility_ = make_faces_in_one_piece("fluid: mobility", grid_);
 }
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  begin_step(fluid, exchange != nullptr);
+  report_ = {};
+  if (exchange != nullptr) fill_fraction_ghosts(fluid);
+  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
   update_eddy_viscosity(fluid);                    // nu_t
   predict(fluid, exchange, dt);                    // u*
   choose_drive(fluid, exchange, dt);               // f that gives the wanted bulk velocity
@@ -65,20 +63,16 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   return report_;
 }
 
-void FluidSolver::begin_step(FluidState& fluid, bool coupled) {
-  report_ = {};
-  if (coupled) {
-    boundary_.fill(fluid.alpha_f, FieldKind::scalar);
-    boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
-  }
-  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
+void FluidSolver::fill_fraction_ghosts(FluidState& fluid) const {
+  boundary_.fill(fluid.alpha_f, FieldKind::scalar);
+  boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
 }
 
 void FluidSolver::fill_ghosts(FluidState& fluid) const {
   boundary_.fill_velocity(fluid.u);
-  for (Field* f : {&fluid.p, &fluid.p_previous, &fluid.alpha_f, &fluid.alpha_f_previous}) {
-    boundary_.fill(*f, FieldKind::scalar);
-  }
+  boundary_.fill(fluid.p, FieldKind::scalar);
+  boundary_.fill(fluid.p_previous, FieldKind::scalar);
+  fill_fraction_ghosts(fluid);
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
@@ -91,7 +85,6 @@ void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
 
 /// alpha u of the old time level, with ghosts.
 void FluidSolver::update_mass_flux(const FluidState& fluid) {
-  if (flux_.x.origin == nullptr) make_coupled_fields();
   // Scratch memory: others may have used these fields since.
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
@@ -102,7 +95,7 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
 
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& alpha,
-                       const ExchangeRef& on_faces) {
+                       const ExchangeOnFaces& on_faces) {
     flow_rate_ =
         sum_each_cell("fluid: predict", grid_,
                       Predict<decltype(with_exchange)::value>{
@@ -113,7 +106,8 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
                           .alpha_new = fluid.alpha_f,
                           .rate = fluid.rate_previous,
                           .u_star = u_star_,
-                          .exchange = on_faces,
+                          .impulse = on_faces.impulse,
+                          .implicit = on_faces.implicit,
                           .weight = weights(fluid, dt),
                           .per_density = 1 / config_.density});
   };
@@ -123,12 +117,6 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
     update_mass_flux(fluid);
     run(std::true_type{}, flux_, fluid.alpha_f_previous, *exchange);
   }
-}
-
-Real FluidSolver::target_bulk_velocity(const FluidState& fluid) const {
-  const Real share =
-      config_.ramp_time > 0 ? std::min(Real(1), fluid.time / config_.ramp_time) : Real(1);
-  return fluid.bulk_at_start + share * (config_.mean_velocity - fluid.bulk_at_start);
 }
 
 void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
@@ -144,9 +132,12 @@ void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchang
   if (config_.pressure_gradient) {
     fluid.drive = *config_.pressure_gradient / config_.density;
   } else if (config_.mean_velocity != 0) {
+    const Real share =
+        config_.ramp_time > 0 ? std::min(Real(1), fluid.time / config_.ramp_time) : Real(1);
+    const Real bulk = fluid.bulk_at_start + share * (config_.mean_velocity - fluid.bulk_at_start);
     // A bed takes part of what the drive gives, as the pressure drop over it does; about what it
     // took last.
-    const Real wanted = target_bulk_velocity(fluid) * fluid_height_ + fluid.flow_missed;
+    const Real wanted = bulk * fluid_height_ + fluid.flow_missed;
     fluid.drive = (wanted - flow_rate_) / (drive_response * dt);
   } else {
     fluid.drive = 0;

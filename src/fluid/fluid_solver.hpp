@@ -36,7 +36,8 @@ class FluidSolver {
   FluidSolver(const Config& config, const Grid& grid);
 
   /// One step. fluid.alpha_f holds the new fluid fraction and alpha_f_previous the old one in the
-  /// owned cells. Without exchange alpha_f must be one. On return all ghosts are valid.
+  /// owned cells. Without exchange alpha_f must be one; with it the configuration has grains. On
+  /// return all ghosts are valid.
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
 
   /// Makes all ghosts valid, to be called after a state was set or read.
@@ -64,12 +65,9 @@ class FluidSolver {
 
   const Boundary& boundary() const { return boundary_; }
   const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }
-  Real density() const { return config_.density; }
-  Real viscosity() const { return config_.kinematic_viscosity; }
 
  private:
-  void make_coupled_fields();
-  void begin_step(FluidState& fluid, bool coupled);
+  void fill_fraction_ghosts(FluidState& fluid) const;
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
@@ -81,7 +79,6 @@ class FluidSolver {
   template <bool with_grains>
   PressureSource<with_grains> pressure_source(const FaceVector& u, const FluidState& fluid,
                                               Real drive, Real dt);
-  Real target_bulk_velocity(const FluidState& fluid) const;
 
   FluidConfig config_;
   Real tolerance_;  // of the pressure equation

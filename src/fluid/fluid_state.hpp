@@ -25,8 +25,24 @@ struct FluidState {
 };
 
 /// Zero everywhere.
-FaceVector make_faces(const char* label, const Grid& grid);
+inline FaceVector make_faces(const char* label, const Grid& grid) {
+  return {Field(label, grid), Field(label, grid), Field(label, grid)};
+}
+
 /// Zero everywhere, alpha_f one.
-FluidState make_fluid_state(const Grid& grid);
+inline FluidState make_fluid_state(const Grid& grid) {
+  FluidState s{.grid = grid,
+               .u = make_faces("fluid: u", grid),
+               .p = Field("fluid: p", grid),
+               .p_previous = Field("fluid: p previous", grid),
+               .alpha_f = Field("fluid: alpha_f", grid),
+               .alpha_f_previous = Field("fluid: alpha_f previous", grid),
+               .nu_t = Field("fluid: nu_t", grid),
+               .rate_previous = make_faces("fluid: rate", grid),
+               .du_dt = make_faces("fluid: du/dt", grid)};
+  Kokkos::deep_copy(s.alpha_f.storage, Real(1));
+  Kokkos::deep_copy(s.alpha_f_previous.storage, Real(1));
+  return s;
+}
 
 }  // namespace barchan

@@ -17,7 +17,6 @@ namespace {
 using std::numbers::pi;
 using HostArray = Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace>;
 using HostRow = Kokkos::View<Real*, Kokkos::HostSpace>;
-using HostGrid = BasicGrid<HostRow>;
 
 constexpr double perturbation_rms = 0.1;  // over the bulk velocity
 constexpr int n_vortex_modes = 6;
@@ -126,6 +125,13 @@ struct Curl {
   }
 };
 
+/// Reichardt (1951): U+ = ln(1 + k y+) / k + 7.8 (1 - exp(-y+/11) - (y+/11) exp(-0.33 y+)), k =
+/// 0.41.
+double reichardt_profile(double y_plus) {
+  const double buffer = 1 - std::exp(-y_plus / 11) - y_plus / 11 * std::exp(-0.33 * y_plus);
+  return std::log(1 + 0.41 * y_plus) / 0.41 + 7.8 * buffer;
+}
+
 /// Mean velocity of every row [m/s], with the bulk velocity exact on the grid.
 HostRow mean_profile(const FluidNumbers& numbers, const Profile& profile, const HostGrid& rows,
                      double viscosity) {
@@ -160,11 +166,6 @@ void set_owned(Field& f, const Grid& grid, const Value& value) {
 }
 
 }  // namespace
-
-double reichardt_profile(double y_plus) {
-  const double buffer = 1 - std::exp(-y_plus / 11) - y_plus / 11 * std::exp(-0.33 * y_plus);
-  return std::log(1 + 0.41 * y_plus) / 0.41 + 7.8 * buffer;
-}
 
 void set_turbulent_flow(const Config& config, FluidState& fluid) {
   const Grid& grid = fluid.grid;

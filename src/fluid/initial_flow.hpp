@@ -13,8 +13,4 @@ namespace barchan {
 /// Ghosts are not set. `config.fluid` must be there.
 void set_turbulent_flow(const Config& config, FluidState& fluid);
 
-/// Reichardt (1951): U+ = ln(1 + k y+) / k + 7.8 (1 - exp(-y+/11) - (y+/11) exp(-0.33 y+)), k =
-/// 0.41.
-double reichardt_profile(double y_plus);
-
 }  // namespace barchan

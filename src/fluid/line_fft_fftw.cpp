@@ -2,6 +2,7 @@
 #include <fftw3.h>
 
 #include <stdexcept>
+#include <vector>
 
 #include "src/fluid/line_fft.hpp"
 #include "src/parallel/launch.hpp"
@@ -51,10 +52,9 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
   const int modes = x.n / 2 + 1, stride = z.lines * z.rows;
   const int row_stride = static_cast<int>(x.row_stride);
-  const Kokkos::View<Real*> real("fft: plan",
-                                 static_cast<std::size_t>(x.rows * x.row_stride + x.n));
-  const Kokkos::View<Kokkos::complex<Real>*> complex(
-      "fft: plan", static_cast<std::size_t>(std::max(modes * x.rows, stride * z.n)));
+  std::vector<Real> real(static_cast<std::size_t>(x.rows * x.row_stride + x.n));
+  std::vector<Kokkos::complex<Real>> complex(
+      static_cast<std::size_t>(std::max(modes * x.rows, stride * z.n)));
   fftw_complex* c = as_fftw(complex.data());
   if (x.rows > 0) {
     library_->x_forward = checked(fftw_plan_many_dft_r2c(1, &x.n, x.rows, real.data(), nullptr, 1,
@@ -62,12 +62,13 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
     library_->x_backward = checked(fftw_plan_many_dft_c2r(
         1, &x.n, x.rows, c, nullptr, 1, modes, real.data(), nullptr, 1, row_stride, flags));
   }
-  if (z.lines > 0) {
-    library_->z_forward = checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c,
-                                                     nullptr, stride, 1, FFTW_FORWARD, flags));
-    library_->z_backward = checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c,
-                                                      nullptr, stride, 1, FFTW_BACKWARD, flags));
-  }
+  if (z.lines == 0) return;
+  const auto along_z = [&](int sign) {
+    return checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c, nullptr, stride,
+                                      1, sign, flags));
+  };
+  library_->z_forward = along_z(FFTW_FORWARD);
+  library_->z_backward = along_z(FFTW_BACKWARD);
 }
 
 LineFft::~LineFft() = default;

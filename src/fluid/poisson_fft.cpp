@@ -16,35 +16,17 @@ Real eigenvalue(int m, int n, Real spacing) {
   return 4 * s * s / (spacing * spacing);
 }
 
-/// On a host all columns of a plane kz, side by side in vectors; on a device one column.
-struct SolveColumns {
-  ColumnSolve columns;
-  int n_modes;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int index) const {
-    if constexpr (runs_on_host) {
-      columns.solve(0, n_modes, index);
-    } else {
-      const int kx = index % n_modes;
-      columns.solve(kx, kx + 1, index / n_modes);
-    }
-  }
-};
-
 }  // namespace
 
 PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass,
                        Real diffusion)
     : fft_(std::move(fft)) {
+  const int ny = grid.ny;
   columns_.modes = fft_->spectrum();
-  columns_.ny = grid.ny;
+  columns_.ny = ny;
+  const int n_modes = columns_.modes.extent_int(0), planes = columns_.modes.extent_int(2);
   const bool has_constant = fft_->first_mode_x() == 0 && fft_->first_mode_z() == 0;
   columns_.singular = mass == 0 && has_constant && columns_.modes.span() > 0;
-  factorise(grid, mass, diffusion);
-}
-
-void PoissonFft::factorise(const Grid& grid, Real mass, Real diffusion) {
-  const int ny = grid.ny;
-  const int n_modes = columns_.modes.extent_int(0), planes = columns_.modes.extent_int(2);
   columns_.weight = Kokkos::View<Real*>("poisson: weight", ny);
   columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
   columns_.pivot = Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
@@ -78,8 +60,18 @@ void PoissonFft::solve(const Field& in, Field& out) const {
   fft_->forward(in, columns_.modes);
   const int n_modes = columns_.modes.extent_int(0);
   const int planes = n_modes > 0 ? columns_.modes.extent_int(2) : 0;
-  Kokkos::parallel_for("poisson: columns", items(runs_on_host ? planes : planes * n_modes),
-                       SolveColumns{columns_, n_modes});
+  const ColumnSolve columns = columns_;
+  // On a host all columns of a plane kz, side by side in vectors; on a device one column.
+  Kokkos::parallel_for(
+      "poisson: columns", items(runs_on_host ? planes : planes * n_modes),
+      KOKKOS_LAMBDA(int index) {
+        if (runs_on_host) {
+          columns.solve(0, n_modes, index);
+        } else {
+          const int kx = index % n_modes;
+          columns.solve(kx, kx + 1, index / n_modes);
+        }
+      });
   fft_->backward(columns_.modes, out);
 }
 

@@ -15,6 +15,8 @@ namespace barchan {
 class PoissonFft {
  public:
   /// mass [-] >= 0, diffusion [m^2] > 0. mass = 0: the mean of f is dropped, phi has zero mean.
+  /// mass = 1, diffusion = L^2: a step of diffusion, which spreads a field over the length L, keeps
+  /// its volume integral to round-off and makes no new extrema.
   /// `fft` may be shared between solvers of one grid, but not by solves at the same time.
   PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Real mass, Real diffusion);
 
@@ -22,18 +24,8 @@ class PoissonFft {
   void solve(const Field& in, Field& out) const;
 
  private:
-  void factorise(const Grid& grid, Real mass, Real diffusion);
-
   std::shared_ptr<const PlaneFft> fft_;
   ColumnSolve columns_;
 };
-
-/// One implicit step of diffusion, (1 - L^2 lap) q = f: spreads a field over the length L [m] with
-/// zero gradient on the walls. Keeps the volume integral to round-off, is self-adjoint in the
-/// volume-weighted inner product, and makes no new extrema.
-inline PoissonFft make_smoother(const Grid& grid, std::shared_ptr<const PlaneFft> fft,
-                                Real length) {
-  return PoissonFft(grid, std::move(fft), 1, length * length);
-}
 
 }  // namespace barchan

@@ -1,7 +1,7 @@
 // Copies of the grains of other ranks beside this one's columns.
 #pragma once
 
-#include "kernels/grains/grain_owners.hpp"
+#include "kernels/grains/search_columns.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/parallel/pack.hpp"
 
@@ -13,8 +13,7 @@ class GhostGrains {
  public:
   /// Copies every grain beside another rank's columns to that rank; the arrays that ghosts have are
   /// given room for them behind the grains.n owned rows. All ranks together.
-  void find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners,
-            MPI_Comm ranks);
+  void find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
   /// Position, velocity and spin of the ghosts as their owners have them now. All ranks together.
   void update(const Kokkos::View<GrainKinematics*>& kin);
 
@@ -22,8 +21,7 @@ class GhostGrains {
   const ExchangeCounts& counts() const { return counts_; }
 
   // Public only because nvcc takes no device lambda from a private function.
-  void choose(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners,
-              MPI_Comm ranks);
+  void choose(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
   void unpack(GrainState& grains, const SearchColumns& columns);
 
  private:

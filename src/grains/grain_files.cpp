@@ -67,18 +67,15 @@ InitialGrains read_last_frame(const Hdf5File& file) {
 
 InitialGrains read_restart(const std::filesystem::path& path) {
   const CheckpointReader file(path);
-  constexpr std::uint64_t width = checkpoint_detail::Stored<GrainKinematics>::count;
   InitialGrains grains;
-  grains.id = file.array<std::int64_t>("grains/id");
-  const std::size_t n = grains.id.size();
-  const auto numbers = file.array<double>("grains/kin", {n, width});
-  std::vector<GrainKinematics> kin(n);
-  if (n > 0) std::memcpy(static_cast<void*>(kin.data()), numbers.data(), n * sizeof(kin[0]));
-  for (const auto& grain : kin) {
-    grains.diameter.push_back(2.0 * grain.r);
-    grains.x.push_back(grain.x);
-    grains.u.push_back(grain.u);
-    grains.omega.push_back(grain.omega);
+  const auto id = file.array<std::int64_t>("grains/id");
+  const std::size_t n = id.size();
+  constexpr std::uint64_t width = checkpoint_detail::Stored<GrainKinematics>::count;
+  const auto numbers = file.array<double>("grains/kin", {n, width});  // Kokkos may not run yet
+  for (std::size_t g = 0; g < n; ++g) {
+    GrainKinematics kin;
+    std::memcpy(static_cast<void*>(&kin), numbers.data() + g * width, sizeof(kin));
+    grains.add(id[g], 2.0 * kin.r, kin.x, kin.u, kin.omega);
   }
   return grains;
 }

@@ -11,29 +11,27 @@ namespace barchan {
 
 namespace {
 
-/// Place on the curve (upper half) and work (lower half) of each grain, sorted.
-std::vector<std::uint64_t> work_by_place(const GrainState& grains, const SearchColumns& columns,
-                                         const Kokkos::View<const int*>& contacts) {
-  const Kokkos::View<std::uint64_t*> of_grain("partition: work",
-                                              static_cast<std::size_t>(grains.n));
+/// Place on the curve (upper half) and work (lower half) of each grain.
+Kokkos::View<std::uint64_t*> work_at_places(const GrainState& grains, const SearchColumns& columns,
+                                            const Kokkos::View<const int*>& contacts) {
+  const Kokkos::View<std::uint64_t*> work("partition: work", static_cast<std::size_t>(grains.n));
   const auto kin = grains.kin;
-  const bool has_contacts = contacts.extent(0) > 0;
   Kokkos::parallel_for(
       "partition: work", items(grains.n), KOKKOS_LAMBDA(int g) {
-        const int sides = has_contacts ? contacts(g + 1) - contacts(g) : 0;
-        of_grain(g) = (std::uint64_t{columns.place_of(kin(g).x)} << 32) |
-                      static_cast<std::uint64_t>(2 + sides);
+        const int sides = contacts(g + 1) - contacts(g);
+        work(g) = (std::uint64_t{columns.place_of(kin(g).x)} << 32) |
+                  static_cast<std::uint64_t>(2 + sides);
       });
-  const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, of_grain);
-  std::vector<std::uint64_t> sorted(here.data(), here.data() + here.size());
-  std::sort(sorted.begin(), sorted.end());
-  return sorted;
+  return work;
 }
 
 /// Work by place on the curve, of the grains of one rank.
 class WorkAlongCurve {
  public:
-  explicit WorkAlongCurve(std::vector<std::uint64_t> by_place) : grain_(std::move(by_place)) {
+  explicit WorkAlongCurve(const Kokkos::View<std::uint64_t*>& at_places) {
+    const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, at_places);
+    grain_.assign(here.data(), here.data() + here.size());
+    std::sort(grain_.begin(), grain_.end());
     for (const std::uint64_t grain : grain_)
       sum_.push_back(sum_.back() + static_cast<std::int64_t>(grain & 0xffffffffu));
   }
@@ -54,7 +52,7 @@ class WorkAlongCurve {
 std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& work,
                                        std::int64_t total, int count) {
   const auto n = static_cast<std::size_t>(count);
-  std::vector<std::int64_t> low(n, 0), high(n, std::int64_t{1} << 32), sum(n);
+  std::vector<std::int64_t> low(n, 0), high(n, 0xffffffff), sum(n);
   for (int bit = 0; bit < 32; ++bit) {
     for (std::size_t r = 0; r < n; ++r)
       sum[r] = work.before(static_cast<std::uint32_t>((low[r] + high[r]) / 2));
@@ -66,7 +64,6 @@ std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& wor
     }
   }
   high[0] = 0;
-  for (auto& start : high) start = std::min<std::int64_t>(start, 0xffffffff);
   return high;
 }
 
@@ -86,15 +83,15 @@ GrainPartition::GrainPartition(MPI_Comm ranks)
 void GrainPartition::balance(const GrainState& grains, const SearchColumns& columns,
                              const Kokkos::View<const int*>& contacts) {
   int sides = 0;
-  if (contacts.extent(0) > 0) Kokkos::deep_copy(sides, Kokkos::subview(contacts, grains.n));
+  Kokkos::deep_copy(sides, Kokkos::subview(contacts, grains.n));
   const std::int64_t mine = 2 * std::int64_t{grains.n} + sides;
   const std::int64_t total = sum_over(ranks_, mine);
   before_ = now_ = over_mean(max_over(ranks_, static_cast<Real>(mine)), total, count_);
   const Real tolerable = std::max(kWorstImbalance, 1 + 2 * (at_cut_ - 1));
   if (has_cut_ && before_ <= tolerable) return;
-  const bool first = !has_cut_;
-  const WorkAlongCurve work(work_by_place(grains, columns, contacts));
-  set_starts(equal_pieces(ranks_, work, total, count_));
+  const bool again = has_cut_;
+  const WorkAlongCurve work(work_at_places(grains, columns, contacts));
+  restore(equal_pieces(ranks_, work, total, count_), at_cut_);
   std::vector<std::int64_t> piece;  // what each rank will have, from here
   for (int r = 0; r < count_; ++r) {
     const std::int64_t end = r + 1 < count_ ? work.before(on_host_(r + 1)) : work.total();
@@ -103,7 +100,7 @@ void GrainPartition::balance(const GrainState& grains, const SearchColumns& colu
   sum_over(ranks_, piece);
   now_ = at_cut_ =
       over_mean(static_cast<Real>(*std::max_element(piece.begin(), piece.end())), total, count_);
-  if (!first) {
+  if (again) {
     report::info(
         "grains redistributed among {} ranks: the busiest had {:.3f} of the mean work and has "
         "{:.3f}",
@@ -111,16 +108,12 @@ void GrainPartition::balance(const GrainState& grains, const SearchColumns& colu
   }
 }
 
-void GrainPartition::set_starts(const std::vector<std::int64_t>& starts) {
+void GrainPartition::restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut) {
   for (int r = 0; r < count_; ++r)
     on_host_(r) = static_cast<std::uint32_t>(starts[static_cast<std::size_t>(r)]);
   Kokkos::deep_copy(start_, on_host_);
-  has_cut_ = true;
-}
-
-void GrainPartition::restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut) {
-  set_starts(starts);
   at_cut_ = imbalance_at_cut;
+  has_cut_ = true;
 }
 
 std::vector<std::int64_t> GrainPartition::starts() const {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/grains/grain_owners.hpp"
+#include "kernels/grains/search_columns.hpp"
 #include "src/grains/grain_state.hpp"
 
 namespace barchan {
@@ -21,8 +21,8 @@ class GrainPartition {
 
   /// Cuts anew if the work is shared worse than kWorstImbalance, and than twice the imbalance that
   /// was left at the last cut (columns are not cut). A grain counts one, and one half for each side
-  /// of a contact, which `contacts` holds under its grains (starts, or empty); moving a grain takes
-  /// about as long as a contact. All ranks together.
+  /// of a contact, which `contacts` holds under its grains (starts); moving a grain takes about as
+  /// long as a contact. All ranks together.
   void balance(const GrainState& grains, const SearchColumns& columns,
                const Kokkos::View<const int*>& contacts);
 
@@ -31,8 +31,6 @@ class GrainPartition {
   std::vector<std::int64_t> starts() const;
 
   GrainOwners owners() const { return {me_, start_}; }
-  MPI_Comm ranks() const { return ranks_; }
-  int count() const { return count_; }
   /// Place where this rank's columns begin.
   std::uint32_t origin() const { return on_host_(me_); }
   /// Work of the busiest rank over the mean at the last balance(), before its cut and after it.
@@ -42,14 +40,11 @@ class GrainPartition {
   Real imbalance_at_cut() const { return at_cut_; }
 
  private:
-  void set_starts(const std::vector<std::int64_t>& starts);
-
   MPI_Comm ranks_;
   int me_ = 0, count_ = 1;
   Kokkos::View<std::uint32_t*> start_;
   Kokkos::View<std::uint32_t*>::host_mirror_type on_host_;
-  Real before_ = 1, now_ = 1;
-  Real at_cut_ = 1;
+  Real before_ = 1, now_ = 1, at_cut_ = 1;
   bool has_cut_ = false;
 };
 

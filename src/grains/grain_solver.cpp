@@ -6,7 +6,6 @@
 
 #include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
-#include "kernels/grains/pair_forces.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -48,18 +47,24 @@ Friction friction_of(const Material& m, CoulombLimit limit) {
           .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
+KickAndDrift motion(const GrainState& grains, Real dt) {
+  return {.dt = dt,
+          .grains = grains.kin,
+          .contact_force = grains.contact_force,
+          .contact_torque = grains.contact_torque,
+          .x_reference = grains.x_reference,
+          .fluid = grains.fluid};
+}
+
 }  // namespace
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains)
-    : ranks_(grains.ranks),
-      list_(config, grains.r_max, grains.ranks),
+    : list_(config, grains.r_max, grains.ranks),
       pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
       wall_law_(make_law(*config.grains, config.grains->material, config.grains->wall)),
       rolling_(make_rolling(*config.grains)),
       pair_friction_(friction_of(config.grains->material, config.grains->coulomb_limit)),
-      wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)),
-      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit),
-      lx_(config.size[0]) {
+      wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)) {
   const auto add_walls = [&](Vec3 normal, Real distance) {
     if (distance <= 2 * grains.r_max) {
       throw std::runtime_error("domain.size: " + std::to_string(distance) +
@@ -92,47 +97,40 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
                           max_displacement(0));
 }
 
-/// A sub-step: forces at the new positions and second half kick, then, unless it is the last one,
+/// Sub-step s: forces at the new positions and second half kick, then, unless it is the last one,
 /// the first half kick and drift of the next one.
-template <class Stiffness, class Rolling>
-void GrainSolver::forces_kick_and_drift(const Stiffness& law, const Rolling& rolling,
-                                        const GrainState& grains, const SubStep& step) {
-  const PairForces<Stiffness, Rolling> pairs{.law = law,
-                                             .rolling = rolling,
-                                             .friction = pair_friction_,
-                                             .box = list_.box(),
-                                             .dt = step.dt,
-                                             .validity = {.displacement2 = displacement2_,
-                                                          .before = element(step.s),
-                                                          .limit = list_.limit()},
-                                             .grains = grains.kin,
-                                             .list = grains.list,
-                                             .keep_force = list_.with_force && step.is_last()};
-  const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
-  Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
-  const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, step.dt),
-                                             .pairs = pairs,
-                                             .walls = {.planes = walls_,
-                                                       .law = std::get<Stiffness>(wall_law_),
-                                                       .rolling = rolling,
-                                                       .friction = wall_friction_,
-                                                       .xi_t = grains.wall_xi_t,
-                                                       .torque = grains.wall_torque,
-                                                       .touching = grains.wall_touching},
-                                             .has_rolling = list_.with_rolling,
-                                             .last = step.is_last(),
-                                             .largest_margin = list_.largest_margin()};
-  Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
-                          items(grains.list.chunks.count()), sum, max_displacement(step.s + 1));
-}
-
-KickAndDrift GrainSolver::motion(const GrainState& grains, Real dt) {
-  return {.dt = dt,
-          .grains = grains.kin,
-          .contact_force = grains.contact_force,
-          .contact_torque = grains.contact_torque,
-          .x_reference = grains.x_reference,
-          .fluid = grains.fluid};
+void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) {
+  const auto launch = [&](const auto& law, const auto& rolling) {
+    using Stiffness = std::decay_t<decltype(law)>;
+    using Rolling = std::decay_t<decltype(rolling)>;
+    const PairForces<Stiffness, Rolling> pairs{
+        .law = law,
+        .rolling = rolling,
+        .friction = pair_friction_,
+        .box = list_.box(),
+        .dt = dt,
+        .validity = {.displacement2 = displacement2_, .before = element(s), .limit = list_.limit()},
+        .grains = grains.kin,
+        .list = grains.list,
+        .keep_force = list_.with_force && last};
+    const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
+    Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
+    const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, dt),
+                                               .pairs = pairs,
+                                               .walls = {.planes = walls_,
+                                                         .law = std::get<Stiffness>(wall_law_),
+                                                         .rolling = rolling,
+                                                         .friction = wall_friction_,
+                                                         .xi_t = grains.wall_xi_t,
+                                                         .torque = grains.wall_torque,
+                                                         .touching = grains.wall_touching},
+                                               .has_rolling = list_.with_rolling,
+                                               .last = last,
+                                               .largest_margin = list_.largest_margin()};
+    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
+                            items(grains.list.chunks.count()), sum, max_displacement(s + 1));
+  };
+  std::visit(launch, pair_law_, rolling_);
 }
 
 void GrainSolver::rebuild(GrainState& grains, int s) {
@@ -145,7 +143,7 @@ void GrainSolver::rebuild(GrainState& grains, int s) {
 void GrainSolver::update_ghosts(GrainState& grains, int s) {
   Real displacement2 = 0;
   Kokkos::deep_copy(displacement2, Kokkos::subview(displacement2_, element(s)));
-  if (max_over(ranks_, displacement2) <= list_.limit()) {
+  if (max_over(grains.ranks, displacement2) <= list_.limit()) {
     list_.update_ghosts(grains);
   } else {
     rebuild(grains, s);
@@ -154,10 +152,9 @@ void GrainSolver::update_ghosts(GrainState& grains, int s) {
 
 /// On one rank, from sub-step s: as many as are launched ahead. Returns the first one that the list
 /// no longer covered, after a new list for it.
-template <class Launch>
-int GrainSolver::launch_ahead(GrainState& grains, int s, int n, const Launch& launch) {
+int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
   const int end = std::min(s + ahead_, n);
-  for (int next = s; next < end; ++next) launch(next);
+  for (int next = s; next < end; ++next) sub_step(grains, next, next + 1 == n, dt);
   Kokkos::deep_copy(host_displacement2_, displacement2_);
   const auto is_stale = [&](int step) {
     return !(host_displacement2_(element(step)) <= list_.limit());
@@ -170,29 +167,15 @@ int GrainSolver::launch_ahead(GrainState& grains, int s, int n, const Launch& la
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
   if (n == 0 || (grains.n == 0 && !list_.partition())) return;
   kick_and_drift(grains, dt);
-  const auto launch = [&](int s) {
-    std::visit(
-        [&](const auto& law, const auto& rolling) {
-          forces_kick_and_drift(law, rolling, grains, {.s = s, .n = n, .dt = dt});
-        },
-        pair_law_, rolling_);
-  };
   for (int s = 0; s < n;) {
     if (list_.partition()) {
       update_ghosts(grains, s);
-      launch(s++);
+      sub_step(grains, s, s + 1 == n, dt);
+      ++s;
     } else {
-      s = launch_ahead(grains, s, n, launch);
+      s = launch_ahead(grains, s, n, dt);
     }
   }
-}
-
-void GrainSolver::remove_left(GrainState& grains) {
-  if (!exit_x_) return;
-  int n_outside = 0;
-  Kokkos::parallel_reduce("grains: count beyond the outlet", grains.n,
-                          CountBeyondOutlet{grains.kin, lx_}, n_outside);
-  if (sum_over(ranks_, std::int64_t{n_outside}) > 0) list_.rebuild(grains, true);
 }
 
 void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
@@ -220,8 +203,8 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
       summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
   if (summary.n_contacts == 0)
     summary.max_overlap = 0;  // the maximum over nothing is minus infinity
-  return {.n_contacts = sum_over(ranks_, summary.n_contacts),
-          .max_overlap = max_over(ranks_, summary.max_overlap)};
+  return {.n_contacts = sum_over(grains.ranks, summary.n_contacts),
+          .max_overlap = max_over(grains.ranks, summary.max_overlap)};
 }
 
 }  // namespace barchan

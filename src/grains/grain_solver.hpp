@@ -1,14 +1,10 @@
 // The grains' equations of motion over the sub-steps of one fluid step.
 #pragma once
 
-#include <memory>
-#include <span>
 #include <variant>
 
+#include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_law.hpp"
-#include "kernels/grains/grain_motion.hpp"
-#include "src/config/config.hpp"
-#include "src/grains/grain_state.hpp"
 #include "src/grains/neighbor_list.hpp"
 
 namespace barchan {
@@ -36,7 +32,7 @@ class GrainSolver {
   /// sub-step, bit for bit.
   void advance(GrainState& grains, int n, Real dt);
   /// Drops the grains that have passed the outlet (counted in n_left of their rank).
-  void remove_left(GrainState& grains);
+  void remove_left(GrainState& grains) { list_.drop_left(grains); }
   /// Contacts and largest overlap from the last sub-step.
   ContactSummary contacts(const GrainState& grains) const;
   /// Normal and tangential contact force of each grain in the last sub-step [N]; throws
@@ -47,19 +43,12 @@ class GrainSolver {
   const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
   const WallPlanes& walls() const { return walls_; }
-  std::int64_t rebuilds() const { return list_.rebuilds(); }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  /// Sub-step s of n, of dt [s].
-  struct SubStep {
-    int s, n;
-    Real dt;
-    bool is_last() const { return s + 1 == n; }
-  };
   /// Element of displacement2_ for a sub-step.
   int element(int step) const { return step % (ahead_ + 1); }
   /// Reduces into the element of a sub-step, without a wait.
@@ -68,16 +57,11 @@ class GrainSolver {
         Kokkos::View<Real, DeviceMemory>(displacement2_.data() + element(step)));
   }
   void kick_and_drift(const GrainState& grains, Real dt);
-  template <class Stiffness, class Rolling>
-  void forces_kick_and_drift(const Stiffness& law, const Rolling& rolling, const GrainState& grains,
-                             const SubStep& step);
-  static KickAndDrift motion(const GrainState& grains, Real dt);
+  void sub_step(const GrainState& grains, int s, bool last, Real dt);
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
-  template <class Launch>
-  int launch_ahead(GrainState& grains, int s, int n, const Launch& launch);
+  int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
-  MPI_Comm ranks_;
   NeighborList list_;
   StiffnessLaw pair_law_, wall_law_;
   RollingLaw rolling_;
@@ -87,8 +71,6 @@ class GrainSolver {
   // Largest squared displacement from the list's positions as a sub-step begins [m^2].
   Kokkos::View<Real*> displacement2_;
   Kokkos::View<Real*>::host_mirror_type host_displacement2_;
-  bool exit_x_ = false;
-  Real lx_ = 0;
 };
 
 }  // namespace barchan

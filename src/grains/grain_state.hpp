@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kernels/grains/fluid_on_grains.hpp"
-#include "kernels/grains/grain_motion.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

@@ -49,11 +49,8 @@ class CsvReader {
     if (!next_line())
       fail("it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
     read_header();
-    // Lines are about this long at least: fewer reallocations.
-    reserve(rest_.size() / 40);
     while (next_line()) read_row();
     if (grains_.size() == 0) fail("it has a header but no grains");
-    check_ids();
     return std::move(grains_);
   }
 
@@ -73,15 +70,6 @@ class CsvReader {
       if (!line_.empty() && line_.front() != '#') return true;
     }
     return false;
-  }
-
-  void reserve(std::size_t n) {
-    grains_.id.reserve(n);
-    grains_.diameter.reserve(n);
-    grains_.x.reserve(n);
-    grains_.u.reserve(n);
-    grains_.omega.reserve(n);
-    lines_.reserve(n);
   }
 
   /// Before lines are looked for: there may be none.
@@ -180,12 +168,10 @@ class CsvReader {
            twice ? "; are there decimal commas? Decimals need a point" : "");
     }
     if (value[1] <= 0) fail("diameter = {}: must be above 0", value[1]);
-    lines_.push_back(line_number_);
-    grains_.id.push_back(id);
-    grains_.diameter.push_back(value[1]);
-    grains_.x.push_back({value[2], value[3], value[4]});
-    grains_.u.push_back({value[5], value[6], value[7]});
-    grains_.omega.push_back({value[8], value[9], value[10]});
+    const auto [earlier, is_new] = line_of_.emplace(id, line_number_);
+    if (!is_new) fail("id {} was used before, in line {}", id, earlier->second);
+    grains_.add(id, value[1], {value[2], value[3], value[4]}, {value[5], value[6], value[7]},
+                {value[8], value[9], value[10]});
   }
 
   template <class T>
@@ -203,30 +189,16 @@ class CsvReader {
            field.find_first_of("\"'") != field.npos ? ", without quotes" : "");
     }
     if constexpr (!std::is_integral_v<T>) {
-      if (!std::isfinite(value)) {
-        fail("{} = {}: must be finite", columns[column], field);
-      }
+      if (!std::isfinite(value)) fail("{} = {}: must be finite", columns[column], field);
     }
     return value;
   }
 
-  void check_ids() {
-    std::unordered_map<std::int64_t, std::size_t> first_line;
-    first_line.reserve(grains_.size());
-    for (std::size_t p = 0; p < grains_.size(); ++p) {
-      const auto [earlier, is_new] = first_line.emplace(grains_.id[p], lines_[p]);
-      if (!is_new) {
-        line_number_ = lines_[p];
-        fail("id {} was used before, in line {}", grains_.id[p], earlier->second);
-      }
-    }
-  }
-
   std::string_view rest_, name_, line_;
   std::size_t line_number_ = 0;
-  std::vector<std::string_view> fields_;  // of the line
-  std::vector<std::size_t> order_;        // column of each field of a row
-  std::vector<std::size_t> lines_;        // line of each grain
+  std::vector<std::string_view> fields_;                   // of the line
+  std::vector<std::size_t> order_;                         // column of each field of a row
+  std::unordered_map<std::int64_t, std::size_t> line_of_;  // of each id
   InitialGrains grains_;
 };
 

@@ -23,6 +23,14 @@ struct InitialGrains {
   std::vector<Vec3> omega;       // spin [rad/s]
 
   std::size_t size() const { return id.size(); }
+  void add(std::int64_t new_id, double d, const Vec3& centre, const Vec3& velocity = {},
+           const Vec3& spin = {}) {
+    id.push_back(new_id);
+    diameter.push_back(d);
+    x.push_back(centre);
+    u.push_back(velocity);
+    omega.push_back(spin);
+  }
 };
 
 /// By the ending: .csv, or .h5, which is a grains.h5 (its last frame) or a restart file (arrays

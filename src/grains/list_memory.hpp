@@ -9,22 +9,24 @@
 namespace barchan {
 
 /// n entries, or a few, and a sixteenth more.
-inline std::size_t with_slack(int n) {
-  return static_cast<std::size_t>(n) + static_cast<std::size_t>(n / 16) + 64;
+inline int with_slack(int n) { return n + n / 16 + 64; }
+
+template <class View>
+View uninitialized(const char* label, int n) {
+  return View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
+              static_cast<std::size_t>(n));
 }
 
 /// Room for n entries, kept between rebuilds; grows by more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
-  if (static_cast<int>(view.extent(0)) < std::max(n, 1)) {
-    view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), with_slack(n));
-  }
+  if (view.extent_int(0) < std::max(n, 1)) view = uninitialized<View>(label, with_slack(n));
 }
 
 /// Scratch memory if there is enough, else as reserve() does.
 template <class T>
 void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* label, int n) {
-  const auto taken = scratch.take<T>(with_slack(n));
+  const auto taken = scratch.take<T>(static_cast<std::size_t>(with_slack(n)));
   if (taken.extent(0) > 0) {
     view = taken;
     return;

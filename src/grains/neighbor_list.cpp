@@ -1,14 +1,20 @@
 #include "src/grains/neighbor_list.hpp"
 
+#include <fmt/format.h>
+
 #include <Kokkos_Profiling_ScopedRegion.hpp>
+#include <Kokkos_Sort.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "kernels/grains/grain_sums.hpp"
+#include "src/base/errors.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
@@ -17,9 +23,10 @@ namespace {
 int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
   const int n = std::clamp(static_cast<int>(std::floor(extent / cutoff)), 1, kMaxColumns);
   if (periodic && n < 3) {
-    throw std::runtime_error(std::string("the domain is too narrow along ") + axis +
-                             " for periodic grains: it must be at least three contact ranges (" +
-                             std::to_string(3 * cutoff) + " m) wide");
+    throw std::runtime_error(
+        fmt::format("the domain is too narrow along {} for periodic grains: it must be at least "
+                    "three contact ranges ({:f} m) wide",
+                    axis, 3 * cutoff));
   }
   return n;
 }
@@ -61,23 +68,106 @@ void NeighborList::reserve_room(int n) {
   reserve(occupied_.of_grain, "column of grain", n);
 }
 
-Windows NeighborList::find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n) {
-  const NumberColumns find{.columns = columns_, .grains = kin, .occupied = occupied_};
+void NeighborList::wrap(const GrainState& grains) const {
+  const auto kin = grains.kin;
+  const PeriodicBox box = box_;
+  int bad = grains.n;
+  Kokkos::parallel_reduce(
+      "neighbors: wrap positions", grains.n,
+      KOKKOS_LAMBDA(int g, int& first) {
+        Vec3& x = kin(g).x;
+        x = box.wrap(x);
+        if (!Kokkos::isfinite(x.x + x.y + x.z) && g < first) first = g;
+      },
+      Kokkos::Min<int>(bad));
+  if (bad >= grains.n) return;
+  std::int64_t id = 0;
+  Kokkos::deep_copy(id, Kokkos::subview(grains.id, bad));
+  Vec3 last;
+  Kokkos::deep_copy(last, Kokkos::subview(grains.x_reference, bad));
+  const std::string place = fmt::format(
+      "; it was near ({:.6g}, {:.6g}, {:.6g}) m: time.grain_step may "
+      "be too long, or grains overlapped at the start",
+      last.x, last.y, last.z);
+  throw StateError(
+      fmt::format("the position of grain {} is not finite{}", id, rebuilds_ > 0 ? place : ""),
+      ranks_ == nullptr);
+}
+
+void NeighborList::collect_history(const GrainState& grains) {
+  const PairList& list = grains.list;
+  const int n = grains.n;
+  const GrainsWithHistory with_history{.list = list, .id = grains.id, .both = ranks_ != nullptr};
+  take_scratch(idle_, history_.first, "contact history: first", n + 1);
+  Kokkos::deep_copy(history_.first, 0);
+  Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
+                       CountContacts{.grains = with_history, .count = history_.first});
+  const int n_contacts = counts_to_starts(history_.first, n);
+  const auto take = [&](auto& array) { take_scratch(idle_, array, "contact history", n_contacts); };
+  take(history_.partner), take(history_.xi_t);
+  if (list.has_rolling()) take(history_.rolling);
+  if (list.has_force()) take(history_.force);
+  const std::pair<int, int> rows(0, n);
+  Kokkos::deep_copy(Kokkos::subview(row_, rows), Kokkos::subview(history_.first, rows));
+  Kokkos::parallel_for(
+      "neighbors: fill the contact history", list.n_pairs,
+      FillContactHistory{.grains = with_history, .history = history_, .cursor = row_});
+  has_history_ = true;
+}
+
+/// Grains to the ranks that own their columns, after new cuts where the work asks for them.
+void NeighborList::redistribute(GrainState& grains) {
+  if (!has_history_) history_.first = Kokkos::View<int*>("contact history: first", grains.n + 1);
+  ranks_->partition.balance(grains, columns_, history_.first);
+  columns_.origin = ranks_->partition.origin();
+  ranks_->migrate(grains, history_, columns_, ranks_->partition.owners(), room_);
+}
+
+void NeighborList::sort(GrainState& grains, bool drop) {
+  const int n = grains.n;
+  reserve(row_, "row in the contact history", n + 1);
+  reserve_room(n);
+  const std::pair<int, int> rows(0, n);
+  const auto key = Kokkos::subview(key_room_, rows);
+  const auto row = Kokkos::subview(row_, rows);
+  const auto kin = grains.kin;
+  const SearchColumns columns = columns_;
+  const CountBeyondOutlet outlet{kin, lx_};
+  const bool drops = drop && exit_x_;
+  int n_dropped = 0;
+  Kokkos::parallel_reduce(
+      "neighbors: sort keys", n,
+      KOKKOS_LAMBDA(int g, int& dropped) {
+        const bool outside = drops && outlet.is_beyond(g);
+        key(g) = outside ? kDroppedKey : columns.key_of(kin(g).x);
+        row(g) = g;
+        dropped += outside ? 1 : 0;
+      },
+      n_dropped);
+  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, row);
+  permute(grains, row, n - n_dropped, room_);
+  grains.n_left += n_dropped;
+}
+
+Windows NeighborList::find_windows(const GrainState& grains, int n) {
+  const NumberColumns find{.columns = columns_, .grains = grains.kin, .occupied = occupied_};
   Kokkos::parallel_scan("neighbors: occupied columns", n, find, occupied_.n);
   reserve(occupied_.id, "occupied columns", occupied_.n);
   reserve(occupied_.start, "column starts", occupied_.n + 1);
-  Kokkos::parallel_for("neighbors: column starts", n,
-                       StartColumns{.columns = columns_, .grains = kin, .occupied = occupied_});
+  Kokkos::parallel_for(
+      "neighbors: column starts", n,
+      StartColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
   Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
   reserve(occupied_.forward, "forward columns", occupied_.n);
   Kokkos::parallel_for("neighbors: link columns", occupied_.n,
                        LinkColumns{.columns = columns_, .occupied = occupied_});
   static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
   const Windows window(reinterpret_cast<int*>(key_room_.data()), static_cast<std::size_t>(n));
-  Kokkos::parallel_for(
-      "neighbors: windows", occupied_.n,
-      FindWindows{
-          .grains = kin, .occupied = occupied_, .window = window, .reach = 2 * r_max_ + skin_});
+  Kokkos::parallel_for("neighbors: windows", occupied_.n,
+                       FindWindows{.grains = grains.kin,
+                                   .occupied = occupied_,
+                                   .window = window,
+                                   .reach = 2 * r_max_ + skin_});
   return window;
 }
 
@@ -112,10 +202,10 @@ void NeighborList::register_others(const PairList& list, int n) {
   Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
 }
 
-void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin) {
+void NeighborList::search(GrainState& grains) {
   const int n = grains.n + grains.n_ghosts;
   reserve_room(n);
-  const Windows window = find_windows(kin, n);
+  const Windows window = find_windows(grains, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
   reserve(list.first, "pairs: first", n + 1);
@@ -124,7 +214,7 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
   reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Quad));
   const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
-  const PairSearch pair_search{.grains = kin,
+  const PairSearch pair_search{.grains = grains.kin,
                                .occupied = occupied_,
                                .window = window,
                                .box = box_,
@@ -154,9 +244,8 @@ void NeighborList::search(GrainState& grains, const Kokkos::View<const GrainKine
 
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
-  check_positions(grains);
-  take_room(grains);
   wrap(grains);
+  take_room(grains);
   if (rebuilds_ > 0) collect_history(grains);
   if (ranks_) redistribute(grains);
   sort(grains, drop);
@@ -165,14 +254,22 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
   Kokkos::parallel_for(
       "neighbors: reference positions", grains.n,
       KOKKOS_LAMBDA(int g) { reference(g) = kin(g).x; });
-  if (ranks_) find_ghosts(grains);
-  search(grains, grains.kin);
+  find_ghosts_and_pairs(grains);
+}
+
+/// The end of a rebuild: from here on the list holds.
+void NeighborList::find_ghosts_and_pairs(GrainState& grains) {
+  if (ranks_) ranks_->ghosts.find(grains, columns_, ranks_->partition.owners());
+  search(grains);
   ++rebuilds_;
 }
 
-void NeighborList::find_ghosts(GrainState& grains) {
-  const GrainPartition& partition = ranks_->partition;
-  ranks_->ghosts.find(grains, columns_, partition.owners(), partition.ranks());
+void NeighborList::drop_left(GrainState& grains) {
+  if (!exit_x_) return;
+  int n_outside = 0;
+  Kokkos::parallel_reduce("grains: count beyond the outlet", grains.n,
+                          CountBeyondOutlet{grains.kin, lx_}, n_outside);
+  if (sum_over(grains.ranks, std::int64_t{n_outside}) > 0) rebuild(grains, true);
 }
 
 void NeighborList::restore(GrainState& grains) {
@@ -189,18 +286,15 @@ void NeighborList::restore(GrainState& grains) {
         moved(g).x = reference(g);
         row(g) = g;
       });
-  if (ranks_) {
-    columns_.origin = ranks_->partition.origin();
-    std::swap(grains.kin, at_reference);  // ghosts are found where they were then
-    find_ghosts(grains);
-    std::swap(grains.kin, at_reference);
-    reserve_rows(grains.kin, n + grains.n_ghosts);
-    const std::pair<int, int> ghosts(n, n + grains.n_ghosts);
-    Kokkos::deep_copy(Kokkos::subview(grains.kin, ghosts), Kokkos::subview(at_reference, ghosts));
-    update_ghosts(grains);
-  }
-  search(grains, at_reference);
-  ++rebuilds_;
+  if (ranks_) columns_.origin = ranks_->partition.origin();
+  std::swap(grains.kin, at_reference);  // ghosts and pairs are those of that time
+  find_ghosts_and_pairs(grains);
+  std::swap(grains.kin, at_reference);
+  if (!ranks_) return;
+  reserve_rows(grains.kin, n + grains.n_ghosts);
+  const std::pair<int, int> ghosts(n, n + grains.n_ghosts);
+  Kokkos::deep_copy(Kokkos::subview(grains.kin, ghosts), Kokkos::subview(at_reference, ghosts));
+  update_ghosts(grains);
 }
 
 }  // namespace barchan

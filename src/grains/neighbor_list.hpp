@@ -29,6 +29,8 @@ class NeighborList {
   Real limit() const { return skin_ * skin_ / 4; }
   /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
   void rebuild(GrainState& grains, bool drop);
+  /// Such a rebuild if there are any.
+  void drop_left(GrainState& grains);
   /// Searches again from x_reference in the present order: the list of the last rebuild, with its
   /// contact history. All ranks together, on as many as there were.
   void restore(GrainState& grains);
@@ -54,18 +56,17 @@ class NeighborList {
   const PeriodicBox& box() const { return box_; }
 
   // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
-  void collect_history(const GrainState& grains);
-  void redistribute(GrainState& grains);
   void sort(GrainState& grains, bool drop);
-  Windows find_windows(const Kokkos::View<const GrainKinematics*>& kin, int n);
-  void search(GrainState& grains, const Kokkos::View<const GrainKinematics*>& kin);
-  void find_ghosts(GrainState& grains);
-  void reserve_pairs(PairList& list) const;
   void register_others(const PairList& list, int n);
-  void check_positions(const GrainState& grains) const;
-  void wrap(GrainState& grains) const;
+  void wrap(const GrainState& grains) const;
 
  private:
+  void collect_history(const GrainState& grains);
+  void redistribute(GrainState& grains);
+  Windows find_windows(const GrainState& grains, int n);
+  void reserve_pairs(PairList& list) const;
+  void search(GrainState& grains);
+  void find_ghosts_and_pairs(GrainState& grains);
   void take_room(const GrainState& grains);
   void reserve_room(int n);
 

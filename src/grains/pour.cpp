@@ -82,12 +82,9 @@ InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& 
   for (std::size_t g = 0; g < n; ++g) {
     const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
     const Vec3 x = sites[g].x;
-    grains.id.push_back(static_cast<std::int64_t>(g) + 1);
-    grains.diameter.push_back(diameter[g]);
-    grains.x.push_back({pour.centre[0] + x.x + jitter(), pour.drop_height + x.y + jitter(),
-                        pour.centre[1] + x.z + jitter()});
-    grains.u.push_back({});
-    grains.omega.push_back({});
+    grains.add(static_cast<std::int64_t>(g) + 1, diameter[g],
+               {pour.centre[0] + x.x + jitter(), pour.drop_height + x.y + jitter(),
+                pour.centre[1] + x.z + jitter()});
   }
   return grains;
 }

@@ -188,30 +188,20 @@ Extents CheckpointReader::extents(const std::string& name) const {
 }
 
 template <class T>
-std::vector<T> CheckpointReader::part(const std::string& name, const Extents& whole,
-                                      const Extents& first, const Extents& size) const {
+std::vector<T> CheckpointReader::array(const std::string& name, const Extents& whole,
+                                       const Extents& first, const Extents& size) const {
   const Extents found = extents(name);
-  if (found != whole) {
+  if (!whole.empty() && found != whole) {
     fail(fmt::format("{} is {} there and {} in this run (another mesh, or other grains)", name,
                      to_string(found), to_string(whole)));
   }
   const auto type = std::is_integral_v<T> ? ElementType::int64 : ElementType::float64;
   if (file_.info(name).type != type) fail(name + " holds numbers of another type");
-  return file_.read_block<T>(name, whole, first, size);  // bit for bit
+  return file_.read<T>(name, whole, first, size);  // bit for bit
 }
-
-template <class T>
-std::vector<T> CheckpointReader::array(const std::string& name, const Extents& expected) const {
-  const Extents whole = expected.empty() ? extents(name) : expected;
-  return part<T>(name, whole, Extents(whole.size(), 0), whole);
-}
-
-#define BARCHAN_CHECKPOINT_ARRAYS(T)                                                         \
-  template std::vector<T> CheckpointReader::array(const std::string&, const Extents&) const; \
-  template std::vector<T> CheckpointReader::part(const std::string&, const Extents&,         \
-                                                 const Extents&, const Extents&) const;
-BARCHAN_CHECKPOINT_ARRAYS(double)
-BARCHAN_CHECKPOINT_ARRAYS(std::int64_t)
-#undef BARCHAN_CHECKPOINT_ARRAYS
+template std::vector<double> CheckpointReader::array(const std::string&, const Extents&,
+                                                     const Extents&, const Extents&) const;
+template std::vector<std::int64_t> CheckpointReader::array(const std::string&, const Extents&,
+                                                           const Extents&, const Extents&) const;
 
 }  // namespace barchan

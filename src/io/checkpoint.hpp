@@ -140,14 +140,11 @@ class CheckpointReader {
 
   /// Extents of a stored array, slowest first: "grains/id" has extents(...)[0] grains.
   Extents extents(const std::string& name) const;
-  /// T is double or std::int64_t. Empty `expected`: any extents.
+  /// An array of the extents `whole`, empty: any; or the block of it that begins at `first`. T is
+  /// double or std::int64_t.
   template <class T>
-  std::vector<T> array(const std::string& name, const Extents& expected = {}) const;
-
-  /// The block of an array that begins at `first`; extents slowest first. T as above.
-  template <class T>
-  std::vector<T> part(const std::string& name, const Extents& whole, const Extents& first,
-                      const Extents& size) const;
+  std::vector<T> array(const std::string& name, const Extents& whole = {},
+                       const Extents& first = {}, const Extents& size = {}) const;
 
   /// Into a host or device view of the extents it was written with.
   template <class View>

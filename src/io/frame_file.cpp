@@ -32,7 +32,7 @@ FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
                   .step = file.attribute<std::int64_t>(name, "step"),
                   .arrays = {}};
   for (const auto& array : file.children(name)) {
-    frame.arrays.push_back({array, file.info(name + "/" + array)});
+    frame.arrays[array] = file.info(name + "/" + array);
   }
   return frame;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,17 +15,11 @@
 
 namespace barchan {
 
-/// One array of a frame, as the XDMF description needs it.
-struct FrameArray {
-  std::string name;
-  ArrayInfo info;
-};
-
 struct FrameInfo {
   std::string name;  // "frame_000012"
   double t = 0;      // [s]
   std::int64_t step = 0;
-  std::vector<FrameArray> arrays;
+  std::map<std::string, ArrayInfo> arrays;
 };
 
 /// The frames of an open result file in order of their number. Throws Hdf5Error.
@@ -58,7 +53,6 @@ class FrameFile {
   void append(double t, std::int64_t step, const Preamble& preamble, const Content& content);
 
   const std::vector<FrameInfo>& frames() const { return frames_; }
-  const std::filesystem::path& path() const { return path_; }
 
  private:
   void drop_after(double t);

@@ -138,10 +138,10 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
 }
 
 template <class T>
-std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whole,
-                                    const Extents& first, const Extents& size) const {
+std::vector<T> Hdf5File::read(const std::string& name, const Extents& whole, const Extents& first,
+                              const Extents& size) const {
   const Extents found = info(name).extents;
-  if (found != whole) {
+  if (!whole.empty() && found != whole) {
     fail("it is " + to_string(found) + ", expected was " + to_string(whole), name);
   }
   const auto [base, path] = locate(name);
@@ -150,30 +150,24 @@ std::vector<T> Hdf5File::read_block(const std::string& name, const Extents& whol
   if (H5Tget_class(type.get()) != (std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT)) {
     fail(std::is_integral_v<T> ? "it should hold integers" : "it should hold real numbers", name);
   }
+  const Extents& part = first.empty() ? found : size;
   std::uint64_t n = 0;
-  count_elements(size, n);
+  count_elements(part, n);
   std::vector<T> values(n);
   if (n == 0) return values;
-  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose), memory = dataspace(size);
-  if (size != whole) check(select_block(file, first, size), name);
+  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose), memory = dataspace(part);
+  if (part != found) check(select_block(file, first, part), name);
   check(
       H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
       name);
   return values;
 }
 
-template <class T>
-std::vector<T> Hdf5File::read(const std::string& name, const Extents& expected) const {
-  const Extents whole = expected.empty() ? info(name).extents : expected;
-  return read_block<T>(name, whole, Extents(whole.size(), 0), whole);
-}
-
-#define BARCHAN_HDF5_ARRAYS(T)                                                                     \
-  template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&,            \
-                                std::string_view, const Share&);                                   \
-  template std::vector<T> Hdf5File::read(const std::string&, const Extents&) const;                \
-  template std::vector<T> Hdf5File::read_block(const std::string&, const Extents&, const Extents&, \
-                                               const Extents&) const;
+#define BARCHAN_HDF5_ARRAYS(T)                                                               \
+  template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&,      \
+                                std::string_view, const Share&);                             \
+  template std::vector<T> Hdf5File::read(const std::string&, const Extents&, const Extents&, \
+                                         const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
 BARCHAN_HDF5_ARRAYS(double)
 BARCHAN_HDF5_ARRAYS(std::int32_t)

@@ -2,9 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include <array>
 #include <exception>
-#include <system_error>
 #include <utility>
 
 #include "src/base/atomic_file.hpp"
@@ -25,12 +23,12 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 constexpr unsigned root_links = 2048;
 constexpr std::size_t name_bytes = 16;
 
-Handle access_list(bool parallel, MPI_Comm communicator, int* error) {
+Handle access_list(bool parallel, MPI_Comm communicator, std::string* failure) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (parallel) {
     H5Pset_fapl_mpio(list.get(), communicator, MPI_INFO_NULL);
   } else {
-    const hdf5::DriverInfo info{.error = error};
+    const hdf5::DriverInfo info{.failure = failure};
     H5Pset_driver(list.get(), hdf5::file_driver(), &info);
   }
   H5Pset_fclose_degree(list.get(), H5F_CLOSE_STRONG);  // nothing outlives the Hdf5File
@@ -56,40 +54,7 @@ Handle creation_list(bool sealable) {
   return list;
 }
 
-herr_t take_first(unsigned, const H5E_error2_t* entry, void* reason) {
-  auto& text = *static_cast<std::string*>(reason);
-  if (text.empty() && entry->desc != nullptr) text = entry->desc;
-  return 0;
-}
-
-/// The innermost message of the library's error stack in the user's words.
-/// Call it before any other HDF5 function: each clears the stack.
-std::string last_reason() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
-  struct Plain {
-    const char *theirs, *ours;
-  };
-  static constexpr std::array<Plain, 3> plain{
-      {{"file signature not found", "it is not an HDF5 file"},
-       {"truncated file", "it is cut short (an incomplete copy, or a run that was killed)"},
-       {"object doesn't exist", "it has no such entry"}}};
-  for (const auto& [theirs, ours] : plain) {
-    if (text.find(theirs) != std::string::npos) return ours;
-  }
-  return text.empty() ? "unknown HDF5 error" : text;
-}
-
 }  // namespace
-
-void hdf5::start_library() {
-  static const bool started = [] {
-    H5open();
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    return true;
-  }();
-  static_cast<void>(started);
-}
 
 std::string to_string(const Extents& extents) {
   return fmt::format("{}", fmt::join(extents, " x "));
@@ -107,9 +72,7 @@ void Hdf5File::fail(const std::string& reason, const std::string& object) const 
 
 template <class Code>
 Code Hdf5File::check(Code code, const std::string& object) const {
-  if (code < 0)
-    fail(*system_error_ != 0 ? std::generic_category().message(*system_error_) : last_reason(),
-         object);
+  if (code < 0) fail(failure_->empty() ? hdf5::last_reason() : *failure_, object);
   return code;
 }
 template int Hdf5File::check(int, const std::string&) const;
@@ -120,12 +83,12 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
       mode_(mode),
       parallel_(rank_count(communicator) > 1),
       is_root_(rank_of(communicator) == 0),
-      system_error_(std::make_unique<int>(0)) {
+      failure_(std::make_unique<std::string>()) {
   hdf5::start_library();
   if (mode == Mode::read) {  // opening a pipe would wait for ever
     if (const std::string why = not_a_file(path); !why.empty()) fail(why, {});
   }
-  const Handle access = access_list(parallel_, communicator, system_error_.get());
+  const Handle access = access_list(parallel_, communicator, failure_.get());
   Id opened = -1;
   if (mode == Mode::create || mode == Mode::create_sealable) {
     const Handle creation = creation_list(mode == Mode::create_sealable);
@@ -144,7 +107,7 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::check_writes() const {
-  if (*system_error_ != 0) fail(std::generic_category().message(*system_error_), {});
+  if (!failure_->empty()) fail(*failure_, {});
 }
 
 void Hdf5File::close() {

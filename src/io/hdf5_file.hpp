@@ -85,19 +85,14 @@ class Hdf5File {
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});
 
-  /// The block of an array that begins at `first`; the array must have the extents `whole`. Each
-  /// rank reads its own, which may be empty.
-  template <class T>
-  std::vector<T> read_block(const std::string& name, const Extents& whole, const Extents& first,
-                            const Extents& size) const;
-
   /// Type and extents of an array; extents are checked against the file's size before they are
   /// believed.
   ArrayInfo info(const std::string& name) const;
-  /// The whole array (converted to T where the file holds another number type). Empty `expected`:
-  /// any extents.
+  /// An array of the extents `whole`, empty: any; or the block of it that begins at `first`, which
+  /// may be another one on each rank. Converted to T where the file holds another number type.
   template <class T>
-  std::vector<T> read(const std::string& name, const Extents& expected = {}) const;
+  std::vector<T> read(const std::string& name, const Extents& whole = {}, const Extents& first = {},
+                      const Extents& size = {}) const;
 
   /// Attributes of a group or an array; "/" is the file.
   void set_attribute(const std::string& object, const std::string& name, double value);
@@ -123,7 +118,7 @@ class Hdf5File {
   /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>
   Code check(Code code, const std::string& object = {}) const;
-  /// Throws if the serial driver noted a failed write.
+  /// Throws if the serial driver noted a failure.
   void check_writes() const;
   void put_attribute(const std::string& object, const std::string& name, Id type,
                      const void* value);
@@ -131,7 +126,7 @@ class Hdf5File {
   std::filesystem::path path_;
   Mode mode_;
   bool parallel_ = false, is_root_ = true;
-  std::unique_ptr<int> system_error_;  // errno noted by the serial driver; 0: none
+  std::unique_ptr<std::string> failure_;  // noted by the serial driver; empty: none
   Id file_ = -1;
   Id hidden_ = -1;
   std::string hidden_name_;

@@ -1,8 +1,10 @@
-// Inside of hdf5_file: an identifier that closes itself, and the serial driver.
+// Inside of hdf5_file: an identifier that closes itself, the library's reasons, and the serial
+// driver.
 #pragma once
 
 #include <hdf5.h>
 
+#include <string>
 #include <utility>
 
 namespace barchan::hdf5 {
@@ -30,10 +32,14 @@ class Handle {
 /// Starts the library once, without its printing of error stacks.
 void start_library();
 
-/// What the serial driver is told: where to note the errno of the first failed system call. It must
-/// outlive the file.
+/// The innermost message of the library's error stack, or what the system said, in the user's
+/// words. Call it before any other HDF5 function: each clears the stack.
+std::string last_reason();
+
+/// What the serial driver is told: where to note why the first system call failed. It must outlive
+/// the file.
 struct DriverInfo {
-  int* error = nullptr;
+  std::string* failure = nullptr;
 };
 
 /// The serial driver of hdf5_driver.cpp, for H5Pset_driver() with a DriverInfo.

@@ -18,31 +18,21 @@ namespace {
 constexpr std::string_view mark =
     "sealed by barchan, length and CRC-32 of what follows 512 bytes: ";
 
-struct Content {
-  std::uint64_t length = 0;
-  std::uint32_t crc = 0;
-};
-
-/// Of all behind the room of the seal.
-Content content_of(std::ifstream& in, const std::filesystem::path& file) {
+/// The seal of all behind its room: a line of text, with zeros up to the room.
+std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
   std::vector<char> block(std::size_t{1} << 20);
-  Content content;
+  std::uint64_t length = 0;
+  uLong crc = 0;
   in.clear();
   in.seekg(static_cast<std::streamoff>(seal_bytes));
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     const auto got = static_cast<std::size_t>(in.gcount());
-    content.crc = static_cast<std::uint32_t>(
-        crc32_z(content.crc, reinterpret_cast<const Bytef*>(block.data()), got));
-    content.length += got;
+    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()), got);
+    length += got;
   }
   if (in.bad()) cannot("read", file);
-  return content;
-}
-
-/// The line of text with zeros up to the room of the seal.
-std::string text_of(const Content& content) {
-  std::string text = fmt::format("{}{} {:08x}\n", mark, content.length, content.crc);
+  std::string text = fmt::format("{}{} {:08x}\n", mark, length, crc);
   text.resize(seal_bytes, '\0');
   return text;
 }
@@ -60,7 +50,7 @@ std::string start_of(std::ifstream& in, std::size_t n) {
 void seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) cannot("read", file);
-  const std::string text = text_of(content_of(in, file));
+  const std::string text = seal_of(in, file);
   std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
@@ -77,13 +67,12 @@ std::string broken_seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) cannot("read", file);
   const std::string text = start_of(in, seal_bytes);
-  const Content found = content_of(in, file);
-  if (text == text_of(found)) return {};
+  if (text == seal_of(in, file)) return {};
   std::uint64_t length = 0;  // that was sealed
   std::from_chars(text.data() + mark.size(), text.data() + text.size(), length);
-  if (found.length < length) {
-    return fmt::format("it is cut short: {} bytes, of {} that were written",
-                       found.length + seal_bytes, length + seal_bytes);
+  if (const auto size = std::filesystem::file_size(file); size < seal_bytes + length) {
+    return fmt::format("it is cut short: {} bytes, of {} that were written", size,
+                       seal_bytes + length);
   }
   return "it is damaged: its checksum is not that of what was written";
 }

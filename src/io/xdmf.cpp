@@ -16,11 +16,10 @@ std::string data_item(const std::string& h5_name, const std::string& path, const
       integers ? "Int" : "Float", single ? 4 : 8, fmt::join(info.extents, " "), h5_name, path);
 }
 
-const ArrayInfo* find(const FrameInfo& frame, const std::string& name) {
-  for (const FrameArray& array : frame.arrays) {
-    if (array.name == name) return &array.info;
-  }
-  return nullptr;
+/// Extents of an array of the frame; none where it has no such array.
+Extents extents_of(const FrameInfo& frame, const std::string& name) {
+  const auto array = frame.arrays.find(name);
+  return array == frame.arrays.end() ? Extents{} : array->second.extents;
 }
 
 /// `shape` gives topology and geometry of a frame, nothing where it is to be left out; every array
@@ -62,9 +61,8 @@ std::string fields_xdmf(const std::string& h5_name, const std::vector<FrameInfo>
                      {.type = ElementType::float64, .extents = {cells + 1}});
   };
   return time_series("fields", "Cell", "", h5_name, frames, [&](const FrameInfo& frame) {
-    const ArrayInfo* u = find(frame, "u");
-    if (u == nullptr || u->extents.size() != 3) return std::string();
-    const auto& n = u->extents;  // nz, ny, nx: XDMF, too, counts the slowest first
+    const Extents n = extents_of(frame, "u");  // nz, ny, nx: XDMF, too, counts the slowest first
+    if (n.size() != 3) return std::string();
     return fmt::format(
         "        <Topology TopologyType=\"3DRectMesh\" Dimensions=\"{} {} {}\"/>\n"
         "        <Geometry GeometryType=\"VXVYVZ\">\n          {}\n          {}\n          {}\n"
@@ -75,13 +73,13 @@ std::string fields_xdmf(const std::string& h5_name, const std::vector<FrameInfo>
 
 std::string grains_xdmf(const std::string& h5_name, const std::vector<FrameInfo>& frames) {
   return time_series("grains", "Node", "x", h5_name, frames, [&](const FrameInfo& frame) {
-    const ArrayInfo* x = find(frame, "x");
-    if (x == nullptr || x->extents.size() != 2 || x->extents[0] == 0) return std::string();
+    const Extents n = extents_of(frame, "x");
+    if (n.size() != 2 || n[0] == 0) return std::string();
     return fmt::format(
         "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
         "NodesPerElement=\"1\"/>\n"
         "        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
-        x->extents[0], data_item(h5_name, frame.name + "/x", *x));
+        n[0], data_item(h5_name, frame.name + "/x", frame.arrays.at("x")));
   });
 }
 

@@ -58,7 +58,7 @@ void load_rows(const CheckpointReader& file, const std::string& name, const View
   Extents whole = extents, first(extents.size(), 0);
   whole[View::rank() - 1] = n_all;
   first[View::rank() - 1] = begin;
-  checkpoint_detail::from_numbers(file.part<Number>(name, whole, first, extents), mine);
+  checkpoint_detail::from_numbers(file.array<Number>(name, whole, first, extents), mine);
 }
 
 template <class T>
@@ -162,10 +162,7 @@ Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
 
 void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Comm ranks,
                         std::int64_t mine) {
-  std::vector<std::int64_t> all(static_cast<std::size_t>(rank_count(ranks)));
-  all[static_cast<std::size_t>(rank_of(ranks))] = mine;
-  sum_over(ranks, all);
-  file.array(name, std::span<const std::int64_t>(all));
+  file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, share_of_rows(1, ranks));
 }
 
 /// All contacts of this rank's list, by the ids of both grains: one of owned and ghost grain is on

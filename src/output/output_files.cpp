@@ -82,9 +82,9 @@ void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::D
 
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
 void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
-                   std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes,
-                   const Share& rows) {
+                   std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
+  const Share rows = share_of_rows(n, grains.ranks);
   const Rows range(0, grains.n);
   const SplitGrains split{.grains = grains.kin,
                           .x = FrameVectors<double>("output: x", n),
@@ -115,11 +115,9 @@ void write_axis(Hdf5File& file, const std::string& name, const std::vector<doubl
 }
 
 void write_grid(Hdf5File& file, const Grid& grid) {
-  const double x0 = grid.x0 - grid.i_begin * grid.dx, z0 = grid.z0 - grid.k_begin * grid.dz;
-  const int nx = grid.ranks ? grid.nx_all : grid.nx, nz = grid.ranks ? grid.nz_all : grid.nz;
   std::vector<double> x, y, z;
-  for (int i = 0; i <= nx; ++i) x.push_back(x0 + i * grid.dx);
-  for (int k = 0; k <= nz; ++k) z.push_back(z0 + k * grid.dz);
+  for (int i = 0; i <= grid.nx_all; ++i) x.push_back(i * grid.dx);
+  for (int k = 0; k <= grid.nz_all; ++k) z.push_back(k * grid.dz);
   const auto y_face = on_host(grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y.push_back(y_face(j + 1));
   write_axis(file, "grid/x", x);
@@ -128,8 +126,7 @@ void write_grid(Hdf5File& file, const Grid& grid) {
 }
 
 /// Appends all of the flow, and the grid where the file is new.
-void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int64_t step,
-                 std::span<const NamedField> more) {
+void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int64_t step) {
   const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
   frames.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     FieldWriter writer(file, group, fluid.grid);
@@ -137,7 +134,6 @@ void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int6
     writer.centred("p", fluid.p, "Pa");
     writer.centred("alpha_f", fluid.alpha_f, "1");
     writer.centred("nu_t", fluid.nu_t, "m^2/s");
-    for (const auto& extra : more) writer.centred(extra.name, *extra.field, extra.units);
   });
 }
 
@@ -156,13 +152,8 @@ FrameFile OutputFiles::anew(const std::string& name, FrameFile::Describe describ
   return {folder_ / (name + ".h5"), provenance_, {}, communicator_, describe};
 }
 
-Share OutputFiles::rows_of(const GrainState& grains) const {
-  return share_of_rows(static_cast<std::uint64_t>(grains.n), communicator_);
-}
-
-void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step,
-                               std::span<const NamedField> more) {
-  append_flow(fields_, fluid, t, step, more);
+void OutputFiles::write_fields(const FluidState& fluid, double t, std::int64_t step) {
+  append_flow(fields_, fluid, t, step);
 }
 
 void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
@@ -184,12 +175,12 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   if (grains != nullptr) {
     FrameFile file = anew("failure_grains", grains_xdmf);
     const NamedForce contacts{"force_contact", grains->contact_force};
-    append_grains(file, *grains, t, step, std::span(&contacts, 1), {}, rows_of(*grains));
+    append_grains(file, *grains, t, step, std::span(&contacts, 1), {});
     names.emplace_back("failure_grains.xdmf");
   }
   if (fluid != nullptr) {
     FrameFile file = anew("failure_fields", fields_xdmf);
-    append_flow(file, *fluid, t, step, {});
+    append_flow(file, *fluid, t, step);
     names.emplace_back("failure_fields.xdmf");
   }
   return names;
@@ -197,8 +188,9 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
 
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
                                const DuneLabels& dunes) {
-  const Share rows = rows_of(grains);
-  const FrameVectors<float> x("output: track", static_cast<std::size_t>(grains.n));
+  const auto n = static_cast<std::size_t>(grains.n);
+  const Share rows = share_of_rows(n, grains.ranks);
+  const FrameVectors<float> x("output: track", n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
@@ -211,7 +203,7 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
                                std::span<const NamedForce> forces, const DuneLabels& dunes) {
-  append_grains(grains_, grains, t, step, forces, dunes, rows_of(grains));
+  append_grains(grains_, grains, t, step, forces, dunes);
 }
 
 }  // namespace barchan

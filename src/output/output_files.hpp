@@ -17,7 +17,7 @@
 
 namespace barchan {
 
-/// One more cell-centred field of a frame (a mean, a second moment).
+/// A cell-centred field of a frame (a mean, a second moment).
 struct NamedField {
   std::string name, units;
   const Field* field = nullptr;
@@ -35,8 +35,7 @@ class OutputFiles {
 
   /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
   /// Upper faces are read from the ghost layer, which must be valid.
-  void write_fields(const FluidState& fluid, double t, std::int64_t step,
-                    std::span<const NamedField> more = {});
+  void write_fields(const FluidState& fluid, double t, std::int64_t step);
 
   /// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
   using DuneLabels = std::optional<std::vector<int>>;
@@ -59,13 +58,9 @@ class OutputFiles {
   std::vector<std::string> write_failure(const FluidState* fluid, const GrainState* grains,
                                          double t, std::int64_t step) const;
 
-  const std::vector<FrameInfo>& field_frames() const { return fields_.frames(); }
-  const std::vector<FrameInfo>& grain_frames() const { return grains_.frames(); }
-
  private:
   /// A file of one frame, replaced as a whole.
   FrameFile anew(const std::string& name, FrameFile::Describe describe) const;
-  Share rows_of(const GrainState& grains) const;
 
   std::filesystem::path folder_;
   Provenance provenance_;

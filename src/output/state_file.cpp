@@ -38,6 +38,14 @@ void for_each_field(const FluidState& s, const F& f) {
   f("fluid/nu_t", s.nu_t);
 }
 
+/// The numbers of the flow that the next step reads, besides has_history.
+constexpr std::pair<const char*, Real FluidState::*> numbers[] = {
+    {"fluid/drive", &FluidState::drive},
+    {"fluid/dt_previous", &FluidState::dt_previous},
+    {"fluid/time", &FluidState::time},
+    {"fluid/bulk_at_start", &FluidState::bulk_at_start},
+    {"fluid/flow_missed", &FluidState::flow_missed}};
+
 }  // namespace
 
 void save_field(CheckpointWriter& file, const std::string& name, const Grid& grid, const Field& f) {
@@ -65,8 +73,8 @@ void load_field(const CheckpointReader& file, const std::string& name, const Gri
     return;
   }
   const std::vector<double> values =
-      file.part<double>(name, whole_extents(grid), {size(grid.k_begin), 0, size(grid.i_begin)},
-                        {size(grid.nz + 2), size(grid.ny + 2), size(grid.nx + 2)});
+      file.array<double>(name, whole_extents(grid), {size(grid.k_begin), 0, size(grid.i_begin)},
+                         {size(grid.nz + 2), size(grid.ny + 2), size(grid.nx + 2)});
   const auto host = Kokkos::create_mirror_view(f.storage);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(f.storage, host);
@@ -77,12 +85,8 @@ void save_state(CheckpointWriter& file, const SystemState& state, const CoupledS
     const FluidState& s = *state.fluid;
     for_each_field(
         s, [&](const std::string& name, const Field& f) { save_field(file, name, s.grid, f); });
-    file.scalar("fluid/drive", s.drive);
+    for (const auto& [name, number] : numbers) file.scalar(name, s.*number);
     file.scalar("fluid/has_history", std::int64_t{s.has_history});
-    file.scalar("fluid/dt_previous", s.dt_previous);
-    file.scalar("fluid/time", s.time);
-    file.scalar("fluid/bulk_at_start", s.bulk_at_start);
-    file.scalar("fluid/flow_missed", s.flow_missed);
   }
   if (state.grains) save_grains(file, *state.grains, step.neighbor_list());
 }
@@ -91,12 +95,8 @@ void load_flow(const CheckpointReader& file, FluidState& fluid) {
   for_each_field(fluid, [&](const std::string& name, const Field& f) {
     load_field(file, name, fluid.grid, f);
   });
-  fluid.drive = file.real("fluid/drive");
+  for (const auto& [name, number] : numbers) fluid.*number = file.real(name);
   fluid.has_history = file.integer("fluid/has_history") != 0;
-  fluid.dt_previous = file.real("fluid/dt_previous");
-  fluid.time = file.real("fluid/time");
-  fluid.bulk_at_start = file.real("fluid/bulk_at_start");
-  fluid.flow_missed = file.real("fluid/flow_missed");
 }
 
 void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step) {

@@ -13,20 +13,17 @@ namespace {
 /// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
 /// or written six times on its way; some 40 fields whose halos are exchanged; and what a message
 /// costs however short it is, about 400 numbers a row.
-struct Cost {
-  int nx, nz;
-  double of(int along_x, int along_z) const {
-    const double cells = double(nx) * nz / (double(along_x) * along_z);
-    return transposes(along_x, 3, 4, cells) + transposes(along_z, 2, 2, cells) +
-           40 * (halo(along_x, nz, along_z) + halo(along_z, nx, along_x));
-  }
-  static double transposes(int parts, int numbers, int times, double cells) {
+double cost_of(const Split& x, const Split& z) {
+  const double cells = double(x.n) * z.n / (double(x.parts) * z.parts);
+  const auto transposes = [cells](int parts, int numbers, int times) {
     return parts == 1 ? 0 : 6 * numbers * cells + 400 * times * (parts - 1);
-  }
-  static double halo(int parts, int n_other, int parts_other) {
-    return parts == 1 ? 0 : 2.0 * Split{.n = n_other, .parts = parts_other}.count(0);
-  }
-};
+  };
+  const auto halo = [](int parts, const Split& other) {
+    return parts == 1 ? 0 : 2.0 * other.count(0);
+  };
+  return transposes(x.parts, 3, 4) + transposes(z.parts, 2, 2) +
+         40 * (halo(x.parts, z) + halo(z.parts, x));
+}
 
 /// Ranks along x, or 0 if `count` of them do not fit.
 int best_count_along_x(int count, int nx, int nz) {
@@ -37,7 +34,7 @@ int best_count_along_x(int count, int nx, int nz) {
     if (along_x * along_z != count) continue;
     if (!Decomposition::is_thick_enough(nx, along_x)) continue;
     if (!Decomposition::is_thick_enough(nz, along_z)) continue;
-    const double cost = Cost{nx, nz}.of(along_x, along_z);
+    const double cost = cost_of({nx, along_x}, {nz, along_z});
     if (cost < least) least = cost, best = along_x;
   }
   return best;

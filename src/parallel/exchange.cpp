@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "src/parallel/communicator.hpp"
@@ -17,29 +18,8 @@ namespace {
 
 MessageCounts sent_so_far;
 
-std::vector<int> starts_of(const std::vector<int>& sizes) {
-  std::vector<int> starts(sizes.size());
-  std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
-  return starts;
-}
-
-void reduce(MPI_Comm ranks, void* numbers, std::size_t n, MPI_Datatype type, MPI_Op operation) {
-  if (rank_count(ranks) == 1) return;
-  ++sent_so_far.reductions;
-  MPI_Allreduce(MPI_IN_PLACE, numbers, static_cast<int>(n), type, operation, ranks);
-}
-
-}  // namespace
-
-const MessageCounts& message_counts() { return sent_so_far; }
-
-void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation) {
-  reduce(ranks, numbers.data(), numbers.size(), MPI_DOUBLE, operation);
-}
-void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation) {
-  reduce(ranks, numbers.data(), numbers.size(), MPI_INT64_T, operation);
-}
-
+/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
+/// MPI library says so. Otherwise messages pass through the host.
 bool mpi_reaches_device() {
   if (runs_on_host) return true;
 #if defined(MPIX_CUDA_AWARE_SUPPORT)
@@ -48,6 +28,20 @@ bool mpi_reaches_device() {
   return false;
 #endif
 }
+
+}  // namespace
+
+const MessageCounts& message_counts() { return sent_so_far; }
+
+template <class T>
+void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation) {
+  if (rank_count(ranks) == 1) return;
+  ++sent_so_far.reductions;
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()),
+                std::is_integral_v<T> ? MPI_INT64_T : MPI_DOUBLE, operation, ranks);
+}
+template void all_reduce(MPI_Comm, std::span<Real>, MPI_Op);
+template void all_reduce(MPI_Comm, std::span<std::int64_t>, MPI_Op);
 
 MessageBuffer::MessageBuffer(std::string label, std::size_t n) : label_(std::move(label)) {
   reserve(n);
@@ -123,19 +117,27 @@ std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int 
 int ExchangeCounts::n_to() const { return std::accumulate(to.begin(), to.end(), 0); }
 int ExchangeCounts::n_from() const { return std::accumulate(from.begin(), from.end(), 0); }
 
-RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>& row,
-                        int n_ranks) {
-  const auto rank_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, rank);
-  const auto row_here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, row);
-  RowsByRank sorted{.row = Kokkos::View<int*>("rows by rank", row.extent(0)),
-                    .to = std::vector<int>(static_cast<std::size_t>(n_ranks), 0)};
-  const auto at = [&](std::size_t p) { return static_cast<std::size_t>(rank_here(p)); };
-  for (std::size_t p = 0; p < row.extent(0); ++p) ++sorted.to[at(p)];
-  std::vector<int> next = starts_of(sorted.to);
-  const auto sorted_here = Kokkos::create_mirror_view(sorted.row);
-  for (std::size_t p = 0; p < row.extent(0); ++p) sorted_here(next[at(p)]++) = row_here(p);
-  Kokkos::deep_copy(sorted.row, sorted_here);
-  return sorted;
+RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
+  const Kokkos::View<int*> row("rows by rank", static_cast<std::size_t>(n));
+  const Kokkos::View<int*> count("rows of a rank", static_cast<std::size_t>(n_ranks));
+  Kokkos::parallel_for(
+      "rows by rank: count", items(n), KOKKOS_LAMBDA(int p) {
+        if (rank(p) >= 0) Kokkos::atomic_inc(&count(rank(p)));
+      });
+  const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count);
+  int begin = 0;
+  for (int r = 0; r <= n_ranks && begin < n; ++r) {
+    const int wanted = r < n_ranks ? r : -1, first = begin;
+    if (wanted >= 0 && to(wanted) == 0) continue;
+    Kokkos::parallel_scan(
+        "rows by rank: list", items(n), KOKKOS_LAMBDA(int p, int& sum, bool final) {
+          if (rank(p) != wanted) return;
+          if (final) row(first + sum) = p;
+          ++sum;
+        });
+    if (wanted >= 0) begin += to(wanted);
+  }
+  return {.row = row, .to = {to.data(), to.data() + n_ranks}};
 }
 
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to) {

@@ -21,13 +21,10 @@ struct MessageCounts {
 };
 const MessageCounts& message_counts();
 
-/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction.
-void all_reduce(MPI_Comm ranks, std::span<Real> numbers, MPI_Op operation);
-void all_reduce(MPI_Comm ranks, std::span<std::int64_t> numbers, MPI_Op operation);
-
-/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
-/// MPI library says so. Otherwise messages pass through the host.
-bool mpi_reaches_device();
+/// Numbers summed or compared over ranks, the same on all of them; counted as one reduction. T is
+/// Real or std::int64_t.
+template <class T>
+void all_reduce(MPI_Comm ranks, std::span<T> numbers, MPI_Op operation);
 
 /// Numbers that kernels write and MPI sends, or the other way round.
 class MessageBuffer {
@@ -77,13 +74,13 @@ struct ExchangeCounts {
   ExchangeCounts back() const { return {ranks, from, to}; }
 };
 
-/// Rows in the order of the ranks that they go to, and how many go to each.
+/// Rows in the order of the ranks that they go to, then those that go nowhere; how many go to each.
 struct RowsByRank {
   Kokkos::View<int*> row;
   std::vector<int> to;
 };
-/// `rank` and `row` of what is sent. Sorted on the host: it is little.
-RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, const Kokkos::View<int*>& row, int n_ranks);
+/// `rank` of the rows 0 to n - 1, -1 for nowhere; rows that go to one rank keep their order.
+RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks);
 
 /// Tells each rank how many rows it will receive. All ranks together.
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to);

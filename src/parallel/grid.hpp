@@ -7,15 +7,16 @@ namespace barchan {
 
 class Decomposition;
 
+/// The grid with the heights on the host.
+using HostGrid = BasicGrid<Kokkos::View<Real*, Kokkos::HostSpace>>;
+
 /// The grid with its memory.
 struct Grid : BasicGrid<Kokkos::View<Real*>> {
-  int nx_all = 0, nz_all = 0;            // cells of all ranks together
   const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
 
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
-  /// With the heights on the host.
-  BasicGrid<Kokkos::View<Real*, Kokkos::HostSpace>> on_host() const {
+  HostGrid on_host() const {
     const Kokkos::HostSpace host;
     return {*this, Kokkos::create_mirror_view_and_copy(host, y_face_),
             Kokkos::create_mirror_view_and_copy(host, y_centre_)};

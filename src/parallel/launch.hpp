@@ -64,38 +64,6 @@ struct Loop {
   }
 };
 
-template <class Functor>
-struct SumLoop {
-  Functor functor;
-  CellRange range;
-  KOKKOS_FUNCTION void operator()(int item, Real& sum) const {
-    Body<Functor> body = functor;
-    const CellsOfItem at(range, item);
-    Real row_sum = 0;
-#pragma omp simd reduction(+ : row_sum)
-    for (int i = at.i0; i < at.i1; ++i) row_sum += body(i, at.j, at.k);
-    sum += row_sum;
-  }
-};
-
-template <class Functor>
-struct MaxLoop {
-  Functor functor;
-  CellRange range;
-  KOKKOS_FUNCTION void operator()(int item, Real& largest) const {
-    Body<Functor> body = functor;
-    const CellsOfItem at(range, item);
-    Real row_max = largest, row_sum = 0;
-#pragma omp simd reduction(max : row_max) reduction(+ : row_sum)
-    for (int i = at.i0; i < at.i1; ++i) {
-      const Real value = body(i, at.j, at.k);
-      row_max = value > row_max ? value : row_max;
-      row_sum += value;  // a maximum forgets what is not a number, a sum does not
-    }
-    largest = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
-  }
-};
-
 }  // namespace launch_detail
 
 /// functor(i, j, k) for every index of the range.

@@ -125,11 +125,9 @@ class RowExchange {
                       consecutive_blocks(counts.from, width_));
   }
   /// What was received, into the rows of a list, or into `first_row` and those after it.
-  void unpack(const PackLayout& layout, const Kokkos::View<const int*>& row) const {
-    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, row, 0));
-  }
-  void unpack(const PackLayout& layout, int first_row) const {
-    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, {}, first_row));
+  void unpack(const PackLayout& layout, const Kokkos::View<const int*>& row,
+              int first_row = 0) const {
+    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, row, first_row));
   }
   UnpackRows unpacking(const PackLayout& layout, const Kokkos::View<const int*>& row,
                        int first_row) const {

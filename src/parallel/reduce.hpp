@@ -17,10 +17,6 @@ void sum_over(MPI_Comm ranks, std::vector<T>& numbers) {
   all_reduce(ranks, std::span<T>(numbers), MPI_SUM);
 }
 template <class T>
-void max_over(MPI_Comm ranks, std::vector<T>& numbers) {
-  all_reduce(ranks, std::span<T>(numbers), MPI_MAX);
-}
-template <class T>
 T sum_over(MPI_Comm ranks, T number) {
   all_reduce(ranks, std::span(&number, 1), MPI_SUM);
   return number;
@@ -33,6 +29,33 @@ inline Real max_over(MPI_Comm ranks, Real number) {
   return number;
 }
 
+namespace launch_detail {
+
+/// The sum of a functor's values, or the largest of them.
+template <bool largest, class Functor>
+struct Reduction {
+  Functor functor;
+  CellRange range;
+  KOKKOS_FUNCTION void operator()(int item, Real& result) const {
+    Body<Functor> body = functor;
+    const CellsOfItem at(range, item);
+    Real row_max = result, row_sum = 0;
+#pragma omp simd reduction(max : row_max) reduction(+ : row_sum)
+    for (int i = at.i0; i < at.i1; ++i) {
+      const Real value = body(i, at.j, at.k);
+      if constexpr (largest) row_max = value > row_max ? value : row_max;
+      row_sum += value;  // a maximum forgets what is not a number, a sum does not
+    }
+    if constexpr (largest) {
+      result = row_sum == row_sum ? row_max : Kokkos::Experimental::infinity_v<Real>;
+    } else {
+      result += row_sum;
+    }
+  }
+};
+
+}  // namespace launch_detail
+
 /// Sum of functor(i, j, k), which may also write, over the cells of all ranks. The order of
 /// additions depends only on the grid and the numbers of threads and ranks.
 template <class Functor>
@@ -40,20 +63,25 @@ Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   Real sum = 0;
   const CellRange range = owned_cells(grid);
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::SumLoop<Functor>{functor, range}, sum);
+                          launch_detail::Reduction<false, Functor>{functor, range}, sum);
   return sum_over(ranks_of(grid), sum);
 }
 
-/// Largest functor(i, j, k) over the cells of all ranks, for values that are not negative; infinity
+/// Largest functor(i, j, k) over the cells of this rank, for values that are not negative; infinity
 /// if one is not a number.
 template <class Functor>
-Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+Real max_each_cell_here(const char* label, const Grid& grid, const Functor& functor) {
   Real largest = 0;
   const CellRange range = owned_cells(grid);
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::MaxLoop<Functor>{functor, range},
+                          launch_detail::Reduction<true, Functor>{functor, range},
                           Kokkos::Max<Real>(largest));
-  return max_over(ranks_of(grid), largest);
+  return largest;
+}
+/// Of all ranks.
+template <class Functor>
+Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
+  return max_over(ranks_of(grid), max_each_cell_here(label, grid, functor));
 }
 
 }  // namespace barchan

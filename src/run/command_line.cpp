@@ -4,30 +4,21 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "src/base/errors.hpp"
 #include "src/base/words.hpp"
 #include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {
 
-CommandLine bad_usage(const std::string& complaint) {
-  CommandLine line;
-  line.exit_code = 2;
-  line.text = complaint;
-  return line;
-}
-
-/// Empty when the first word is a command or an option. CLI11 alone would say that a subcommand is
-/// missing, not that this one is unknown.
-std::string unknown_command(int argc, const char* const* argv) {
+/// CLI11 alone would say that a subcommand is missing, not that this one is unknown.
+void check_command(int argc, const char* const* argv) {
   const std::vector<std::string> commands{"run", "check", "info", "keys"};
-  if (argc < 2 || argv[1][0] == '-') return {};
-  const std::string word = argv[1];
-  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
-  const std::string close = nearest(word, commands);
-  return fmt::format("unknown command \"{}\"{}; there are {}\n", word,
-                     close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
-                     fmt::join(commands, ", "));
+  if (argc < 2 || argv[1][0] == '-' || std::ranges::count(commands, argv[1]) > 0) return;
+  const std::string close = nearest(argv[1], commands);
+  throw InputError(fmt::format("unknown command \"{}\"{}; there are {}", argv[1],
+                               close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+                               fmt::join(commands, ", ")));
 }
 
 /// What CLI11 lists as "not expected", in order, with the option it may have been meant for.
@@ -41,10 +32,10 @@ std::string not_expected(const CLI::App& app, const CLI::App& command) {
     if (!word.starts_with("-")) continue;
     if (word == "--ranks") {
       return "--ranks is an option of the launcher, ./barchan run; with the program itself start "
-             "ranks by mpirun -np N\n";
+             "ranks by mpirun -np N";
     }
     const std::string close = nearest(word, names);
-    return fmt::format("unknown option {}{}; {} --help lists them\n", word,
+    return fmt::format("unknown option {}{}; {} --help lists them", word,
                        close.empty() ? "" : fmt::format(" (did you mean {}?)", close),
                        command.get_name());
   }
@@ -54,8 +45,7 @@ std::string not_expected(const CLI::App& app, const CLI::App& command) {
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
-  const std::string complaint = unknown_command(argc, argv);
-  if (!complaint.empty()) return bad_usage(complaint);
+  check_command(argc, argv);
   CommandLine line;
   CLI::App app{"Barchan: subaqueous dunes, every grain followed, the flow by large-eddy simulation",
                "barchan"};
@@ -100,13 +90,12 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& stop) {
     const std::string found = not_expected(app, *app.get_subcommands().front());
-    return bad_usage(found.empty() ? std::string(stop.what()) + "\n" : found);
+    throw InputError(found.empty() ? stop.what() : found);
   } catch (const CLI::ParseError& stop) {
     std::ostringstream out, err;
-    if (app.exit(stop, out, err) != 0) return bad_usage(err.str());
-    CommandLine shown;
-    shown.text = out.str();
-    return shown;
+    if (app.exit(stop, out, err) == 0) return {.text = out.str()};
+    const std::string text = err.str();
+    throw InputError(text.substr(0, text.find_last_not_of('\n') + 1));
   }
   return line;
 }

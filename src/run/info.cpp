@@ -58,8 +58,8 @@ std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& 
       fmt::format("frames   {}: {} ... {}, t = {:.6g} s (step {}) ... {:.6g} s (step {})\n",
                   frames.size(), first.name, last.name, first.t, first.step, last.t, last.step);
   text += "arrays of the last frame:\n";
-  for (const auto& array : last.arrays) {
-    text += describe_array(file, last.name + "/" + array.name, array.name);
+  for (const auto& [name, array] : last.arrays) {
+    text += describe_array(file, last.name + "/" + name, name);
   }
   if (file.exists("grid")) text += "grid:\n" + describe_group(file, "grid");
   return text;
@@ -87,16 +87,6 @@ std::string describe_file(const std::filesystem::path& path) {
     text += describe_origin(origin) + describe_frames(file, list_frames(file));
   }
   return text + "The configuration is in the attribute \"config\" of the file.\n";
-}
-
-int run_info(const std::filesystem::path& file) {
-  try {
-    fmt::print("{}", describe_file(file));
-    return 0;
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "{}\n", problem.what());
-    return 2;
-  }
 }
 
 }  // namespace barchan

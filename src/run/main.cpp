@@ -68,16 +68,14 @@ int execute(const CommandLine& line) {
       return run_check(line, std::cout);
     case Command::keys:
       std::cout << keys_page();
-      return 0;
-    case Command::info:
-      return run_info(line.file);
-    case Command::none:
       break;
+    case Command::info:
+      std::cout << as_input([&] { return describe_file(line.file); });
+      break;
+    case Command::none:
+      if (rank_of(MPI_COMM_WORLD) == 0) std::cout << line.text;
   }
-  if (rank_of(MPI_COMM_WORLD) == 0) {
-    (line.exit_code == 0 ? std::cout : std::cerr) << line.text;
-  }
-  return line.exit_code;
+  return 0;
 }
 
 /// One message and an end for all ranks. A problem that all of them met is told by rank 0, which

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/grains/grain_sums.hpp"
+#include "src/base/atomic_file.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -41,10 +42,10 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 }
 
 std::vector<DuneRow> RunDiagnostics::find_dunes() {
-  const GatheredGrains grains(*run_.state.grains);
+  const std::vector<CloudGrain> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   if (rank_of(run_.ranks) != 0) return {};
-  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains.cloud());
+  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains);
   for (const DuneRow& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
@@ -53,9 +54,9 @@ std::vector<DuneRow> RunDiagnostics::find_dunes() {
 
 std::vector<int> RunDiagnostics::dune_labels() const {
   const GrainState& grains = *run_.state.grains;
-  const GatheredGrains all(grains);
+  const std::vector<CloudGrain> all = gathered_grains(grains);
   std::vector<int> labels;
-  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all.cloud());
+  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
   return from_rank_0(run_.ranks, labels, grains.n);
 }
 
@@ -69,15 +70,18 @@ void RunDiagnostics::sample() {
   if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
   if (!force_map_) return;
   const GrainState& grains = *run_.state.grains;
-  const GatheredGrains all(grains);
-  const auto force = gathered(grains, run_.coupled_step.mean_resultant_force(grains));
-  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all.cloud(), force);
+  const std::vector<CloudGrain> all = gathered_grains(grains);
+  const auto mine = Kokkos::create_mirror_view_and_copy(
+      Kokkos::HostSpace{}, run_.coupled_step.mean_resultant_force(grains));
+  const auto force =
+      on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
+  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
 }
 
-void RunDiagnostics::write(const RunFolder& folder, const OutputFiles& output) {
-  if (statistics_) statistics_->write(folder.file("statistics.csv"));
+void RunDiagnostics::write(const std::filesystem::path& folder, const OutputFiles& output) {
+  if (statistics_) statistics_->write(folder / "statistics.csv");
   if (flow_average_) flow_average_->write(output, run_.clock.time(), run_.clock.step);
-  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder.file("force_map.csv"));
+  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder / "force_map.csv");
 }
 
 void RunDiagnostics::save(CheckpointWriter& file) const {
@@ -100,11 +104,11 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
     : run_(run),
       diagnostics_(diagnostics),
       accounts_(accounts),
-      folder_(folder, run.restart_time, run.ranks),
+      folder_(prepare_folder(folder, run.restart_time, run.ranks)),
       output_(folder, run.provenance, run.restart_time, run.ranks) {
-  if (rank_of(run.ranks) == 0)
-    report::log_to(folder_.file("log.txt"), run.restart_time.has_value());
-  folder_.write_config(run.provenance.config);
+  if (rank_of(run.ranks) != 0) return;
+  report::log_to(folder_ / "log.txt", run.restart_time.has_value());
+  write_atomically(folder_ / "config.toml", run.provenance.config);
 }
 
 void ResultsWriter::write_due() {
@@ -112,7 +116,7 @@ void ResultsWriter::write_due() {
   Watchdog::beat("writing results", clock.step, clock.time());
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
-    for (const DuneRow& dune : diagnostics_.find_dunes()) folder_.append(dune);
+    for (const DuneRow& dune : diagnostics_.find_dunes()) append_row(folder_, dune);
   }
   if (diagnostics_.sample_due()) {
     const PhaseTimer timer(accounts_.phases, "analytics");
@@ -151,7 +155,7 @@ void ResultsWriter::write_history() {
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
   }
-  folder_.append(row);
+  if (rank_of(run_.ranks) == 0) append_row(folder_, row);
   accounts_.interval = {};
 }
 
@@ -184,7 +188,7 @@ bool ResultsWriter::restart_due() const {
 void ResultsWriter::write_restart() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing a restart file", clock.step, clock.time());
-  CheckpointWriter file(folder_.path(), clock.step, run_.provenance, run_.ranks);
+  CheckpointWriter file(folder_, clock.step, run_.provenance, run_.ranks);
   save_state(file, run_.state, run_.coupled_step);
   file.scalar("t", clock.time());
   file.scalar("step", clock.step);
@@ -196,7 +200,8 @@ void ResultsWriter::write_restart() {
 }
 
 void ResultsWriter::write_summary(const std::string& status, const std::string& message) {
-  folder_.write_summary(accounts_.summary(run_, status, message));
+  const auto summary = accounts_.summary(run_, status, message);
+  if (rank_of(run_.ranks) == 0) barchan::write_summary(folder_, summary);
 }
 
 std::string ResultsWriter::write_failure(const StateError& problem) const {
@@ -208,7 +213,7 @@ std::string ResultsWriter::write_failure(const StateError& problem) const {
     const auto& [fluid, grains] = run_.state;
     const auto names =
         output_.write_failure(fluid ? &*fluid : nullptr, grains ? &*grains : nullptr, t, step);
-    return fmt::format("{}; look at it in {} ({})", message, folder_.path().string(),
+    return fmt::format("{}; look at it in {} ({})", message, folder_.string(),
                        fmt::join(names, ", "));
   } catch (const std::exception& second) {
     return fmt::format("{}; the state could not be written: {}", message, second.what());

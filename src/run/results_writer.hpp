@@ -30,7 +30,7 @@ class RunDiagnostics {
   /// Adds the state of now to the means.
   void sample();
   /// statistics.csv, flow_average.h5 and force_map.csv.
-  void write(const RunFolder& folder, const OutputFiles& output);
+  void write(const std::filesystem::path& folder, const OutputFiles& output);
 
   void save(CheckpointWriter& file) const;
   void load(const CheckpointReader& file);
@@ -44,8 +44,8 @@ class RunDiagnostics {
   std::optional<ForceMap> force_map_;
 };
 
-/// Tables, frames, restart files and summary. Owns the run folder; refers to the rest. All ranks
-/// call every member together. Members throw std::runtime_error with a sentence for the user.
+/// Tables, frames, restart files and summary of a run that it refers to. All ranks call every
+/// member together. Members throw std::runtime_error with a sentence for the user.
 class ResultsWriter {
  public:
   /// Makes the folder ready: removes the results of an earlier run, or those later than the
@@ -71,7 +71,7 @@ class ResultsWriter {
   RunState& run_;
   RunDiagnostics& diagnostics_;
   RunAccounts& accounts_;
-  RunFolder folder_;
+  std::filesystem::path folder_;
   OutputFiles output_;
   WallClock::time_point last_restart_ = WallClock::now();
 };

@@ -97,7 +97,7 @@ void run_one(const Config& config, const RunOptions& options) {
   report::info("{}", config.title);
   Watchdog::beat("setting up");
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
-  Simulation simulation(config, options, files);
+  Simulation simulation = as_input([&] { return Simulation(config, options, files); });
   simulation.open_folder();
   show_numbers(config, sizes);
   try {

@@ -1,6 +1,5 @@
 #include "src/run/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
@@ -23,37 +23,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* history_name = "history.csv";
-constexpr const char* dune_name = "dune.csv";
-constexpr const char* history_header =
+struct Table {
+  const char *name, *columns;
+};
+constexpr Table history{
+    "history.csv",
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
-    "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap";
-constexpr const char* dune_header =
-    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux";
+    "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap"};
+constexpr Table dune{
+    "dune.csv",
+    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux"};
 
-/// Of a run that failed: a restart removes them too.
-constexpr const char* failure_names[] = {"failure_grains.h5", "failure_grains.xdmf",
-                                         "failure_fields.h5", "failure_fields.xdmf"};
-constexpr const char* result_names[] = {
-    "config.toml",     "run.json",          "history.csv",   "dune.csv",  "fields.h5",
-    "fields.xdmf",     "grains.h5",         "grains.xdmf",   "tracks.h5", "statistics.csv",
-    "flow_average.h5", "flow_average.xdmf", "force_map.csv", "log.txt"};
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError("cannot make the folder " + folder.string() + ": " + error.message() +
-                     "; take another --out");
-  }
-}
+constexpr const char* result_names[] = {"config.toml",       "run.json",
+                                        "history.csv",       "dune.csv",
+                                        "fields.h5",         "fields.xdmf",
+                                        "grains.h5",         "grains.xdmf",
+                                        "tracks.h5",         "log.txt",
+                                        "statistics.csv",    "flow_average.h5",
+                                        "flow_average.xdmf", "force_map.csv",
+                                        "failure_grains.h5", "failure_grains.xdmf",
+                                        "failure_fields.h5", "failure_fields.xdmf"};
 
 /// True for names of files that a new run removes from its folder; pictures and everything that is
 /// not ours stay.
 bool is_result(const fs::path& name) {
-  const auto is_name = [&](const char* known) { return name == known; };
-  return std::ranges::any_of(result_names, is_name) ||
-         std::ranges::any_of(failure_names, is_name) || name.extension() == ".tmp" ||
+  return std::ranges::count(result_names, name) > 0 || name.extension() == ".tmp" ||
          is_checkpoint_name(name);
 }
 
@@ -158,8 +152,7 @@ void check_nothing_is_lost(const Config& config, const fs::path& folder) {
 
 void check_results_go_on(const fs::path& folder) {
   try {
-    text_of_table(folder / history_name, history_header);
-    text_of_table(folder / dune_name, dune_header);
+    for (const auto& [name, columns] : {history, dune}) text_of_table(folder / name, columns);
     for (const char* name : {"grains.h5", "fields.h5", "tracks.h5"}) {
       if (fs::exists(folder / name)) list_frames(Hdf5File(folder / name, Hdf5File::Mode::read));
     }
@@ -177,62 +170,47 @@ std::string status_in(const fs::path& run_json) {
 }
 
 void cut_table(const fs::path& file, const std::string& header, double t) {
-  std::string kept = header + "\n";
-  const std::string text = text_of_table(file, header);
+  std::istringstream lines(text_of_table(file, header));
+  std::string kept = header + "\n", line;
+  std::getline(lines, line);
   const auto columns = std::count(header.begin(), header.end(), ',');
   const double last = t + 1e-9 * std::max(1.0, std::abs(t));  // times have ten digits in the table
-  for (std::size_t begin = kept.size(), end = 0; begin < text.size(); begin = end + 1) {
-    end = text.find('\n', begin);
-    if (end == std::string::npos) break;  // not written to its end
-    const std::string_view line(text.data() + begin, end - begin);
+  while (std::getline(lines, line) && !lines.eof()) {         // at the end: not written to its own
     double line_time = 0;
     const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), line_time);
     const bool whole = std::count(line.begin(), line.end(), ',') == columns;
-    if (whole && error == std::errc() && *stop == ',' && line_time <= last) {
-      kept.append(line).push_back('\n');
-    }
+    if (whole && error == std::errc() && *stop == ',' && line_time <= last) kept += line + "\n";
   }
   write_atomically(file, kept);
 }
 
-RunFolder::RunFolder(fs::path folder, std::optional<double> restart_time, MPI_Comm communicator)
-    : folder_(std::move(folder)), root_(rank_of(communicator) == 0) {
+fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_time,
+                        MPI_Comm communicator) {
   synchronise(communicator);  // others may still read what is about to go
-  if (root_) {
-    make_folder(folder_);
-    for (const char* name : failure_names) fs::remove(folder_ / name);
-    if (!restart_time) {
-      for (const auto& entry : fs::directory_iterator(folder_)) {
-        if (is_result(entry.path().filename())) fs::remove(entry.path());
+  if (rank_of(communicator) == 0) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+      throw InputError(fmt::format("cannot make the folder {}: {}; take another --out",
+                                   folder.string(), error.message()));
+    }
+    // Of a run that failed, a restart removes what it left to look at.
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path name = entry.path().filename();
+      if (is_result(name) && (!restart_time || name.string().starts_with("failure_"))) {
+        fs::remove(entry.path());
       }
     }
-    const double t = restart_time.value_or(0.0);
-    cut_table(file(history_name), history_header, t);
-    cut_table(file(dune_name), dune_header, t);
+    for (const auto& [name, columns] : {history, dune})
+      cut_table(folder / name, columns, restart_time.value_or(0));
   }
   synchronise(communicator);
+  return folder;
 }
 
-RunFolder::~RunFolder() {
-  for (const int descriptor : {history_, dune_}) {
-    if (descriptor >= 0) ::close(descriptor);
-  }
-}
-
-void RunFolder::write_config(const std::string& resolved_toml) {
-  if (root_) write_atomically(file("config.toml"), resolved_toml);
-}
-
-void RunFolder::append_line(int& descriptor, const char* name, const std::string& line) {
-  if (!root_) return;
-  if (descriptor < 0) descriptor = ::open(file(name).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor < 0) cannot("write", file(name));
-  write_all(descriptor, line, file(name));
-}
-
-void RunFolder::append(const HistoryRow& r) {
-  append_line(
-      history_, history_name,
+void append_row(const fs::path& folder, const HistoryRow& r) {
+  append_text(
+      folder / history.name,
       fmt::format("{:.10g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.4g},{},{},"
                   "{:.6g}\n",
                   r.t, r.step, r.u_star, r.bulk_velocity, r.pressure_gradient,
@@ -240,19 +218,18 @@ void RunFolder::append(const HistoryRow& r) {
                   r.pressure_iterations, r.n_grains, r.n_contacts, r.max_overlap));
 }
 
-void RunFolder::append(const DuneRow& r) {
-  append_line(dune_, dune_name,
+void append_row(const fs::path& folder, const DuneRow& r) {
+  append_text(folder / dune.name,
               fmt::format("{:.10g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},"
                           "{:.9g},{:.9g},{:.9g},{},{:.9g}\n",
                           r.t, r.dune, r.n_grains, r.w, r.l, r.h, r.cx, r.cy, r.cz, r.horn_left,
                           r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux));
 }
 
-void RunFolder::write_summary(const nlohmann::ordered_json& summary) {
-  if (!root_) return;
+void write_summary(const fs::path& folder, const nlohmann::ordered_json& summary) {
   // Texts that are not UTF-8 (a path in the message) must not cost the summary.
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-  write_atomically(file("run.json"), summary.dump(2, ' ', false, replace) + "\n");
+  write_atomically(folder / "run.json", summary.dump(2, ' ', false, replace) + "\n");
 }
 
 }  // namespace barchan

@@ -43,38 +43,20 @@ struct HistoryRow {
   double max_overlap = 0;  // over the mean diameter of the pair
 };
 
-/// Owns the folder's text files. On ranks other than 0 every member does nothing.
-/// Every member throws std::runtime_error naming the file and the reason.
-class RunFolder {
- public:
-  /// A new run (`restart_time` empty): makes the folder, and removes the results and restart files
-  /// of an earlier run in it, so read what the run starts from before.
-  /// Going on from a restart: keeps them, and cuts the tables after the lines with t <=
-  /// restart_time.
-  /// All ranks together; it is there when the call returns.
-  RunFolder(std::filesystem::path folder, std::optional<double> restart_time,
-            MPI_Comm communicator = MPI_COMM_SELF);
-  ~RunFolder();
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
+// The next four throw std::runtime_error naming the file and the reason.
 
-  void write_config(const std::string& resolved_toml);
-  /// Whole lines, on their way to the disk when the call returns.
-  void append(const HistoryRow& row);
-  void append(const DuneRow& row);
-  /// Replaces run.json as a whole. Numbers that are not finite become null.
-  void write_summary(const nlohmann::ordered_json& summary);
-
-  const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
-
- private:
-  void append_line(int& descriptor, const char* name, const std::string& line);
-
-  std::filesystem::path folder_;
-  bool root_;
-  int history_ = -1, dune_ = -1;  // file descriptors; -1: not open
-};
+/// A new run (`restart_time` empty): makes the folder, and removes the results and restart files of
+/// an earlier run in it, so read what the run starts from before.
+/// Going on from a restart: keeps them, and cuts the tables after the lines with t <= restart_time.
+/// All ranks together; the folder is ready when the call returns it.
+std::filesystem::path prepare_folder(const std::filesystem::path& folder,
+                                     std::optional<double> restart_time,
+                                     MPI_Comm communicator = MPI_COMM_SELF);
+/// Adds a whole line to history.csv or dune.csv; on its way to the disk when the call returns.
+void append_row(const std::filesystem::path& folder, const HistoryRow& row);
+void append_row(const std::filesystem::path& folder, const DuneRow& row);
+/// Replaces run.json as a whole. Numbers that are not finite become null.
+void write_summary(const std::filesystem::path& folder, const nlohmann::ordered_json& summary);
 
 /// The "status" in a run.json; empty if the file is missing or damaged.
 std::string status_in(const std::filesystem::path& run_json);

@@ -89,17 +89,14 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
       pencils(make_decomposition(config, ranks)),
-      changed_config(as_input(
-          [&] { return restart ? changes_since(*restart, config) : std::vector<std::string>{}; })),
-      state(as_input([&] { return first_state(config, restart, files, ranks, pencils.get()); })),
-      coupled_step(as_input([&] { return CoupledStep(config, state); })) {
-  as_input([&] {
-    if (restart != nullptr) {
-      go_on_from(*restart);
-    } else {
-      coupled_step.start(state);
-    }
-  });
+      changed_config(restart ? changes_since(*restart, config) : std::vector<std::string>()),
+      state(first_state(config, restart, files, ranks, pencils.get())),
+      coupled_step(config, state) {
+  if (restart != nullptr) {
+    go_on_from(*restart);
+  } else {
+    coupled_step.start(state);
+  }
   count_grains();
   clock.start = clock.step;
 }
@@ -159,7 +156,7 @@ void RunAccounts::load(const CheckpointReader& file) {
               .courant = numbers[3]};
 }
 
-Progress RunAccounts::progress(const RunState& run) const {
+Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRow>& dune) const {
   const double seconds = std::max(seconds_since(start), 1e-9);
   Progress p;
   p.t = run.clock.time();
@@ -172,6 +169,7 @@ Progress RunAccounts::progress(const RunState& run) const {
     p.pressure_iterations = run.coupled_step.fluid_report().pressure_iterations;
   }
   p.n_grains = run.n_grains;
+  if (dune) p.dune_width = dune->w, p.dune_length = dune->l;
   return p;
 }
 

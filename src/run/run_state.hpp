@@ -5,6 +5,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
+#include "src/diagnostics/dune_shape.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/run/initial_state.hpp"
@@ -28,8 +29,7 @@ struct RunClock {
 };
 
 struct RunState {
-  /// Starts a new run, or goes on from a restart file. Reads and checks all that it starts from,
-  /// and writes nothing. Throws InputError when that cannot be used. All ranks together.
+  /// Starts a new run, or goes on from a restart file; see Simulation. All ranks together.
   RunState(const Config& config, const CheckpointReader* restart, const InitialFiles& files);
 
   /// One fluid step.
@@ -76,7 +76,7 @@ struct RunAccounts {
   /// The interval in restart files; those of earlier versions have none.
   void save(CheckpointWriter& file) const;
   void load(const CheckpointReader& file);
-  Progress progress(const RunState& run) const;
+  Progress progress(const RunState& run, const std::optional<DuneRow>& largest_dune) const;
   /// run.json. `status`: "running", "done", "stopped" or "failed"; `message`: why it stopped or
   /// failed. Wall seconds of phases are per fluid step, what is communicated is of this rank.
   nlohmann::ordered_json summary(const RunState& run, const std::string& status,

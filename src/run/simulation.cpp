@@ -20,25 +20,19 @@ std::string source_of(const Config& config, const RunOptions& options, const Ini
 }  // namespace
 
 Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
-    : Simulation(config, options, files, as_input([&] {
-                   return options.restart ? std::make_unique<const CheckpointReader>(
-                                                *options.restart, MPI_COMM_WORLD)
-                                          : nullptr;
-                 })) {}
-
-Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
-                       const std::unique_ptr<const CheckpointReader>& restart)
     : options_(options),
-      run_(config, restart.get(), files),
+      restart_(options.restart
+                   ? std::make_unique<CheckpointReader>(*options.restart, MPI_COMM_WORLD)
+                   : nullptr),
+      run_(config, restart_.get(), files),
       diagnostics_(run_),
       state_checks_(config, run_.ranks) {
-  as_input([&] {
-    if (restart) {
-      diagnostics_.load(*restart);
-      accounts_.load(*restart);
-    }
-    state_checks_.check_start(run_.state, run_.coupled_step, source_of(config, options, files));
-  });
+  if (restart_) {
+    diagnostics_.load(*restart_);
+    accounts_.load(*restart_);
+    restart_.reset();
+  }
+  state_checks_.check_start(run_.state, run_.coupled_step, source_of(config, options, files));
 }
 
 void Simulation::open_folder() {
@@ -73,7 +67,7 @@ Outcome Simulation::loop() {
     one_step();
     stopped = reason_to_stop();
     results_->write_due();
-    show_progress();
+    progress_.update(accounts_.progress(run_, diagnostics_.largest_dune()));
   }
   progress_.finish();
   results_->write_restart();
@@ -102,17 +96,9 @@ std::string Simulation::reason_to_stop() const {
   const double limit = run_.config.time.wall_clock_limit;
   const bool out_of_time =
       limit > 0 && broadcast(seconds_since(accounts_.start) > limit, run_.ranks);
-  const bool requested = any_rank(stop_signal() != 0, run_.ranks);
+  const bool requested = any_rank(stop_signal != 0, run_.ranks);
   if (out_of_time) return "the wall-clock limit was reached";
   return requested ? "stopped on request" : "";
-}
-
-void Simulation::show_progress() {
-  if (!progress_.due()) return;
-  Progress progress = accounts_.progress(run_);
-  if (const auto& dune = diagnostics_.largest_dune())
-    progress.dune_width = dune->w, progress.dune_length = dune->l;
-  progress_.update(progress);
 }
 
 /// In run.json, if the disk that may be the problem lets us.

@@ -18,8 +18,8 @@ enum class Outcome { done, stopped };
 /// user; the summary then says "failed". All ranks call them together.
 class Simulation {
  public:
-  /// Reads and checks all that the run starts from, and writes nothing. Throws InputError when that
-  /// cannot be used.
+  /// Reads and checks all that the run starts from, and writes nothing: whatever it throws is about
+  /// input (as_input).
   Simulation(const Config& config, const RunOptions& options, const InitialFiles& files);
 
   /// Makes the folder ready: see ResultsWriter.
@@ -33,15 +33,13 @@ class Simulation {
   const SystemState& state() const { return run_.state; }
 
  private:
-  Simulation(const Config& config, const RunOptions& options, const InitialFiles& files,
-             const std::unique_ptr<const CheckpointReader>& restart);
   Outcome loop();
   void one_step();
   std::string reason_to_stop() const;
-  void show_progress();
   void say_failed(const std::string& message);
 
   RunOptions options_;
+  std::unique_ptr<CheckpointReader> restart_;  // open while the run is built
   RunState run_;
   RunDiagnostics diagnostics_;
   RunAccounts accounts_;

@@ -14,11 +14,11 @@ namespace barchan {
 struct LongWait {
   int rank = 0;
   std::string host;
-  double seconds = 0;     // without a beat
-  std::string doing;      // since then
-  std::int64_t step = 0;  // fluid step of that, 0: none yet
-  double time = 0;        // simulated, at its beginning [s]
-  std::string restart;    // the last good restart file, empty: none
+  double seconds = 0;              // without a beat
+  std::string doing = "starting";  // since then
+  std::int64_t step = 0;           // fluid step of that, 0: none yet
+  double time = 0;                 // simulated, at its beginning [s]
+  std::string restart;             // the last good restart file, empty: none
 };
 
 /// One line for the user, with its end.
@@ -33,8 +33,8 @@ class Watchdog {
   /// `patience` in seconds of wall time, longer than anything between two beats; 0: for ever.
   Watchdog(int patience, MPI_Comm communicator);
 
-  /// The main thread goes on: `doing` completes "while", and must be a literal. Cheap enough for
-  /// every step. `step`, `time` [s]: see LongWait. As with signals, there is one pulse a program.
+  /// The main thread goes on: `doing` completes "while". Cheap enough for every fluid step. `step`,
+  /// `time` [s]: see LongWait. As with signals, there is one pulse a program.
   static void beat(const char* doing, std::int64_t step = 0, double time = 0);
 
   /// From now on the user is referred to this restart file; empty: to none.

@@ -44,12 +44,6 @@ def edited(text, edits):
     return text
 
 
-def grains_csv(rows=None, header="id,diameter,x,y,z"):
-    """A table of grains that float apart from each other; ids from 1: line 2 is grain 1."""
-    rows = rows or [(n + 1, 2e-4, 0.004 + 3e-4 * (n % 5), 4e-4 + 3e-4 * (n // 5), 0.003) for n in range(20)]
-    return "\n".join([header, *(",".join(f"{value:.10g}" for value in row) for row in rows), ""])
-
-
 @dataclass
 class Entry:
     """`edits` change `base`, or `text` is the whole case.toml; `files` are further files by name: text, bytes, or a

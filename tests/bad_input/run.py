@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bad input: tries every entry of the tables in a folder of its own and checks how it ends.
 
-    run.py PROGRAM [--only TEXT] [--show]
+    run.py [PROGRAM] [--only TEXT] [--show]
 
 An entry is fine when the exit code is the expected one, the message holds the expected words and tells of as many
 problems as there are, nothing else is said (no signal, abort, stack trace, words of a library), nothing is written,
@@ -105,7 +105,7 @@ def conditions(entry, folder):
 
 def command_of(entry, program):
     first, *words = shlex.split(entry.command)
-    scripts = {"./barchan": [str(ROOT / "barchan")], "sweep": [sys.executable, str(ROOT / "scripts/sweep.py"), program],
+    scripts = {"sweep": [sys.executable, str(ROOT / "scripts/sweep.py"), program],
                "plot": [sys.executable, str(ROOT / "analysis/plot.py")]}
     ranks = ["mpirun", "--quiet", "--bind-to", "none", "-np", str(entry.ranks)] if entry.ranks > 1 else []
     return [*scripts.get(first, [*ranks, program, first]), *words]
@@ -166,7 +166,8 @@ def attempt(entry, program, good, scratch, number):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
+    parser.add_argument("program", type=Path, nargs="?",
+                        default=os.environ.get("BARCHAN_PROGRAM", ROOT / "build/release/barchan"))
     parser.add_argument("--only", default="", help="a kind, or entries with this text in their name")
     parser.add_argument("--show", action="store_true", help="print every message")
     options = parser.parse_args()

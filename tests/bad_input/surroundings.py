@@ -1,4 +1,4 @@
-"""What is around the case: the command line, file names, folders, ranks, launcher, studies, pictures."""
+"""What is around the case: the command line, file names, folders, ranks, studies, pictures."""
 
 import os
 import shlex
@@ -16,9 +16,6 @@ COMMAND_LINE = [
     line("no command", "''", "unknown command | run, check, info"),
     line("--ranks to the program", RUN + " --ranks 2", "--ranks | mpirun"),
     line("--set of a section", SET + "grains=3", "--set grains | must be a section, [grains]"),
-    line("--set below a value", SET + "time.end.s=3", '--set time.end.s | "time.end" is not a section'),
-    line("--set 60000 parts deep", SET + ".".join(["a"] * 60_000) + "=1", "--set a.a.a | unknown key"),
-    line("--set that contradicts", SET + "fluid.pressure_gradient=3", "--set fluid.pressure_gradient | give one of the two"),
     line("OMP_NUM_THREADS of rubbish", RUN, "", edits=SHORT, code=0,
          env={"OMP_NUM_THREADS": "many", "OMP_THREAD_LIMIT": "1"}),
     line("KOKKOS_NUM_THREADS of rubbish", RUN, "KOKKOS_NUM_THREADS | many | --threads", env={"KOKKOS_NUM_THREADS": "many"}),
@@ -78,19 +75,12 @@ def study(name, text, says, options=""):
     return line("study: " + name, "sweep study.toml " + options, says, files={"study.toml": text})
 
 
-def launcher(command, says):
-    return line("launcher: " + command, "./barchan " + command, says)
-
-
 def plot(name, command, says, **files):
     return line("plot: " + name, "plot " + command, says, given=("good as out",),
                 files={f"out/{file.replace('_', '.')}": text for file, text in files.items()})
 
 
 SCRIPTS = [
-    launcher("chekc case.toml", "unknown command 'chekc' | did you mean 'check'"),
-    launcher("run case.toml --ranks=-2", "--ranks needs a number | -2"),
-    launcher("plot", "needs a run folder"),
     study("not TOML", "[study\n", "study.toml | not TOML | line 1"),
     study("base missing", STUDY.replace("case.toml", "gone.toml") + VARY, "gone.toml | No such file"),
     study("no cases", STUDY, "study.toml | no cases | [vary]"),

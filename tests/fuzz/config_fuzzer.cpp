@@ -16,23 +16,19 @@ namespace {
 using namespace barchan;
 
 /// A folder with something to start from, so that cases that name another are loaded, too.
-const TemporaryFolder& folder() {
-  static const TemporaryFolder the_folder;
-  static const bool filled = [] {
-    std::ofstream(the_folder / "flow.h5") << std::flush;
-    std::ofstream(the_folder / "heap.csv") << std::flush;
-    std::ofstream(the_folder / "start.toml")
+struct StartFolder : TemporaryFolder {
+  StartFolder() {
+    std::ofstream(*this / "flow.h5") << std::flush;
+    std::ofstream(*this / "heap.csv") << std::flush;
+    std::ofstream(*this / "start.toml")
         << "[time]\nend = 1\n[domain]\nsize = [0.1, 0.02, 0.02]\n"
            "[fluid]\ncells = [8, 4, 4]\nmean_velocity = 0.1\n"
            "[grains]\nsizes = [[2e-4, 10]]\n"
            "[initial]\ngrains = { pour = { centre = [0.05, 0.01], radius = 0.005 } }\n";
-    std::ofstream(the_folder / "circle.toml") << "[time]\nend = 1\n[domain]\nsize = [1, 1, 1]\n"
-                                                 "[grains]\n[initial]\ngrains = \"circle.toml\"\n";
-    return true;
-  }();
-  static_cast<void>(filled);
-  return the_folder;
-}
+    std::ofstream(*this / "circle.toml") << "[time]\nend = 1\n[domain]\nsize = [1, 1, 1]\n"
+                                            "[grains]\n[initial]\ngrains = \"circle.toml\"\n";
+  }
+};
 
 struct Input {
   std::string text;
@@ -76,12 +72,13 @@ void use(const Config& config) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const StartFolder folder;
   const Input input = split(fuzz::as_text({data, size}));
   fuzz::accepts<ConfigError>(
-      [&] { use(load_config_text(input.text, folder() / "case.toml", input.overrides)); });
+      [&] { use(load_config_text(input.text, folder / "case.toml", input.overrides)); });
   // As the text that a restart file carries, which may be anything.
   fuzz::accepts([&] {
-    const Config written = config_as_written(input.text, folder() / "restart.h5");
+    const Config written = config_as_written(input.text, folder / "restart.h5");
     restart_conflicts(Config{}, written);
     changed_keys(Config{}, written);
   });

@@ -84,7 +84,9 @@ const std::vector<std::string> attribute_names = split(
 class Editor {
  public:
   Editor(hid_t file, Tape& tape, const std::filesystem::path& folder)
-      : file_(file), tape_(tape), other_file_(folder / "other_file") {}
+      : file_(file), tape_(tape), other_file_(folder / "other_file") {
+    H5Pset_create_intermediate_group(links_.get(), 1);
+  }
 
   void one_edit() {
     constexpr std::array edits{
@@ -111,17 +113,11 @@ class Editor {
   void rename() {
     const char* from = name();
     const char* to = free_name();
-    H5Lmove(file_, from, file_, to, links().get(), H5P_DEFAULT);
+    H5Lmove(file_, from, file_, to, links_.get(), H5P_DEFAULT);
   }
 
-  static Handle links() {
-    Handle list(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(list.get(), 1);
-    return list;
-  }
-
-  std::vector<hsize_t> extents() {
-    std::vector<hsize_t> of(tape_.pick(5));
+  std::vector<hsize_t> extents(std::size_t rank) {
+    std::vector<hsize_t> of(rank);
     for (auto& extent : of) extent = tape_.extent();
     return of;
   }
@@ -137,35 +133,22 @@ class Editor {
   void put_array() {
     const char* at = free_name();
     const Handle of_type = any_type(tape_);
-    const auto whole = extents();
+    const auto whole = extents(tape_.pick(5));
     const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    bool grows = false;
-    switch (tape_.pick(6)) {
-      case 0:
-        H5Pset_layout(list.get(), H5D_COMPACT);
-        break;
-      case 1:
-        H5Pset_layout(list.get(), H5D_CONTIGUOUS);
-        break;
-      case 2:
-        grows = true;
-        [[fallthrough]];
-      case 3: {
-        std::vector<hsize_t> chunk(whole.size());
-        for (auto& extent : chunk) extent = tape_.extent();
-        H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
-        if (tape_.pick(2) == 1) H5Pset_deflate(list.get(), 1);
-        break;
-      }
-      case 4:
-        H5Pset_external(list.get(), other_file_.c_str(), 0, H5F_UNLIMITED);
-        break;
-      default: {
-        const Handle all = space_of(whole, false);
-        H5Pset_virtual(list.get(), all.get(), tape_.pick(2) == 0 ? "." : "other.h5", name(),
-                       all.get());
-        break;
-      }
+    // compact, contiguous, chunks that may grow or not, in another file, made of another array
+    const std::size_t layout = tape_.pick(6);
+    const bool grows = layout == 2;
+    if (layout < 2) {
+      H5Pset_layout(list.get(), layout == 0 ? H5D_COMPACT : H5D_CONTIGUOUS);
+    } else if (layout < 4) {
+      H5Pset_chunk(list.get(), static_cast<int>(whole.size()), extents(whole.size()).data());
+      if (tape_.pick(2) == 1) H5Pset_deflate(list.get(), 1);
+    } else if (layout == 4) {
+      H5Pset_external(list.get(), other_file_.c_str(), 0, H5F_UNLIMITED);
+    } else {
+      const Handle all = space_of(whole, false);
+      H5Pset_virtual(list.get(), all.get(), tape_.pick(2) == 0 ? "." : "other.h5", name(),
+                     all.get());
     }
     const bool pieces = H5Pget_layout(list.get()) == H5D_CHUNKED;
     H5Pset_alloc_time(list.get(), pieces ? H5D_ALLOC_TIME_INCR : H5D_ALLOC_TIME_LATE);
@@ -174,7 +157,7 @@ class Editor {
     const bool nothing = whole.empty() && tape_.pick(2) == 1;
     const Handle space = nothing ? Handle(H5Screate(H5S_NULL), H5Sclose) : space_of(whole, grows);
     const Handle array(
-        H5Dcreate2(file_, at, of_type.get(), space.get(), links().get(), list.get(), H5P_DEFAULT),
+        H5Dcreate2(file_, at, of_type.get(), space.get(), links_.get(), list.get(), H5P_DEFAULT),
         H5Dclose);
     write_first(array.get());
   }
@@ -211,7 +194,7 @@ class Editor {
     const char* at = name();
     const char* called = attribute_names[tape_.pick(attribute_names.size())].c_str();
     const Handle of_type = any_type(tape_);
-    const auto whole = extents();
+    const auto whole = extents(tape_.pick(5));
     if (whole.size() > 2) return;
     const Handle space =
         tape_.pick(8) == 7 ? Handle(H5Screate(H5S_NULL), H5Sclose) : space_of(whole, false);
@@ -272,32 +255,32 @@ class Editor {
 
   void put_group() {
     const char* at = free_name();
-    const Handle group(H5Gcreate2(file_, at, links().get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Handle group(H5Gcreate2(file_, at, links_.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   }
 
   void put_soft_link() {
     const char* at = free_name();
     const char* to = name();
-    H5Lcreate_soft(to, file_, at, links().get(), H5P_DEFAULT);
+    H5Lcreate_soft(to, file_, at, links_.get(), H5P_DEFAULT);
   }
 
   void put_external_link() {
     const char* at = free_name();
     const char* to = name();
     const std::array<const char*, 4> files{"input.h5", "missing.h5", "/dev/null", "."};
-    H5Lcreate_external(tape_.one_of(files), to, file_, at, links().get(), H5P_DEFAULT);
+    H5Lcreate_external(tape_.one_of(files), to, file_, at, links_.get(), H5P_DEFAULT);
   }
 
   void put_hard_link() {
     const char* at = free_name();
     const char* to = name();
-    H5Lcreate_hard(file_, to, file_, at, links().get(), H5P_DEFAULT);
+    H5Lcreate_hard(file_, to, file_, at, links_.get(), H5P_DEFAULT);
   }
 
   void put_type() {
     const char* at = free_name();
     const Handle of_type = any_type(tape_);
-    H5Tcommit2(file_, at, of_type.get(), links().get(), H5P_DEFAULT, H5P_DEFAULT);
+    H5Tcommit2(file_, at, of_type.get(), links_.get(), H5P_DEFAULT, H5P_DEFAULT);
   }
 
   void resize() {
@@ -314,7 +297,7 @@ class Editor {
   void nest() {
     std::string path = name();
     for (std::size_t n = std::size_t{1} << tape_.pick(10); n > 0; --n) path += "/a";
-    const Handle group(H5Gcreate2(file_, path.c_str(), links().get(), H5P_DEFAULT, H5P_DEFAULT),
+    const Handle group(H5Gcreate2(file_, path.c_str(), links_.get(), H5P_DEFAULT, H5P_DEFAULT),
                        H5Gclose);
   }
 
@@ -323,7 +306,7 @@ class Editor {
     const std::string at = name();
     for (std::size_t n = std::size_t{1} << tape_.pick(8); n > 0; --n) {
       const Handle group(H5Gcreate2(file_, (at + "/frame_" + std::to_string(n)).c_str(),
-                                    links().get(), H5P_DEFAULT, H5P_DEFAULT),
+                                    links_.get(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Gclose);
     }
   }
@@ -331,6 +314,7 @@ class Editor {
   hid_t file_;
   Tape& tape_;
   std::filesystem::path other_file_;
+  Handle links_{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
 };
 
 }  // namespace

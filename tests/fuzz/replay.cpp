@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "src/base/atomic_file.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 
 namespace {
@@ -59,15 +59,9 @@ int main(int argc, char** argv) {
   const auto option = std::find(words.begin(), words.end(), "--random");
   const auto files = files_of({words.begin(), option});
   for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
-    if (!stream) {
-      std::cerr << "cannot read " << file << '\n';
-      return 1;
-    }
     // At once: the last one named is the one that fails.
     std::cout << file.string() << '\n' << std::flush;
-    give(bytes);
+    give(barchan::read_text(file));
   }
   std::cout << files.size() << " inputs, every one read or refused with a sentence\n";
   const auto n_left = words.end() - option;

@@ -5,10 +5,9 @@
 
 #include <Kokkos_Core.hpp>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 
+#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/config/load.hpp"
@@ -47,14 +46,13 @@ grain_forces = true
 Simulation simulation(const std::optional<std::filesystem::path>& restart) {
   static const auto folder = fuzz::input_file("run");
   const Config config = load_config_text(small_case, "case.toml");
-  return Simulation(config, {.folder = folder, .restart = restart}, {});
+  return as_input([&] { return Simulation(config, {.folder = folder, .restart = restart}, {}); });
 }
 
 /// A restart file after two steps.
 std::string valid_restart() {
   simulation({}).run();
-  std::ifstream stream(latest_checkpoint(fuzz::input_file("run")).value(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return read_text(latest_checkpoint(fuzz::input_file("run")).value());
 }
 
 }  // namespace

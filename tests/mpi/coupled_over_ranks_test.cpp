@@ -189,9 +189,9 @@ TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
     EXPECT_LT(off[1], 1e-10);
     EXPECT_LT(u, 1e-11);
     EXPECT_LT(alpha, 1e-10);
-    EXPECT_LT(shared.step.ledger().volume_mismatch(), 1e-12);
-    EXPECT_LT(shared.step.ledger().exchange_mismatch(), 1e-10);
-    EXPECT_LT(shared.step.ledger().carried_mismatch(), 1e-10);
+    EXPECT_LT(shared.step.ledger().entries().at("largest_volume_mismatch"), 1e-12);
+    EXPECT_LT(shared.step.ledger().entries().at("largest_exchange_mismatch"), 1e-10);
+    EXPECT_LT(shared.step.ledger().entries().at("largest_carried_mismatch"), 1e-10);
     if (is_first())
       std::printf(
           "[ measured ] %d ranks, %d along x: x %.1e, u %.1e of grains; u %.1e m/s, alpha "

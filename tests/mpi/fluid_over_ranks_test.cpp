@@ -1,12 +1,14 @@
-// The flow on pencils against the same flow on one rank, in all shapes that the ranks can be put
-// in.
+// How the cells are shared among the ranks, and the flow on pencils against the same flow on one
+// rank, in all shapes that the ranks can be put in.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/fluid/local_correction.hpp"
+#include "src/fluid/pressure_solver.hpp"
 #include "tests/support/shared_grid.hpp"
 
 namespace barchan {
@@ -19,6 +21,48 @@ using test::SharedGrid;
 const std::array<int, 3> kCells{21, 7, 15};
 const std::array<double, 3> kSize{0.05, 0.025, 0.036};
 SharedGrid awkward(int along_x) { return {kCells, kSize, 1e-3, along_x}; }
+
+TEST(Decomposition, SplitsAreEvenAndComplete) {
+  for (const int n : {1, 2, 7, 63, 250}) {
+    for (int parts = 1; parts <= 9; ++parts) {
+      const Split split{.n = n, .parts = parts};
+      EXPECT_EQ(split.begin(0), 0);
+      EXPECT_EQ(split.begin(parts), n);
+      for (int p = 0; p < parts; ++p) {
+        EXPECT_LE(split.count(p), split.count(0));
+        EXPECT_GE(split.count(p), split.count(0) - 1);
+      }
+    }
+  }
+}
+
+TEST(Decomposition, EveryColumnHasOneOwner) {
+  const SharedGrid grid({11, 3, 13}, {0.11, 0.03, 0.13}, 0);
+  int n = grid.mine.nx * grid.mine.nz, all = 0;
+  MPI_Allreduce(&n, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(all, 11 * 13);
+  EXPECT_GE(grid.mine.nx, 2);
+  EXPECT_GE(grid.mine.nz, 2);
+  // The rank behind along x begins where this one ends.
+  const RankLine& line = grid.ranks->along_x();
+  int next = 0, end = (grid.mine.i_begin + grid.mine.nx) % 11;
+  MPI_Sendrecv(&grid.mine.i_begin, 1, MPI_INT, line.before(), 0, &next, 1, MPI_INT, line.after(), 0,
+               line.communicator, MPI_STATUS_IGNORE);
+  EXPECT_EQ(next, end);
+}
+
+TEST(Decomposition, TooThinPencilsAreRefused) {
+  const int count = rank_count(MPI_COMM_WORLD);
+  if (count == 1) GTEST_SKIP() << "one rank fits everywhere";
+  try {
+    const Decomposition thin(MPI_COMM_WORLD, 3, 3);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(std::to_string(count) + " ranks cannot share 3 x 3"),
+              std::string::npos)
+        << error.what();
+  }
+}
 
 TEST(HaloOverRanks, GhostsAreTheCellsAcross) {
   for (const int along_x : test::shapes(kCells)) {
@@ -71,7 +115,7 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     const SharedGrid grid = awkward(along_x);
     const Boundary here(grid.mine, WallFlow::no_slip, WallFlow::free_slip);
     const Boundary there(grid.whole, WallFlow::no_slip, WallFlow::free_slip);
-    FaceVector c = test::make_faces(grid.mine), c_whole = test::make_faces(grid.whole);
+    FaceVector c = make_faces("test", grid.mine), c_whole = make_faces("test", grid.whole);
     set_heap(grid, [&](auto share) {
       grid.set(c_whole.x, c.x, share);
       grid.set(c_whole.z, c.z, share);
@@ -155,9 +199,10 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
     flows.config.grains.emplace();
     flows.config.solver.pressure_tolerance = 1e-12;
     FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-    ExchangeOnFaces on_here{test::make_faces(flows.grid.mine), test::make_faces(flows.grid.mine)};
-    ExchangeOnFaces on_there{test::make_faces(flows.grid.whole),
-                             test::make_faces(flows.grid.whole)};
+    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine),
+                            make_faces("test", flows.grid.mine)};
+    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole),
+                             make_faces("test", flows.grid.whole)};
     set_heap(flows.grid, [&](auto share) {
       flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
       flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);

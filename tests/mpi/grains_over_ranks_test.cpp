@@ -12,7 +12,7 @@ namespace {
 
 using testing::by_id;
 using testing::from_all_ranks;
-using testing::GrainSystem;
+using testing::GrainBench;
 using testing::host_copy;
 using testing::numbers_of;
 using testing::SharedGrains;
@@ -149,7 +149,7 @@ TEST(GrainsOverRanks, CutsGiveEqualWorkAndFollowTheGrains) {
   Config c = box({0.02, 0.01, 0.004});
   c.grains->boundary_x = GrainBoundaryX::exit;
   InitialGrains grains = testing::lattice_packing(6000, {0.006, 0.01, 0.004}, 0.01);
-  GrainSystem s(c, grains, MPI_COMM_WORLD);
+  GrainBench s(c, grains, MPI_COMM_WORLD);
   if (n_ranks() == 1) return;
   const GrainPartition& cuts = *s.solver.list().partition();
   EXPECT_LT(cuts.imbalance(), 1.15);

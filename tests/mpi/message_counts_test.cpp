@@ -191,6 +191,18 @@ struct SmallCase {
   std::unique_ptr<CoupledStep> step;
 };
 
+TEST(HaloOverRanks, OneMessageToEachSide) {
+  for (const int along_x : test::shapes(SmallCase::cells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid(SmallCase::cells, SmallCase::size, 3e-4, along_x);
+    const Halo halo(grid.mine);
+    Field f("f", grid.mine);
+    const MessageCounts before = message_counts();
+    halo.fill(f);
+    expect_equal(since(before), fill(grid.mine));
+  }
+}
+
 TEST(MessageCounts, AFlowStep) {
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);
@@ -236,7 +248,7 @@ Config periodic_box() {
 
 TEST(MessageCounts, AListRebuild) {
   const Config c = periodic_box();
-  testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  testing::GrainBench s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
   const MessageCounts before = message_counts();
   s.solver.list().rebuild(s.state, false);
   if (n_ranks() == 1) return expect_equal(since(before), {});
@@ -252,7 +264,7 @@ void move_along_x(const GrainState& grains, Real distance) {
 /// Every grain goes on by one column, some to another rank: 30 numbers each, and no contacts.
 TEST(MessageCounts, AMigration) {
   const Config c = periodic_box();
-  testing::GrainSystem s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  testing::GrainBench s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
   if (n_ranks() == 1) return;
   const NeighborList& list = s.solver.list();
   move_along_x(s.state, 3e-4);

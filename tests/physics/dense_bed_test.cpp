@@ -2,7 +2,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "src/run/initial_state.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/packing.hpp"
 
@@ -66,27 +65,19 @@ TEST(DenseBed, SmallDisturbancesDieOutAtEveryFractionAndStep) {
 }
 
 /// 2,000 grains, 1.4 mm deep, in a periodic box: settled without a flow solver, then coupled.
-struct Bed {
-  static constexpr std::array<double, 3> size{0.0032, 0.006, 0.0032};
-
-  static Config config() {
-    Config c = test::water_box({4, 23, 4}, size);
-    c.fluid->bottom = WallFlow::no_slip;
-    c.coupling.smoothing_length = 2e-4;
-    Material& m = c.grains->material;
-    m.youngs_modulus = 3.125e5;
-    m.rolling_friction = 0.1;
-    c.grains->wall = m;
-    c.grains->gravity = {0, -9.81, 0};
-    c.time.fluid_step = 5e-4;
-    c.time.grain_step = 1e-5;
-    return c;
-  }
-
-  static InitialGrains settled() {
-    return test::settled(config(), testing::lattice_packing(2000, size, 0.01), 300);
-  }
-};
+Config bed_config() {
+  Config c = test::water_box({4, 23, 4}, {0.0032, 0.006, 0.0032});
+  c.fluid->bottom = WallFlow::no_slip;
+  c.coupling.smoothing_length = 2e-4;
+  Material& m = c.grains->material;
+  m.youngs_modulus = 3.125e5;
+  m.rolling_friction = 0.1;
+  c.grains->wall = m;
+  c.grains->gravity = {0, -9.81, 0};
+  c.time.fluid_step = 5e-4;
+  c.time.grain_step = 1e-5;
+  return c;
+}
 
 /// Median speed of the grains [m/s]: a few that have no contact and drop do not count.
 double median_speed(const test::CoupledRun& run) {
@@ -100,7 +91,7 @@ double median_speed(const test::CoupledRun& run) {
 /// Its mean over 0.01 s, after 0.02 s of pore water that answers: a bed that shakes does so in
 /// bursts.
 double coupled_speed(const InitialGrains& grains, bool relaxation) {
-  Config c = Bed::config();
+  Config c = bed_config();
   c.coupling.relaxation = relaxation;
   test::CoupledRun bed(c, grains);
   bed.advance(40);
@@ -113,7 +104,8 @@ double coupled_speed(const InitialGrains& grains, bool relaxation) {
 }
 
 TEST(DenseBed, ABedAtRestInStillWaterStaysAtRest) {
-  const InitialGrains grains = Bed::settled();
+  const Config c = bed_config();
+  const InitialGrains grains = test::settled(c, testing::lattice_packing(2000, c.size, 0.01), 300);
   // A hundredth of the fall velocity; the points of the grains cross cells.
   testing::expect_below("median speed [m/s]", coupled_speed(grains, true), 2e-4);
   EXPECT_GT(coupled_speed(grains, false), 2e-3) << "without relaxation";

@@ -28,12 +28,17 @@ TEST(FluidFlow, RampBringsTheBulkVelocityUp) {
   EXPECT_NEAR(run.solver.bulk_velocity(run.fluid), 0.2, 1e-13);
 }
 
+/// For a flow with exchange.
+Config coupled(Config config) {
+  config.grains.emplace();
+  return config;
+}
 ExchangeOnFaces no_exchange(const Grid& grid) {
-  return {test::make_faces(grid), test::make_faces(grid)};
+  return {make_faces("test", grid), make_faces("test", grid)};
 }
 
 TEST(FluidFlow, ExchangeIsTakenUpByAUniformMixture) {
-  Config config = test::flow_config({4, 6, 3}, {0.01, 0.02, 0.01}, 0);
+  Config config = coupled(test::flow_config({4, 6, 3}, {0.01, 0.02, 0.01}, 0));
   config.fluid->bottom = WallFlow::free_slip;
   FlowRun run(config);
   const auto uniform = [](double value) { return [=](int, int, int) { return value; }; };
@@ -50,7 +55,7 @@ TEST(FluidFlow, ExchangeIsTakenUpByAUniformMixture) {
 }
 
 TEST(FluidFlow, MovingSolidFractionConservesMass) {
-  Config config = test::flow_config({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-3);
+  Config config = coupled(test::flow_config({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-3));
   config.fluid->mean_velocity = 0.28;
   FlowRun run(config);
   const ExchangeOnFaces exchange = no_exchange(run.grid);
@@ -77,7 +82,7 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
 
 /// A new solver that goes on from a state must not notice: nothing may hide outside FluidState.
 TEST(FluidFlow, ANewSolverContinuesBitForBit) {
-  Config config = test::flow_config({16, 8, 11}, {0.04, 0.025, 0.03}, 1e-3);
+  Config config = coupled(test::flow_config({16, 8, 11}, {0.04, 0.025, 0.03}, 1e-3));
   config.fluid->mean_velocity = 0.28;
   config.time.fluid_step = 5e-4;
   const Grid grid = make_grid(config);

@@ -27,8 +27,11 @@ struct ImpactCase {
     if (on_wall) other.youngs_modulus = wall_modulus;
     return effective_youngs_modulus(grain, other);
   }
-  Real r_eff() const { return on_wall ? radius : radius / 2; }
-  Real m_eff() const { return sphere_volume(radius) * density / (on_wall ? 1 : 2); }
+  /// Grains that move, each as it would against a wall at this height [m].
+  int sides() const { return on_wall ? 1 : 2; }
+  Real plane() const { return on_wall ? 0 : 50 * radius; }
+  Real r_eff() const { return radius / sides(); }
+  Real m_eff() const { return sphere_volume(radius) * density / sides(); }
 };
 
 /// What one step of a contact shows.
@@ -42,67 +45,39 @@ struct ImpactResult {
   std::vector<ImpactSample> loading;    // until the largest overlap
 };
 
-/// Speeds and gaps of the two sides of a central impact.
-class CentralImpact {
- public:
-  CentralImpact(const ImpactCase& c, Real gap) : case_(c), bench_(config(c), grains(c, gap)) {}
-
-  void advance(Real dt) { bench_.advance(1, dt); }
-  /// Distance of the surfaces, negative as they overlap [m].
-  Real gap() const {
-    if (case_.on_wall) return bench_.grain(1).x.y - case_.radius;
-    return bench_.grain(2).x.x - bench_.grain(1).x.x - 2 * case_.radius;
-  }
-  /// Speed of separation [m/s].
-  Real speed() const {
-    if (case_.on_wall) return bench_.grain(1).u.y;
-    return bench_.grain(2).u.x - bench_.grain(1).u.x;
-  }
-  /// Repulsion [N].
-  Real force() const {
-    return case_.on_wall ? bench_.contact_force(1).y : bench_.contact_force(2).x;
-  }
-
- private:
-  static Config config(const ImpactCase& c) {
-    Config config = bench_config(c.material, c.density, c.radius);
-    if (c.on_wall) config.grains->wall.youngs_modulus = c.wall_modulus;
-    return config;
-  }
-  static InitialGrains grains(const ImpactCase& c, Real gap) {
-    InitialGrains g;
-    const Real r = c.radius;
-    if (c.on_wall) {
-      add_grain(g, 2 * r, {50 * r, r + gap, 50 * r}, {0, -c.v, 0});
-    } else {
-      add_grain(g, 2 * r, {50 * r, 50 * r, 50 * r}, {c.v / 2, 0, 0});
-      add_grain(g, 2 * r, {52 * r + gap, 50 * r, 50 * r}, {-c.v / 2, 0, 0});
-    }
-    return g;
-  }
-
-  ImpactCase case_;
-  GrainBench bench_;
-};
+/// The surfaces are `gap` apart [m].
+GrainBench before_impact(const ImpactCase& c, Real gap) {
+  Config config = bench_config(c.material, c.density, c.radius);
+  if (c.on_wall) config.grains->wall.youngs_modulus = c.wall_modulus;
+  const Real r = c.radius, height = r + gap / c.sides(), v = c.v / c.sides();
+  InitialGrains g;
+  add_grain(g, 2 * r, {50 * r, c.plane() + height, 50 * r}, {0, -v, 0});
+  if (!c.on_wall) add_grain(g, 2 * r, {50 * r, c.plane() - height, 50 * r}, {0, v, 0});
+  return GrainBench(config, g);
+}
 
 /// One impact at a constant step; the surfaces meet after (1 + phase) steps of free flight.
 ImpactResult run_impact(const ImpactCase& c, Real dt, Real phase = 0.5) {
-  CentralImpact impact(c, (1 + phase) * dt * c.v);
-  const Real touch = impact.gap() / c.v;  // free flight is exact
+  GrainBench bench = before_impact(c, (1 + phase) * dt * c.v);
+  const auto gap_of = [&c](const GrainKinematics& g) {  // of the surfaces
+    return c.sides() * (g.x.y - c.plane() - g.r);
+  };
+  const Real touch = gap_of(bench.grain(1)) / c.v;  // free flight is exact
   ImpactResult result;
   bool touched = false;
   for (int n = 1; n < 2000000; ++n) {
-    impact.advance(dt);
-    const Real gap = impact.gap();
+    bench.advance(1, dt);
+    const GrainKinematics grain = bench.grain(1);
+    const Real gap = gap_of(grain), speed = c.sides() * grain.u.y;
     if (gap < 0) {
       touched = true;
-      const ImpactSample sample{-gap, impact.force()};
+      const ImpactSample sample{-gap, bench.contact_force(1).y};
       if (sample.overlap > result.max_overlap) result.loading.push_back(sample);
       result.max_overlap = std::max(result.max_overlap, sample.overlap);
       result.max_force = std::max(result.max_force, sample.force);
     } else if (touched) {
-      result.restitution = impact.speed() / c.v;
-      result.duration = n * dt - gap / impact.speed() - touch;
+      result.restitution = speed / c.v;
+      result.duration = n * dt - gap / speed - touch;
       return result;
     }
   }
@@ -212,28 +187,21 @@ TEST(Restitution, IsThatOfTheDampedLawAtThePapersStep) {
 
 // --- Chung & Ooi, tests 1 to 3.
 
-/// A row of the table of materials; ranges (test 3) are given by their lower end.
-struct Parameters {
-  std::string material;
-  ImpactCase impact;
-};
-
-/// The row of a test for a material.
-Parameters parameters(const std::string& test, const std::string& material) {
+/// The row of a test for a material; ranges (test 3) are given by their lower end.
+ImpactCase parameters(const std::string& test, const std::string& material) {
   for (const auto& cells : reference_rows("dem_chung_ooi2011_parameters.csv")) {
     if (cells[0] != test || cells[2] != material) continue;
     const auto q = numbers(cells, 3);
     const bool rigid = q[7] == 1;
-    ImpactCase c{.material = {.youngs_modulus = q[0],
-                              .poisson_ratio = q[1],
-                              .restitution = q[3],
-                              .sliding_friction = q[2]},
-                 .wall_modulus = kRigid,
-                 .density = q[4],
-                 .radius = q[5],
-                 .v = rigid ? q[6] : 2 * q[6],
-                 .on_wall = rigid};
-    return {material, c};
+    return {.material = {.youngs_modulus = q[0],
+                         .poisson_ratio = q[1],
+                         .restitution = q[3],
+                         .sliding_friction = q[2]},
+            .wall_modulus = kRigid,
+            .density = q[4],
+            .radius = q[5],
+            .v = rigid ? q[6] : 2 * q[6],
+            .on_wall = rigid};
   }
   throw std::runtime_error("no parameters of test " + test + " for " + material);
 }
@@ -259,7 +227,7 @@ Real force_at(const std::vector<ImpactSample>& loading, Real overlap) {
 /// Loading branch against the digitised one. The tolerance, 2 %, is of the largest force: the
 /// digitising error does not shrink with the force.
 void expect_loading_branch(const std::string& number, const std::string& material) {
-  const ImpactCase c = parameters(number, material).impact;
+  const ImpactCase c = parameters(number, material);
   const ImpactResult impact = run_impact(c, hertz_duration(c) / 1000);
   Real worst = 0, worst_at = 0;
   for (const auto& cells : reference_rows("dem_chung_ooi2011_test1_test2_force_overlap.csv")) {
@@ -291,7 +259,7 @@ TEST(ChungOoi, Test2LoadingOnARigidPlane) { expect_loading_branch("2", "Al alloy
 TEST(ChungOoi, Tests1And2PeakIsThatOfHertz) {
   for (const auto& [test, material] : std::vector<std::pair<std::string, std::string>>{
            {"1", "glass"}, {"1", "limestone"}, {"2", "Al alloy"}, {"2", "Mg alloy"}}) {
-    const ImpactCase c = parameters(test, material).impact;
+    const ImpactCase c = parameters(test, material);
     const ImpactResult impact = run_impact(c, hertz_duration(c) / 1000);
     const Real root = std::sqrt(c.r_eff());
     const Real overlap = std::pow(15 * c.m_eff() * c.v * c.v / (16 * c.e_eff() * root), 0.4);
@@ -307,7 +275,7 @@ TEST(ChungOoi, Tests1And2PeakIsThatOfHertz) {
 TEST(ChungOoi, Test3RestitutionIsTheInput) {
   for (const std::string material : {"Al oxide", "cast iron"}) {
     for (const Real e : {0.2, 0.4, 0.6, 0.8, 1.0}) {
-      ImpactCase c = parameters("3", material).impact;
+      ImpactCase c = parameters("3", material);
       c.material.restitution = e;
       const Real measured = run_impact(c, hertz_duration(c) / 5000).restitution;
       test::save_result("chung_ooi_3", {{"material", material}, {"e", e}, {"measured", measured}});

@@ -90,10 +90,8 @@ std::vector<GrainRow> move_bed(const Variant& v, std::int64_t& rebuilds) {
   config.grains->wall = config.grains->material;
   config.grains->skin = v.skin;
   InitialGrains grains = lattice_packing(64, config.size, 0.05);
-  for (Vec3& x : grains.x) {
-    x += v.shift;
-    x.x -= kWidth * std::floor(x.x / kWidth), x.z -= kWidth * std::floor(x.z / kWidth);
-  }
+  const PeriodicBox box{.lx = kWidth, .lz = kWidth};
+  for (Vec3& x : grains.x) x = box.wrap(x + v.shift);
   for (Vec3& u : grains.u) u += Vec3{0.3, 0, 0.2};  // across the borders
   if (v.reversed) {
     std::reverse(grains.id.begin(), grains.id.end());
@@ -104,8 +102,8 @@ std::vector<GrainRow> move_bed(const Variant& v, std::int64_t& rebuilds) {
   GrainBench bench(config, grains);
   set_weight(bench.state, {0, -500, 0});  // packs within a millisecond
   bench.advance(600, 2.5e-6);
-  EXPECT_GT(bench.solver().contacts(bench.state).n_contacts, 15);
-  rebuilds = bench.solver().rebuilds();
+  EXPECT_GT(bench.solver.contacts(bench.state).n_contacts, 15);
+  rebuilds = bench.solver.list().rebuilds();
   return rows_by_id(bench.state);
 }
 

@@ -91,7 +91,7 @@ void expect_settled(const std::string& name, Real shift) {
   GrainBench bench(heap_config(), grains);
   set_weight(bench.state, {0, -5.886, 0});
   const auto per_grain = [&] {
-    return 2.0 * static_cast<Real>(bench.solver().contacts(bench.state).n_contacts) / bench.state.n;
+    return 2.0 * static_cast<Real>(bench.solver.contacts(bench.state).n_contacts) / bench.state.n;
   };
   bench.advance(1, 2.5e-6);
   expect_relative(name + ", contacts per grain as read", per_grain(), 4.07, 0.02);

@@ -20,6 +20,7 @@ struct Sphere {
 
 struct Outcome {
   double terminal = 0;         // at the end [m/s]
+  double sideways = 0;         // speed across gravity, the same [m/s]
   double transient_error = 0;  // largest |v - v_exact| / v_exact at the end of any step
 };
 
@@ -38,7 +39,9 @@ Outcome settle(Config config, const Sphere& s, double times) {
   for (int n = 1; n <= steps; ++n) {
     run.advance();
     exact.advance(config.time.fluid_step);
-    out.terminal = -run.velocity_of(1).y;
+    const Vec3 u = run.velocity_of(1);
+    out.terminal = -u.y;
+    out.sideways = std::hypot(u.x, u.z);
     out.transient_error =
         std::max(out.transient_error, std::abs(out.terminal / exact.velocity() - 1));
     if (!s.label.empty() && n % std::max(1, steps / 60) == 0) {
@@ -81,6 +84,7 @@ Config in_flowing_water(const Sphere& s, double cell, double step) {
 void check(const std::string& what, const Outcome& got, double reference, double tolerance) {
   testing::expect_relative(what + ", terminal velocity [m/s]", got.terminal, reference, tolerance);
   testing::expect_below(what + ", transient", got.transient_error, 0.01);
+  testing::expect_below(what + ", sideways [m/s]", got.sideways, 1e-5);
 }
 
 /// Each of Table II's grains, or of ten Cate's spheres.

@@ -15,15 +15,6 @@ namespace {
 
 using testing::coupled_config;
 
-const std::vector<std::string> kArrays = {
-    // clang-format off
-    "fluid/u_x", "fluid/u_y", "fluid/u_z", "fluid/p", "fluid/alpha_f", "fluid/nu_t",
-    "fluid/rate_previous_x",
-    "grains/kin", "grains/contact_force", "grains/carried_impulse", "grains/wall_xi_t",
-    "contacts/xi_t", "contacts/rolling", "dunes"
-    // clang-format on
-};
-
 /// Runs `config` in `folder` and returns its final restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
                           const std::optional<std::filesystem::path>& restart = {}) {
@@ -34,16 +25,29 @@ std::filesystem::path run(const Config& config, const std::filesystem::path& fol
   return *simulation.last_restart();
 }
 
+std::string bits_of(const Hdf5File& file, const std::string& name) {
+  const auto bits = [](const auto& numbers) {
+    return std::string(reinterpret_cast<const char*>(numbers.data()),
+                       numbers.size() * sizeof(numbers[0]));
+  };
+  if (file.info(name).type == ElementType::float64) return bits(file.read<double>(name));
+  return bits(file.read<std::int64_t>(name));
+}
+
 /// Every stored array is the same, to the bit.
 void expect_same_state(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const CheckpointReader first(a), second(b);
-  EXPECT_EQ(first.array<std::int64_t>("grains/id"), second.array<std::int64_t>("grains/id"));
-  for (const std::string& name : kArrays) {
-    const auto x = first.array<double>(name), y = second.array<double>(name);
-    ASSERT_EQ(x.size(), y.size()) << name;
-    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c): the bits
-    EXPECT_TRUE(x.empty() || std::memcmp(&x[0], &y[0], x.size() * sizeof(double)) == 0) << name;
+  const Hdf5File first(a, Hdf5File::Mode::read), second(b, Hdf5File::Mode::read);
+  int n = 0;
+  for (const std::string group : {"/", "/fluid/", "/grains/", "/contacts/", "/statistics/"}) {
+    if (!first.exists(group)) continue;
+    for (const std::string& child : first.children(group)) {
+      const std::string name = group + child;
+      if (first.is_group(name)) continue;
+      EXPECT_TRUE(bits_of(first, name) == bits_of(second, name)) << name;
+      ++n;
+    }
   }
+  EXPECT_GT(n, 20);
 }
 
 TEST(Simulation, TwoRunsAreBitwiseIdentical) {
@@ -68,10 +72,6 @@ TEST(Simulation, RestartContinuesBitwise) {
     const std::string text = read_text(scratch / "whole" / table);
     EXPECT_GT(text.size(), 500u) << table;
     EXPECT_EQ(text, read_text(scratch / "parts" / table)) << table;
-  }
-  const CheckpointReader a(at_once), b(in_parts);
-  for (const char* sums : {"statistics/sum_uv", "statistics/first_u", "statistics/force_map"}) {
-    EXPECT_EQ(a.array<double>(sums), b.array<double>(sums)) << sums;
   }
 }
 

@@ -2,17 +2,11 @@
 # The performance suite on tiny cases: that all of it runs and what it counts, not how fast it is. Then
 # compare.py on its records, and against peers that only pretend.
 set -u
-root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
+# shellcheck source=tests/support/script.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
 bench="$(dirname "$BARCHAN_PROGRAM")/barchan_bench"
 [ -x "$bench" ] || { echo "no $bench"; exit 77; }
-python=/usr/bin/python3
-[ -x "$python" ] || python=python3
-export PYTHONDONTWRITEBYTECODE=1 OMP_NUM_THREADS=2 OMP_PROC_BIND=false
-dir="$(mktemp -d)"
-trap 'rm -rf "$dir"' EXIT
-failures=0
-
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+export OMP_NUM_THREADS=2 OMP_PROC_BIND=false
 
 suite() {  # suite RECORDS [OPTION...]
   "$bench" --tiny --benchmark_min_time=0.01 "--records=$1" "${@:2}" > "$dir/out" 2>&1 ||
@@ -60,5 +54,4 @@ compare 2 --peers "$dir/peers" --scripts run_liggghts.sh --rounds 1 --bench "$be
   --bench-option=--tiny --bench-option=--benchmark_min_time=0.01
 says "$dir/err" 'ended with 3 and 0 rows'
 
-[ "$failures" = 0 ] && echo "bench: $(wc -l < "$dir/a.jsonl") records in order"
-exit $((failures > 0))
+finish "bench: $(wc -l < "$dir/a.jsonl") records in order"

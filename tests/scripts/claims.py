@@ -10,7 +10,7 @@ NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script(?:\.nightly)?\.\w+)`")
 
 
 def main():
-    tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")} | {"script.parallel_files"}
+    tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")} | {"script.parallel_files", "script.bad_input"}
     tests |= {f"script.nightly.{path.stem}" for path in ROOT.glob("tests/scripts/nightly/*")}
     for source in ROOT.glob("tests/*/*.cpp"):
         tests |= {".".join(found) for found in DECLARED.findall(source.read_text())}

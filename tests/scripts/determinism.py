@@ -24,11 +24,10 @@ def run(folder, threads, before=(), **variables):
 
 
 def all_at_once(folders, threads):
-    runs = [(folder, faults.start(folder, CASE, threads=threads)) for folder in folders]
-    for folder, process in runs:
+    for process in [faults.start(folder, CASE, threads=threads) for folder in folders]:
         said = process.communicate(timeout=300)[1]
         if process.returncode != 0:
-            faults.fail(f"{folder}: {said}")
+            faults.fail(said)
 
 
 def largest_difference(one, other):

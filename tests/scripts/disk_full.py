@@ -13,22 +13,17 @@ import faults
 NO_SPACE = "No space left on device"
 
 
-def free(disk):
-    return shutil.disk_usage(disk).free
-
-
 def fill(disk, leave):
     """A file that leaves so many bytes."""
     filler = disk / "filler"
-    with open(filler, "wb") as file:
-        while free(disk) > leave + 65536:
+    with open(filler, "wb", buffering=0) as file:
+        while shutil.disk_usage(disk).free > leave + 65536:
             file.write(bytes(32768))
-            file.flush()
     return filler
 
 
-def whole_restarts(folder):
-    """Restart files that the program itself finds whole."""
+def last_whole_restart(folder):
+    """The last restart file; the program itself finds all of them whole."""
     for path in folder.glob("restart_*.h5"):
         told = subprocess.run([faults.PROGRAM, "info", path], capture_output=True, text=True)
         if told.returncode != 0:
@@ -49,7 +44,7 @@ def broken(disk, work, name, settings, leave, words):
     left = list(folder.glob("*.tmp"))
     if left:
         faults.fail(f"{name}: half-written {left}")
-    last = whole_restarts(folder)
+    last = last_whole_restart(folder)
     said = re.search(r"last good restart is (\S+)", done.stderr)
     if (last is None) != (said is None) or (said and pathlib.Path(said[1]) != last):
         faults.fail(f"{name}: {last} is there, it said:\n{done.stderr}")

@@ -5,8 +5,6 @@ set -u
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 
-quiet() { [ ! -s "$dir/err" ] || fail "warnings: $(cat "$dir/err")"; }
-
 make_run() { "$python" "$root/tests/support/make_horn_run.py" "$@" || fail "make_horn_run $*"; }
 
 check() { "$python" "$root/tests/support/check_horn_run.py" "$@" || fail "check $*"; }
@@ -25,10 +23,8 @@ make_run "$dir/turned" --angle 8 --seam --tracks --program-map --until 3
 plot 0 "$dir/turned" horn-origins horns fig13 sectors morphology --time 3
 quiet
 check "$dir/turned" shape origins numbers map
-plot 2 "$dir/turned" force-map --from 7 --to 8
-says "force_map needs a frame with forces between t = 7 s and 8 s"
-plot 2 "$dir/turned" fig12 --time 1
-says "fig12 needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s"
+refused "force_map needs a frame with forces between t = 7 s and 8 s" "$dir/turned" force-map --from 7 --to 8
+refused "fig12 needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s" "$dir/turned" fig12 --time 1
 
 make_run "$dir/alone" --angle -5 --seam --without table
 plot 0 "$dir/alone" horns force-map --from 0 --to 1
@@ -36,19 +32,13 @@ quiet
 plot 0 "$dir/alone" sectors
 quiet
 check "$dir/alone" numbers force_100
-plot 2 "$dir/alone" sectors --time -1
-says "no frame at or before t = -1 s"
+refused "no frame at or before t = -1 s" "$dir/alone" sectors --time -1
 rm "$dir/alone/grains.h5"
-plot 2 "$dir/alone" fig-14
-says 'no figure "fig_14"'
-plot 2 "$dir/alone" fig13
-says "fig13 needs force_map.csv, or grains.h5 with force_total"
-plot 2 "$dir/alone" horns
-says "horns needs grains.h5 with at least one frame"
+refused 'no figure "fig_14"' "$dir/alone" fig-14
+refused "fig13 needs force_map.csv, or grains.h5 with force_total" "$dir/alone" fig13
+refused "horns needs grains.h5 with at least one frame" "$dir/alone" horns
 
 make_run "$dir/old" --without dune --tracks
-plot 2 "$dir/old" horns
-says "horns needs frames that say which dune each grain is of (output.dune_interval > 0); runs of an earlier version"
+refused "horns needs frames that say which dune each grain is of (output.dune_interval > 0); runs of an earlier version" "$dir/old" horns
 
-[ "$failures" = 0 ] && echo "horn grains, origins and forces as known"
-exit $((failures > 0))
+finish "horn grains, origins and forces as known"

@@ -24,29 +24,15 @@ mapfile -d '' sources < <(find kernels src tests perf \( -name '*.hpp' -o -name 
 includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[>"]' "${sources[@]}" |
   sed -E 's/:[[:space:]]*#[[:space:]]*include[[:space:]]*/ /')"  # "file:line target" a line
 
-# rank_of ROOM ROOMS...: the number of a folder in its list; nothing if it is not there.
-rank_of() {
-  local room=$1 rank=0 known
-  shift
-  for known in "$@"; do
-    if [ "$known" = "$room" ]; then
-      echo "$rank"
-      return
-    fi
-    rank=$((rank + 1))
-  done
-}
-
 # check_rooms PLACE TARGET TOP ROOMS...: an include from TOP/room/... to TOP/room/... points down or stays.
 check_rooms() {
-  local place=$1 target=$2 top=$3 from to
-  shift 3
-  from="${place#"$top"/}" to="${target#"$top"/}"
-  from="$(rank_of "${from%%/*}" "$@")" to="$(rank_of "${to%%/*}" "$@")"
-  if [ -z "$from" ] || [ -z "$to" ]; then
-    complain "$place: $target: not in a folder that this script lists"
-  elif [ "$to" -gt "$from" ]; then
-    complain "$place: $target is in a folder further up; the order is: $*"
+  local from="${1#"$3"/}" to="${2#"$3"/}" order
+  from=${from%%/*} to=${to%%/*}
+  order=$(printf ' %s ' "${@:4}")
+  if [[ $order != *" $from "* || $order != *" $to "* ]]; then
+    complain "$1: $2: not in a folder that this script lists"
+  elif [[ $from != "$to" && $order != *" $to "*" $from "* ]]; then
+    complain "$1: $2 is in a folder further up; the order is: ${*:4}"
   fi
 }
 

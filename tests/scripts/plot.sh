@@ -7,7 +7,7 @@ set -u
 fake "$dir/whole"
 plot 0 "$dir/whole"
 for figure in topviews height_map morphology midplane profiles history horns horn_origins; do is_picture "$dir/whole/$figure.png"; done
-[ ! -s "$dir/err" ] || fail "a whole run draws without warnings, but: $(cat "$dir/err")"
+quiet
 [ -s "$dir/whole/report.html" ] || fail "no report of a whole run"
 [ "$(wc -l < "$dir/out")" = "$(find "$dir/whole" -name '*.p[nd][gf]' -o -name report.html | wc -l)" ] || fail "each picture is named on a line of its own"
 for curves in height_map morphology history; do
@@ -25,24 +25,15 @@ is_picture "$dir/cut/morphology.png"
 is_picture "$dir/cut/height_map.png"
 [ "$(head -c 4 "$dir/cut/morphology.pdf")" = %PDF ] || fail "no PDF"
 
-plot 2 "$dir/flow" profiles
-says_only "profiles needs statistics.csv"
-plot 2 "$dir/cut" midplane
-says_only "midplane needs fields.h5"
-plot 2 "$dir/nowhere"
-says_only "no such run folder: $dir/nowhere"
-plot 2 "$dir/whole/run.json"
-says_only "not a run folder"
-plot 2 "$dir/whole" topview
-says_only 'did you mean "topviews"?'
-plot 2 "$dir/whole" zzz
-says_only 'no figure "zzz"; figures: topviews'
+refused "profiles needs statistics.csv" "$dir/flow" profiles
+refused "midplane needs fields.h5" "$dir/cut" midplane
+refused "no such run folder: $dir/nowhere" "$dir/nowhere"
+refused "not a run folder" "$dir/whole/run.json"
+refused 'did you mean "topviews"?' "$dir/whole" topview
+refused 'no figure "zzz"; figures: topviews' "$dir/whole" zzz
 mkdir "$dir/empty"
-plot 2 "$dir/empty"
-says_only "nothing to draw in $dir/empty"
+refused "nothing to draw in $dir/empty" "$dir/empty"
 echo "not HDF5" > "$dir/empty/grains.h5"
-plot 2 "$dir/empty" topviews
-says_only "cannot read $dir/empty/grains.h5"
+refused "cannot read $dir/empty/grains.h5" "$dir/empty" topviews
 
-[ "$failures" = 0 ] && echo "all figures as expected"
-exit $((failures > 0))
+finish "all figures as expected"

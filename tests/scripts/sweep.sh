@@ -1,19 +1,17 @@
 #!/usr/bin/env bash
 # Studies: the cases they make, a failed case, a kill in the middle and going on. Mistakes: tests/bad_input.
 set -u
-root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
+# shellcheck source=tests/support/script.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
 program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
-python=/usr/bin/python3
 [ -x "$program" ] || { echo "no program at $program"; exit 77; }
-dir="$(mktemp -d)"
-trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
 export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}"
-failures=0
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
 
 sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
-wait_for_restart() {  # wait_for_restart FOLDER: until its base case has written one
+begin() {  # begin FOLDER: the study as process $pid, until its base case has written a restart file
+  "$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out "$1" > "$1.txt" 2>&1 &
+  pid=$!
   for _ in $(seq 300); do
     if ls "$1"/base/restart_*.h5 > /dev/null 2>&1; then break; fi
     sleep 0.05
@@ -62,9 +60,7 @@ printf '[study]\nbase = "case.toml"\n[grid]\ngrains.restitution = [0.1, 0.2]\n"g
 [ "$(sweep grid.toml --list | wc -l)" = 6 ] || fail "a grid of 2 x 3 has not 6 cases"
 
 # --- killed in the middle; the same command goes on and gives the bits of an unbroken run
-"$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out killed > first 2>&1 &
-pid=$!
-wait_for_restart killed
+begin killed
 pkill -KILL -P "$pid" || fail "nothing ran when the kill came"
 kill -KILL "$pid"
 wait "$pid" 2> /dev/null
@@ -89,9 +85,7 @@ sweep study.toml --no-pictures --out whole > longer 2>&1 || fail "the longer stu
 [ "$(grep -c 'goes on from' longer)" = 3 ] || fail "a longer study does not go on: $(cat longer)"
 
 # --- SIGTERM: status 3, and every running case has its restart file
-"$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out stopped > stopped.txt 2>&1 &
-pid=$!
-wait_for_restart stopped
+begin stopped
 kill -TERM "$pid"
 status=0
 wait "$pid" || status=$?
@@ -112,5 +106,4 @@ while IFS= read -r -d '' study; do
   sweep "$study" --list > list 2>&1 || fail "$study: $(cat list)"
 done < <(grep -lZ '^\[study\]' -r "$root/configs")
 
-[ "$failures" -eq 0 ] || exit 1
-echo "sweep: fine"
+finish "sweep: fine"

@@ -26,26 +26,37 @@ inline std::string fluid_case(const std::string& fluid = "") {
          fluid;
 }
 
-/// The lines a case is refused with, or none when it loads.
-inline std::vector<std::string> problems(const std::string& text,
-                                         const std::vector<std::string>& overrides = {}) {
+using Lines = std::vector<std::string>;
+
+/// The lines a case is refused with when `load` is called, or none when it loads.
+template <class Load>
+Lines lines_of(const Load& load) {
   try {
-    load_config_text(text, "case.toml", overrides);
+    load();
   } catch (const ConfigError& error) {
     return error.lines();
   }
   return {};
 }
 
-using Lines = std::vector<std::string>;
+inline Lines problems(const std::string& text, const Lines& overrides = {}) {
+  return lines_of([&] { load_config_text(text, "case.toml", overrides); });
+}
 
 /// What `problems` gives for a single one.
 inline Lines only(const std::string& line) { return {line, "1 problem; nothing was run."}; }
 
 /// Expects that a case is refused for one problem, told by `line`.
-inline void refused(const std::string& text, const std::string& line,
-                    const std::vector<std::string>& overrides = {}) {
+inline void refused(const std::string& text, const std::string& line, const Lines& overrides = {}) {
   EXPECT_EQ(problems(text, overrides), only(line));
+}
+
+/// Expects that a case is refused for `line`, the last of its [grains] or [fluid], and why.
+inline void refused_grains(const std::string& line, const std::string& why) {
+  refused(grain_case(line + "\n"), "case.toml:10: [grains] " + line + ": " + why);
+}
+inline void refused_fluid(const std::string& line, const std::string& why) {
+  refused(fluid_case(line + "\n"), "case.toml:7: [fluid] " + line + ": " + why);
 }
 
 }  // namespace barchan::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/fluid/domain.hpp"
@@ -36,16 +37,17 @@ inline Config still_water(std::array<double, 3> size) {
   return c;
 }
 
-/// A run that is stepped by hand.
+/// A run that is stepped by hand; from grains alone the water is at rest.
 struct CoupledRun {
   Config config;
   SystemState state;
   CoupledStep step;
 
-  CoupledRun(const Config& c, const InitialGrains& grains)
-      : config(c), state(make_state(c, grains)), step(config, state) {
+  CoupledRun(const Config& c, SystemState from)
+      : config(c), state(std::move(from)), step(config, state) {
     step.start(state);
   }
+  CoupledRun(const Config& c, const InitialGrains& grains) : CoupledRun(c, make_state(c, grains)) {}
   void advance(int n = 1) {
     for (int s = 0; s < n; ++s) step.advance(state);
   }
@@ -54,10 +56,10 @@ struct CoupledRun {
 
  private:
   static SystemState make_state(const Config& c, const InitialGrains& grains) {
-    SystemState s;
-    if (c.fluid) s.fluid = make_fluid_state(make_grid(c));
-    s.grains = make_grain_state(grains, c.grains->density);
-    return s;
+    SystemState made;
+    made.grains = make_grain_state(grains, c.grains->density);
+    if (c.fluid) made.fluid = make_fluid_state(make_grid(c));
+    return made;
   }
 };
 

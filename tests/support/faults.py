@@ -7,8 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
-import numpy as np
+import same_bits
 
 CASE = pathlib.Path(__file__).parent / "small_dune.toml"
 PROGRAM = os.environ["BARCHAN_PROGRAM"]
@@ -61,34 +60,13 @@ def expect(done, status, *words):
         fail(f"exit code {done.returncode}, expected {status} and {words}; it said:\n{done.stderr}")
 
 
-def contents(path):
-    """Name -> bytes of every array of an HDF5 file, and its attributes but those of where it was made."""
-    found = {}
-
-    def take(name, item):
-        if isinstance(item, h5py.Dataset):
-            found[name] = (item.shape, str(item.dtype), item[...].tobytes())
-        for key, value in item.attrs.items():
-            found[f"{name}@{key}"] = np.asarray(value).tobytes()
-    with h5py.File(path) as file:
-        file.visititems(take)
-    return found
-
-
-def same_file(one, other):
-    a, b = contents(one), contents(other)
-    differing = sorted(name for name in a.keys() | b.keys() if a.get(name) != b.get(name))
-    if differing or not a:
-        fail(f"{one} and {other} differ in {differing[:5]} ({len(differing)} of {len(a)})")
-
-
 def same_run(one, other):
     """The last restart files, all frames and all tables of two finished runs hold the same bits."""
     one, other = pathlib.Path(one), pathlib.Path(other)
     if last_restart(one).name != last_restart(other).name:
         fail(f"{one} and {other} ended at other steps")
     for name in (last_restart(one).name, "grains.h5", "fields.h5", "tracks.h5"):
-        same_file(one / name, other / name)
+        same_bits.compare(one / name, other / name)
     for name in ("history.csv", "dune.csv"):
         if (one / name).read_bytes() != (other / name).read_bytes():
             fail(f"{name} of {one} and {other} differ")

@@ -22,17 +22,11 @@ struct FlowErrors {
   double u = 0, u_max = 0, p = 0, p_max = 0;
 };
 
-/// Sets the velocity to exact.u(axis, x, y, z) on the faces.
+/// Sets the velocity to exact.u(axis, x, y, z) on the faces; ghosts are not those of the walls yet.
 template <class Exact>
 void set_velocity(const FluidState& fluid, const Exact& exact) {
-  const HostGrid h(fluid.grid);
-  set_field(fluid.u.x, fluid.grid,
-            [&](int i, int j, int k) { return exact.u(0, h.x_face(i), h.y(j), h.z(k)); });
-  set_field(fluid.u.y, fluid.grid, [&](int i, int j, int k) {
-    return j == 0 ? 0 : exact.u(1, h.x(i), h.y_face(j), h.z(k));
-  });
-  set_field(fluid.u.z, fluid.grid,
-            [&](int i, int j, int k) { return exact.u(2, h.x(i), h.y(j), h.z_face(k)); });
+  set_faces(fluid.u, fluid.grid,
+            [&](std::size_t axis, double x, double y, double z) { return exact.u(axis, x, y, z); });
 }
 
 /// `velocity` has u(axis, x, y, z) at the time of the velocity, `pressure` has p(x, y, z).

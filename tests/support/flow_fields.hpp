@@ -8,6 +8,7 @@
 #include "src/config/mesh.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/fluid/fluid_state.hpp"
 
 namespace barchan::test {
 
@@ -61,8 +62,33 @@ void set_everywhere(const Field& f, const GridRef& grid, const Value& value) {
   Kokkos::deep_copy(f.storage, host_field(grid, value).values);
 }
 
-inline FaceVector make_faces(const Grid& grid) {
-  return {Field("x", grid), Field("y", grid), Field("z", grid)};
+/// Where cell centres and faces are, on the host.
+struct HostGrid : barchan::HostGrid {
+  explicit HostGrid(const Grid& grid) : barchan::HostGrid(grid.on_host()) {}
+  /// As kernels see a grid, for those of their functions that a test calls on the host.
+  GridRef ref() const {
+    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data()};
+  }
+  double x(int i) const { return x_centre(i); }
+  double y(int j) const { return y_centre(j); }
+  double z(int k) const { return z_centre(k); }
+  double volume(int j) const { return cell_volume(j); }
+};
+
+/// value(axis, x, y, z) on all faces, ghosts included.
+template <class Value>
+void set_faces(const FaceVector& f, const Grid& grid, const Value& value) {
+  const HostGrid h(grid);
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    set_everywhere(axis == 0   ? f.x
+                   : axis == 1 ? f.y
+                               : f.z,
+                   grid, [&](int i, int j, int k) {
+                     return value(axis, axis == 0 ? h.x_face(i) : h.x(i),
+                                  axis == 1 ? h.y_face(j) : h.y(j),
+                                  axis == 2 ? h.z_face(k) : h.z(k));
+                   });
+  }
 }
 
 /// Independent numbers in [-1, 1] in the owned cells.
@@ -71,34 +97,6 @@ inline void set_random(const Field& f, const Grid& grid, unsigned seed) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   set_field(f, grid, [&](int, int, int) { return uniform(engine); });
 }
-
-/// Where cell centres and faces are, on the host.
-struct HostGrid {
-  explicit HostGrid(const Grid& g) : grid(g) {
-    const auto face = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g.y_face_);
-    for (std::size_t n = 0; n < face.extent(0); ++n) faces.push_back(face(n));
-    const auto centre = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g.y_centre_);
-    for (std::size_t n = 0; n < centre.extent(0); ++n) centres.push_back(centre(n));
-  }
-  /// As kernels see a grid, for those of their functions that a test calls on the host.
-  GridRef ref() const {
-    GridRef r = grid;
-    r.y_face_ = faces.data();
-    r.y_centre_ = centres.data();
-    return r;
-  }
-  double x_face(int i) const { return grid.x0 + i * grid.dx; }
-  double x(int i) const { return grid.x0 + (i + 0.5) * grid.dx; }
-  double z_face(int k) const { return grid.z0 + k * grid.dz; }
-  double z(int k) const { return grid.z0 + (k + 0.5) * grid.dz; }
-  double y_face(int j) const { return faces[static_cast<std::size_t>(j) + 1]; }
-  double y(int j) const { return 0.5 * (y_face(j) + y_face(j + 1)); }
-  double dy(int j) const { return y_face(j + 1) - y_face(j); }
-  double volume(int j) const { return grid.dx * dy(j) * grid.dz; }
-
-  Grid grid;
-  std::vector<double> faces, centres;  // with those of the ghost rows
-};
 
 /// Stretched unless `first` is zero.
 inline Grid stretched_grid(std::array<int, 3> n, std::array<double, 3> size, double first,

@@ -10,14 +10,13 @@
 namespace barchan::testing {
 
 /// A case with its solver: list, contacts and integrator as in a run.
-class GrainBench {
- public:
-  GrainBench(const Config& config, const InitialGrains& grains)
-      : state(make_grain_state(grains, config.grains->density)), solver_(config, state) {
-    solver_.start(state);
+struct GrainBench {
+  GrainBench(const Config& config, const InitialGrains& grains, MPI_Comm ranks = MPI_COMM_SELF)
+      : state(make_grain_state(grains, config.grains->density, ranks)), solver(config, state) {
+    solver.start(state);
   }
 
-  void advance(int n, Real dt) { solver_.advance(state, n, dt); }
+  void advance(int n, Real dt) { solver.advance(state, n, dt); }
 
   /// All grains in the present order of rows, on the host.
   auto kinematics() const { return host_copy(state.kin); }
@@ -25,9 +24,9 @@ class GrainBench {
   GrainKinematics grain(std::int64_t id) const { return kinematics()(row_of(id)); }
   /// Sum of its contact forces in the last sub-step [N].
   Vec3 contact_force(std::int64_t id) const { return host_copy(state.contact_force)(row_of(id)); }
-  const GrainSolver& solver() const { return solver_; }
 
   GrainState state;
+  GrainSolver solver;
 
  private:
   int row_of(std::int64_t id) const {
@@ -37,8 +36,6 @@ class GrainBench {
     }
     throw std::out_of_range("no grain " + std::to_string(id));
   }
-
-  GrainSolver solver_;
 };
 
 /// Elastic plane that does not yield: 1/E_eff = (1 - s^2)/E of the grain.

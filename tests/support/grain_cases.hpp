@@ -30,17 +30,22 @@ inline Config grain_config() {
 /// Adds one grain; ids count from 1.
 inline void add_grain(InitialGrains& grains, Real diameter, const Vec3& x, const Vec3& u = {},
                       const Vec3& omega = {}) {
-  grains.id.push_back(static_cast<std::int64_t>(grains.id.size()) + 1);
-  grains.diameter.push_back(diameter);
-  grains.x.push_back(x);
-  grains.u.push_back(u);
-  grains.omega.push_back(omega);
+  grains.add(static_cast<std::int64_t>(grains.size()) + 1, diameter, x, u, omega);
 }
+
+/// Numbers in [0, 1), the same on every platform.
+class Uniform {
+ public:
+  explicit Uniform(unsigned seed) : generator_(seed) {}
+  double operator()() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }
+
+ private:
+  std::mt19937_64 generator_;
+};
 
 /// n grains of Table II's range anywhere in the box, overlaps allowed.
 inline InitialGrains random_grains(int n, const std::array<double, 3>& size, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  Uniform uniform(seed);
   InitialGrains grains;
   for (int g = 0; g < n; ++g) {
     const Real d = 1.5e-4 + 1e-4 * uniform();

@@ -12,8 +12,7 @@ namespace barchan::testing {
 /// of at most `speed` per component [m/s].
 inline InitialGrains lattice_packing(int n, const std::array<double, 3>& size, Real speed,
                                      unsigned seed = 1) {
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  Uniform uniform(seed);
   const Real pitch = 2.7e-4;
   const int nx = static_cast<int>(size[0] / pitch), nz = static_cast<int>(size[2] / pitch);
   InitialGrains grains;
@@ -27,6 +26,11 @@ inline InitialGrains lattice_packing(int n, const std::array<double, 3>& size, R
     add_grain(grains, d, x, {u, v, w});
   }
   return grains;
+}
+
+/// Of translation and rotation [J].
+inline Real kinetic_energy(const GrainKinematics& k) {
+  return 0.5 * k.m * dot(k.u, k.u) + 0.5 * sphere_inertia(k.m, k.r) * dot(k.omega, k.omega);
 }
 
 /// Rows, pairs and walls of a state on the host.
@@ -61,10 +65,7 @@ struct HostGrains {
   }
   Real kinetic_energy() const {
     Real sum = 0;
-    for (int g = 0; g < n; ++g) {
-      const GrainKinematics& k = kin(g);
-      sum += 0.5 * k.m * dot(k.u, k.u) + 0.5 * sphere_inertia(k.m, k.r) * dot(k.omega, k.omega);
-    }
+    for (int g = 0; g < n; ++g) sum += testing::kinetic_energy(kin(g));
     return sum;
   }
 

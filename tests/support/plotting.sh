@@ -1,17 +1,8 @@
 # shellcheck shell=bash
-# Sourced by script tests that draw: $root, $python with the plotting modules (else skipped), a folder
-# $dir that goes away with the test, a count of failures.
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-python=/usr/bin/python3
-[ -x "$python" ] || python=python3
-python="${BARCHAN_PYTHON:-$python}"
+# Sourced by script tests that draw; skipped without the plotting modules.
+# shellcheck source=tests/support/script.sh
+. "$(dirname "${BASH_SOURCE[0]}")/script.sh"
 "$python" -c 'import h5py, matplotlib, numpy' 2> /dev/null || { echo "no h5py or matplotlib"; exit 77; }
-export PYTHONDONTWRITEBYTECODE=1
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-failures=0
-
-fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
 
 fake() { "$python" "$root/tests/support/make_fake_run.py" "$@" || fail "make_fake_run $*"; }
 
@@ -42,4 +33,11 @@ says() {  # says TEXT: somewhere on the error stream
 says_only() {  # says_only TEXT: the same, and nothing else
   says "$1"
   [ "$(wc -l < "$dir/err")" = 1 ] || fail "expected one line, got: $(cat "$dir/err")"
+}
+
+quiet() { [ ! -s "$dir/err" ] || fail "warnings: $(cat "$dir/err")"; }
+
+refused() {  # refused TEXT ARGUMENT...: plot ends with 2 and one line, which has this text
+  plot 2 "${@:2}"
+  says_only "$1"
 }

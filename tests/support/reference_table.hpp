@@ -49,4 +49,14 @@ inline double number(const ReferenceRow& row, const std::string& column) {
   return std::stod(row.at(column));
 }
 
+/// A column at x, linear between the rows, in which the column `of` grows.
+inline double linear(const std::vector<ReferenceRow>& rows, const std::string& of,
+                     const std::string& column, double x) {
+  std::size_t n = 1;
+  while (n + 1 < rows.size() && number(rows[n], of) < x) ++n;
+  const double x0 = number(rows[n - 1], of), x1 = number(rows[n], of);
+  const double f0 = number(rows[n - 1], column), f1 = number(rows[n], column);
+  return f0 + (f1 - f0) * (x - x0) / (x1 - x0);
+}
+
 }  // namespace barchan::test

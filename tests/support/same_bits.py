@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""same_bits.py FILE OTHER: two restart files hold the same arrays with the same bits. Attributes, which say who
-wrote a file and when, may differ."""
+"""same_bits.py FILE OTHER: two HDF5 files hold the same arrays, with the same bits and attributes. Attributes of
+the files themselves, which say who wrote them and when, may differ."""
 import sys
 
 import h5py
@@ -8,26 +8,26 @@ import numpy as np
 
 
 def arrays(path):
-    """Name -> array of an HDF5 file."""
+    """Name -> array of an HDF5 file, and name@key -> attribute of what is in it."""
     found = {}
+
+    def take(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = np.asarray(item)
+        found.update((f"{name}@{key}", np.asarray(value)) for key, value in item.attrs.items())
     with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.__setitem__(name, np.asarray(item))
-                        if isinstance(item, h5py.Dataset) else None)
+        file.visititems(take)
     return found
 
 
 def compare(one, other):
-    first, second = arrays(one), arrays(other)
-    if first.keys() != second.keys():
-        sys.exit(f"different arrays: {sorted(first.keys() ^ second.keys())}")
-    for name, a in first.items():
-        b = second[name]
-        if (a.dtype, a.shape) != (b.dtype, b.shape):
-            sys.exit(f"{name}: {a.dtype} {a.shape} and {b.dtype} {b.shape}")
-        if a.tobytes() != b.tobytes():
-            sys.exit(f"{name}: other bits, by up to {np.max(np.abs(a - b), initial=0)}")
-    print(f"{len(first)} arrays, {sum(a.nbytes for a in first.values())} bytes: the same bits")
+    first, second = ({name: (a.dtype.str, a.shape, a.tobytes()) for name, a in arrays(path).items()}
+                     for path in (one, other))
+    differing = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
+    if differing or not first:
+        sys.exit(f"FAILED: {one} and {other} differ in {differing[:5]} ({len(differing)} of {len(first)})")
+    return f"{len(first)} arrays: the same bits"
 
 
 if __name__ == "__main__":
-    compare(*sys.argv[1:])
+    print(compare(*sys.argv[1:]))

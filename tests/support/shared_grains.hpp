@@ -6,23 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "src/grains/grain_solver.hpp"
-#include "src/parallel/communicator.hpp"
-#include "tests/support/grain_cases.hpp"
+#include "src/diagnostics/gathered_grains.hpp"
+#include "tests/support/grain_bench.hpp"
 
 namespace barchan::testing {
 
 /// The numbers of all ranks, one rank after the other.
 inline std::vector<double> from_all_ranks(const std::vector<double>& mine) {
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(rank_count(MPI_COMM_WORLD))), starts;
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
-  int total = 0;
-  for (const int count : counts) starts.push_back(total), total += count;
-  std::vector<double> all(static_cast<std::size_t>(total));
-  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
-                 MPI_COMM_WORLD);
-  return all;
+  return broadcast(on_rank_0(MPI_COMM_WORLD, mine), MPI_COMM_WORLD);
 }
 
 /// Position, velocity, spin, contact force and torque of the owned grains by id.
@@ -68,23 +59,13 @@ inline std::vector<double> differences(const GrainNumbers& a, const GrainNumbers
   return off;
 }
 
-/// Grains with a solver; the rows of a state without neighbours yet.
-struct GrainSystem {
-  GrainSystem(const Config& c, const InitialGrains& grains, MPI_Comm ranks)
-      : state(make_grain_state(grains, c.grains->density, ranks)), solver(c, state) {
-    solver.start(state);
-  }
-  GrainState state;
-  GrainSolver solver;
-};
-
 /// The same case twice.
 struct SharedGrains {
   SharedGrains(const Config& c, const InitialGrains& grains)
       : whole(c, grains, MPI_COMM_SELF), shared(c, grains, MPI_COMM_WORLD) {}
   void advance(int n, Real dt) {
-    for (GrainSystem* s : {&whole, &shared}) {
-      s->solver.advance(s->state, n, dt);
+    for (GrainBench* s : {&whole, &shared}) {
+      s->advance(n, dt);
       s->solver.remove_left(s->state);
     }
   }
@@ -92,7 +73,7 @@ struct SharedGrains {
     return differences(by_id(numbers_of(whole.state)),
                        by_id(from_all_ranks(numbers_of(shared.state))));
   }
-  GrainSystem whole, shared;
+  GrainBench whole, shared;
 };
 
 }  // namespace barchan::testing

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace barchan {
 namespace {
 
@@ -11,10 +13,8 @@ CommandLine parse(std::vector<const char*> words) {
 }
 
 void expect_bad(const std::vector<const char*>& words, const std::string& text) {
-  const CommandLine line = parse(words);
-  EXPECT_EQ(line.command, Command::none);
-  EXPECT_EQ(line.exit_code, 2);
-  EXPECT_NE(line.text.find(text), std::string::npos) << line.text;
+  const std::string told = message_of([&] { parse(words); });
+  EXPECT_NE(told.find(text), std::string::npos) << told;
 }
 
 TEST(CommandLine, RunWithNothingElse) {
@@ -60,15 +60,13 @@ TEST(CommandLine, CheckAndInfo) {
 TEST(CommandLine, VersionAndHelpEndWell) {
   const CommandLine version = parse({"--version"});
   EXPECT_EQ(version.command, Command::none);
-  EXPECT_EQ(version.exit_code, 0);
   EXPECT_NE(version.text.find("barchan 1.2.3 (abc)"), std::string::npos);
   const CommandLine help = parse({"run", "--help"});
   EXPECT_EQ(help.command, Command::none);
-  EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.text.find("--restart"), std::string::npos) << help.text;
 }
 
-TEST(CommandLine, BadUsageEndsWithTwo) {
+TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({}, "subcommand is required");
   expect_bad({"rnu", "case.toml"},
              "unknown command \"rnu\" (did you mean \"run\"?); there are run, check, info");

@@ -1,13 +1,13 @@
 // Every way a configuration file can be wrong is said with its line, its key and what is allowed.
 #include "src/config/load.hpp"
 
-#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "src/base/words.hpp"
 #include "tests/support/config_problems.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
@@ -18,6 +18,8 @@ using test::Lines;
 using test::only;
 using test::problems;
 using test::refused;
+using test::refused_fluid;
+using test::refused_grains;
 
 TEST(ConfigLoad, ReadsWhatIsWrittenAndKeepsOtherDefaults) {
   const Config c = load_config_text(
@@ -50,12 +52,6 @@ TEST(ConfigLoad, WallTakesTheGrainsMaterialUnlessItNamesItsOwn) {
   EXPECT_EQ(*c.grains->ambient, AmbientConfig{});
 }
 
-TEST(ConfigLoad, TakesIntegersForNumbersButNotNumbersForIntegers) {
-  EXPECT_EQ(load_config_text(grain_case("density = 2650\n"), "case.toml").grains->density, 2650.0);
-  refused(grain_case("[restart]\nkeep = 2.0\n"),
-          "case.toml:11: [restart] keep = 2.0: must be an integer");
-}
-
 TEST(ConfigLoad, ForcesAreThoseNamed) {
   const Config c =
       load_config_text(fluid_case("[coupling]\nforces = [\"drag\", \"stress\"]\n"), "case.toml");
@@ -84,52 +80,47 @@ TEST(ConfigLoad, UnknownSectionNamesTheNearest) {
 }
 
 TEST(ConfigLoad, WrongTypesAreNamed) {
-  refused(grain_case("density = \"heavy\"\n"),
-          "case.toml:10: [grains] density = \"heavy\": must be a number");
-  refused(grain_case("frozen = 1\n"), "case.toml:10: [grains] frozen = 1: must be true or false");
-  refused(grain_case("gravity = [0, -9.81]\n"),
-          "case.toml:10: [grains] gravity = [0, -9.81]: must be an array of 3 numbers");
-  refused(fluid_case("top = 3\n"),
-          "case.toml:7: [fluid] top = 3: must be one of \"no_slip\", \"free_slip\"");
-  refused(fluid_case("[case]\ntitle = 2001-02-03\n"),
-          "case.toml:8: [case] title = 2001-02-03: must be a string");
-  const std::string sizes = "must be an array of [diameter in m above 0, count above 0]; ";
+  EXPECT_EQ(load_config_text(grain_case("density = 2650\n"), "case.toml").grains->density, 2650.0);
+  refused_grains("density = \"heavy\"", "must be a number");
+  refused_grains("frozen = 1", "must be true or false");
+  refused_grains("gravity = [0, -9.81]", "must be an array of 3 numbers");
+  refused_fluid("top = 3", "must be one of \"no_slip\", \"free_slip\"");
+  refused_fluid("turbulence = \"wail\"",
+                "must be one of \"none\", \"wale\" (did you mean \"wale\"?)");
+  for (const std::string number : {"nan", "inf", "-inf"}) {
+    refused_fluid("mean_velocity = " + number, "must be a finite number");
+  }
+  refused("case.title = 2001-02-03\n" + fluid_case(),
+          "case.toml:1: [case] title = 2001-02-03: must be a string");
+  for (const std::string keep :
+       {"2.0: must be an integer", "3000000000: must be an integer up to 2147483647"}) {
+    refused("restart.keep = " + keep.substr(0, keep.find(':')) + "\n" + fluid_case(),
+            "case.toml:1: [restart] keep = " + keep);
+  }
+}
+
+TEST(ConfigLoad, SizesAreDiametersAndCounts) {
+  const std::string set = "--set grains.sizes: [grains] sizes = ";
+  refused(
+      grain_case(),
+      set +
+          "[[0.0002, 2147483647], [0.0003, 1]]: must be sizes of at most 2147483647 grains in all",
+      {"grains.sizes=[[2e-4, 2147483647], [3e-4, 1]]"});
   refused(grain_case(),
-          "--set grains.sizes: [grains] sizes = [[0.0002, 2147483647], [0.0003, 1]]: must be sizes "
-          "of at most 2147483647 grains in all",
-          {"grains.sizes=[[2e-4, 2147483647], [3e-4, 1]]"});
-  refused(grain_case(),
-          "--set grains.sizes: [grains] sizes = [[0.0002, 10], [0.0002, 0]]: " + sizes +
-              "[0.0002, 0] is not",
+          set +
+              "[[0.0002, 10], [0.0002, 0]]: must be an array of [diameter in m above 0, count "
+              "above 0]; [0.0002, 0] is not",
           {"grains.sizes=[[2e-4, 10], [2e-4, 0]]"});
 }
 
 TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
-  refused(grain_case("poisson_ratio = 2.0\n"),
-          "case.toml:10: [grains] poisson_ratio = 2.0: must be at least 0 and at most 0.5");
-  refused(grain_case("restitution = 0\n"),
-          "case.toml:10: [grains] restitution = 0: must be above 0 and at most 1");
+  refused_grains("poisson_ratio = 2.0", "must be at least 0 and at most 0.5");
+  refused_grains("restitution = 0", "must be above 0 and at most 1");
+  refused_grains("density = 1e+300", "must be at least 1e-06 and at most 1e+09");
   EXPECT_TRUE(problems(grain_case("restitution = 1\npoisson_ratio = 0\n")).empty());
   refused(fluid_case(),
           "--set fluid.cells: [fluid] cells = [62, 0, 25]: must be at least 1 and at most 100000",
           {"fluid.cells=[62, 0, 25]"});
-  refused(fluid_case(),
-          "--set restart.keep: [restart] keep = 3000000000: must be an integer up to 2147483647",
-          {"restart.keep=3000000000"});
-}
-
-TEST(ConfigLoad, NotFiniteNumbersAreRefused) {
-  for (const char* number : {"nan", "inf", "-inf"}) {
-    refused(fluid_case(std::string("mean_velocity = ") + number + "\n"),
-            std::string("case.toml:7: [fluid] mean_velocity = ") + number +
-                ": must be a finite number");
-  }
-}
-
-TEST(ConfigLoad, BadChoiceListsTheAllowedOnes) {
-  refused(fluid_case("turbulence = \"wail\"\n"),
-          "case.toml:7: [fluid] turbulence = \"wail\": must be one of \"none\", \"wale\" (did you "
-          "mean \"wale\"?)");
 }
 
 TEST(ConfigLoad, MissingRequiredKeysAndSections) {
@@ -162,14 +153,45 @@ TEST(ConfigLoad, AllProblemsAtOnceInTheOrderOfLines) {
           "6 problems; nothing was run."}));
 }
 
-TEST(ConfigLoad, ASyntaxErrorHasItsLine) {
-  const Lines lines = problems("[time]\nend = 1.0\nend = = 2\n");
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].find("case.toml:3: not TOML: "), 0u) << lines[0];
-  EXPECT_EQ(lines[1], "1 problem; nothing was run.");
-  const Lines twice = problems(fluid_case("cells = [8, 8, 8]\n"));
-  ASSERT_EQ(twice.size(), 2u);
-  EXPECT_EQ(twice[0].find("case.toml:7: not TOML: "), 0u) << twice[0];
+TEST(ConfigLoad, WhatIsNoTomlIsToldWithItsLine) {
+  const auto says = [](const std::string& text, const std::string& words) {
+    const Lines lines = problems(text);
+    ASSERT_EQ(lines.size(), 2u) << text.substr(0, 100);
+    EXPECT_NE(lines[0].find(words), std::string::npos) << lines[0];
+  };
+  says("\xFF\xFE[", "case.toml:1: not TOML: ");
+  says(std::string("[time]\ne\0nd = 1\n", 16), "case.toml:2: not TOML: it holds a NUL byte");
+  says("[time]\nend = 1.0\nend = = 2\n", "case.toml:3: not TOML: ");
+  says(fluid_case("cells = [8, 8, 8]\n"), "case.toml:7: not TOML: ");
+  for (const char* value : {"0,5", ".5", "5d-1", "5 s", "True", "\"C:\\q\""}) {
+    says(std::string("[time]\nend = ") + value + "\n", "case.toml:2: not TOML: ");
+  }
+  std::string deep = "a";
+  for (int n = 0; n < 100000; ++n) deep += ".a";
+  says(deep + " = 1\n", "case.toml:1: not TOML: a key of so many parts");
+  says("[" + deep + "]\n", "case.toml:1: not TOML: a key of so many parts");
+  EXPECT_EQ(problems(fluid_case(), {deep + "=1"}).size(), 2u);
+  // Points in values, strings and comments join no keys.
+  EXPECT_TRUE(problems(fluid_case("[case]\ntitle = \"......................\"\n"
+                                  "# ......................\n"),
+                       {"fluid.mean_velocity=0.1"})
+                  .empty());
+}
+
+TEST(ConfigLoad, ATitleIsText) {
+  refused("case.title = \"a\\u001Bb\"\n" + fluid_case(),
+          "case.toml:1: [case] title = \"a\\u001Bb\": must be text without control characters");
+  EXPECT_EQ(problems("case.title = \"" + std::string(201, 'a') + "\"\n" + fluid_case()).size(), 2u);
+  EXPECT_TRUE(problems("case.title = \"D\xC3\xBCne\"\n" + fluid_case()).empty());
+}
+
+TEST(ConfigLoad, OnlySoManyProblemsAreTold) {
+  std::string many = fluid_case();
+  for (int n = 0; n < 1000; ++n) many += "key_" + std::to_string(n) + " = 1\n";
+  const Lines lines = problems(many);
+  ASSERT_EQ(lines.size(), 32u);
+  EXPECT_EQ(lines[30], "  ... and 970 more");
+  EXPECT_EQ(lines[31], "1000 problems; nothing was run.");
 }
 
 TEST(ConfigOverride, ReplacesAddsAndTakesBareWords) {
@@ -196,11 +218,7 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
 }
 
 TEST(ConfigOverride, IsCheckedLikeTheFile) {
-  refused(grain_case("sliding_friction = 0.3\n"),
-          "--set grains.sliding_friction: [grains] sliding_friction = -1: must be at least 0",
-          {"grains.sliding_friction=-1"});
-  refused(grain_case(), "--set time.end: [time] end = \"soon\": must be a number",
-          {"time.end=soon"});
+  refused(fluid_case(), "--set time.end: [time] end = -1: must be above 0", {"time.end=-1"});
   refused(grain_case(), "--set time.end.x: \"time.end\" is not a section", {"time.end.x=1"});
   refused(grain_case(), "--set time..end: a part of the key is empty", {"time..end=1"});
   refused(grain_case(), "--set time.end: must have the form key=value, as in time.end=2.5",
@@ -211,47 +229,33 @@ TEST(ConfigOverride, IsCheckedLikeTheFile) {
 /// Cases in a folder of their own, for what names other files.
 class ConfigStart : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("barchan_config_" + std::to_string(getpid()) +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_ / "inner");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
   }
-  Lines load(const std::string& path, const std::vector<std::string>& overrides = {}) {
-    try {
-      load_config(path, overrides);
-    } catch (const ConfigError& error) {
-      return error.lines();
-    }
-    return {};
+  static Lines load(const std::string& path, const Lines& overrides = {}) {
+    return test::lines_of([&] { load_config(path, overrides); });
   }
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
-const char* const moved = "[time]\nend = 1\n[domain]\nsize = [0.1, 0.025, 0.04]\n[grains]\n";
+const std::string moved = "[time]\nend = 1\n[domain]\nsize = [0.1, 0.025, 0.04]\n[grains]\n";
 
 TEST_F(ConfigStart, PathsAreRelativeToTheFileAndMustExist) {
+  std::filesystem::create_directory(folder_ / "inner");
   write("heap.csv", "id,diameter,x,y,z\n");
   const std::string path =
-      write("inner/case.toml", std::string(moved) + "[initial]\ngrains = \"../heap.csv\"\n");
+      write("inner/case.toml", moved + "[initial]\ngrains = \"../heap.csv\"\n");
   EXPECT_EQ(load_config(path).initial.grains, (folder_ / "heap.csv").string());
-  EXPECT_EQ(load(path, {"initial.grains=../pile.csv"}),
-            only("--set initial.grains: [initial] grains = \"../pile.csv\": must be a file that "
-                 "exists; there "
-                 "is no " +
-                 (folder_ / "pile.csv").string()));
-  EXPECT_EQ(load(path, {"initial.grains=../heap.txt"}),
-            only("--set initial.grains: [initial] grains = \"../heap.txt\": must be a file ending "
-                 "in .csv, .h5, "
-                 ".toml, or { pour = {...} }"));
-  EXPECT_EQ(
-      load(path, {"initial.grains={}"}),
-      only("--set initial.grains: [initial] grains = {  }: must be a file or { pour = {...} }"));
+  const auto told = [&](const std::string& start, const std::string& why) {
+    EXPECT_EQ(load(path, {"initial.grains=" + start}),
+              only("--set initial.grains: [initial] grains = " + why));
+  };
+  told("../pile.csv", "\"../pile.csv\": must be a file that exists; there is no " +
+                          (folder_ / "pile.csv").string());
+  told("../heap.txt",
+       "\"../heap.txt\": must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
+  told("{}", "{  }: must say where the [grains] start: a file or { pour = {...} }");
 }
 
 TEST_F(ConfigStart, FluidStartIsAWordOrAFile) {
@@ -267,17 +271,16 @@ TEST_F(ConfigStart, FluidStartIsAWordOrAFile) {
 TEST_F(ConfigStart, ACaseItStartsFromIsCheckedToo) {
   const std::string heap = write("heap.toml", grain_case("restitution = 3\n"));
   const std::string path =
-      write("case.toml", std::string(moved) + "density = 0\n[initial]\ngrains = \"heap.toml\"\n");
+      write("case.toml", moved + "density = 0\n[initial]\ngrains = \"heap.toml\"\n");
   EXPECT_EQ(load(path),
-            (Lines{path + ":6: [grains] density = 0: must be above 0",
+            (Lines{path + ":6: [grains] density = 0: must be at least 1e-06 and at most 1e+09",
                    heap + ":10: [grains] restitution = 3: must be above 0 and at most 1",
                    "2 problems; nothing was run."}));
 }
 
 TEST_F(ConfigStart, SizesComeFromTheCaseItStartsFrom) {
   write("heap.toml", grain_case());
-  const std::string path =
-      write("case.toml", std::string(moved) + "[initial]\ngrains = \"heap.toml\"\n");
+  const std::string path = write("case.toml", moved + "[initial]\ngrains = \"heap.toml\"\n");
   const Config c = load_config(path);
   EXPECT_TRUE(c.grains->sizes.empty());
   EXPECT_EQ(known_sizes(c), (std::vector<SizeClass>{{0.2e-3, 100}}));
@@ -311,9 +314,20 @@ TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {
 TEST_F(ConfigStart, AFileThatIsNotThere) {
   const std::string path = (folder_ / "none.toml").string();
   EXPECT_EQ(load(path), only(path + ": cannot be read: No such file or directory"));
-  EXPECT_EQ(load(folder_.string()), only(folder_.string() + ": cannot be read: it is a folder"));
+  EXPECT_EQ(load(folder_.path().string()),
+            only(folder_.path().string() + ": cannot be read: it is a folder"));
   EXPECT_EQ(load("/dev/zero"),
             only("/dev/zero: cannot be read: it is not a file but a device or a pipe"));
+}
+
+TEST(Printable, ShowsWhatATerminalWouldObey) {
+  EXPECT_EQ(printable("D\xC3\xBCne 1"), "D\xC3\xBCne 1");
+  EXPECT_EQ(printable("a\nb\tc\rd\x1B[31m"), "a\\nb\\tc\\rd\\x1b[31m");
+  EXPECT_EQ(printable("\xFF\xC3"), "\\xff\\xc3");
+  EXPECT_EQ(printable("\xC2\x9B"), "\\xc2\\x9b");  // U+009B begins a command as well
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
+  EXPECT_EQ(printable("abcdef", 3), "abc...");
+  EXPECT_EQ(printable_lines("a\n\x1B\n"), "a\n\\x1b\n");
 }
 
 }  // namespace

@@ -17,8 +17,6 @@ namespace {
 
 using test::Lines;
 
-Config reloaded(const Config& config) { return load_config_text(to_toml(config), config.file); }
-
 /// A case with every section.
 Config full_case() {
   Config c;
@@ -110,26 +108,21 @@ TEST(ConfigKeys, ARestartKeepsWhatItsNumbersRestOn) {
 
 TEST(ConfigKeys, RangesRefuseWhatTheySay) {
   for_each_key([](const Key& key) {
-    const bool open = key.range.above_least;
-    if (key.range.least == -Range::infinite || key.type == "text") return;
-    Config config = full_case();
+    if (key.range.text().empty() || key.type == "text" || key.name == "sizes") return;
     const auto refused = [&](double number) {
       Node node;
       node.value = number;
-      if (key.type == "integer") node.value = std::int64_t(number);
-      if (key.type.starts_with("array of 3 numbers")) node.value = NodeArray{node, node, node};
-      if (key.type.starts_with("array of 3 integers")) {
-        node.value = std::int64_t(number);
-        node.value = NodeArray{node, node, node};
-      }
+      if (key.type.find("integer") != key.type.npos) node.value = std::int64_t(number);
+      if (key.type.starts_with("array of 3")) node.value = NodeArray{node, node, node};
+      Config config = full_case();
       return key.read(node, config);
     };
-    EXPECT_EQ(refused(key.range.least - 1).value_or(""), key.range.text());
-    EXPECT_EQ(refused(key.range.least).has_value(), open || key.range.smallest_size > 0);
-    if (key.range.most < Range::infinite) {
-      EXPECT_EQ(refused(key.range.most + 1).value_or(""), key.range.text());
-      EXPECT_EQ(refused(key.range.most).has_value(), key.range.below_most);
-    }
+    const auto [least, most, above_least, below_most] = key.range;
+    EXPECT_EQ(refused(least).has_value(), above_least);
+    EXPECT_EQ(refused(least - std::abs(least) - 1), key.range.text());
+    if (most == Range::infinite) return;
+    EXPECT_EQ(refused(most).has_value(), below_most);
+    EXPECT_EQ(refused(2 * most), key.range.text());
   });
 }
 
@@ -154,21 +147,6 @@ TEST(ConfigKeys, RemovedKeysAreToldAndOldRestartsStillRead) {
   const Config now = load_config_text(test::fluid_case(), "case.toml");
   const std::string old = to_toml(now) + "correctors = 1\n";
   EXPECT_EQ(config_as_written(old, "case.toml"), now);
-}
-
-TEST(ConfigResolved, DefaultsComeBack) {
-  for (const std::string& text : {test::grain_case(), test::fluid_case()}) {
-    const Config config = load_config_text(text, "case.toml");
-    EXPECT_EQ(reloaded(config), config) << to_toml(config);
-  }
-}
-
-TEST(ConfigResolved, FrozenAndAmbientComeBack) {
-  Config c = load_config_text(test::grain_case("[grains.ambient]\ndensity = 870\n"), "case.toml");
-  EXPECT_EQ(reloaded(c), c);
-  c.grains->ambient.reset();
-  EXPECT_EQ(reloaded(c), c);
-  EXPECT_NE(reloaded(c), load_config_text(test::grain_case("[grains.ambient]\n"), "case.toml"));
 }
 
 TEST(ConfigResolved, ACaseIsTheSameInOtherWords) {

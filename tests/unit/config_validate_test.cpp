@@ -37,63 +37,84 @@ TEST(ConfigValidate, TheCoupledCaseIsClean) {
   EXPECT_EQ(warnings(coupled_case()), Lines{});
 }
 
-TEST(ConfigValidate, RayleighLimitsAt20And30PerCentOfTheSmallestGrain) {
-  // T_R = 9.444388e-6 s at d = 0.15 mm, glass of the paper: 20 % is 1.8889e-6, 30 % is 2.8333e-6 s.
-  // The step taken is a whole part of the fluid step, so that is set to the same.
-  const auto with = [](const char* step) {
-    return std::vector<std::string>{std::string("time.grain_step=") + step,
-                                    std::string("time.fluid_step=") + step, "time.end=0.01",
-                                    "output.history_interval=0.01",
-                                    "grains.sizes=[[0.2e-3, 10], [0.15e-3, 1]]"};
-  };
-  EXPECT_FALSE(says(warnings(grain_case(), with("1.88e-6")), "Rayleigh"));
-  EXPECT_TRUE(
-      says(warnings(grain_case(), with("1.90e-6")), "grain_step is 20.1 % of the Rayleigh time"));
-  EXPECT_TRUE(problems(grain_case(), with("2.83e-6")).empty());
-  const Lines refused = problems(grain_case(), with("2.84e-6"));
-  ASSERT_EQ(refused.size(), 2u);
-  EXPECT_EQ(refused[0].find(
-                "--set time.grain_step: [time] grain_step = 2.84e-06: must be at most 2.83e-06 s"),
-            0u)
-      << refused[0];
-  // Frozen grains take no steps.
-  auto frozen = with("2.84e-6");
-  frozen.insert(frozen.end(), {"grains.frozen=true", "initial.grains=none"});
-  EXPECT_FALSE(says(problems(grain_case(), frozen), "Rayleigh"));
+/// Both steps the same: the grain step taken is a whole part of the fluid step.
+Lines steps(const std::string& step, const Lines& others = {}) {
+  Lines all{"time.grain_step=" + step, "time.fluid_step=" + step};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
-TEST(ConfigValidate, RayleighFractionIsOfTheStepReallyTaken) {
+TEST(ConfigValidate, RayleighLimitsAt20And30PerCentOfTheSmallestGrain) {
+  // T_R = 9.444388e-6 s at d = 0.15 mm, glass of the paper: 20 % is 1.8889e-6, 30 % is 2.8333e-6 s.
+  const std::string text = grain_case();
+  const Lines sizes{"grains.sizes=[[0.2e-3, 10], [0.15e-3, 1]]"};
+  EXPECT_FALSE(says(warnings(text, steps("1.88e-6", sizes)), "Rayleigh"));
+  EXPECT_TRUE(
+      says(warnings(text, steps("1.90e-6", sizes)), "grain_step is 20.1 % of the Rayleigh time"));
+  EXPECT_TRUE(problems(text, steps("2.83e-6", sizes)).empty());
+  EXPECT_TRUE(says(problems(text, steps("2.84e-6", sizes)),
+                   "[time] grain_step = 2.84e-06: must be at most 2.83e-06 s"));
+  // Frozen grains take no steps.
+  const Lines frozen{sizes[0], "grains.frozen=true", "initial.grains=none"};
+  EXPECT_FALSE(says(problems(text, steps("2.84e-6", frozen)), "Rayleigh"));
   // 3e-6 alone would be 31.8 % of the smallest; cut into whole parts of 4e-6 it is 2e-6.
-  EXPECT_TRUE(problems(grain_case(), {"grains.sizes=[[0.15e-3, 10]]", "time.grain_step=3e-6",
-                                      "time.fluid_step=4e-6"})
-                  .empty());
+  EXPECT_TRUE(problems(text, {sizes[0], "time.grain_step=3e-6", "time.fluid_step=4e-6"}).empty());
 }
 
 TEST(ConfigValidate, LinearContactsHaveTheirOwnLimit) {
   // m = 1.0472e-8 kg, k = 10 N/m: contact 7.189e-5 s, a fifth of it 1.4377e-5 s.
   const std::string text = grain_case("contact_model = \"linear\"\nlinear_stiffness = 10\n");
-  const auto at = [](const char* step) {
-    return std::vector<std::string>{std::string("time.grain_step=") + step,
-                                    std::string("time.fluid_step=") + step};
-  };
-  EXPECT_TRUE(problems(text, at("1.43e-5")).empty());
+  EXPECT_TRUE(problems(text, steps("1.43e-5")).empty());
   EXPECT_TRUE(
-      says(problems(text, at("1.45e-5")), "grain_step = 1.45e-05: must be at most 1.44e-05 s"));
+      says(problems(text, steps("1.45e-5")), "grain_step = 1.45e-05: must be at most 1.44e-05 s"));
 }
 
-TEST(ConfigValidate, ContradictionsInTheFluid) {
-  refused(fluid_case("mean_velocity = 0.2\npressure_gradient = 10\n"),
-          "case.toml:8: [fluid] pressure_gradient = 10: contradicts mean_velocity: give one of the "
-          "two");
-  refused(fluid_case("ramp_time = 1\n"),
-          "case.toml:7: [fluid] ramp_time = 1: must be absent without a mean_velocity to bring up");
-  refused(fluid_case("top_velocity = 1\n"),
-          "case.toml:7: [fluid] top_velocity = 1: must come with top = \"no_slip\"");
-  refused(fluid_case("[initial]\nfluid = \"turbulent\"\n"),
-          "case.toml:8: [initial] fluid = \"turbulent\": must come with a mean_velocity or "
-          "pressure_gradient, which sets its log law");
+TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
+  const std::string fluid = fluid_case("mean_velocity = 0.2\n"), still = fluid_case();
+  const std::string grains = grain_case(), both = coupled_case();
+  const struct {
+    std::string text, assignment, words;
+  } contradictions[] = {
+      {fluid, "fluid.pressure_gradient=10",
+       "pressure_gradient = 10: contradicts mean_velocity: give one of the two"},
+      {still, "fluid.ramp_time=1",
+       "ramp_time = 1: must be absent without a mean_velocity to bring up"},
+      {still, "fluid.top_velocity=1", "top_velocity = 1: must come with top = \"no_slip\""},
+      {still, "initial.fluid=turbulent",
+       "[initial] fluid = \"turbulent\": must come with a mean_velocity or pressure_gradient, "
+       "which sets its log law"},
+      {grains, "initial.fluid=turbulent",
+       "[initial] fluid = \"turbulent\": must be absent without a [fluid] section"},
+      {still, "initial.grains={ pour = { radius = 0.01 } }",
+       "grains = { pour = { radius = 0.01 } }: must be absent without a [grains] section"},
+      {still + "[grains]\n", "time.end=1",
+       "case.toml: [initial] grains: must say where the [grains] start: a file or { pour = {...} "
+       "}"},
+      {grains + "rolling_friction = 0.1\n", "grains.rolling_model=none",
+       "rolling_model = \"none\": contradicts a rolling_friction above 0"},
+      {grains, "grains.contact_model=linear",
+       "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
+      {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
+      {both, "grains.ambient={}", "[grains] ambient = {  }: contradicts [fluid]"},
+      {both, "fluid.kinematic_viscosity=0", "drag needs it"},
+      {grains, "grains.frozen=true", "frozen = true: contradicts pour"},
+      {grains, "grains.sizes=[]", "sizes = []: must say which grains to pour"},
+      {grains, "initial.grains.pour.radius=0.021",
+       "must keep the cone inside the domain; along z it spans -0.001 to 0.041 m of 0 to 0.04 m"},
+      {grains, "initial.grains.pour.drop_height=0.026", "above the domain"},
+      {grains, "domain.size=[0.1, 0.025, 7.1e-4]", "its own image"},
+      {grains, "time.end=1e-4", "end = 0.0001: must be at least one fluid_step, 0.00025 s"},
+      {grains, "time.grain_step=1e-3", "must be at most fluid_step, 0.00025 s"},
+      {still, "time.end=3e6", "which is 9999999999 fluid steps"}};
+  for (const auto& [text, assignment, words] : contradictions) {
+    EXPECT_TRUE(says(problems(text, {assignment}), words)) << assignment;
+  }
+  // and what is just allowed
   EXPECT_TRUE(
-      problems(fluid_case("pressure_gradient = 10\n[initial]\nfluid = \"turbulent\"\n")).empty());
+      problems(fluid_case("pressure_gradient = 10\n"), {"initial.fluid=turbulent"}).empty());
+  EXPECT_TRUE(problems(grains, {"initial.grains.pour.radius=0.0199"}).empty());
+  EXPECT_FALSE(says(problems(grains, {"domain.size=[0.1, 0.025, 7.3e-4]"}), "its own image"));
+  EXPECT_TRUE(problems(still, {"time.fluid_step=1e-3", "time.end=9999999.999"}).empty());
 }
 
 TEST(ConfigValidate, FirstRowFitsTheHeight) {
@@ -118,83 +139,34 @@ TEST(ConfigValidate, FluidStepAgainstCflAndViscosity) {
   EXPECT_TRUE(says(problems(still, {"time.fluid_step=0.0452"}), "viscosity is explicit"));
 }
 
-TEST(ConfigValidate, ContradictionsInTheGrains) {
-  EXPECT_TRUE(says(
-      problems(grain_case("rolling_friction = 0.1\nrolling_model = \"none\"\n")),
-      "case.toml:11: [grains] rolling_model = \"none\": contradicts a rolling_friction above 0"));
-  EXPECT_TRUE(says(problems(grain_case("contact_model = \"linear\"\n")),
-                   "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"));
-  EXPECT_TRUE(
-      says(problems(grain_case("linear_stiffness = 10\n")), "must be absent unless contact_model"));
-  EXPECT_TRUE(says(problems(grain_case("frozen = true\n")), "frozen = true: contradicts pour"));
-  EXPECT_TRUE(says(problems(coupled_case() + "[grains.ambient]\n"),
-                   "case.toml:13: [grains] ambient = {  }: contradicts [fluid]"));
-  EXPECT_TRUE(says(problems(coupled_case(), {"fluid.kinematic_viscosity=0"}), "drag needs it"));
-}
-
-TEST(ConfigValidate, StartsThatDoNotBelong) {
-  refused(grain_case(),
-          "--set initial.fluid: [initial] fluid = \"turbulent\": must be absent without a [fluid] "
-          "section",
-          {"initial.fluid=turbulent"});
-  refused(fluid_case("[initial]\ngrains = { pour = { radius = 0.01 } }\n"),
-          "case.toml:8: [initial] grains = { pour = { radius = 0.01 } }: must be absent without a "
-          "[grains] section");
-  refused(
-      fluid_case("[grains]\n"),
-      "case.toml: [initial] grains: must say where the [grains] start: a file or { pour = {...} }");
-}
-
-TEST(ConfigValidate, PouredConeHasGrainsAndFitsTheDomain) {
-  refused(grain_case(), "--set grains.sizes: [grains] sizes = []: must say which grains to pour",
-          {"grains.sizes=[]"});
-  EXPECT_TRUE(says(
-      problems(grain_case(), {"initial.grains.pour.radius=0.021"}),
-      "must keep the cone inside the domain; along z it spans -0.001 to 0.041 m of 0 to 0.04 m"));
-  EXPECT_FALSE(
-      says(problems(grain_case(), {"initial.grains.pour.radius=0.0199"}), "inside the domain"));
-  EXPECT_TRUE(
-      says(problems(grain_case(), {"initial.grains.pour.drop_height=0.026"}), "above the domain"));
+TEST(ConfigValidate, PouredConeFitsUnderTheTop) {
   // 10,000 of 0.25 mm on a lattice of 0.2525 mm: 1.14e-7 m^3, a cone on 2 mm that is 27 mm high.
-  const auto on = [](const char* radius) {
-    return problems(grain_case(), {"grains.sizes=[[0.25e-3, 10000]]",
-                                   std::string("initial.grains.pour.radius=") + radius});
+  const auto on = [](const std::string& radius) {
+    return problems(grain_case(),
+                    {"grains.sizes=[[0.25e-3, 10000]]", "initial.grains.pour.radius=" + radius});
   };
   EXPECT_TRUE(says(on("2.0e-3"), "the cone would reach about 0.0272 m, above the domain"));
   EXPECT_TRUE(on("2.1e-3").empty());
 }
 
-TEST(ConfigValidate, StepsFitEachOther) {
-  refused(grain_case(),
-          "--set time.end: [time] end = 0.0001: must be at least one fluid_step, 0.00025 s",
-          {"time.end=1e-4"});
-  EXPECT_TRUE(says(problems(grain_case(), {"time.grain_step=1e-3"}),
-                   "must be at most fluid_step, 0.00025 s"));
-  EXPECT_TRUE(says(warnings(grain_case(), {"time.end=1.0001"}), "the run ends at 1.00025 s"));
-  EXPECT_FALSE(says(warnings(grain_case(), {"time.end=0.3"}), "the run ends at"));
-  EXPECT_TRUE(says(warnings(grain_case(), {"output.dune_interval=1e-5"}),
-                   "warning: [output] dune_interval is shorter than a fluid step"));
-}
-
-TEST(ConfigValidate, UnwiseMeshesAreWarnedOf) {
-  EXPECT_TRUE(says(warnings(coupled_case(), {"fluid.first_cell_height=2.3e-4"}),
-                   "makes the smallest cell 1.15 mean grain diameters"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"fluid.first_cell_height=3.3e-4"}),
-                   "makes the smallest cell 1.65 mean grain diameters"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"coupling.smoothing_length=0"}), "alpha_f is then noisy"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"coupling.smoothing_length=5e-5"}), "no effect"));
-  EXPECT_TRUE(says(warnings(coupled_case(), {"coupling.smoothing_length=7e-3"}), "smear the dune"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"grains.boundary_x=wall"}), "boundary_x stops grains"));
-  EXPECT_FALSE(says(warnings(coupled_case(), {"grains.boundary_x=periodic"}), "boundary_x"));
-  EXPECT_TRUE(
-      says(warnings(coupled_case(), {"grains.skin=3e-4"}), "skin is above the smallest diameter"));
-}
-
-TEST(ConfigValidate, PeriodicDomainHoldsAGrainAndItsImage) {
-  EXPECT_TRUE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 7.1e-4]"}), "its own image"));
-  EXPECT_FALSE(says(problems(grain_case(), {"domain.size=[0.1, 0.025, 7.3e-4]"}), "its own image"));
+TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
+  const std::pair<std::string, std::string> unwise[] = {
+      {"fluid.first_cell_height=2.3e-4", "makes the smallest cell 1.15 mean grain diameters"},
+      {"fluid.first_cell_height=3.3e-4", "makes the smallest cell 1.65 mean grain diameters"},
+      {"coupling.smoothing_length=0", "alpha_f is then noisy"},
+      {"coupling.smoothing_length=5e-5", "no effect"},
+      {"coupling.smoothing_length=7e-3", "smear the dune"},
+      {"grains.boundary_x=wall", "boundary_x stops grains"},
+      {"grains.skin=3e-4", "skin is above the smallest diameter"},
+      {"time.end=1.0001", "the run ends at 1.00025 s"},
+      {"output.dune_interval=1e-5",
+       "warning: [output] dune_interval is shorter than a fluid step"}};
+  for (const auto& [assignment, words] : unwise) {
+    EXPECT_TRUE(says(warnings(coupled_case(), {assignment}), words)) << assignment;
+  }
+  for (const char* wise : {"grains.boundary_x=periodic", "time.end=0.3"}) {
+    EXPECT_EQ(warnings(coupled_case(), {wise}), Lines{}) << wise;
+  }
 }
 
 TEST(ConfigValidate, NothingIsConcludedFromAValueThatIsWrong) {

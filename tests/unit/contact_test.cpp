@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/grains/contact_force.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/grain.hpp"
 
 namespace barchan {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "src/diagnostics/flow_average.hpp"
@@ -25,12 +26,10 @@ struct WavyShear {
 
   /// u = 8 y + a wave, v a wave in phase with it: <u'v'> = -a b / 2 where both are away from walls.
   void set(double a, double b) {
-    const test::HostGrid h(grid);
-    const double k = 2 * pi / 0.04;
-    test::set_field(fluid.u.x, grid,
-                    [&](int i, int j, int) { return 8 * h.y(j) + a * std::cos(k * h.x_face(i)); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int i, int j, int) { return j > 0 ? -b * std::cos(k * h.x(i)) : 0.0; });
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double x, double y, double) {
+      const double wave = std::cos(2 * pi / 0.04 * x);
+      return axis == 0 ? 8 * y + a * wave : axis == 1 ? -b * wave : 0;
+    });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }
 };
@@ -43,7 +42,6 @@ TEST(FlowStatistics, MeansAndStressesOfAWavyShear) {
   flow.statistics.sample(flow.fluid);
   const FlowStatisticsTable table = flow.statistics.table();
   const test::HostGrid h(flow.grid);
-  EXPECT_EQ(table.n_samples, 2);
   EXPECT_NEAR(table.u_star, std::sqrt(1e-6 * 8), 1e-12);
   // u and v meet at the edges: the mean of two neighbours of a cosine is less than the cosine.
   const double averaging = std::cos(pi / 16);
@@ -73,24 +71,6 @@ TEST(FlowStatistics, FluctuationsAreAgainstTheMeanOfAllSamples) {
   EXPECT_NEAR(row.uu, 0.01, 1e-14);
 }
 
-TEST(FlowStatistics, SurviveARestart) {
-  const TemporaryFolder folder;
-  WavyShear flow;
-  flow.set(0.03, 0.02);
-  flow.statistics.sample(flow.fluid);
-  std::filesystem::create_directories(folder / "run");
-  CheckpointWriter writer(folder / "run", 7, make_provenance(flow.config));
-  flow.statistics.save(writer);
-  const auto file = writer.commit(1);
-  FlowStatistics again(*flow.config.fluid, flow.grid);
-  again.load(CheckpointReader(file));
-  EXPECT_EQ(again.table().n_samples, 1);
-  for (std::size_t j = 0; j < 10; ++j) {
-    EXPECT_EQ(again.table().rows[j].uv, flow.statistics.table().rows[j].uv);
-    EXPECT_EQ(again.table().rows[j].total, flow.statistics.table().rows[j].total);
-  }
-}
-
 // --- Averages of the flow on the grid against a flow whose means and second moments are known.
 
 constexpr int kSamples = 8;
@@ -103,13 +83,11 @@ struct SwingingFlow {
   double a = 0.02, b = 0.01, c = 0.03;
 
   void set(int sample) {
-    const test::HostGrid h(grid);
-    const double phase = 2 * std::numbers::pi * (sample + 0.3) / kSamples;
-    test::set_field(fluid.u.x, grid,
-                    [&](int, int j, int) { return 40 + 8 * h.y(j) + a * std::cos(phase); });
-    test::set_field(fluid.u.y, grid,
-                    [&](int, int j, int) { return j > 0 ? -b * std::cos(phase) : 0.0; });
-    test::set_field(fluid.u.z, grid, [&](int, int, int) { return c * std::sin(phase); });
+    const double phase = 2 * pi * (sample + 0.3) / kSamples;
+    test::set_faces(fluid.u, grid, [&](std::size_t axis, double, double y, double) {
+      if (axis == 0) return 40 + 8 * y + a * std::cos(phase);
+      return axis == 1 ? -b * std::cos(phase) : c * std::sin(phase);
+    });
     test::set_field(fluid.p, grid, [&](int i, int, int) { return 1.0 * i + sample; });
     FluidSolver(config, grid).fill_ghosts(fluid);
   }
@@ -122,25 +100,6 @@ double at(const std::vector<NamedField>& fields, const std::string& name, int i,
   return NAN;
 }
 
-void expect_known(const std::vector<NamedField>& m, const SwingingFlow& flow) {
-  const test::HostGrid h(flow.grid);
-  ASSERT_EQ(m.size(), 12u);
-  const int i = 2, j = 2, k = 1;  // away from the walls
-  EXPECT_NEAR(at(m, "u", i, j, k), 40 + 8 * h.y(j), 1e-13);
-  EXPECT_NEAR(at(m, "v", i, j, k), 0, 1e-15);
-  EXPECT_NEAR(at(m, "w", i, j, k), 0, 1e-15);
-  EXPECT_NEAR(at(m, "p", i, j, k), i + (kSamples - 1) / 2.0, 1e-13);
-  EXPECT_NEAR(at(m, "alpha_f", i, j, k), 1, 1e-15);
-  EXPECT_NEAR(at(m, "uu", i, j, k), flow.a * flow.a / 2, 1e-15);
-  EXPECT_NEAR(at(m, "vv", i, j, k), flow.b * flow.b / 2, 1e-15);
-  EXPECT_NEAR(at(m, "ww", i, j, k), flow.c * flow.c / 2, 1e-15);
-  EXPECT_NEAR(at(m, "uv", i, j, k), -flow.a * flow.b / 2, 1e-15);
-  EXPECT_NEAR(at(m, "uw", i, j, k), 0, 1e-15);
-  EXPECT_NEAR(at(m, "vw", i, j, k), 0, 1e-15);
-  // In the first row v' is half of what it is above: the floor stands still.
-  EXPECT_NEAR(at(m, "uv", i, 0, k), -flow.a * flow.b / 4, 1e-15);
-}
-
 TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
   SwingingFlow flow;
   FlowAverage average(flow.grid);
@@ -149,26 +108,26 @@ TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
     flow.set(n);
     average.sample(flow.fluid, 1 + 0.1 * n);
   }
-  expect_known(average.means(), flow);
-}
-
-TEST(FlowAverage, GoesOnAcrossARestart) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "run");
-  SwingingFlow flow;
-  FlowAverage first(flow.grid), second(flow.grid);
-  for (int n = 0; n < 3; ++n) {
-    flow.set(n);
-    first.sample(flow.fluid, n);
+  const std::vector<NamedField> means = average.means();
+  ASSERT_EQ(means.size(), 12u);
+  const int i = 2, j = 2, k = 1;  // away from the walls
+  const std::map<std::string, double> known = {{"u", 40 + 8 * test::HostGrid(flow.grid).y(j)},
+                                               {"v", 0},
+                                               {"w", 0},
+                                               {"p", i + (kSamples - 1) / 2.0},
+                                               {"alpha_f", 1},
+                                               {"nu_t", 0},
+                                               {"uu", flow.a * flow.a / 2},
+                                               {"vv", flow.b * flow.b / 2},
+                                               {"ww", flow.c * flow.c / 2},
+                                               {"uv", -flow.a * flow.b / 2},
+                                               {"uw", 0},
+                                               {"vw", 0}};
+  for (const auto& [name, value] : known) {
+    EXPECT_NEAR(at(means, name, i, j, k), value, value > 1 ? 1e-13 : 1e-15) << name;
   }
-  CheckpointWriter writer(folder / "run", 7, make_provenance(flow.config));
-  first.save(writer);
-  second.load(CheckpointReader(writer.commit(1)));
-  for (int n = 3; n < kSamples; ++n) {
-    flow.set(n);
-    second.sample(flow.fluid, n);
-  }
-  expect_known(second.means(), flow);
+  // In the first row v' is half of what it is above: the floor stands still.
+  EXPECT_NEAR(at(means, "uv", i, 0, k), -flow.a * flow.b / 4, 1e-15);
 }
 
 TEST(FlowAverage, FileHoldsOneFrameWithItsWindow) {

@@ -17,10 +17,6 @@ namespace {
 
 using hdf5::Handle;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A result file of two grains.
 struct TwoGrains {
   std::vector<std::int64_t> id{1, 2};

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <functional>
 
 #include "tests/support/file_size_limit.hpp"
@@ -189,24 +190,21 @@ TEST(FrameFile, AReaderDoesNotStopTheRun) {
   FrameFile file = open(folder / "a.h5", {});
   append(file, 0);
   // Another process holds the file open, as a viewer does.
-  int ready[2], done[2];
+  int ready[2];
   ASSERT_EQ(pipe(ready), 0);
-  ASSERT_EQ(pipe(done), 0);
   const pid_t child = fork();
   if (child == 0) {
     const Hdf5File reader(folder / "a.h5", Hdf5File::Mode::read);
-    char byte = 'r';
-    const bool told = ::write(ready[1], &byte, 1) == 1 && ::read(done[0], &byte, 1) == 1;
-    _exit(told ? 0 : 1);
+    if (::write(ready[1], "r", 1) == 1) pause();
+    _exit(1);
   }
+  close(ready[1]);
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_NO_THROW(append(file, 1));
-  ASSERT_EQ(::write(done[1], &byte, 1), 1);
-  int status = -1;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-  for (const int end : {ready[0], ready[1], done[0], done[1]}) close(end);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  close(ready[0]);
 }
 
 }  // namespace

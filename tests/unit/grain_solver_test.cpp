@@ -3,33 +3,24 @@
 
 #include <cmath>
 
-#include "tests/support/grain_cases.hpp"
+#include "tests/support/grain_bench.hpp"
 
 namespace barchan {
 namespace {
 
 using testing::add_grain;
 using testing::grain_config;
+using testing::GrainBench;
+using testing::host_copy;
 using testing::rows_by_id;
 using testing::set_weight;
-
-struct Case {
-  Config config;
-  GrainState state;
-  GrainSolver solver;
-
-  Case(const Config& c, const InitialGrains& grains)
-      : config(c), state(make_grain_state(grains, c.grains->density)), solver(c, state) {
-    solver.start(state);
-  }
-};
 
 TEST(GrainSolver, FreeFallIsExact) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.005, 0.009, 0.005}, {0.02, 0, -0.01});
-  Case c(grain_config(), g);
+  GrainBench c(grain_config(), g);
   set_weight(c.state, {0, -9.81, 0});
-  c.solver.advance(c.state, 1000, 1e-5);
+  c.advance(1000, 1e-5);
   EXPECT_EQ(c.solver.contacts(c.state).n_contacts, 0);
   EXPECT_EQ(c.solver.contacts(c.state).max_overlap, 0);
   const auto row = rows_by_id(c.state)[1];
@@ -47,8 +38,8 @@ TEST(GrainSolver, CollisionConservesMomentumAndDeliversRestitution) {
     InitialGrains g;
     add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.05, 0, 0});
     add_grain(g, 2.5e-4, {0.005 + 2.26e-4, 0.005, 0.005}, {-0.05, 0, 0});
-    Case c(config, g);
-    c.solver.advance(c.state, 4000, 5e-8);
+    GrainBench c(config, g);
+    c.advance(4000, 5e-8);
     const auto rows = rows_by_id(c.state);
     EXPECT_NEAR((rows[2].u.x - rows[1].u.x) / 0.1, e, 1e-3);
     const Real m1 = 1, m2 = std::pow(1.25, 3);
@@ -60,7 +51,7 @@ TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.05, 0.03, 0.01}, {50, -20, 10});
   add_grain(g, 2e-4, {0.0052005, 0.00501, 0.00499}, {-0.05, 0, 0}, {0, 30, -70});
-  Case c(grain_config(), g);
+  GrainBench c(grain_config(), g);
   const Real m = sphere_volume(1e-4) * 2500, inertia = sphere_inertia(m, 1e-4);
   const auto angular = [&] {
     Vec3 sum;
@@ -71,7 +62,7 @@ TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
     return sum;
   };
   const Vec3 before = angular();
-  c.solver.advance(c.state, 2000, 5e-8);
+  c.advance(2000, 5e-8);
   const Real scale = m * 1e-4 * 0.05;
   EXPECT_LT(norm(angular() - before), 2e-6 * scale);
   EXPECT_GT(norm(rows_by_id(c.state)[1].omega - Vec3{50, -20, 10}), 1) << "they did collide";
@@ -80,26 +71,25 @@ TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
 TEST(GrainSolver, DragRelaxesToTheFluid) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.002, 0.005, 0.005});
-  Case c(grain_config(), g);
+  GrainBench c(grain_config(), g);
   const Real m = sphere_volume(1e-4) * 2500, beta = m / 5e-3, added = 0.2 * m;
   add_fluid(c.state);
   Kokkos::deep_copy(c.state.fluid.beta, beta);
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
   Kokkos::deep_copy(c.state.fluid.u_f, Vec3{0.1, 0, 0.02});
-  c.solver.advance(c.state, 2000, 2.5e-6);
+  c.advance(2000, 2.5e-6);
   const Real expected = 0.1 * (1 - std::exp(-5e-3 / (1.2 * 5e-3)));
   EXPECT_NEAR(rows_by_id(c.state)[1].u.x, expected, 1e-3 * expected);
   // The impulse of the drag is what moved grain and added mass.
-  const auto impulse =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, c.state.fluid.drag_impulse);
+  const auto impulse = host_copy(c.state.fluid.drag_impulse);
   EXPECT_NEAR(impulse(0).x / (1.2 * m * rows_by_id(c.state)[1].u.x), 1, 1e-12);
 }
 
 /// 1,200 grains of a gas that collide within milliseconds, in a box of 3 mm.
 InitialGrains gas() {
   InitialGrains g;
-  std::mt19937_64 generator(2);
-  const auto u = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53 - 0.5; };
+  testing::Uniform uniform(2);
+  const auto u = [&uniform] { return uniform() - 0.5; };
   for (int n = 0; n < 1200; ++n) {
     add_grain(g, 2e-4, {2.1e-4 * (n % 12 + 1), 2.1e-4 * (n / 144 + 1), 2.1e-4 * (n / 12 % 12 + 1)},
               {0.4 * u(), 0.4 * u(), 0.4 * u()});
@@ -113,14 +103,14 @@ TEST(GrainSolver, LaunchingAheadChangesNothing) {
   config.size = {0.003, 0.003, 0.003};
   config.grains->material.rolling_friction = 0.1;
   config.grains->skin = 1e-5;
-  Case one(config, gas()), ahead(config, gas());
+  GrainBench one(config, gas()), ahead(config, gas());
   ahead.solver.set_sub_steps_ahead(7);
   for (const int n : {1, 40, 100, 259}) {
-    one.solver.advance(one.state, n, 2.5e-6);
-    ahead.solver.advance(ahead.state, n, 2.5e-6);
+    one.advance(n, 2.5e-6);
+    ahead.advance(n, 2.5e-6);
   }
-  EXPECT_GT(one.solver.rebuilds(), 10);
-  EXPECT_EQ(one.solver.rebuilds(), ahead.solver.rebuilds());
+  EXPECT_GT(one.solver.list().rebuilds(), 10);
+  EXPECT_EQ(one.solver.list().rebuilds(), ahead.solver.list().rebuilds());
   const auto a = rows_by_id(one.state), b = rows_by_id(ahead.state);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t id = 1; id < a.size(); ++id) {
@@ -138,15 +128,12 @@ TEST(GrainSolver, GrainsThatTouchNothingFeelNothing) {
     config.grains->material.rolling_friction = 0.1;
     config.grains->rolling_model = model;
     config.grains->wall = config.grains->material;
-    Case c(config, gas());
-    c.solver.advance(c.state, 300, 2.5e-6);
-    const auto host = [](const auto& view) {
-      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-    };
+    GrainBench c(config, gas());
+    c.advance(300, 2.5e-6);
     const PairList& list = c.state.list;
-    const auto i = host(list.i), j = host(list.j);
-    const auto touching = host(list.touching), on_wall = host(c.state.wall_touching);
-    const auto force = host(c.state.contact_force), torque = host(c.state.contact_torque);
+    const auto i = host_copy(list.i), j = host_copy(list.j);
+    const auto touching = host_copy(list.touching), on_wall = host_copy(c.state.wall_touching);
+    const auto force = host_copy(c.state.contact_force), torque = host_copy(c.state.contact_torque);
     std::vector<bool> touches(static_cast<std::size_t>(c.state.n));
     for (int p = 0; p < list.n_pairs; ++p) {
       if (!touching(p)) continue;
@@ -171,11 +158,11 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   config.grains->material.rolling_friction = 0.1;
   config.grains->wall = config.grains->material;
   const InitialGrains g = gas();
-  Case together(config, g), apart(config, g);
-  for (Case* c : {&together, &apart}) set_weight(c->state, {0, -9.81, 0});
-  together.solver.advance(together.state, 300, 2.5e-6);
-  for (int n = 0; n < 300; ++n) apart.solver.advance(apart.state, 1, 2.5e-6);
-  EXPECT_GT(together.solver.rebuilds(), 3);
+  GrainBench together(config, g), apart(config, g);
+  for (GrainBench* c : {&together, &apart}) set_weight(c->state, {0, -9.81, 0});
+  together.advance(300, 2.5e-6);
+  for (int n = 0; n < 300; ++n) apart.advance(1, 2.5e-6);
+  EXPECT_GT(together.solver.list().rebuilds(), 3);
   const PairList& list = together.state.list;
   EXPECT_GT(list.chunks.count(), 1);
   EXPECT_GT(list.n_crossing, 100);

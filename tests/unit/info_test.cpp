@@ -17,10 +17,6 @@ const Provenance origin{.title = "Ten thousand grains",
                         .git_hash = "abc1234",
                         .backend = "OpenMP"};
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Info, DescribesResults) {
   const TemporaryFolder folder;
   FrameFile file(folder / "grains.h5", origin, {}, MPI_COMM_SELF);
@@ -33,11 +29,11 @@ TEST(Info, DescribesResults) {
         });
   }
   const std::string text = describe_file(folder / "grains.h5");
-  EXPECT_TRUE(contains(text, "Ten thousand grains")) << text;
-  EXPECT_TRUE(contains(text, "barchan 0.1.0 (abc1234), OpenMP")) << text;
-  EXPECT_TRUE(contains(text, "3: frame_000000 ... frame_000002")) << text;
-  EXPECT_TRUE(contains(text, "0.2 s (step 800)")) << text;
-  EXPECT_TRUE(contains(text, "10 x 3") && contains(text, "[m]")) << text;
+  for (const char* part :
+       {"Ten thousand grains", "barchan 0.1.0 (abc1234), OpenMP",
+        "3: frame_000000 ... frame_000002", "0.2 s (step 800)", "10 x 3", "[m]"}) {
+    EXPECT_TRUE(contains(text, part)) << text;
+  }
 }
 
 TEST(Info, DescribesRestarts) {
@@ -47,10 +43,9 @@ TEST(Info, DescribesRestarts) {
   const std::vector<double> p(24);
   writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
   const std::string text = describe_file(writer.commit(1));
-  EXPECT_TRUE(contains(text, "restart file of step 1200")) << text;
-  EXPECT_TRUE(contains(text, "0.3 s")) << text;
-  EXPECT_TRUE(contains(text, "fluid/p")) << text;
-  EXPECT_TRUE(contains(text, "2 x 3 x 4")) << text;
+  for (const char* part : {"restart file of step 1200", "0.3 s", "fluid/p", "2 x 3 x 4"}) {
+    EXPECT_TRUE(contains(text, part)) << text;
+  }
 }
 
 TEST(Info, OtherFilesAreBadInput) {
@@ -63,25 +58,8 @@ TEST(Info, OtherFilesAreBadInput) {
   EXPECT_TRUE(contains(refusal("text.h5"), "not an HDF5 file")) << refusal("text.h5");
   EXPECT_TRUE(contains(refusal("foreign.h5"), "not one that barchan wrote"));
   EXPECT_NE(refusal("."), "");
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(run_info(folder / "no.h5"), 2);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "cannot read " + (folder / "no.h5").string() + ": No such file or directory\n");
-}
-
-TEST(Info, NoCutIsTakenForAWholeFile) {
-  const TemporaryFolder folder;
-  CheckpointWriter writer(folder.path(), 1200, origin);
-  const std::vector<double> p(24);
-  writer.array("fluid/p", std::span<const double>(p), {2, 3, 4});
-  const auto path = writer.commit(1);
-  const auto size = std::filesystem::file_size(path);
-  for (std::uintmax_t cut = 0; cut < size; cut += size / 13) {
-    std::filesystem::copy_file(path, folder / "cut.h5",
-                               std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::resize_file(folder / "cut.h5", cut);
-    EXPECT_NE(message_of([&] { describe_file(folder / "cut.h5"); }), "") << cut << " of " << size;
-  }
+  EXPECT_EQ(refusal("no.h5"),
+            "cannot read " + (folder / "no.h5").string() + ": No such file or directory");
 }
 
 }  // namespace

@@ -12,14 +12,15 @@ namespace {
 using testing::drift;
 using testing::grain_config;
 using testing::handle_marks;
+using testing::host_copy;
 using testing::random_grains;
 using PairSet = std::set<std::pair<std::int64_t, std::int64_t>>;
 
 /// Pairs (by id) of the list; fails on a pair listed twice.
 PairSet listed_pairs(const GrainState& s) {
-  const auto i = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.i);
-  const auto j = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.j);
-  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto i = host_copy(s.list.i);
+  const auto j = host_copy(s.list.j);
+  const auto id = host_copy(s.id);
   PairSet pairs;
   for (int p = 0; p < s.list.n_pairs; ++p) {
     EXPECT_TRUE(pairs.insert(std::minmax(id(i(p)), id(j(p)))).second) << "listed twice";
@@ -29,8 +30,8 @@ PairSet listed_pairs(const GrainState& s) {
 
 /// All pairs closer than r_i + r_j + reach, by comparing each with each.
 PairSet all_pairs(const GrainState& s, Real reach, Real lx, Real lz) {
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.kin);
-  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto kin = host_copy(s.kin);
+  const auto id = host_copy(s.id);
   PairSet pairs;
   for (int a = 0; a < s.n; ++a) {
     for (int b = a + 1; b < s.n; ++b) {
@@ -110,7 +111,7 @@ TEST(NeighborList, HistoryFollowsItsPairThroughSorting) {
   list.rebuild(s, false);
   EXPECT_EQ(handle_marks(s, false), 0);
   // Every pair that stayed is still marked.
-  const auto touching = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.list.touching);
+  const auto touching = host_copy(s.list.touching);
   int kept = 0, marked = 0;
   for (const auto& pair : listed_pairs(s)) kept += before.contains(pair) ? 1 : 0;
   for (int p = 0; p < s.list.n_pairs; ++p) marked += touching(p);
@@ -193,7 +194,7 @@ TEST(NeighborList, DropsAndCountsWhatLeft) {
   list.rebuild(s, true);
   EXPECT_EQ(s.n, 270);
   EXPECT_EQ(s.n_left, 30);
-  const auto left = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto left = host_copy(s.id);
   for (int g = 0; g < s.n; ++g) EXPECT_NE(left(g) % 10, 0);
 }
 

@@ -36,16 +36,9 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
   return names;
 }
 
-TEST(AtomicFile, ReplacesTheWholeFileAndLeavesNothingBeside) {
-  const TemporaryFolder folder;
-  write_atomically(folder / "a.txt", "a long first version\n");
-  write_atomically(folder / "a.txt", "second\n");
-  EXPECT_EQ(read_text(folder / "a.txt"), "second\n");
-  EXPECT_EQ(files_in(folder.path()), std::vector<std::string>{"a.txt"});
-}
-
 TEST(AtomicFile, AFailedWriteKeepsTheOldContent) {
   const TemporaryFolder folder;
+  write_atomically(folder / "a.txt", "longer, and replaced as a whole");
   write_atomically(folder / "a.txt", "old");
   const FileSizeLimit full(100);
   const auto text =
@@ -68,39 +61,33 @@ TEST(AtomicFile, SaysWhatItCannotReach) {
 
 TEST(RunFolder, WritesTablesInTheDocumentedFormat) {
   const TemporaryFolder folder;
-  RunFolder run(folder / "runs/x", {});
-  EXPECT_EQ(read_text(run.file("history.csv")), history_header);
-  EXPECT_EQ(read_text(run.file("dune.csv")), dune_header);
-  run.append(history_row(0.1));
+  const auto run = prepare_folder(folder / "runs/x", {});
+  append_row(run, history_row(0.1));
   DuneRow dune;
   dune.t = 0.1;
   dune.n_grains = 3000;
   dune.w = 0.04;
   dune.n_lost = 7;
   dune.flux = 2e-6;
-  run.append(dune);
-  EXPECT_EQ(read_text(run.file("history.csv")),
+  append_row(run, dune);
+  EXPECT_EQ(read_text(run / "history.csv"),
             history_header + "0.1,400,0.0168,0,0,0,0,0,0,0,99999,0,0\n");
-  EXPECT_EQ(read_text(run.file("dune.csv")),
+  EXPECT_EQ(read_text(run / "dune.csv"),
             dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7,2e-06\n");
-  run.write_config("[case]\n");
-  EXPECT_EQ(read_text(run.file("config.toml")), "[case]\n");
 }
 
 TEST(RunFolder, ARestartCutsTheTables) {
   const TemporaryFolder folder;
-  {
-    RunFolder run(folder.path(), {});
-    for (int n = 1; n <= 10; ++n) run.append(history_row(n * (1.0 / 3.0)));
-    std::ofstream(run.file("history.csv"), std::ios::app) << "3.66,40";  // killed while writing
-  }
-  RunFolder run(folder.path(), 5 * (1.0 / 3.0));
-  const std::string text = read_text(run.file("history.csv"));
+  const auto table = folder / "history.csv";
+  prepare_folder(folder.path(), {});
+  for (int n = 1; n <= 10; ++n) append_row(folder.path(), history_row(n * (1.0 / 3.0)));
+  std::ofstream(table, std::ios::app) << "3.66,40";  // killed while writing
+  prepare_folder(folder.path(), 5 * (1.0 / 3.0));
+  const std::string text = read_text(table);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 5);
   EXPECT_NE(text.find("\n1.666666667,"), std::string::npos);
-  run.append(history_row(2.0));
-  EXPECT_TRUE(
-      read_text(run.file("history.csv")).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0\n"));
+  append_row(folder.path(), history_row(2.0));
+  EXPECT_TRUE(read_text(table).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0\n"));
 }
 
 TEST(RunFolder, CutTableHandlesMissingEmptyAndForeignFiles) {
@@ -120,63 +107,51 @@ TEST(RunFolder, CutTableHandlesMissingEmptyAndForeignFiles) {
   EXPECT_EQ(read_text(file), "t,b\n1,2\n");
 }
 
-TEST(RunFolder, ANewRunRemovesOnlyResults) {
+TEST(RunFolder, ANewRunRemovesOnlyResultsAndARestartOnlyAFailure) {
   const TemporaryFolder folder;
-  for (const char* name : {"fields.h5", "grains.h5", "fields.xdmf", "restart_0000000100.h5",
+  for (const char* name : {"fields.h5", "failure_grains.h5", "fields.xdmf", "restart_0000000100.h5",
                            "restart_0000000200.h5.tmp", "run.json", "log.txt", "notes.md",
                            "picture.png", "restart_mine.h5"}) {
     std::ofstream(folder / name) << "x";
   }
-  const RunFolder run(folder.path(), {});
+  prepare_folder(folder.path(), 1.0);
+  EXPECT_EQ(files_in(folder.path()),
+            (std::vector<std::string>{"dune.csv", "fields.h5", "fields.xdmf", "history.csv",
+                                      "log.txt", "notes.md", "picture.png", "restart_0000000100.h5",
+                                      "restart_0000000200.h5.tmp", "restart_mine.h5", "run.json"}));
+  prepare_folder(folder.path(), {});
   EXPECT_EQ(files_in(folder.path()),
             (std::vector<std::string>{"dune.csv", "history.csv", "notes.md", "picture.png",
                                       "restart_mine.h5"}));
 }
 
-TEST(RunFolder, ARestartKeepsResults) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "fields.h5") << "x";
-  std::ofstream(folder / "restart_0000000100.h5") << "x";
-  const RunFolder run(folder.path(), 1.0);
-  EXPECT_TRUE(std::filesystem::exists(folder / "fields.h5"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "restart_0000000100.h5"));
-}
-
 TEST(RunFolder, ProblemsNameTheFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
-  const auto text = message_of([&] { RunFolder(folder / "file/run", {}); });
+  const auto text = message_of([&] { prepare_folder(folder / "file/run", {}); });
   EXPECT_NE(text.find("cannot make the folder " + (folder / "file/run").string()),
             std::string::npos)
       << text;
-  RunFolder run(folder / "run", {});
+  const auto run = prepare_folder(folder / "run", {});
   const FileSizeLimit full(history_header.size() + 10);
-  EXPECT_EQ(message_of([&] { run.append(history_row(0.5)); }),
-            "cannot write " + run.file("history.csv").string() + ": File too large");
+  EXPECT_EQ(message_of([&] { append_row(run, history_row(0.5)); }),
+            "cannot write " + (run / "history.csv").string() + ": File too large");
 }
 
 TEST(RunFolder, TheSummaryIsJsonWhateverItsNumbersAndTexts) {
   const TemporaryFolder folder;
-  RunFolder run(folder.path(), {});
-  run.write_summary({{"status", "done"},
-                     {"title", "Quick \"start\""},
-                     {"message", "bad bytes \xff in a path"},
-                     {"phases", Phases{{"grains", 0.02}, {"pressure", 0.01}}},
-                     {"max_cfl", std::nan("")}});
-  const auto json = nlohmann::json::parse(read_text(run.file("run.json")));
+  write_summary(folder.path(), {{"status", "done"},
+                                {"title", "Quick \"start\""},
+                                {"message", "bad bytes \xff in a path"},
+                                {"phases", Phases{{"grains", 0.02}, {"pressure", 0.01}}},
+                                {"max_cfl", std::nan("")}});
+  const auto json = nlohmann::json::parse(read_text(folder / "run.json"));
   EXPECT_EQ(json.at("title"), "Quick \"start\"");
   EXPECT_EQ(json.at("phases").at("pressure"), 0.01);
   EXPECT_TRUE(json.at("max_cfl").is_null());
-  EXPECT_EQ(status_in(run.file("run.json")), "done");
-  EXPECT_EQ(status_in(run.file("config.toml")), "");
-}
-
-TEST(RunFolder, SummaryIsReplacedAsAWhole) {
-  const TemporaryFolder folder;
-  RunFolder run(folder.path(), {});
-  run.write_summary({{"message", std::string(1000, 'm')}});
-  run.write_summary({{"message", ""}});
-  EXPECT_EQ(read_text(run.file("run.json")), "{\n  \"message\": \"\"\n}\n");
+  EXPECT_EQ(status_in(folder / "run.json"), "done");
+  std::ofstream(folder / "config.toml") << "[case]\n";
+  EXPECT_EQ(status_in(folder / "config.toml"), "");
 }
 
 class OutFolder : public testing::Test {

@@ -34,22 +34,21 @@ CoupledRun sound_run(int max_iterations = 200) {
   return run_of_two(c, {0.001, 0.5 * d, 0.001}, {0.003, 0.002, 0.0025});
 }
 
-std::string complaint(const Config& config, const SystemState& state, const CoupledStep& step) {
+std::string complaint(const CoupledRun& run) {
   try {
-    StateChecks(config, MPI_COMM_SELF).check(state, step);
+    StateChecks(run.config, MPI_COMM_SELF).check(run.state, run.step);
   } catch (const StateError& problem) {
     EXPECT_TRUE(problem.on_all_ranks);
     return problem.what();
   }
   return "none";
 }
-std::string complaint(const CoupledRun& run) { return complaint(run.config, run.state, run.step); }
 
 template <class Change>
 void change_grain(const CoupledRun& run, std::int64_t id, const Change& change) {
   const GrainState& s = *run.state.grains;
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.kin);
-  const auto ids = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto kin = testing::host_copy(s.kin);
+  const auto ids = testing::host_copy(s.id);
   for (int g = 0; g < s.n; ++g) {
     if (ids(g) == id) change(kin(g));
   }
@@ -57,7 +56,7 @@ void change_grain(const CoupledRun& run, std::int64_t id, const Change& change) 
 }
 
 void set_cell(const Field& field, int i, int j, int k, Real value) {
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, field.storage);
+  const auto host = testing::host_copy(field.storage);
   host(i + 1, j + 1, k + 1) = value;
   Kokkos::deep_copy(field.storage, host);
 }
@@ -75,17 +74,17 @@ TEST(StateChecks, SaysNothingOfASoundState) {
 
 TEST(StateChecks, OverlapOfAPairBeyondATenth) {
   for (const Real overlap : {0.09, 0.11}) {
-    const Config c = box();
     const CoupledRun run =
-        run_of_two(c, {0.003, 0.002, 0.0025}, {0.003 + (1 - overlap) * d, 0.002, 0.0025});
-    if (overlap < c.grains->max_overlap) {
+        run_of_two(box(), {0.003, 0.002, 0.0025}, {0.003 + (1 - overlap) * d, 0.002, 0.0025});
+    if (overlap < run.config.grains->max_overlap) {
       EXPECT_EQ(complaint(run), "none");
       continue;
     }
     expect_words(complaint(run), {"grain 1 at (0.003, 0.002, 0.0025) m", "grain 2", "11.0 %",
                                   "grains.youngs_modulus"});
-    EXPECT_THROW(StateChecks(c, MPI_COMM_SELF).check_start(run.state, run.step, "heap.csv"),
-                 InputError);
+    EXPECT_THROW(
+        StateChecks(run.config, MPI_COMM_SELF).check_start(run.state, run.step, "heap.csv"),
+        InputError);
   }
 }
 
@@ -136,13 +135,12 @@ TEST(StateChecks, FluidFractionOutOfBounds) {
 std::string complaint_of_flow(Real u, Real odd) {
   Config c = box();
   c.grains.reset();
-  SystemState state{.fluid = make_fluid_state(make_grid(c)), .grains = {}};
-  CoupledStep step(c, state);
-  Kokkos::deep_copy(state.fluid->u.x.storage, u);
-  set_cell(state.fluid->u.z, 2, 1, 3, odd);
-  step.start(state);
-  step.advance(state);
-  return complaint(c, state, step);
+  CoupledRun run(c, {.fluid = make_fluid_state(make_grid(c)), .grains = {}});
+  Kokkos::deep_copy(run.state.fluid->u.x.storage, u);
+  set_cell(run.state.fluid->u.z, 2, 1, 3, odd);
+  run.step.fill_ghosts(run.state);
+  run.advance();
+  return complaint(run);
 }
 
 TEST(StateChecks, CourantNumberBeyondStability) {  // dt / dx = 0.25 s/m

@@ -114,7 +114,7 @@ TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
   const test::HostField w = test::host_field(
       g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_centre(j), g.z_face(k)); });
   const FaceRef f{u.ref(), v.ref(), w.ref()};
-  const PeriodicBox box{.lx = 0, .lz = g.lz_all};
+  const PeriodicBox box{.lx = 0, .lz = g.lz};
   for (const Vec3& p :
        {Vec3{0.001, 0.0001, 0.001}, Vec3{0.0105, 0.0039, 0.0075}, Vec3{0.00555, 0.0021, 0.0002},
         Vec3{0, 0, 0}, Vec3{0.0112, 0.004, 0.0079}}) {
