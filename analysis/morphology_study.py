@@ -2,7 +2,8 @@
 
 As Figs. 7 (sliding friction), 8 (restitution) and 9 (rolling friction) of Lima et al. (2022). C_x is
 drawn from its first value, C_z from the middle of the channel. A study that varies no single key has
-two panels more: the height, and how many grains the dune holds.
+two panels more: the height, and how many grains the dune holds. With several realisations of a case the
+curve is their mean, the band their standard deviation, and the bars are the mean's 95 % interval.
 """
 
 import matplotlib
@@ -12,6 +13,7 @@ import numpy as np
 import style
 from morphology import widen
 from run_folder import NotInRun
+from spread import spread
 from study_folder import BY_NAME
 
 PANELS = (("W", "width $W$ (mm)"), ("L", "length $L$ (mm)"),
@@ -36,11 +38,26 @@ def main_dune(run):
     return dune
 
 
+def mean_dune(case):
+    """Columns of the mean over the realisations at the times that all have, each with its `_sd` and `_ci`."""
+    dunes = [main_dune(run) for run in case.runs if run.dunes is not None]
+    times = [np.round(dune["t"], 9) for dune in dunes]
+    common = set.intersection(*(set(t) for t in times))
+    rows = [np.isin(t, list(common)) for t in times]
+    mean = {"t": dunes[0]["t"][rows[0]], "realisations": len(dunes)}
+    for name in [name for name, _ in PANELS + MORE_PANELS]:
+        values = np.array([dune[name][row] for dune, row in zip(dunes, rows)])
+        spreads = [spread(list(column)) for column in values.T]
+        for part, take in (("", "mean"), ("_sd", "deviation"), ("_ci", "interval")):
+            mean[name + part] = np.array([getattr(one, take) for one in spreads])
+    return mean
+
+
 def draw(study, key):
     cases = study.series(key, lambda run: run.dunes is not None)
     if not cases:
         raise NotInRun("needs a case with dune.csv")
-    dunes = [main_dune(case.run) for case in cases]
+    dunes = [mean_dune(case) for case in cases]
     panels = PANELS + MORE_PANELS * (key == BY_NAME)
     figure, grid = plt.subplots(len(panels) // 2, 2, sharex=True,
                                 figsize=(style.FULL_WIDTH, 1.0 + 1.95 * (len(panels) // 2)))
@@ -48,9 +65,12 @@ def draw(study, key):
     for index, (axes, (name, label)) in enumerate(zip(grid.ravel(), panels)):
         for order, (dune, (colour, marker)) in enumerate(zip(dunes, looks(len(cases)))):
             scale = 1 if name == "n_grains" else 1e3
+            every = marks(dune["t"], step, order / len(cases))
             axes.plot(dune["t"], scale * dune[name], color=colour, marker=marker, ms=4, lw=0.9,
-                      mec=colour, mfc="white", mew=0.9, markevery=marks(dune["t"], step, order / len(cases)),
-                      label=cases[order].label_in(key))
+                      mec=colour, mfc="white", mew=0.9, markevery=every, label=cases[order].label_in(key))
+            if dune["realisations"] > 1:
+                draw_spread(axes, dune["t"], *(scale * dune[name + part] for part in ("", "_sd", "_ci")),
+                            colour, every)
         axes.set_ylabel(label)
         axes.margins(x=0.02)
         style.panel_label(axes, index)
@@ -62,6 +82,12 @@ def draw(study, key):
     style.legend_outside(figure, handles, 0.1 + 0.18 * -(-len(handles) // columns), ncols=columns)
     write(study, key, cases, dunes)
     return figure
+
+
+def draw_spread(axes, t, mean, deviation, interval, colour, every):
+    axes.fill_between(t, mean - deviation, mean + deviation, color=colour, alpha=0.18, lw=0)
+    at = slice(None) if every is None else every
+    axes.errorbar(t[at], mean[at], interval[at], fmt="none", ecolor=colour, elinewidth=0.7, capsize=1.5)
 
 
 def marks(t, step, share):
@@ -77,4 +103,7 @@ def write(study, key, cases, dunes):
     for name, column in (("t", "t_s"), ("W", "W_m"), ("L", "L_m"), ("Cx", "Cx_from_start_m"),
                          ("Cz", "Cz_from_middle_m"), ("H", "H_m"), ("n_grains", "n_grains")):
         columns[column] = [dune[name] for dune in dunes]
+        if name != "t" and any(dune["realisations"] > 1 for dune in dunes):
+            columns[column + "_sd"] = [dune[name + "_sd"] for dune in dunes]
+            columns[column + "_ci95"] = [dune[name + "_ci"] for dune in dunes]
     study.write_rows(f"morphology_{study.short(key)}", columns)

@@ -4,7 +4,7 @@ Cases may be absent, unfinished or failed: what they have is used, `gaps` says w
 """
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -20,13 +20,21 @@ BY_NAME = "case"  # what differs between the cases of a study that varies no sin
 
 @dataclass
 class Case:
-    """One run: varied is the key it changes, None for the base case; values of all keys studied."""
+    """`varied` is the key it changes, None for the base case; `values` of all keys studied.
+
+    `run` is its first realisation, `others` are further ones that are there.
+    """
 
     name: str
     varied: str | None
     values: dict
     run: RunFolder | None
     gap: str | None
+    others: list[RunFolder] = field(default_factory=list)
+
+    @property
+    def runs(self):
+        return [self.run] * bool(self.run) + self.others
 
     @property
     def label(self):
@@ -67,7 +75,8 @@ class StudyFolder:
         try:
             study = json.loads((self.path / NAME).read_text())
             self.title = study.get("title") or self.path.resolve().name
-            self.cases = [self._case(entry) for entry in study["cases"]]
+            self.cases = [self._case(entry) for entry in study["cases"] if entry.get("realisation", 1) == 1]
+            self._add_realisations(entry for entry in study["cases"] if entry.get("realisation", 1) > 1)
         except (OSError, ValueError) as error:
             raise PlotError(f"cannot read {self.path / NAME}: {error}") from error
         except (KeyError, TypeError, AttributeError) as error:
@@ -78,6 +87,17 @@ class StudyFolder:
         run = RunFolder(path) if path.is_dir() else None
         values = {**entry.get("values", {}), BY_NAME: str(entry["name"])}
         return Case(str(entry["name"]), entry.get("varied"), values, run, gap_of(path))
+
+    def _add_realisations(self, entries):
+        cases = {case.name: case for case in self.cases}
+        for entry in entries:
+            path, case = self.path / entry["folder"], cases[entry["case"]]
+            if path.is_dir():
+                case.others.append(RunFolder(path))
+            gap = gap_of(path)
+            if gap:
+                said = f"in realisation {entry['realisation']} {gap}"
+                case.gap = f"{case.gap}, {said}" if case.gap else said
 
     @property
     def gaps(self):

@@ -7,11 +7,12 @@ import math
 import os
 import re
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-SECTIONS = ("study", "set", "vary", "grid", "case")
+SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
+REALISATION = "initial.realisation"
 
 
 class StudyError(Exception):
@@ -19,6 +20,7 @@ class StudyError(Exception):
 
 
 MOST_CASES = 10_000  # each is checked before the first one runs
+MOST_REALISATIONS = 100
 
 
 @dataclass
@@ -26,15 +28,23 @@ class Case:
     """`values`: keys of the configuration and their values here, the study's common ones included.
 
     `varied`: the one key in which the case differs from the base case; None for the base and for grids.
+    `realisation`: which member of its ensemble this run is; the first is the case as it stands.
     """
 
     name: str
     values: dict
     varied: str | None = None
+    realisation: int = 1
+
+    @property
+    def run_name(self):
+        """Name of the run folder: a study made into an ensemble keeps the runs that it has."""
+        return self.name if self.realisation == 1 else f"{self.name}-r{self.realisation}"
 
     def set_options(self):
+        values = self.values if self.realisation == 1 else {**self.values, REALISATION: self.realisation}
         options = []
-        for key, value in self.values.items():
+        for key, value in values.items():
             options += ["--set", f"{key}={as_toml(value)}"]
         return options
 
@@ -46,7 +56,8 @@ class Study:
     out: Path
     at_once: int
     threads: int
-    cases: list
+    cases: list  # every realisation of every case
+    realisations: int = 1
     keys: list = field(default_factory=list)  # that differ between cases
 
 
@@ -152,6 +163,19 @@ def named_cases(tables, common, path):
     return cases
 
 
+def ensemble_of(cases, table, path):
+    """Every case as often as [ensemble] asks for, all first realisations first."""
+    for key in table:
+        if key != "realisations":
+            raise unknown(key, ("realisations",), f"{path}: [ensemble]")
+    count = table.get("realisations", 1)
+    if not (type(count) is int and 1 <= count <= MOST_REALISATIONS):
+        raise StudyError(f"{path}: [ensemble] realisations must be a number from 1 to {MOST_REALISATIONS}")
+    if count > 1 and any(REALISATION in case.values for case in cases):
+        raise StudyError(f"{path}: [ensemble] sets {REALISATION} itself: do not give it as well")
+    return count, [replace(case, realisation=which) for which in range(1, count + 1) for case in cases]
+
+
 def check_kind(value, section, path):
     """[[case]] is a list of sections, the others are sections."""
     if section != "case":
@@ -198,7 +222,8 @@ def read_study(path, options):
     cases += named_cases(table.get("case", []), common, path)
     if not cases:
         raise StudyError(f"{path}: no cases: give [vary], [grid] or [[case]]")
-    names = [case.name for case in cases]
+    realisations, cases = ensemble_of(cases, table.get("ensemble", {}), path)
+    names = [case.run_name for case in cases]
     for name in names:
         if names.count(name) > 1:
             raise StudyError(f'{path}: two cases are named "{name}"')
@@ -211,4 +236,5 @@ def read_study(path, options):
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
     return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,
-                 out=Path(options.out or Path("runs") / path.stem), cases=cases, keys=keys)
+                 out=Path(options.out or Path("runs") / path.stem), cases=cases,
+                 realisations=realisations, keys=keys)

@@ -1,9 +1,15 @@
-"""study.json, the cases of a study, and study.csv, their results at the end."""
+"""study.json, the cases of a study; study.csv, their results at the end; ensemble.csv, their spread."""
 
 import csv
 import io
 import json
+import math
 import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "analysis"))
+from spread import spread  # noqa: E402
 
 DUNE_COLUMNS = ("t", "W", "L", "H", "Cx", "Cz", "horn_left", "horn_right", "celerity", "n_grains", "n_lost")
 
@@ -25,16 +31,43 @@ def last_of_main_dune(folder):
         return {}
 
 
+def as_csv(rows):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
 def write_table(study, failed, status):
-    cases = [{"name": case.name, "folder": case.name, "varied": case.varied, "values": case.values}
+    """`status`: of each run, by its name."""
+    cases = [{"name": case.run_name, "folder": case.run_name, "case": case.name,
+              "realisation": case.realisation, "varied": case.varied, "values": case.values}
              for case in study.cases]
     replace(study.out / "study.json",
             json.dumps({"title": study.title, "base": str(study.base), "cases": cases}, indent=1) + "\n")
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(["case", *study.keys, "status", *DUNE_COLUMNS])
-    for case in study.cases:
-        row = last_of_main_dune(study.out / case.name)
-        table.writerow([case.name, *(case.values.get(key, "") for key in study.keys), status[case.name],
-                        *(row.get(column, "") for column in DUNE_COLUMNS)])
-    replace(study.out / "study.csv", text.getvalue())
+    last = {case.run_name: last_of_main_dune(study.out / case.run_name) for case in study.cases}
+    which = ["realisation"] * (study.realisations > 1)
+    rows = [["case", *which, *study.keys, "status", *DUNE_COLUMNS]]
+    rows += [[case.name, *(getattr(case, name) for name in which), *(case.values.get(key, "") for key in study.keys),
+              status[case.run_name], *(last[case.run_name].get(column, "") for column in DUNE_COLUMNS)]
+             for case in study.cases]
+    replace(study.out / "study.csv", as_csv(rows))
+    if study.realisations > 1:
+        replace(study.out / "ensemble.csv", as_csv(ensemble_rows(study, status, last)))
+
+
+def ensemble_rows(study, status, last):
+    """For each case what its finished realisations say: mean, standard deviation, half of the mean's 95 % interval."""
+    statistics = ("mean", "sd", "ci95")
+    rows = [["case", *study.keys, "realisations",
+             *(f"{column}_{name}" for column in DUNE_COLUMNS for name in statistics)]]
+    for case in [case for case in study.cases if case.realisation == 1]:
+        done = [last[one.run_name] for one in study.cases
+                if one.name == case.name and status[one.run_name] == "done"]
+        row = [case.name, *(case.values.get(key, "") for key in study.keys), len(done)]
+        for column in DUNE_COLUMNS:
+            values = [float(one[column]) for one in done if one.get(column)]
+            known = spread(values) if len(values) == len(done) > 0 else None
+            numbers = (known.mean, known.deviation, known.interval) if known else ()
+            row += [f"{number:.6g}" if not math.isnan(number) else "" for number in numbers] or [""] * 3
+        rows.append(row)
+    return rows

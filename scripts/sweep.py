@@ -35,7 +35,7 @@ def resolved(program, study, case):
     command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
-        raise StudyError(f"case {case.name}: {checked.stderr.strip()}")
+        raise StudyError(f"case {case.run_name}: {checked.stderr.strip()}")
     return tomllib.loads(checked.stdout)
 
 
@@ -92,7 +92,7 @@ class Running:
     """One case that computes; its output goes to the run folder's sweep.txt."""
 
     def __init__(self, program, study, case, restart, threads):
-        self.case, self.folder = case, study.out / case.name
+        self.case, self.folder = case, study.out / case.run_name
         command = [program, "run", str(study.base), *case.set_options(), "--out", str(self.folder),
                    "--quiet", "--threads", str(threads)]
         if restart:
@@ -107,7 +107,7 @@ class Running:
 
     def progress(self):
         summary = read_json(self.folder / "run.json")
-        return f"{self.case.name} {summary.get('simulated_seconds', 0.0):.2f} s"
+        return f"{self.case.run_name} {summary.get('simulated_seconds', 0.0):.2f} s"
 
     def complaint(self):
         """The last line that the program wrote."""
@@ -119,7 +119,7 @@ class Sweep:
     def __init__(self, program, study, draw):
         self.program, self.study, self.draw = program, study, draw
         self.running, self.failed, self.stopping = [], {}, False
-        self.configs = {case.name: resolved(program, study, case) for case in study.cases}
+        self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
         self.said = time.monotonic()
         self.began = time.time()
 
@@ -133,8 +133,8 @@ class Sweep:
     def run(self):
         waiting = []
         for case in self.study.cases:
-            what, _ = state_of(self.study.out / case.name, self.configs[case.name])
-            say(f"{case.name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}")
+            what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
+            say(f"{case.run_name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}")
             if what != "done":
                 waiting.append(case)
         self.tabulate()
@@ -160,9 +160,9 @@ class Sweep:
 
     def start(self, case):
         """First what the case starts from, alone: two cases must not compute the same start."""
-        folder = self.study.out / case.name
+        folder = self.study.out / case.run_name
         folder.mkdir(parents=True, exist_ok=True)
-        _, restart = state_of(folder, self.configs[case.name])
+        _, restart = state_of(folder, self.configs[case.run_name])
         if restart is None:
             command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
@@ -179,10 +179,10 @@ class Sweep:
             if self.stopping:
                 return
             if starts.returncode != 0:
-                self.failed[case.name] = f"what it starts from, see {folder / 'sweep.txt'}"
+                self.failed[case.run_name] = f"what it starts from, see {folder / 'sweep.txt'}"
                 return
         self.running.append(Running(self.program, self.study, case, restart, self.study.threads))
-        say(f"{case.name}: {'goes on from ' + restart.name if restart else 'started'}")
+        say(f"{case.run_name}: {'goes on from ' + restart.name if restart else 'started'}")
 
     def watch(self):
         """Takes note of what has ended; a line of progress every half minute."""
@@ -190,12 +190,12 @@ class Sweep:
             self.running.remove(one)
             status = one.process.returncode
             if status == 0:
-                say(f"{one.case.name}: done")
+                say(f"{one.case.run_name}: done")
                 if self.draw:
                     draw_figures(one.folder)
             elif status != 3:
-                self.failed[one.case.name] = one.complaint()
-                say(f"{one.case.name}: failed: {one.complaint()}")
+                self.failed[one.case.run_name] = one.complaint()
+                say(f"{one.case.run_name}: failed: {one.complaint()}")
             self.tabulate()
         if self.running and time.monotonic() - self.said > 30:
             self.said = time.monotonic()
@@ -216,14 +216,14 @@ class Sweep:
         return f"; {reached:.1f} of {sum(ends):g} s in all, about {seconds / 60:.0f} min left"
 
     def tabulate(self):
-        write_table(self.study, self.failed, {case.name: self.status(case) for case in self.study.cases})
+        write_table(self.study, self.failed, {case.run_name: self.status(case) for case in self.study.cases})
 
     def status(self, case):
-        if case.name in self.failed:
+        if case.run_name in self.failed:
             return "failed"
         if any(one.case is case for one in self.running):
             return "running"
-        what, _ = state_of(self.study.out / case.name, self.configs[case.name])
+        what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
         return {"done": "done", "continue": "unfinished", "new": "waiting"}[what]
 
 
@@ -267,7 +267,7 @@ def main(arguments):
         sweep = Sweep(options.program, study, draw=not options.no_pictures)
         if options.list:
             for case in study.cases:
-                print(case.name, *case.set_options()[1::2])
+                print(case.run_name, *case.set_options()[1::2])
             return 0
         held = lock(study.out)
     except StudyError as error:
