@@ -133,6 +133,7 @@ struct InitialConfig {
   std::filesystem::path grains = {};      // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
+  int realisation = 1;     // of an ensemble: its random numbers are those of seed + realisation - 1
   bool operator==(const InitialConfig&) const = default;
 };
 

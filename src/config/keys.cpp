@@ -189,7 +189,8 @@ void add_coupling(Sections& all) {
   key("void_fraction", &C::void_fraction,
       "how the volume of a grain is given to the cells around it");
   key("exchange", &C::exchange,
-      "momentum goes between each part of a grain and the row of cells it lies in; or all of it is of "
+      "momentum goes between each part of a grain and the row of cells it lies in; or all of it is "
+      "of "
       "the flow at the grain's centre; or that is smoothed like the void fraction as well");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
       "width over which the void fraction is smoothed (3 d in the paper); 0: not");
@@ -209,6 +210,8 @@ void add_initial(Sections& all) {
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
   key("seed", &I::seed, "of the perturbations of \"turbulent\"");
+  key("realisation", &I::realisation, between(1, 1000000), "",
+      "which member of an ensemble: another packing, another moment of the flow");
 }
 
 void add_pour(Sections& all) {

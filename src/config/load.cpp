@@ -42,6 +42,7 @@ struct Loaded {
   Config config;
   std::vector<SizeClass> sizes;   // of the grains, if known
   std::vector<Problem> problems;  // of this file, then of those it starts from
+  bool random = false;            // random numbers are drawn for its start, or for one behind it
 };
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
@@ -108,6 +109,14 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
     if (initial.fluid == initial.grains) grains.problems.clear();  // one case: its problems once
     from_starts = std::move(flow.problems);
     from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
+    loaded.random = (config.fluid && (initial.fluid == "turbulent" || flow.random)) ||
+                    (config.grains && (initial.pour || grains.random));
+    if (initial.realisation > 1 && !loaded.random && from_starts.empty()) {
+      reading.contradict(
+          "initial.realisation",
+          "has other random numbers, and this case starts from none: its realisations "
+          "would all be the same");
+    }
     if (config.grains) loaded.sizes = config.grains->sizes;
     if (loaded.sizes.empty()) loaded.sizes = grains.sizes;
     report(validate(config, loaded.sizes), reading);
@@ -166,6 +175,10 @@ bool is_written_in(const fs::path& file, const Config& config) {
   if (!text) return false;
   Reading reading(*text, config.file);
   return reading.read() == config && !reading.has_bad_keys();
+}
+
+bool is_random(const fs::path& start) {
+  return start == "turbulent" || (start.extension() == ".toml" && load_file(start, {}).random);
 }
 
 std::vector<SizeClass> known_sizes(const Config& config) {

@@ -40,6 +40,10 @@ Config config_as_written(std::string_view resolved, const std::filesystem::path&
 /// True if `file`, a config.toml, says exactly `config`, in whatever words.
 bool is_written_in(const std::filesystem::path& file, const Config& config);
 
+/// True if a start, as in [initial], draws random numbers: turbulent flow, or a case with that or
+/// with poured grains somewhere behind it. Throws ConfigError.
+bool is_random(const std::filesystem::path& start);
+
 /// The size classes of the grains: grains.sizes or, when empty, those of the case that
 /// initial.grains names; empty when a .csv or .h5 decides. Throws ConfigError.
 std::vector<SizeClass> known_sizes(const Config& config);

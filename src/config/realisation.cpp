@@ -9,10 +9,6 @@ namespace barchan {
 
 namespace {
 
-bool is_random(const std::filesystem::path& start) {
-  return start == "turbulent" || (start.extension() == ".toml" && is_random(load_config(start)));
-}
-
 /// Time in which the eddies of a channel change, in whole fluid steps [s].
 double turnover(const Config& config) {
   const FluidNumbers flow = *derive(config, {}).fluid;
@@ -22,17 +18,14 @@ double turnover(const Config& config) {
 
 }  // namespace
 
-bool is_random(const Config& config) {
-  return (config.fluid && is_random(config.initial.fluid)) ||
-         (config.grains && (config.initial.pour || is_random(config.initial.grains)));
-}
-
 Config realisation_of(const Config& config, int realisation) {
   Config other = config;
-  if (realisation == 1 || !is_random(config)) return other;
-  if (config.fluid && !config.grains && config.initial.fluid == "turbulent") {
+  const InitialConfig& start = config.initial;
+  const bool random_grains = config.grains && (start.pour || is_random(start.grains));
+  if (realisation == 1) return other;
+  if (config.fluid && !config.grains && start.fluid == "turbulent") {
     other.time.end += (realisation - 1) * turnover(config);
-  } else {
+  } else if (random_grains || (config.fluid && is_random(start.fluid))) {
     other.initial.realisation = realisation;
   }
   return other;

@@ -5,13 +5,9 @@
 
 namespace barchan {
 
-/// True if the case, or one that it starts from, draws random numbers: poured grains, turbulent
-/// flow. Only then do its realisations differ. Throws ConfigError if a start cannot be read.
-bool is_random(const Config& config);
-
 /// A case that others start from, in a realisation (1: as it stands). Turbulent flow without grains
 /// goes on for one turnover, depth over friction velocity, per realisation: the same run at another
-/// time. All else takes other random numbers (initial.realisation). What is not random stays.
+/// time. All else takes other random numbers (initial.realisation). What draws none stays as it is.
 Config realisation_of(const Config& config, int realisation);
 
 }  // namespace barchan

@@ -176,7 +176,9 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
                         .bottom = setup.bottom == WallFlow::no_slip,
                         .top = setup.top == WallFlow::no_slip};
   const HostGrid rows = grid.on_host();
-  const std::vector<Mode> modes = draw_modes(grid, config.size, profile, config.initial.seed);
+  const auto seed =
+      config.initial.seed + static_cast<std::uint64_t>(config.initial.realisation - 1);
+  const std::vector<Mode> modes = draw_modes(grid, config.size, profile, seed);
   const auto psi = [&](std::size_t c) { return potential(c, grid, rows, profile, modes); };
   const Curl curl{rows, psi(0), psi(1), psi(2)};
   double sum = 0;

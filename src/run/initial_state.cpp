@@ -88,9 +88,10 @@ SystemState make_initial_state(const Config& config, const InitialFiles& files, 
   if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
   if (config.grains) {
     const bool poured = config.initial.pour.has_value();
+    PourConfig pour = config.initial.pour.value_or(PourConfig{});
+    pour.seed += static_cast<std::uint64_t>(config.initial.realisation - 1);
     InitialGrains grains =
-        poured ? pour_grains(*config.initial.pour, config.grains->sizes, config.size)
-               : read_grains(files.grains);
+        poured ? pour_grains(pour, config.grains->sizes, config.size) : read_grains(files.grains);
     const std::string source = poured ? "initial.grains.pour" : files.grains.string();
     if (grains.size() == 0) throw InputError(source + " holds no grains");
     check_sizes(grains, config, source);

@@ -5,6 +5,7 @@
 
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
+#include "src/config/realisation.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
 #include "src/parallel/communicator.hpp"
@@ -32,16 +33,19 @@ void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
 void run_one(const Config& config, const RunOptions& options);
 
 /// The file a case starts from. Where that is the last state of another case, in a .toml, that case
-/// is run, or run to its end, if the state is missing.
-fs::path start_file(const fs::path& source, const fs::path& beside) {
+/// is run in the same realisation, or run to its end, if the state is missing.
+fs::path start_file(const fs::path& source, const fs::path& beside, int realisation) {
   if (source.extension() != ".toml") return source.extension().empty() ? fs::path() : source;
-  const Config config = load_config(source);
-  const fs::path folder = beside / source.stem();
+  const Config first = load_config(source), config = realisation_of(first, realisation);
+  const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
+  const fs::path folder = beside / (source.stem().string() + other);
   const bool same = is_written_in(folder / "config.toml", config);
   // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
   if (!broadcast(same && status_in(folder / "run.json") == "done", MPI_COMM_WORLD)) {
     report::info("first the case it starts from: {} -> {}", config.title, folder.string());
-    const auto restart = same ? latest_checkpoint(folder) : std::nullopt;
+    auto restart = same ? latest_checkpoint(folder) : std::nullopt;
+    if (!restart && config.time.end > first.time.end)  // the same flow some time later
+      restart = start_file(source, beside, realisation - 1);
     run_one(config, {.folder = folder, .restart = restart});
   }
   const auto state = latest_checkpoint(folder);
@@ -53,8 +57,9 @@ fs::path start_file(const fs::path& source, const fs::path& beside) {
 InitialFiles start_files(const Config& config, const fs::path& folder) {
   const fs::path beside = fs::absolute(folder).parent_path();
   InitialFiles files;
-  if (config.fluid) files.fluid = start_file(config.initial.fluid, beside);
-  if (config.grains) files.grains = start_file(config.initial.grains, beside);
+  const InitialConfig& start = config.initial;
+  if (config.fluid) files.fluid = start_file(start.fluid, beside, start.realisation);
+  if (config.grains) files.grains = start_file(start.grains, beside, start.realisation);
   return files;
 }
 

@@ -20,8 +20,8 @@ struct Layers {
   double stress = 0, slowest = 0;
 };
 
-/// The same column in one dimension, on many rows: mu u'' = beta u, no slip at the floor, u = lid at
-/// the top, solid fraction 0.6 up to kBed; drag of Ergun, Wen & Yu above alpha 0.8.
+/// The same column in one dimension, on many rows: mu u'' = beta u, no slip at the floor, u = lid
+/// at the top, solid fraction 0.6 up to kBed; drag of Ergun, Wen & Yu above alpha 0.8.
 Layers reference_column(double lid) {
   constexpr int n = 900;
   constexpr double dy = kHeight / n;
@@ -39,7 +39,8 @@ Layers reference_column(double lid) {
       const double low = j > 0 ? c : 2 * c, high = j + 1 < n ? c : 2 * c;
       const double diagonal = low + high + drag(j, u[std::size_t(j)]);
       const double rhs = j + 1 < n ? 0 : 2 * c * lid;
-      const double below = j > 0 ? c : 0, pivot = diagonal - (j > 0 ? below * upper[std::size_t(j - 1)] : 0);
+      const double below = j > 0 ? c : 0,
+                   pivot = diagonal - (j > 0 ? below * upper[std::size_t(j - 1)] : 0);
       upper[std::size_t(j)] = (j + 1 < n ? c : 0) / pivot;
       right[std::size_t(j)] = (rhs + (j > 0 ? below * right[std::size_t(j - 1)] : 0)) / pivot;
     }
@@ -51,7 +52,8 @@ Layers reference_column(double lid) {
   }
   Layers result{.stress = kMu * (lid - u[n - 1]) / (dy / 2)};
   for (int j = 0; (j + 1) * dy <= kBed * (1 + 1e-9); ++j) {
-    result.drag[std::size_t((j + 0.5) * dy / kDiameter)] += drag(j, u[std::size_t(j)]) * u[std::size_t(j)] * dy;
+    result.drag[std::size_t((j + 0.5) * dy / kDiameter)] +=
+        drag(j, u[std::size_t(j)]) * u[std::size_t(j)] * dy;
   }
   for (double& layer : result.drag) layer /= kSolid * kDiameter * kWeight;
   return result;
@@ -61,7 +63,8 @@ Layers reference_column(double lid) {
 InitialGrains random_bed(double length, double width) {
   std::mt19937_64 generator(1);
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
-  const auto in_layer = static_cast<int>(kSolid * length * width * kDiameter / test::volume_of(kDiameter));
+  const auto in_layer =
+      static_cast<int>(kSolid * length * width * kDiameter / test::volume_of(kDiameter));
   InitialGrains grains;
   for (int layer = 0; layer < kLayers; ++layer) {
     for (int g = 0; g < in_layer; ++g) {
@@ -87,7 +90,8 @@ Layers program(Exchange exchange, int rows, double smoothing, double lid, double
   const FluidState& f = *run.state.fluid;
   const test::HostField u = test::to_host(f.u.x);
   Layers result{.slowest = 1e300};
-  test::for_owned_cells(f.grid, [&](int i, int j, int k) { result.slowest = std::min(result.slowest, u(i, j, k)); });
+  test::for_owned_cells(
+      f.grid, [&](int i, int j, int k) { result.slowest = std::min(result.slowest, u(i, j, k)); });
   const double half_row = kHeight / rows / 2;
   result.stress = kMu * (lid - test::mean_of_row(u, f.grid, rows - 1)) / half_row;
   const auto kin = testing::host_copy(run.state.grains->kin);
@@ -121,12 +125,14 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
   for (const int rows : {6, 7, 9}) {
     for (const double smoothing : {0.0, 3e-4, 6e-4}) {
       const Layers bed = program(Exchange::by_row, rows, smoothing, lid, 1e-3);
-      const std::string what = fmt::format("{} rows, smoothed over {} d", rows, smoothing / kDiameter);
+      const std::string what =
+          fmt::format("{} rows, smoothed over {} d", rows, smoothing / kDiameter);
       print(what, bed);
       EXPECT_GE(bed.slowest, 0) << what;
       for (const double drag : bed.drag) EXPECT_GE(drag, 0) << what;
       testing::expect_relative("drag on the top layer over the stress, " + what,
-                               bed.drag.back() / bed.stress, column.drag.back() / column.stress, 0.2);
+                               bed.drag.back() / bed.stress, column.drag.back() / column.stress,
+                               0.2);
     }
   }
 }

@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# Realisations of a study: other packings, the same flow at other times, their mean and spread.
+set -u
+# shellcheck source=tests/support/script.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
+program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
+[ -x "$program" ] || { echo "no program at $program"; exit 77; }
+cd "$dir" || exit 1
+export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}"
+sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
+
+box='[domain]
+size = [0.02, 0.02, 0.02]'
+water='[fluid]
+cells = [8, 8, 8]
+mean_velocity = 1.0'
+grains='[grains]
+youngs_modulus = 3e5
+sizes = [[2e-4, 200]]'
+cat > heap.toml << CASE
+[time]
+end = 0.01
+fluid_step = 1e-3
+grain_step = 1e-5
+$box
+$grains
+[initial]
+grains = { pour = { centre = [0.01, 0.01], radius = 0.003 } }
+CASE
+cat > channel.toml << CASE
+[time]
+end = 0.1
+fluid_step = 1e-3
+$box
+$water
+[initial]
+fluid = "turbulent"
+CASE
+cat > case.toml << CASE
+[time]
+end = 0.02
+fluid_step = 5e-4
+grain_step = 1e-5
+$box
+$water
+$grains
+[initial]
+fluid = "channel.toml"
+grains = "heap.toml"
+[output]
+dune_interval = 0.01
+CASE
+cat > study.toml << 'STUDY'
+[study]
+base = "case.toml"
+[vary]
+grains.sliding_friction = [0.3, 0.6]
+[ensemble]
+realisations = 3
+STUDY
+
+sweep study.toml --list > list || fail "--list ended with $?"
+[ "$(cut -d' ' -f1 list | tr '\n' ' ')" = \
+  "base sliding_friction-0.3 base-r2 sliding_friction-0.3-r2 base-r3 sliding_friction-0.3-r3 " ] || fail "$(cat list)"
+sweep study.toml --out out > log 2>&1 || fail "the study ended with $?: $(cat log)"
+
+# --- each realisation has its own heap and a later flow; the flow goes on where it was, not anew
+for which in 2 3; do
+  for start in heap channel; do [ -e "out/$start-r$which/run.json" ] || fail "no $start-r$which"; done
+  cmp -s out/heap/history.csv "out/heap-r$which/history.csv" && fail "heap $which is heap 1"
+done
+cat > check.py << 'PYTHON'
+import csv, json, math, statistics, tomllib
+ends = [tomllib.load(open(f"out/channel{r}/config.toml", "rb"))["time"]["end"] for r in ("", "-r2", "-r3")]
+turnover = ends[1] - ends[0]
+u_star = json.load(open("out/channel-r2/run.json")).get("derived", {}).get("u_star")
+assert 0.2 < turnover < 0.6 and abs(ends[2] - ends[1] - turnover) < 1e-9, ends  # 0.02 m over some 0.05 m/s
+first = next(csv.DictReader(open("out/channel-r3/history.csv")))
+assert float(first["t"]) > ends[1] - 1e-9, first  # only what was new
+rows = [row for row in csv.DictReader(open("out/study.csv")) if row["case"] == "base"]
+assert [row["realisation"] for row in rows] == ["1", "2", "3"], rows
+line = next(row for row in csv.DictReader(open("out/ensemble.csv")) if row["case"] == "base")
+assert line["realisations"] == "3", line
+for column in ("W", "L", "Cx"):
+    values = [float(row[column]) for row in rows]
+    mean, sd = statistics.fmean(values), statistics.stdev(values)
+    assert sd > 0, column
+    # Student's t for two degrees of freedom: 4.30265
+    for name, wanted in (("mean", mean), ("sd", sd), ("ci95", 4.30265 * sd / math.sqrt(3))):
+        assert abs(float(line[f"{column}_{name}"]) - wanted) < 1e-4 * abs(wanted), (column, name, line)
+drawn = list(csv.DictReader(open("out/figures_data/morphology_sliding_friction.csv")))
+assert "W_m_ci95" in drawn[0] and float(drawn[-1]["W_m_sd"]) > 0, drawn[-1]
+PYTHON
+"$python" check.py || fail "tables"
+ls out/figures/*morphology* out/figures/fig7* > drawn 2> /dev/null
+[ -s drawn ] || fail "no figure of the morphology: $(ls out/figures 2>&1)"
+
+# --- the same command leaves what is done; a study without [ensemble] keeps its runs when it gets one
+sweep study.toml --out out --no-pictures > again 2>&1
+[ "$(grep -c 'done before' again)" = 6 ] || fail "run again: $(cat again)"
+
+# --- nothing random: there is only one realisation
+sed -e '/^sizes/d' -e 's/grains = { pour.*/grains = "one.csv"/' heap.toml > fixed.toml
+printf 'id,diameter,x,y,z\n1,2e-4,0.01,5e-3,0.01\n' > one.csv
+"$program" check fixed.toml --set initial.realisation=2 > refused 2>&1 && fail "a case without random numbers was taken"
+grep -q "initial.realisation.*would all be the same" refused || fail "$(cat refused)"
+finish "ensemble: fine"
