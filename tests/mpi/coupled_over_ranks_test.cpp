@@ -147,7 +147,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     deposits.implicit = fixed_point_for(1e4);
     Kokkos::parallel_for(
         "test: scatter", there.n,
-        DepositGrain{.stencil = stencil, .of_grain = of_grain, .deposits = deposits});
+        DepositGrain{.stencil = stencil, .of_grain = of_grain, .rows = {}, .deposits = deposits});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
