@@ -131,7 +131,7 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
     for (const double smoothing : {0.0, 3e-4, 6e-4}) {
       const Layers bed = program(Exchange::by_row, rows, smoothing, lid, 1e-3);
       const std::string what =
-          fmt::format("{} rows, smoothed over {} d", rows, smoothing / kDiameter);
+          fmt::format("{} rows, smoothed over {:.1f} d", rows, smoothing / kDiameter);
       print(what, bed);
       // Not quite zero: along the floor half of a cell's exchange goes to each of its two faces.
       testing::expect_below("row that flows backwards over the lid, " + what, -bed.slowest / lid,
