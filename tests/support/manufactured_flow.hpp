@@ -1,30 +1,80 @@
 // A manufactured solution of the volume-averaged equations between walls.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <unsupported/Eigen/AutoDiff>
 
 #include "src/config/config.hpp"
 
 namespace barchan::test {
 
-/// A function of (x, y, z, t) at a point with its first and second derivatives.
-using Jet1 = Eigen::AutoDiffScalar<Eigen::Vector4d>;
-using Jet = Eigen::AutoDiffScalar<Eigen::Matrix<Jet1, 4, 1>>;
+// --- Values that carry their derivatives along (forward differentiation).
 
-/// The coordinate itself: axis 0, 1, 2, 3 is x, y, z, t.
-inline Jet coordinate(double value, int axis) { return {Jet1(value, 4, axis), 4, axis}; }
-inline double value(const Jet& f) { return f.value().value(); }
-inline double first(const Jet& f, std::size_t a) {
-  return f.value().derivatives()[static_cast<Eigen::Index>(a)];
+/// A function of (x, y, z, t) at a point: its value, first derivatives along x, y, z, t and second
+/// derivatives in space in the order xx, yy, zz, xy, xz, yz.
+struct Jet {
+  double v = 0;
+  std::array<double, 4> d{};
+  std::array<double, 6> dd{};
+
+  Jet() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): formulas mix both
+  Jet(double constant) : v(constant) {}
+  /// The coordinate itself: axis 0, 1, 2, 3 is x, y, z, t.
+  static Jet variable(double value, std::size_t axis) {
+    Jet j(value);
+    j.d[axis] = 1;
+    return j;
+  }
+  /// d2/(da db) of two space axes.
+  double second(std::size_t a, std::size_t b) const { return a == b ? dd[a] : dd[a + b + 2]; }
+};
+
+inline constexpr std::array<std::array<std::size_t, 2>, 6> kSecond{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+inline Jet operator+(Jet a, const Jet& b) {
+  a.v += b.v;
+  for (std::size_t n = 0; n < 4; ++n) a.d[n] += b.d[n];
+  for (std::size_t n = 0; n < 6; ++n) a.dd[n] += b.dd[n];
+  return a;
 }
-inline double second(const Jet& f, std::size_t a, std::size_t b) {
-  return f.derivatives()[static_cast<Eigen::Index>(a)].derivatives()[static_cast<Eigen::Index>(b)];
+inline Jet operator*(const Jet& a, const Jet& b) {
+  Jet r(a.v * b.v);
+  for (std::size_t n = 0; n < 4; ++n) r.d[n] = a.d[n] * b.v + a.v * b.d[n];
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto [p, q] = kSecond[n];
+    r.dd[n] = a.dd[n] * b.v + a.d[p] * b.d[q] + a.d[q] * b.d[p] + a.v * b.dd[n];
+  }
+  return r;
 }
+inline Jet operator-(const Jet& a, const Jet& b) { return a + Jet(-1) * b; }
+
+/// f(a) from f, f', f'' at a.
+inline Jet chain(const Jet& a, double f, double f1, double f2) {
+  Jet r(f);
+  for (std::size_t n = 0; n < 4; ++n) r.d[n] = f1 * a.d[n];
+  for (std::size_t n = 0; n < 6; ++n) {
+    r.dd[n] = f1 * a.dd[n] + f2 * a.d[kSecond[n][0]] * a.d[kSecond[n][1]];
+  }
+  return r;
+}
+inline Jet sin(const Jet& a) {
+  const double s = std::sin(a.v), c = std::cos(a.v);
+  return chain(a, s, c, -s);
+}
+inline Jet cos(const Jet& a) {
+  const double s = std::sin(a.v), c = std::cos(a.v);
+  return chain(a, c, -s, -c);
+}
+inline Jet operator/(const Jet& a, const Jet& b) {
+  const double r = 1 / b.v;
+  return a * chain(b, r, -r * r, 2 * r * r * r);
+}
+
+// --- The flow.
 
 /// Fluid fraction alpha in (0.4, 1), interstitial velocity u and pressure p in a box that is
 /// periodic in x and z, with alpha u = curl A + G, div G = -d(alpha)/dt: mass is conserved
@@ -56,7 +106,7 @@ struct ManufacturedFlow {
     const T a = kx * x - time, b = kz * z, c = kz * z + time;
     Values<T> r;
     // The part that stands may have any slope at a wall without slip.
-    const T tilt = both(WallFlow::no_slip) ? T(sin(ky * y + T(0.4))) : T(cos(ky * y));
+    const T tilt = both(WallFlow::no_slip) ? sin(ky * y + T(0.4)) : cos(ky * y);
     r.alpha = T(0.7) + T(0.14) * wave + T(0.12) * cos(b) * tilt;
     r.momentum[0] = T(0.6) * profile + slope * (T(0.5) + T(0.4) * sin(a) * cos(b)) +
                     T(0.14 * wave_speed) * wave;  // the last is G
@@ -75,24 +125,25 @@ struct ManufacturedFlow {
   double p(double x, double y, double z, double t) const { return values(x, y, z, t).p; }
 
   Values<Jet> jets(double x, double y, double z, double t) const {
-    return values(coordinate(x, 0), coordinate(y, 1), coordinate(z, 2), coordinate(t, 3));
+    return values(Jet::variable(x, 0), Jet::variable(y, 1), Jet::variable(z, 2),
+                  Jet::variable(t, 3));
   }
   /// d(alpha)/dt + div(alpha u) [1/s]: zero.
   double mass_residual(double x, double y, double z, double t) const {
     const auto at = jets(x, y, z, t);
-    return first(at.alpha, 3) + first(at.momentum[0], 0) + first(at.momentum[1], 1) +
-           first(at.momentum[2], 2);
+    return at.alpha.d[3] + at.momentum[0].d[0] + at.momentum[1].d[1] + at.momentum[2].d[2];
   }
   /// Body force per mass of pure fluid along `axis`:
   ///   d(alpha u)/dt + div(alpha u u) + (alpha/rho) grad p - alpha nu (lap u + grad div u).
   double force(std::size_t axis, double x, double y, double z, double t) const {
     const auto at = jets(x, y, z, t);
-    const std::array<Jet, 3> u{at.momentum[0] / at.alpha, at.momentum[1] / at.alpha,
-                               at.momentum[2] / at.alpha};
-    double f = first(at.momentum[axis], 3) + value(at.alpha) / rho * first(at.p, axis);
+    const Jet one_over = Jet(1) / at.alpha;
+    const Jet own = at.momentum[axis] * one_over;
+    double f = at.momentum[axis].d[3] + at.alpha.v / rho * at.p.d[axis];
     for (std::size_t b = 0; b < 3; ++b) {
-      f += first(at.momentum[b], b) * value(u[axis]) + value(at.momentum[b]) * first(u[axis], b);
-      f -= value(at.alpha) * nu * (second(u[axis], b, b) + second(u[b], axis, b));
+      const Jet u_b = b == axis ? own : at.momentum[b] * one_over;
+      f += at.momentum[b].d[b] * own.v + at.momentum[b].v * own.d[b];
+      f -= at.alpha.v * nu * (own.second(b, b) + u_b.second(axis, b));
     }
     return f;
   }
