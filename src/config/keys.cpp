@@ -189,11 +189,11 @@ void add_coupling(Sections& all) {
   key("void_fraction", &C::void_fraction,
       "how the volume of a grain is given to the cells around it");
   key("exchange", &C::exchange,
-      "momentum goes between each part of a grain and the row of cells it lies in; or it is that "
-      "of "
-      "the flow at the grain's centre; or that, smoothed like the void fraction");
+      "where momentum goes: each part of a grain and its row of cells; the flow at the grain's "
+      "centre; or the latter, smoothed");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
-      "width over which the void fraction is smoothed (3 d in the paper); 0: not");
+      "width over which the void fraction, and the exchange \"smoothed\", are smoothed (3 d in the "
+      "paper); 0: not");
   key("alpha_time_derivative", &C::alpha_time_derivative,
       "the flow feels changes of the void fraction in time");
   key("relaxation", &C::relaxation,

@@ -1,14 +1,9 @@
 #!/usr/bin/env bash
 # Studies: the cases they make, a failed case, a kill in the middle and going on. Mistakes: tests/bad_input.
 set -u
-# shellcheck source=tests/support/script.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
-program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
-[ -x "$program" ] || { echo "no program at $program"; exit 77; }
-cd "$dir" || exit 1
-export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}"
+# shellcheck source=tests/support/studies.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../support/studies.sh"
 
-sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
 begin() {  # begin FOLDER: the study as process $pid, until its base case has written a restart file
   "$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out "$1" > "$1.txt" 2>&1 &
   pid=$!
