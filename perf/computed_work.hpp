@@ -39,20 +39,23 @@ inline Work pair_forces(double pairs, double contacts, bool rolling) {
   const double history = 2.0 * sizeof(Vec3) * (rolling ? 2 : 1) + 2;
   return {pairs * 3 * sizeof(int) + contacts * history, contacts * (rolling ? 221.0 : 177.0)};
 }
-/// List build: kinematics, eleven vectors and three numbers there and back in the new order, the
+/// List build: kinematics, twelve vectors and three numbers there and back in the new order, the
 /// kinematics once for the windows and once for the search, sort keys and rows, windows and noted
 /// partners there and back; of a pair i, j, flag and history written; of a contact partner and
 /// history there and back. History of walls left out; flops do not matter.
 inline Work list_build(double pairs, double contacts) {
-  const double grain = 4.0 * sizeof(GrainKinematics) + 22.0 * sizeof(Vec3) + 6.0 * sizeof(Real) +
+  const double grain = 4.0 * sizeof(GrainKinematics) + 24.0 * sizeof(Vec3) + 6.0 * sizeof(Real) +
                        2 * (8 + 4) + 2.0 * (4 + 8) * sizeof(int);
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }
-/// Gather: kinematics; u_f, fluid force and carried impulse there and back; five vectors and two
-/// numbers written. The 8 values of each of the 10 interpolations come from cache.
+/// Gather by row: kinematics five times; flow, pressure and stress, and the fraction written and read;
+/// u_f, the forces of pressure and stress and the carried impulse there and back; two vectors and two
+/// numbers written. Fields come from cache: two planes of 3 rows, 4 interpolations, 7 means over 29
+/// points.
 inline Work gather() {
-  return {sizeof(GrainKinematics) + 11.0 * sizeof(Vec3) + 2.0 * sizeof(Real), 10 * 24 + 80};
+  return {5.0 * sizeof(GrainKinematics) + 16.0 * sizeof(Vec3) + 4.0 * sizeof(Real),
+          6 * 9 + 5 * 24 + 7 * 29 * 2 + 80};
 }
 /// Deposit: kinematics, three vectors and two numbers read; 29 points sorted into about four cells,
 /// to each of which five sums are added in cache.
@@ -81,11 +84,11 @@ inline Work flow_step(int nx, int nz) {
 }
 /// The fluid's part of a coupled step. Passes: mass flux 7, mobility 7, volume 1, extrapolation 3,
 /// source 7, start of the iterations 13, correction 17, continuity 5, flow rate 2; deposits cleared
-/// 5 and decoded 10, fractions 2, faces 10, velocity change 6, ledger 9; eight smoothing solves of
-/// three to five fields. The force density is only formed around the grains and left out.
+/// 5 and decoded 10, fractions 2, faces 10, velocity change 6, ledger 9; unsmoothed fraction 2,
+/// pressure 4 and stress 10 on faces, each on cells 6 and summed 6; four smoothing solves.
 inline Work coupled_step(int nx, int nz, double iterations) {
-  return wale() + predict(true) + pass(62, 120) + pass(42, 100) +
-         iterations * pressure_iteration(nx, nz) + 8 * poisson(nx, nz);
+  return wale() + predict(true) + pass(62, 120) + pass(82, 420) +
+         iterations * pressure_iteration(nx, nz) + 4 * poisson(nx, nz);
 }
 
 }  // namespace work

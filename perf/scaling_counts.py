@@ -12,10 +12,10 @@ import numpy as np
 
 BYTES = 8                    # of a number
 GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain step
-GATHER = (21, 17)            # numbers of a grain to the fluid ranks and back, before the grain steps
+GATHER = (24, 20)            # numbers of a grain to the fluid ranks and back, before the grain steps
 DEPOSIT = (26, 3)            # the same after them
 SWEEPS = 2                   # src/fluid/pressure_solver.cpp
-SMOOTHINGS, EXCHANGE_FILLS = 8, 14
+SMOOTHINGS, EXCHANGE_FILLS = 4, 24
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
 
@@ -159,7 +159,7 @@ def deposit_halo(p):
 def exchange(p):
     """Coupling::gather(), deposit(), carry(), with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=14))
+            + Counts(reductions=17))
 
 
 # --- the grains --------------------------------------------------------------------------------------

@@ -2,10 +2,7 @@
 // to the grains what the implicit drag took. Equations: docs/model.md.
 #pragma once
 
-#include "kernels/coupling/row_exchange.hpp"
-#include "kernels/fluid/stencil.hpp"
-#include "kernels/grains/fluid_on_grains.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/coupling/flow_at_grains.hpp"
 
 namespace barchan {
 
@@ -70,13 +67,12 @@ struct SumExchange {
 
 /// Deposits the volume and the exchange of each grain in the cells of its points.
 struct DepositGrain {
-  DepositStencil stencil;
   ExchangeOfGrain of_grain;
   ExchangeByRow rows;
   Deposits deposits;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainCells cells = stencil(of_grain.grains(g));
+    const GrainCells cells = rows.stencil(of_grain.grains(g));
     if (rows.on) {
       const VelocityByRow v = rows(of_grain.grains(g));
       const Real drag = of_grain.dt * of_grain.on_grains.beta(g);
@@ -98,7 +94,7 @@ struct DepositGrain {
     for (int q = 0; q < cells.n; ++q) {
       const Vec3 impulse = e.impulse + of_row(cells.cell[q].j);
       const Real w = cells.weight(q);
-      const std::int64_t cell = cells.cell[q].linear(stencil.grid);
+      const std::int64_t cell = cells.cell[q].linear(rows.stencil.grid);
       const auto put = [&](int quantity, const FixedPoint& point, Real value) {
         Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
       };
@@ -225,11 +221,7 @@ struct CarryToGrain {
 
   KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {
     const GrainCells cells = stencil(of_grain.grains(g));
-    Vec3 change;
-    for (int q = 0; q < cells.n; ++q) {
-      const auto [i, j, k] = cells.cell[q];
-      change += cells.weight(q) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
-    }
+    const Vec3 change{mean_over(cells, x), mean_over(cells, y), mean_over(cells, z)};
     const Vec3 carried = of_grain(g).implicit * change;
     carried_impulse(g) += carried;
     sum_x += carried.x;

@@ -3,10 +3,7 @@
 #pragma once
 
 #include "kernels/coupling/drag.hpp"
-#include "kernels/coupling/row_exchange.hpp"
-#include "kernels/fluid/interpolation.hpp"
-#include "kernels/fluid/momentum.hpp"
-#include "kernels/fluid/stencil.hpp"
+#include "kernels/coupling/flow_at_grains.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
@@ -17,46 +14,6 @@ inline constexpr Real kAddedMassCoefficient = 0.5;  // C_m of a sphere
 KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_added_mass(Real rho_f, Real volume) {
   return kAddedMassCoefficient * rho_f * volume;
 }
-
-/// Which forces of the fluid act.
-struct FluidForces {
-  bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
-  bool buoyancy = false;
-};
-
-/// Fluid force per volume of grain on faces, -grad p + rho f e_x + rho div(2 (nu + nu_t) S) [N/m^3]
-/// (Lima et al. 2022, B9 and B10; Set II: the same stress as in the fluid equation), and the
-/// convective acceleration u . grad u [m/s^2] of the added mass.
-struct FluidForceDensity {
-  GridRef grid;
-  ConstFaceRef u;
-  ConstFieldRef p;
-  StressDivergence stress;
-  Real rho_f = 0, drive = 0;
-  FluidForces forces;
-  FaceRef force, convective;
-
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Real a = -Real(forces.pressure_gradient), b = rho_f * Real(forces.stress);
-    force.x(i, j, k) = a * (ddx_at_xface(grid, p, i, j, k) - rho_f * drive) + b * stress.x(i, j, k);
-    force.y(i, j, k) = a * ddy_at_yface(grid, p, i, j, k) + b * stress.y(i, j, k);
-    force.z(i, j, k) = a * ddz_at_zface(grid, p, i, j, k) + b * stress.z(i, j, k);
-
-    const ConvectiveAcceleration acceleration{grid, u};
-    convective.x(i, j, k) = acceleration.x(i, j, k);
-    convective.y(i, j, k) = j > 0 ? acceleration.y(i, j, k) : Real(0);
-    convective.z(i, j, k) = acceleration.z(i, j, k);
-  }
-};
-
-/// The force density on the lower wall takes the value of the first face inside.
-struct HoldForceAtWall {
-  FieldRef force_y;
-  int ny;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
-    force_y(i, 0, k) = force_y(i, ny > 1 ? 1 : 0, k);
-  }
-};
 
 /// Bounds of the grains' centres, without a lower one for the height [m].
 struct ExtentOfGrains {
@@ -99,51 +56,58 @@ struct GatherFluid {
   DragLaw drag;
   GridRef grid;
   PeriodicBox box;
-  ConstFaceRef u, force, convective;
+  ConstFaceRef convective;
   ConstFieldRef alpha_f;
   Real rho_f = 0, mu_f = 0, dt = 0;
   SubmergedWeight weight;
   FluidForces forces;
-  ExchangeByRow rows;
   bool skip_relaxation = false;  // the first step, grains that do not move
   Kokkos::View<const GrainKinematics*> grains;
+  FlowAtGrains flow_at;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
     const PointStencil at(grid, box, grain.x);
-    const Real found = interpolate_cell(alpha_f, at);
-    Vec3 u_f = interpolate_faces(u, at);
-    if (rows.on) {
-      const VelocityByRow by_row = rows(grain);
-      u_f.x = by_row.mean_x, u_f.z = by_row.mean_z;
-    }
+    const Vec3 u_f = flow_at.u(g);
     const Real volume = sphere_volume(grain.r);
     const Real added_mass = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);
     const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);
 
-    const Real alpha = Kokkos::clamp(found, Real(0.1), Real(1));
-    const LocalFlow flow{.alpha_f = alpha,
+    const Real alpha = in_range(interpolate_cell(alpha_f, at));
+    // By row the law reads the fraction around the grain. Of the flow it knows the superficial slip
+    // and takes alpha_f of the whole force (model A); both go with the fraction of the flow.
+    const bool unsmoothed = flow_at.alpha.extent(0) > 0;
+    const Real alpha_here = unsmoothed ? in_range(flow_at.alpha(g)) : alpha;
+    const Real unsmoothing = alpha / alpha_here;
+    const LocalFlow flow{.alpha_f = alpha_here,
                          .rho_f = rho_f,
                          .mu_f = mu_f,
-                         .slip = norm(u_f - grain.u),
+                         .slip = unsmoothing * norm(u_f - grain.u),
                          .d_p = 2 * grain.r};
-    const Real beta = Real(forces.drag) * drag(flow);
+    const Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
     const Real share = skip_relaxation ? Real(1)
                                        : exchange_relaxation(grain.m + added_mass, rho_f * volume,
                                                              beta, alpha, dt);
-    on_grains.u_f(g) += share * (u_f - on_grains.u_f(g));
-    exchange.fluid_force(g) +=
-        share * (volume * interpolate_faces(force, at) - exchange.fluid_force(g));
+    const auto follow = [&](Vec3& seen, const Vec3& now) { seen += share * (now - seen); };
+    follow(on_grains.u_f(g), u_f);
+    follow(exchange.pressure_force(g), volume * flow_at.pressure(g));
+    follow(exchange.stress_force(g), volume * flow_at.stress(g));
     const Vec3 paid = share * exchange.carried_impulse(g);
     exchange.carried_impulse(g) = exchange.carried_impulse(g) - paid;
 
     on_grains.beta(g) = beta;
     on_grains.added_mass(g) = added_mass;
-    on_grains.steady_force(g) =
-        weight(grain) + exchange.fluid_force(g) + added_mass_force + (1 / dt) * paid;
+    on_grains.steady_force(g) = weight(grain) +
+                                (exchange.pressure_force(g) + exchange.stress_force(g)) +
+                                added_mass_force + (1 / dt) * paid;
     exchange.added_mass_force(g) = added_mass_force;
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION static Real in_range(Real alpha) {
+    return Kokkos::clamp(alpha, Real(0.1), Real(1));
   }
 };
 
@@ -176,19 +140,6 @@ struct DragOnFrozenGrains {
   }
 };
 
-/// Force of a force density [N/m^3] on each grain now [N]; for output.
-struct FluidForceOnGrain {
-  GridRef grid;
-  PeriodicBox box;
-  ConstFaceRef density;
-  Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Vec3*> force;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    const PointStencil at(grid, box, grains(g).x);
-    force(g) = sphere_volume(grains(g).r) * interpolate_faces(density, at);
-  }
-};
-
 /// (m_added / dt) (u - u_start): the force that the added mass took for its own change of
 /// momentum [N].
 KOKKOS_INLINE_FUNCTION Vec3 added_mass_inertia(const FluidOnGrains& on, int g, const Vec3& u,
@@ -201,14 +152,15 @@ struct DragAndAddedMass {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
   SubmergedWeight weight;
-  Kokkos::View<const Vec3*> fluid_force;  // of pressure gradient and stress; empty in still fluid
+  ExchangeOnGrains exchange;  // empty in still fluid
   Real dt;
   Kokkos::View<Vec3*> drag, added_mass;
   KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 inertia = added_mass_inertia(on_grains, g, grains(g).u, dt);
     // Of the steady force: what is neither weight nor of the pressure gradient and stress.
     added_mass(g) = on_grains.steady_force(g) - weight(grains(g)) - inertia;
-    if (fluid_force.extent(0) > 0) added_mass(g) = added_mass(g) - fluid_force(g);
+    if (exchange.pressure_force.extent(0) > 0)
+      added_mass(g) = added_mass(g) - exchange.pressure_force(g) - exchange.stress_force(g);
     drag(g) = (1 / dt) * on_grains.drag_impulse(g);
   }
 };

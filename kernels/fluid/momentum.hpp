@@ -114,9 +114,10 @@ struct StressDivergence {
 
 /// What the grains do to the fluid in one step, on faces. Wall faces and ghosts are not read.
 struct ExchangeOnFaces {
-  FaceVector impulse;   // momentum per volume given to the fluid at its old velocity [N s/m^3]
-  FaceVector implicit;  // dt K, with the added mass where it is on: how much of it follows the
-                        // change of the fluid velocity within the step [kg/m^3]
+  FaceVector impulse;    // momentum per volume given to the fluid at its old velocity [N s/m^3]
+  FaceVector implicit;   // dt K, with the added mass where it is on: how much of it follows the
+                         // change of the fluid velocity within the step [kg/m^3]
+  Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
 };
 
 /// Weights of the explicit terms, now and one step ago, times dt [s].
@@ -126,14 +127,15 @@ struct AdamsBashforth {
 
 /// Explicit predictor: N = -div(alpha u u) + alpha div(2 (nu + nu_t) S) and
 ///   (alpha' + m) u* = alpha u + now N + before N_before + impulse / rho + m u,
-/// m = implicit / rho; primes are the new time level. Without exchange m and impulse are zero.
-/// The drive is added later. `rate` holds N_before on entry and N on return.
+/// m = implicit / rho; primes are the new time level. The alpha before the stress may be another
+/// one than that of the flow. Without exchange m and impulse are zero. The drive is added later.
+/// `rate` holds N_before on entry and N on return.
 template <bool with_exchange>
 struct Predict {
   GridRef grid;
   Convection convection;
   StressDivergence stress;
-  ConstFieldRef alpha, alpha_new;
+  ConstFieldRef stress_share, alpha_new;
   FaceRef rate, u_star;
   ConstFaceRef impulse, implicit;  // of ExchangeOnFaces
   AdamsBashforth weight;
@@ -161,20 +163,23 @@ struct Predict {
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
-    const Real nx = convection.x(i, j, k) + cell_to_xface(alpha, i, j, k) * stress.x(i, j, k);
+    const Real nx =
+        convection.x(i, j, k) + cell_to_xface(stress_share, i, j, k) * stress.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, u.x(i, j, k),
                             at(impulse.x, i, j, k), at(implicit.x, i, j, k));
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
-    const Real ny = convection.y(i, j, k) + cell_to_yface(grid, alpha, i, j, k) * stress.y(i, j, k);
+    const Real ny =
+        convection.y(i, j, k) + cell_to_yface(grid, stress_share, i, j, k) * stress.y(i, j, k);
     const Real uy =
         advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
                 u.y(i, j, k), at(impulse.y, i, j, k), at(implicit.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
-    const Real nz = convection.z(i, j, k) + cell_to_zface(alpha, i, j, k) * stress.z(i, j, k);
+    const Real nz =
+        convection.z(i, j, k) + cell_to_zface(stress_share, i, j, k) * stress.z(i, j, k);
     const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
                             u.z(i, j, k), at(impulse.z, i, j, k), at(implicit.z, i, j, k));
     rate.z(i, j, k) = nz;

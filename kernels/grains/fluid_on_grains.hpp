@@ -19,7 +19,8 @@ struct FluidOnGrains {
 /// What the gather keeps of each grain for the deposit and for the next step.
 struct ExchangeOnGrains {
   Kokkos::View<Vec3*> added_mass_force;  // convective part, C_m rho V_p (u . grad u) [N]
-  Kokkos::View<Vec3*> fluid_force;      // of pressure gradient and stress, as the grain sees it [N]
+  Kokkos::View<Vec3*> pressure_force;   // of pressure gradient and stress, as the grain sees them,
+  Kokkos::View<Vec3*> stress_force;     // relaxed [N]
   Kokkos::View<Vec3*> carried_impulse;  // still owed to the grain by the implicit drag [N s]
 };
 

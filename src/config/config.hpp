@@ -110,7 +110,7 @@ struct ForceSwitches {  // coupling.forces
 struct CouplingConfig {
   DragLaw drag = DragLaw::gidaspow;
   VoidFraction void_fraction = VoidFraction::divided;
-  Exchange exchange = Exchange::smoothed;
+  Exchange exchange = Exchange::by_row;
   double smoothing_length = 6e-4;  // [m], 3 d in the paper; 0: off
   bool alpha_time_derivative = true;
   bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison

@@ -37,6 +37,8 @@ void Ledger::add(const ExchangeLedger& step) {
   sum("impulse_taken_from_fluid", step.taken_from_fluid);
   sum("impulse_implicit_on_fluid", step.implicit_on_fluid);
   sum("impulse_carried_to_grains", step.carried_to_grains);
+  sum("impulse_of_flow_on_solid", step.flow_on_solid);
+  sum("impulse_of_flow_on_grains", step.flow_on_grains);
   const auto keep = [this](const char* name, double mismatch) {
     entries_[name] = std::max(entries_[name], mismatch);
   };
@@ -46,6 +48,8 @@ void Ledger::add(const ExchangeLedger& step) {
        relative(step.taken_from_fluid - step.given_to_grains, step.given_to_grains));
   keep("largest_carried_mismatch",
        relative(step.carried_to_grains - step.implicit_on_fluid, step.implicit_on_fluid));
+  keep("largest_flow_force_mismatch",
+       relative(step.flow_on_grains - step.flow_on_solid, step.flow_on_solid));
 }
 
 }  // namespace barchan

@@ -116,16 +116,7 @@ void CoupledStep::carry(SystemState& state) {
   grains_->remove_left(grains);
 }
 
-/// Evaluated where the flow is.
-Kokkos::View<Vec3*> CoupledStep::fluid_force_now(const char* name, const FluidForces& which,
-                                                 const SystemState& state) {
-  const GrainState& there = fluid_side_.to_fluid_ranks(*state.grains, kForceReads);
-  const Kokkos::View<Vec3*> force = grain_vector(name, there.n);
-  coupling_->single_force(which, *state.fluid, there, force);
-  return fluid_side_.to_grain_ranks(force, state.grains->n);
-}
-
-std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
+std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) const {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
@@ -135,7 +126,7 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
                          DragAndAddedMass{.grains = grains.kin,
                                           .on_grains = grains.fluid,
                                           .weight = coupling_ ? coupling_->weight() : still_.weight,
-                                          .fluid_force = grains.exchange.fluid_force,
+                                          .exchange = grains.exchange,
                                           .dt = dt_,
                                           .drag = drag,
                                           .added_mass = added});
@@ -143,9 +134,8 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) {
     forces.push_back({"force_added_mass", added});
   }
   if (coupling_) {
-    forces.push_back({"force_pressure_gradient",
-                      fluid_force_now("pressure gradient", {.pressure_gradient = true}, state)});
-    forces.push_back({"force_stress", fluid_force_now("stress", {.stress = true}, state)});
+    forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
+    forces.push_back({"force_stress", grains.exchange.stress_force});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   grains_->split_contacts(grains, normal, tangential);

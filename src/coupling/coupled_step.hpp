@@ -48,7 +48,7 @@ class CoupledStep {
   /// Forces on the grains over the last step by name [N], rows as in the state: drag, pressure
   /// gradient, stress, added mass (with the impulse carried from the implicit exchange), contact
   /// normal and tangential, and total, the resultant with weight and buoyancy.
-  std::vector<NamedForce> grain_forces(const SystemState& state);
+  std::vector<NamedForce> grain_forces(const SystemState& state) const;
   /// The last of them alone.
   Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
   /// Its mean over the last step, what changed the grains' momentum in water; without, the same as
@@ -80,9 +80,6 @@ class CoupledStep {
   const NeighborList& neighbor_list() const { return grains_->list(); }
 
  private:
-  Kokkos::View<Vec3*> fluid_force_now(const char* name, const FluidForces& which,
-                                      const SystemState& state);
-
   double dt_ = 0;
   int n_substeps_ = 1;
   bool frozen_ = false;

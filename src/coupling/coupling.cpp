@@ -24,8 +24,6 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
   return models.at(config.coupling.drag);
 }
 
-Real square(Real a) { return a * a; }
-
 }  // namespace
 
 DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
@@ -62,13 +60,14 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
               config_.forces.added_mass, config_.forces.buoyancy},
       drag_(make_drag(config, grains)),
       grid_(grid),
-      rows_(grid.on_host()),
       boundary_(solver.boundary()),
-      smoother_(grid, solver.fft(), 1, square(std::max(config_.smoothing_length, 1e-9))),
+      smoother_(grid, solver.fft(), 1,
+                std::max(config_.smoothing_length * config_.smoothing_length, 1e-18)),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
       box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil_(make_deposit_stencil(config, grid, grains.r_max)),
+      by_row_(config_.exchange == Exchange::by_row && stencil_.points == PointSet::divided),
       halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),
@@ -78,6 +77,8 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       force_(solver.idle().faces[0]),
       convective_(solver.idle().faces[1]),
       on_faces_{make_faces("exchange impulse", grid), make_faces("exchange implicit", grid)} {
+  if (by_row_ && config_.smoothing_length > 0)
+    on_faces_.stress_share = Field("coupling: unsmoothed fraction", grid);
   cell_[0] = Field("coupling: cell density", grid);
   std::copy_n(solver.idle().cells.begin(), 3, cell_ + 1);
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
@@ -90,94 +91,7 @@ ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
 }
 
 ExchangeByRow Coupling::rows(const FluidState& fluid) const {
-  return {.on = config_.exchange == Exchange::by_row && stencil_.points == PointSet::divided,
-          .stencil = stencil_,
-          .box = box_,
-          .u = fluid.u};
-}
-
-CellRange Coupling::cells_around(const GrainState& grains) const {
-  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
-  Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
-                          ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
-                          Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
-  // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
-  x0 = -max_over(ranks_of(grid_), -x0), x1 = max_over(ranks_of(grid_), x1);
-  z0 = -max_over(ranks_of(grid_), -z0), z1 = max_over(ranks_of(grid_), z1);
-  y1 = max_over(ranks_of(grid_), y1);
-  CellRange cells = owned_cells(grid_);
-  if (!(x0 <= x1)) return cells;  // no grains
-  // One more on either side for the interpolation; everything where that reaches a periodic side.
-  const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
-                         int& last) {
-    const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 2;
-    if (!(begin >= 0 && end <= n_all)) return;
-    const int n = last;
-    first = std::clamp(static_cast<int>(begin) - mine, 0, n);
-    last = std::clamp(static_cast<int>(end) - mine, first, n);
-  };
-  shrink(x0, x1, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
-  shrink(z0, z1, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
-  cells.j1 = std::min(grid_.ny, rows_.row_of(y1) + 2);
-  return cells;
-}
-
-void Coupling::force_density(const FluidState& fluid, const GrainState& grains,
-                             const FluidForces& forces) {
-  const CellRange cells = cells_around(grains);
-  for_each_cell("coupling: force density", cells,
-                FluidForceDensity{.grid = grid_,
-                                  .u = fluid.u,
-                                  .p = fluid.p,
-                                  .stress = {grid_, fluid.u, fluid.nu_t, nu_},
-                                  .rho_f = rho_f_,
-                                  .drive = fluid.drive,
-                                  .forces = forces,
-                                  .force = force_,
-                                  .convective = convective_});
-  for_each_cell("coupling: force density at the walls",
-                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
-                HoldForceAtWall{force_.y, grid_.ny});
-  // Behind both walls constant, too.
-  for (FaceVector* f : {&force_, &convective_}) {
-    for (Field* component : {&f->x, &f->y, &f->z}) boundary_.fill(*component, FieldKind::scalar);
-  }
-}
-
-void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
-  force_density(fluid, grains, forces_);
-  std::visit(
-      [&](const auto& law) {
-        Kokkos::parallel_for("coupling: gather", items(grains.n),
-                             GatherFluid{.drag = law,
-                                         .grid = grid_,
-                                         .box = box_,
-                                         .u = fluid.u,
-                                         .force = force_,
-                                         .convective = convective_,
-                                         .alpha_f = fluid.alpha_f,
-                                         .rho_f = rho_f_,
-                                         .mu_f = rho_f_ * nu_,
-                                         .dt = dt,
-                                         .weight = weight_,
-                                         .forces = forces_,
-                                         .rows = rows(fluid),
-                                         .skip_relaxation = skip_relaxation_,
-                                         .grains = grains.kin,
-                                         .on_grains = grains.fluid,
-                                         .exchange = grains.exchange});
-      },
-      drag_);
-  skip_relaxation_ = always_skips_relaxation_;
-}
-
-void Coupling::single_force(const FluidForces& which, const FluidState& fluid,
-                            const GrainState& grains, const Kokkos::View<Vec3*>& force) {
-  force_density(fluid, grains, which);
-  Kokkos::parallel_for(
-      "output: one fluid force", grains.n,
-      FluidForceOnGrain{
-          .grid = grid_, .box = box_, .density = force_, .grains = grains.kin, .force = force});
+  return {.on = by_row_, .stencil = stencil_, .box = box_, .u = fluid.u};
 }
 
 void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, Real dt) {
@@ -189,7 +103,6 @@ void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, 
   sum_over(ranks_of(grid_), sum);
   deposits_.implicit = fixed_point_for(sum[1]);
   deposits_.impulse = fixed_point_for(sum[2]);
-  ledger_ = ExchangeLedger{};
   ledger_.grain_volume = sum[0];
   ledger_.given_to_grains = {sum[3], sum[4], sum[5]};
 }
@@ -211,11 +124,9 @@ void Coupling::decode(int quantity, const FixedPoint& point, Field& density) con
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   choose_scales(grains, fluid, dt);
   Kokkos::deep_copy(deposits_.sum, 0);
-  Kokkos::parallel_for("coupling: deposit", items(grains.n),
-                       DepositGrain{.stencil = stencil_,
-                                    .of_grain = of_grain(grains, dt),
-                                    .rows = rows(fluid),
-                                    .deposits = deposits_});
+  Kokkos::parallel_for(
+      "coupling: deposit", items(grains.n),
+      DepositGrain{.of_grain = of_grain(grains, dt), .rows = rows(fluid), .deposits = deposits_});
   halo_.scatter_add(deposits_.sum);
   update_fraction(fluid);
   spread_exchange();

@@ -27,6 +27,8 @@ struct ExchangeLedger {
   Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
   Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
   Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
+  Vec3 flow_on_solid;      // pressure gradient and stress: what the solid fraction takes [N s]
+  Vec3 flow_on_grains;     // the same on the grains, before the delay [N s]
 };
 
 /// Adds up what changed sides over a run and keeps the largest mismatch of any step.
@@ -65,18 +67,24 @@ class Coupling {
   void start(const GrainState& grains, FluidState& fluid);
   /// Owes the grains what the implicit drag took from the fluid within the step.
   void carry(const FluidState& fluid, GrainState& grains, Real dt);
-  /// The pressure gradient and stress forces that `which` keeps, on each grain now [N]; for output.
-  void single_force(const FluidForces& which, const FluidState& fluid, const GrainState& grains,
-                    const Kokkos::View<Vec3*>& force);
 
   const ExchangeOnFaces& on_faces() const { return on_faces_; }
   const SubmergedWeight& weight() const { return weight_; }
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
-  /// The cells whose faces the grains' velocities and forces are interpolated from.
-  CellRange cells_around(const GrainState& grains) const;
-  void force_density(const FluidState& fluid, const GrainState& grains, const FluidForces& forces);
+  void pressure_at(const FluidState& fluid, const GrainState& grains, Real dt);
+  void stress_at(const FluidState& fluid, const GrainState& grains, Real dt);
+  void density_to(const GrainState& grains, const Field& alpha, bool smoothed, Real dt,
+                  const Kokkos::View<Vec3*>& force);
+  void velocity_at(const FluidState& fluid, const GrainState& grains);
+  void fraction_at(const FluidState& fluid, const GrainState& grains);
+  void reserve_flow_at(int n);
+  /// The fraction that drag and stress read.
+  Field local_fraction(const FluidState& fluid) const {
+    const bool unsmoothed = by_row_ && config_.smoothing_length > 0;
+    return unsmoothed ? on_faces_.stress_share : fluid.alpha_f;
+  }
   /// The void fraction (quantity 0), the exchange (1 to 4).
   bool smooths(int quantity) const {
     return config_.smoothing_length > 0 &&
@@ -94,19 +102,20 @@ class Coupling {
   FluidForces forces_;
   DragModel drag_;
   Grid grid_;
-  HostGrid rows_;
   Boundary boundary_;
   PoissonFft smoother_;
   bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
   PeriodicBox box_;
   DepositStencil stencil_;
+  bool by_row_ = false;  // the exchange
   Halo halo_;
   Real rho_f_ = 0, nu_ = 0;
   SubmergedWeight weight_;
-  FaceVector force_, convective_;  // valid around the grains; room of the flow solver
-  // Implicit coefficient and impulse densities, later velocity changes; all but the first are room
-  // of the flow solver.
+  FaceVector force_, convective_;  // room of the flow solver
+  FlowAtGrains flow_at_;
+  // Force density; implicit coefficient and impulse densities; velocity changes. All but the first
+  // are room of the flow solver.
   Field cell_[4];
   Deposits deposits_;
   ExchangeOnFaces on_faces_;

@@ -71,14 +71,4 @@ void FluidSideGrains::to_grain_ranks(GrainState& grains, unsigned uses) {
   exchange_.unpack(layout_of(grains, uses), row_);
 }
 
-Kokkos::View<Vec3*> FluidSideGrains::to_grain_ranks(const Kokkos::View<Vec3*>& of_copies, int n) {
-  if (!is_cut_) return of_copies;
-  const Kokkos::View<Vec3*> of_grains(of_copies.label(), static_cast<std::size_t>(n));
-  PackLayout packed, unpacked;
-  packed.add(of_copies), unpacked.add(of_grains);
-  exchange_.exchange(counts_.back(), packed);
-  exchange_.unpack(unpacked, row_);
-  return of_grains;
-}
-
 }  // namespace barchan

@@ -27,8 +27,6 @@ class FluidSideGrains {
   /// The arrays of the `uses` back to the grains that were sent last; no grain may have moved to
   /// another row since. All ranks together.
   void to_grain_ranks(GrainState& grains, unsigned uses);
-  /// A vector of each of them, of the n grains.
-  Kokkos::View<Vec3*> to_grain_ranks(const Kokkos::View<Vec3*>& of_copies, int n);
 
   // Public only because nvcc takes no device lambda from a private function.
   void find_owners(const GrainState& grains);

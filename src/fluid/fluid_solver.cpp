@@ -94,7 +94,7 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
 }
 
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& alpha,
+  const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& stress_share,
                        const ExchangeOnFaces& on_faces) {
     flow_rate_ =
         sum_each_cell("fluid: predict", grid_,
@@ -102,7 +102,7 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
                           .grid = grid_,
                           .convection = {grid_, fluid.u, flux},
                           .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-                          .alpha = alpha,
+                          .stress_share = stress_share,
                           .alpha_new = fluid.alpha_f,
                           .rate = fluid.rate_previous,
                           .u_star = u_star_,
@@ -115,7 +115,9 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
     run(std::false_type{}, fluid.u, fluid.alpha_f, {});
   } else {
     update_mass_flux(fluid);
-    run(std::true_type{}, flux_, fluid.alpha_f_previous, *exchange);
+    const bool shared = exchange->stress_share.storage.size() > 0;
+    run(std::true_type{}, flux_, shared ? exchange->stress_share : fluid.alpha_f_previous,
+        *exchange);
   }
 }
 

@@ -20,12 +20,13 @@ void for_each_grain_array(State& s, const Action& action) {
   // clang-format off
   add(s.id,               "id",               "1",    always,     kRestart | kGhosts);
   add(s.kin,              "kin",              "SI",   always,     kRestart | kGhosts | kGatherReads |
-                                                               kDepositReads | kForceReads);
+                                                               kDepositReads);
   add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
   add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
   add(s.x_reference,      "x_reference",      "m",    always,     kRestart);
   add(f.u_f,              "u_f",              "m/s",  with_fluid, kRestartWithFlow | kGather);
-  add(e.fluid_force,      "fluid_force",      "N",    with_flow,  kRestart | kGather);
+  add(e.pressure_force,   "pressure_force",   "N",    with_flow,  kRestart | kGather);
+  add(e.stress_force,     "stress_force",     "N",    with_flow,  kRestart | kGather);
   add(e.carried_impulse,  "carried_impulse",  "N s",  with_flow,  kRestart | kGather | kDepositReads |
                                                                kCarryWrites);
   add(s.wall_xi_t,        "wall_xi_t",        "m",    by_solver,  kRestart);

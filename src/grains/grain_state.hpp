@@ -26,9 +26,8 @@ enum GrainUse : unsigned {
   kGatherWrites = 16,    // and comes back from it
   kDepositReads = 32,    // goes to the fluid ranks before the deposit
   kCarryWrites = 64,     // comes back with the impulse carried from the implicit exchange
-  kForceReads = 128,     // goes to the fluid ranks for the output of single forces
   kGather = kGatherReads | kGatherWrites,
-  kFluidSide = kGather | kDepositReads | kCarryWrites | kForceReads,
+  kFluidSide = kGather | kDepositReads | kCarryWrites,
 };
 
 /// An array of a grain: its name (also in restart files), unit and uses.

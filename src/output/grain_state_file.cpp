@@ -32,7 +32,7 @@ auto first_rows(const View& v, int n) {
 /// Calls f(name, array) for every array of a grain that the next step reads.
 template <class F>
 void for_each_saved_array(const GrainState& s, const F& f) {
-  const bool with_flow = s.exchange.fluid_force.extent(0) > 0;
+  const bool with_flow = s.exchange.pressure_force.extent(0) > 0;
   for_each_grain_array(s, with_flow ? kRestart | kRestartWithFlow : kRestart,
                        [&](const GrainArray& about, const auto& array) {
                          f("grains/" + std::string(about.name), array);

@@ -71,7 +71,7 @@ std::vector<std::string> split(const std::string& words) {
 const std::vector<std::string> names = split(
     "/ grains contacts fluid scalars scalars/grains scalars/fluid statistics "
     "scalars/statistics grains/id grains/kin grains/x_reference grains/contact_force "
-    "grains/fluid_force grains/wall_touching grains/wall_xi_t grains/of_rank contacts/first "
+    "grains/stress_force grains/wall_touching grains/wall_xi_t grains/of_rank contacts/first "
     "contacts/second contacts/xi_t contacts/rolling contacts/of_rank dunes fluid/u_x "
     "fluid/p fluid/alpha_f statistics/sums statistics/force_map grid frame_000000 "
     "frame_000001 frame_000002 frame_999999 frame_000001/id frame_000001/d frame_000001/x "

@@ -145,9 +145,10 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     Deposits deposits;
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.implicit = fixed_point_for(1e4);
-    Kokkos::parallel_for(
-        "test: scatter", there.n,
-        DepositGrain{.stencil = stencil, .of_grain = of_grain, .rows = {}, .deposits = deposits});
+    Kokkos::parallel_for("test: scatter", there.n,
+                         DepositGrain{.of_grain = of_grain,
+                                      .rows = {.on = false, .stencil = stencil, .box = {}, .u = {}},
+                                      .deposits = deposits});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {

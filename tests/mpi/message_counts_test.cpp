@@ -109,10 +109,13 @@ MessageCounts scatter_add(const Grid& grid) {
                       5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Forces on six components and the extent of the grains in five numbers; eight fields smoothed,
-/// all of them filled; totals three times, volume, six sums over faces.
+/// Unsmoothed fraction; pressure and stress on faces, on cells, three of these smoothed, and what
+/// either side gets of them; convective acceleration. Fraction, smoothed; exchange; totals, volume.
+/// Velocity changes; totals, six sums over faces.
 MessageCounts exchange(const Grid& grid) {
-  return 14 * fill(grid) + 8 * fft_solve(grid) + scatter_add(grid) + reductions(5 + 1 + 1 + 1 + 6);
+  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(2 * (3 + 1)) +
+         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(2) +
+         3 * fill(grid) + reductions(1 + 6);
 }
 
 /// Grains of this rank in the pencil of each rank.
@@ -231,7 +234,7 @@ TEST(MessageCounts, ACoupledStep) {
 
     MessageCounts expected =
         flow_step_around_grains(c.grid.mine, iterations) + exchange(c.grid.mine) +
-        to_fluid_and_back(grains_before, 21, 17) +
+        to_fluid_and_back(grains_before, 24, 20) +
         to_fluid_and_back(grains_in_pencils(c.grid, *c.state.grains), 26, 3) +
         reductions(2);  // the ledger's number of grains; whether one has passed the outlet
     if (n_ranks() > 1) expected = expected + sub_steps * sub_step(ghosts);

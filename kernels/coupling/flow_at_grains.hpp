@@ -1,0 +1,175 @@
+// The flow as it is at each grain: its velocity, and the force of its pressure gradient and stress
+// on a volume there. Equations: docs/model.md.
+#pragma once
+
+#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/fluid/interpolation.hpp"
+#include "kernels/fluid/momentum.hpp"
+#include "kernels/fluid/stencil.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
+
+namespace barchan {
+
+/// Which forces of the fluid act.
+struct FluidForces {
+  bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
+  bool buoyancy = false;
+};
+
+/// Force of the pressure gradient on a volume of grain, on faces: -grad p + rho f e_x [N/m^3] (Lima
+/// et al. 2022, B9).
+struct PressureForceDensity {
+  GridRef grid;
+  ConstFieldRef p;
+  Real rho_f = 0, drive = 0;
+  FaceRef force;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    force.x(i, j, k) = -(ddx_at_xface(grid, p, i, j, k) - rho_f * drive);
+    force.y(i, j, k) = -ddy_at_yface(grid, p, i, j, k);
+    force.z(i, j, k) = -ddz_at_zface(grid, p, i, j, k);
+  }
+};
+
+/// Force of the stress on a volume of grain, on faces: rho div(2 (nu + nu_t) S) [N/m^3] (B10; Set
+/// II: the same stress as in the fluid equation); and the convective acceleration u . grad u
+/// [m/s^2] of the added mass.
+struct StressForceDensity {
+  GridRef grid;
+  ConstFaceRef u;
+  StressDivergence stress;
+  Real rho_f = 0;
+  FaceRef force, convective;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    force.x(i, j, k) = rho_f * stress.x(i, j, k);
+    force.y(i, j, k) = rho_f * stress.y(i, j, k);
+    force.z(i, j, k) = rho_f * stress.z(i, j, k);
+
+    const ConvectiveAcceleration acceleration{grid, u};
+    convective.x(i, j, k) = acceleration.x(i, j, k);
+    convective.y(i, j, k) = j > 0 ? acceleration.y(i, j, k) : Real(0);
+    convective.z(i, j, k) = acceleration.z(i, j, k);
+  }
+};
+
+/// The force density on the lower wall takes the value of the first face inside.
+struct HoldForceAtWall {
+  FieldRef force_y;
+  int ny;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const {
+    force_y(i, 0, k) = force_y(i, ny > 1 ? 1 : 0, k);
+  }
+};
+
+/// The same on cells, the mean of their faces: the adjoint of alpha_f on faces, so that the solid
+/// fraction times it, over all cells, is what the flow does not get of it.
+struct ForceOnCells {
+  ConstFaceRef force;  // with ghosts
+  FieldRef x, y, z;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    x(i, j, k) = (force.x(i, j, k) + force.x(i + 1, j, k)) / 2;
+    y(i, j, k) = (force.y(i, j, k) + force.y(i, j + 1, k)) / 2;
+    z(i, j, k) = (force.z(i, j, k) + force.z(i, j, k + 1)) / 2;
+  }
+};
+
+/// Integral of a density on cells over the solid fraction.
+struct SumOverSolid {
+  GridRef grid;
+  ConstFieldRef alpha_f, density;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return (1 - alpha_f(i, j, k)) * density(i, j, k) * grid.cell_volume(j);
+  }
+};
+
+/// alpha_f before it was smoothed, (1 - L^2 lap) alpha_f: undoes the smoothing, which is implicit,
+/// to round-off.
+struct UnsmoothedFraction {
+  GridRef grid;
+  ConstFieldRef alpha_f;  // with ghosts
+  Real length_squared;    // [m^2]
+  FieldRef unsmoothed;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const auto slope_x = [&](int ii) { return ddx_at_xface(grid, alpha_f, ii, j, k); };
+    const auto slope_y = [&](int jj) { return ddy_at_yface(grid, alpha_f, i, jj, k); };
+    const auto slope_z = [&](int kk) { return ddz_at_zface(grid, alpha_f, i, j, kk); };
+    const Real laplacian = (slope_x(i + 1) - slope_x(i)) * (1 / grid.dx) +
+                           (slope_y(j + 1) - slope_y(j)) * (1 / grid.dy(j)) +
+                           (slope_z(k + 1) - slope_z(k)) * (1 / grid.dz);
+    unsmoothed(i, j, k) = alpha_f(i, j, k) - length_squared * laplacian;
+  }
+};
+
+/// At each grain now, without any delay.
+struct FlowAtGrains {
+  Kokkos::View<Vec3*> u;  // [m/s]
+  Kokkos::View<Vec3*> pressure,
+      stress;                 // force of either on a volume [N/m^3]; zero where it is off
+  Kokkos::View<Real*> alpha;  // fraction in the grain's own cells, unsmoothed; or empty
+};
+
+/// A face vector at the grains' centres, trilinear.
+struct AtCentres {
+  GridRef grid;
+  PeriodicBox box;
+  ConstFaceRef f;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Vec3*> at;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    at(g) = interpolate_faces(f, PointStencil(grid, box, grains(g).x));
+  }
+};
+
+/// Velocity of the rows that a grain lies in, upwards at its centre.
+struct VelocityOfRows {
+  ExchangeByRow rows;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Vec3*> u;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const VelocityByRow v = rows(grains(g));
+    const PointStencil at(rows.stencil.grid, rows.box, grains(g).x);
+    u(g) = {v.mean_x, interpolate(rows.u.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
+  }
+};
+
+/// Means of fields on cells over a grain's points: the adjoint of the deposit.
+KOKKOS_INLINE_FUNCTION Real mean_over(const GrainCells& cells, const ConstFieldRef& f) {
+  Real mean = 0;
+  for (int q = 0; q < cells.n; ++q) {
+    const auto [i, j, k] = cells.cell[q];
+    mean += cells.weight(q) * f(i, j, k);
+  }
+  return mean;
+}
+struct ScalarOverCells {
+  DepositStencil stencil;
+  ConstFieldRef f;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Real*> mean;
+  KOKKOS_FUNCTION void operator()(int g) const { mean(g) = mean_over(stencil(grains(g)), f); }
+};
+struct VectorOverCells {
+  DepositStencil stencil;
+  ConstFieldRef x, y, z;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Vec3*> mean;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainCells cells = stencil(grains(g));
+    mean(g) = {mean_over(cells, x), mean_over(cells, y), mean_over(cells, z)};
+  }
+};
+
+/// Sum over the grains of a force per volume [N].
+struct SumOfForces {
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<const Vec3*> density;
+  KOKKOS_FUNCTION void operator()(int g, Real& x, Real& y, Real& z) const {
+    const Vec3 force = sphere_volume(grains(g).r) * density(g);
+    x += force.x;
+    y += force.y;
+    z += force.z;
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,138 @@
+// From the flow to the grains.
+#include "kernels/coupling/gather.hpp"
+
+#include "src/coupling/coupling.hpp"
+#include "src/grains/grain_arrays.hpp"
+#include "src/parallel/reduce.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// Sum over all ranks of a force per volume on the grains [N].
+Vec3 sum_of(const GrainState& grains, const Kokkos::View<Vec3*>& density, MPI_Comm ranks) {
+  std::vector<Real> sum(3);
+  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
+                          SumOfForces{grains.kin, density}, sum[0], sum[1], sum[2]);
+  sum_over(ranks, sum);
+  return {sum[0], sum[1], sum[2]};
+}
+
+}  // namespace
+
+/// The density on faces to the grains, and both sides of it to the ledger: what the solid fraction
+/// 1 - alpha takes of it, and what the grains get. By row the way to the grains is that of their
+/// volume to alpha, backwards: the two are equal.
+void Coupling::density_to(const GrainState& grains, const Field& alpha, bool smoothed, Real dt,
+                          const Kokkos::View<Vec3*>& force) {
+  for_each_cell("coupling: force density at the walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+                HoldForceAtWall{force_.y, grid_.ny});
+  for (Field* component : {&force_.x, &force_.y, &force_.z})
+    boundary_.fill(*component, FieldKind::scalar);  // behind both walls constant, too
+  Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
+  for_each_cell("coupling: force density on cells", grid_, ForceOnCells{force_, x, y, z});
+  const auto on_solid = [&](const Field& density) {
+    return sum_each_cell("ledger: force of the flow on the solid fraction", grid_,
+                         SumOverSolid{grid_, alpha, density});
+  };
+  ledger_.flow_on_solid += dt * Vec3{on_solid(x), on_solid(y), on_solid(z)};
+  if (by_row_) {
+    for (Field* component : {&x, &y, &z}) {
+      if (smoothed) smoother_.solve(*component, *component);
+      if (grid_.ranks) boundary_.fill(*component, FieldKind::scalar);
+    }
+    Kokkos::parallel_for("coupling: force at grains", items(grains.n),
+                         VectorOverCells{stencil_, x, y, z, grains.kin, force});
+  } else {
+    Kokkos::parallel_for("coupling: force at grains", items(grains.n),
+                         AtCentres{grid_, box_, force_, grains.kin, force});
+  }
+  ledger_.flow_on_grains += dt * sum_of(grains, force, ranks_of(grid_));
+}
+
+void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains, Real dt) {
+  if (!forces_.pressure_gradient) return;
+  for_each_cell(
+      "coupling: pressure force density", grid_,
+      PressureForceDensity{
+          .grid = grid_, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive, .force = force_});
+  density_to(grains, fluid.alpha_f, config_.smoothing_length > 0, dt, flow_at_.pressure);
+}
+
+/// And the convective acceleration.
+void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, Real dt) {
+  for_each_cell("coupling: stress force density", grid_,
+                StressForceDensity{.grid = grid_,
+                                   .u = fluid.u,
+                                   .stress = {grid_, fluid.u, fluid.nu_t, nu_},
+                                   .rho_f = rho_f_,
+                                   .force = force_,
+                                   .convective = convective_});
+  for (Field* component : {&convective_.x, &convective_.y, &convective_.z})
+    boundary_.fill(*component, FieldKind::scalar);
+  if (forces_.stress) density_to(grains, local_fraction(fluid), false, dt, flow_at_.stress);
+}
+
+void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
+  if (by_row_) {
+    Kokkos::parallel_for("coupling: velocity of rows", items(grains.n),
+                         VelocityOfRows{rows(fluid), grains.kin, flow_at_.u});
+  } else {
+    Kokkos::parallel_for("coupling: velocity at grains", items(grains.n),
+                         AtCentres{grid_, box_, fluid.u, grains.kin, flow_at_.u});
+  }
+}
+
+/// By row: what the cells around each grain hold, before the smoothing.
+void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
+  if (!by_row_) return;
+  const Real length = config_.smoothing_length;
+  if (length > 0) {
+    for_each_cell("coupling: unsmoothed fraction", grid_,
+                  UnsmoothedFraction{.grid = grid_,
+                                     .alpha_f = fluid.alpha_f,
+                                     .length_squared = length * length,
+                                     .unsmoothed = local_fraction(fluid)});
+    boundary_.fill(on_faces_.stress_share, FieldKind::scalar);
+  }
+  Kokkos::parallel_for(
+      "coupling: fraction at grains", items(grains.n),
+      ScalarOverCells{stencil_, local_fraction(fluid), grains.kin, flow_at_.alpha});
+}
+
+void Coupling::reserve_flow_at(int n) {
+  for (auto* array : {&flow_at_.u, &flow_at_.pressure, &flow_at_.stress}) reserve_rows(*array, n);
+  if (by_row_) reserve_rows(flow_at_.alpha, n);
+}
+
+void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
+  ledger_ = ExchangeLedger{};
+  reserve_flow_at(grains.n);
+  fraction_at(fluid, grains);
+  velocity_at(fluid, grains);
+  pressure_at(fluid, grains, dt);
+  stress_at(fluid, grains, dt);
+  std::visit(
+      [&](const auto& law) {
+        Kokkos::parallel_for("coupling: gather", items(grains.n),
+                             GatherFluid{.drag = law,
+                                         .grid = grid_,
+                                         .box = box_,
+                                         .convective = convective_,
+                                         .alpha_f = fluid.alpha_f,
+                                         .rho_f = rho_f_,
+                                         .mu_f = rho_f_ * nu_,
+                                         .dt = dt,
+                                         .weight = weight_,
+                                         .forces = forces_,
+                                         .skip_relaxation = skip_relaxation_,
+                                         .grains = grains.kin,
+                                         .flow_at = flow_at_,
+                                         .on_grains = grains.fluid,
+                                         .exchange = grains.exchange});
+      },
+      drag_);
+  skip_relaxation_ = always_skips_relaxation_;
+}
+
+}  // namespace barchan
