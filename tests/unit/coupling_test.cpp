@@ -63,6 +63,74 @@ TEST(Coupling, FluidFractionIsThatOfTheGrainsAndBounded) {
   EXPECT_LT(densest, 0.75);
 }
 
+/// One grain in a corner of 40 x 4 x 30 cells of 0.3 mm, smoothed over 0.3 mm; with `images` those
+/// of the grain in walls at x = 0 and z = 0, in a periodic box of twice the size.
+test::CoupledRun grain_in_a_corner(bool images) {
+  constexpr double h = 3e-4;
+  const int n = images ? 2 : 1;
+  Config c = test::water_box({40 * n, 4, 30 * n}, {40 * n * h, 4 * h, 30 * n * h});
+  c.coupling.smoothing_length = h;
+  c.grains->boundary_x = images ? GrainBoundaryX::periodic : GrainBoundaryX::wall;
+  c.grains->boundary_z = images ? GrainBoundaryZ::periodic : GrainBoundaryZ::wall;
+  InitialGrains grains;
+  const Vec3 x{1.2e-4, 5e-4, 1.3e-4};
+  testing::add_grain(grains, 2e-4, x);
+  if (images) {
+    const double lx = c.size[0], lz = c.size[2];
+    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, x.z});
+    testing::add_grain(grains, 2e-4, {x.x, x.y, lz - x.z});
+    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, lz - x.z});
+  }
+  return {c, grains};
+}
+
+TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
+  const test::CoupledRun walls = grain_in_a_corner(false), images = grain_in_a_corner(true);
+  const Grid& grid = walls.state.fluid->grid;
+  const auto alpha = test::to_host(walls.state.fluid->alpha_f);
+  const auto mirrored = test::to_host(images.state.fluid->alpha_f);
+  double solid = 0, densest = 0, beyond = 0;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    ASSERT_NEAR(alpha(i, j, k), mirrored(i, j, k), 1e-15);
+    const double fraction = 1 - alpha(i, j, k);
+    solid += fraction * std::pow(3e-4, 3);
+    densest = std::max(densest, fraction);
+    if (i >= 35 || k >= 25) beyond = std::max(beyond, std::abs(fraction));
+  });
+  EXPECT_NEAR(solid / sphere_volume(1e-4), 1, 1e-13);
+  EXPECT_GT(densest, 0.02);
+  EXPECT_LT(beyond, 1e-11) << "through the seam of the flow";
+}
+
+/// The implicit part of the exchange on faces across y, over its sum: the flow passes the walls of
+/// the grains, so the faces there are shared.
+struct ShareOfExchange {
+  explicit ShareOfExchange(test::CoupledRun run) {
+    const Grid& grid = run.state.fluid->grid;
+    const FluidSolver solver(run.config, grid);
+    Coupling coupling(run.config, solver, *run.state.grains, grid);
+    coupling.gather(*run.state.fluid, *run.state.grains, 1e-4);
+    coupling.deposit(*run.state.grains, *run.state.fluid, 1e-4);
+    faces = test::to_host(coupling.on_faces().implicit.y);
+    test::for_owned_cells(grid, [&](int i, int j, int k) { sum += faces(i, j, k); });
+  }
+  double operator()(int i, int j, int k) const { return faces(i, j, k) / sum; }
+  test::HostField faces;
+  double sum = 0;
+};
+
+TEST(Coupling, WallsOfTheGrainsMirrorTheExchange) {
+  const ShareOfExchange walls(grain_in_a_corner(false)), images(grain_in_a_corner(true));
+  double most = 0;
+  for (int k = 0; k < 30; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 40; ++i) {
+        ASSERT_NEAR(walls(i, j, k), 4 * images(i, j, k), 1e-13);
+        most = std::max(most, walls(i, j, k));
+      }
+  EXPECT_GT(most, 0.05);
+}
+
 TEST(Coupling, PressureConvergesAndContinuityHolds) {
   Config config = coupled_config();
   config.solver.pressure_tolerance = 1e-6;
