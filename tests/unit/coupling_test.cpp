@@ -1,6 +1,7 @@
 // Exchange between fluid and grains: nothing is lost on the way, in either direction.
 #include <gtest/gtest.h>
 
+#include "src/fluid/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
@@ -170,6 +171,32 @@ TEST(Coupling, BulkVelocityIsHeld) {
   Coupled c(coupled_config());
   c.advance(40);
   EXPECT_NEAR(c.step.bulk_velocity(c.state), 0.2, 2e-4);
+}
+
+/// Velocity along x of a lone grain without drag after two steps in water of a bulk velocity of
+/// 0.2 m/s, over that.
+double thrown(bool uniform_start) {
+  Config c = test::water_box({8, 8, 8}, {4e-3, 4e-3, 4e-3});
+  c.fluid->mean_velocity = 0.2;
+  c.coupling.drag = DragLaw::none;
+  InitialGrains grain;
+  testing::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
+  test::CoupledRun run(c, grain);
+  if (uniform_start) set_uniform_flow(c, *run.state.fluid);
+  run.step.fill_ghosts(run.state);
+  run.advance(2);
+  return run.velocity_of(1).x / 0.2;
+}
+
+/// Water that is brought up from rest at once takes a free sphere along, to
+/// (1 + C_m)/(rho_p/rho_f + C_m) of its velocity.
+TEST(Coupling, AUniformStartDoesNotThrowTheGrains) {
+  EXPECT_NEAR(thrown(false), 1.5 / 3.0, 0.01);
+  EXPECT_NEAR(thrown(true), 0, 2e-3);  // the water still makes way for it
+  Config c = coupled_config();
+  c.initial.fluid = "uniform";
+  const Coupled dune(c);
+  EXPECT_NEAR(dune.step.bulk_velocity(dune.state), 0.2, 1e-13);
 }
 
 TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
