@@ -93,17 +93,19 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
   return loaded;
 }
 
-/// Makes metres of what is given in diameters.
-void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeClass>& sizes) {
+/// Makes metres of what is given in diameters. `sizes`: of the grains that are poured, here or in
+/// the case that this one starts from; of others [grains] sizes need not be true. `tell`: if none
+/// are known.
+void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeClass>& sizes,
+                     bool tell) {
   const auto resolve = [&](const char* key, Length& length) {
     if (!length.in_diameters || reading.is_bad(key)) return;
-    if (sizes.empty()) {
+    if (sizes.empty() && tell) {
       return reading.complain(key,
-                              "must be in metres: this case knows no diameters; they come from "
-                              "grains.sizes, of poured grains, its own or those of the case that "
-                              "it starts from");
+                              "must be in metres: diameters are known only of grains that are "
+                              "poured, in this case or in the one it starts from");
     }
-    length = length.value * mean_diameter(sizes);
+    length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
   };
   resolve("coupling.smoothing_length", config.coupling.smoothing_length);
   if (config.grains) resolve("grains.skin", config.grains->skin);
@@ -136,7 +138,9 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
     }
     if (config.grains) loaded.sizes = config.grains->sizes;
     if (loaded.sizes.empty()) loaded.sizes = grains.sizes;
-    resolve_lengths(reading, config, loaded.sizes);
+    const bool pours = config.grains && initial.pour;
+    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.sizes,
+                    from_starts.empty());
     report(validate(config, loaded.sizes), reading);
   }
   loaded.problems = std::move(reading.problems());

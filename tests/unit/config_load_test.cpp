@@ -319,9 +319,13 @@ TEST_F(ConfigStart, DiametersInATableAreNotKnown) {
   write("heap.csv", "id,diameter,x,y,z\n");
   const std::string path =
       write("case.toml", moved + "skin = \"0.1 d\"\n[initial]\ngrains = \"heap.csv\"\n");
-  EXPECT_EQ(load(path), only(path + ":6: [grains] skin = \"0.1 d\": must be in metres: this case "
-                                    "knows no diameters; they come from grains.sizes, of poured "
-                                    "grains, its own or those of the case that it starts from"));
+  EXPECT_EQ(load(path), only(path + ":6: [grains] skin = \"0.1 d\": must be in metres: diameters "
+                                    "are known only of grains that are poured, in this case or in "
+                                    "the one it starts from"));
+  // [grains] sizes says nothing of a table; a start that cannot be read says nothing either.
+  EXPECT_EQ(load(path, {"grains.sizes=[[2e-4, 10]]"}).size(), 2u);
+  write("heap.toml", grain_case("restitution = 3\n"));
+  EXPECT_EQ(load(path, {"initial.grains=heap.toml"}).size(), 2u);
 }
 
 TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {
