@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import AutoLocator, MaxNLocator
 
+import horn_lengths
 import style
 from horn_grains import LEFT, RIGHT, find_horns, share_upstream
 
@@ -29,11 +30,12 @@ def draw(run):
 
 
 def length_curves(run, horns):
-    """t [s], left, right [mm]: of dune.csv, whose times are closer, else of the frames."""
+    """t [s], left, right [mm]: of dune.csv, by height and whose times are closer, else of the frames."""
     if run.dunes is None:
         return horns.t, 1e3 * horns.left, 1e3 * horns.right
     main = run.dunes[min(run.dunes)]
-    return main["t"], 1e3 * main["horn_left"], 1e3 * main["horn_right"]
+    columns = horn_lengths.best_known(main)
+    return main["t"], 1e3 * main[columns["left"]], 1e3 * main[columns["right"]]
 
 
 def draw_pair(axes, t, left, right, label):

@@ -3,6 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+import horn_lengths
 import style
 from run_folder import NotInRun
 
@@ -26,8 +27,9 @@ def draw(run):
     for axes in panels[1]:
         axes.set_xlabel("$t$ (s)")
     note_celerity(panels[1, 0], main)
+    horns = sorted({"horn_left", "horn_right", *horn_lengths.best_known(main).values()})
     run.write_curves("morphology", {name: main[name] for name in (
-        "t", "W", "L", "H", "Cx", "Cz", "horn_left", "horn_right", "celerity", "n_grains")})
+        "t", "W", "L", "H", "Cx", "Cz", *horns, "celerity", "n_grains")})
     return figure
 
 
@@ -41,9 +43,10 @@ def draw_quantity(axes, dunes, name):
 
 
 def draw_horns(axes, main):
-    axes.plot(main["t"], 1e3 * main["horn_left"], color=style.BLUE, marker=style.mark_if_few(main["t"]), ms=3,
-              label="left ($z < C_z$)")
-    axes.plot(main["t"], 1e3 * main["horn_right"], color=style.VERMILLION, ls=(0, (4, 1.2)),
+    columns = horn_lengths.best_known(main)
+    axes.plot(main["t"], 1e3 * main[columns["left"]], color=style.BLUE, marker=style.mark_if_few(main["t"]),
+              ms=3, label="left ($z < C_z$)")
+    axes.plot(main["t"], 1e3 * main[columns["right"]], color=style.VERMILLION, ls=(0, (4, 1.2)),
               marker=style.mark_if_few(main["t"]), ms=3, label="right ($z > C_z$)")
     axes.legend(loc="best")
 

@@ -10,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+from horn_lengths import medians
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # the run may still hold the file
 import h5py  # noqa: E402
@@ -156,7 +157,7 @@ class RunFolder:
 
     @cached_property
     def dunes(self):
-        """dune.csv as {label: columns}; Cz without the jumps at a periodic boundary."""
+        """dune.csv as {label: columns}; Cz without the jumps at a periodic boundary; medians of horns."""
         table = self._table("dune.csv")
         if table is None:
             return None
@@ -167,6 +168,7 @@ class RunFolder:
             if self.domain is not None:
                 dune["Cx"] = np.unwrap(dune["Cx"], period=self.domain[0])
                 dune["Cz"] = np.unwrap(dune["Cz"], period=self.domain[2])
+            dune |= {name: np.array(values) for name, values in medians(dune).items()}
             result[label] = dune
         return result
 

@@ -9,9 +9,11 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "analysis"))
+import horn_lengths  # noqa: E402
 from spread import spread  # noqa: E402
 
-DUNE_COLUMNS = ("t", "W", "L", "H", "Cx", "Cz", "horn_left", "horn_right", "celerity", "n_grains", "n_lost")
+DUNE_COLUMNS = ("t", "W", "L", "H", "Cx", "Cz", "horn_left", "horn_right", "celerity", "n_grains", "n_lost",
+                *map(horn_lengths.name, horn_lengths.SIDES))
 
 
 def replace(path, text):
@@ -24,9 +26,12 @@ def last_of_main_dune(folder):
     """The last line of dune.csv that is of the dune with the smallest label; strings."""
     try:
         rows = list(csv.DictReader((folder / "dune.csv").read_text(errors="replace").splitlines()))
-        whole = [row for row in rows if row.get("n_lost")]
+        whole = [row for row in rows if all(row.values())]
         main = min(int(row["dune"]) for row in whole)
-        return [row for row in whole if int(row["dune"]) == main][-1]
+        of_main = [row for row in whole if int(row["dune"]) == main]
+        columns = {name: [float(row[name]) for row in of_main] for name in rows[0]}
+        steady = horn_lengths.medians(columns)
+        return of_main[-1] | {name: f"{values[-1]:.9g}" for name, values in steady.items()}
     except (OSError, ValueError, KeyError):
         return {}
 

@@ -3,6 +3,7 @@
 import math
 from html import escape
 
+import horn_lengths
 import numpy as np
 
 from run_folder import thin
@@ -19,6 +20,8 @@ MORPHOLOGY = (
     ("centroid C_x", "mm", 1e3, "linear", {"Cx": ""}),
     ("centroid C_z", "mm", 1e3, "linear", {"Cz": ""}),
     ("horns", "mm", 1e3, "linear", {"horn_left": "left", "horn_right": "right"}),
+    ("horns two grains high, median of 1 s", "mm", 1e3, "linear",
+     {horn_lengths.name("left"): "left", horn_lengths.name("right"): "right"}),
     ("celerity", "mm/s", 1e3, "linear", {"celerity": ""}),
     ("grain flux over the dune", "mm²/s", 1e6, "linear", {"flux": ""}),
     ("grains lost", "", 1.0, "count", {"n_lost": ""}),

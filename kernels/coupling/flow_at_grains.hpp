@@ -83,17 +83,28 @@ struct SumOverSolid {
   }
 };
 
+/// The first and the last face of a direction, where grains end at a wall though the flow passes.
+struct WallFaces {
+  int first = -2, last = -2;  // none
+  KOKKOS_FORCEINLINE_FUNCTION bool has(int face) const { return face == first || face == last; }
+};
+
 /// alpha_f before it was smoothed, (1 - L^2 lap) alpha_f: undoes the smoothing, which is implicit,
 /// to round-off.
 struct UnsmoothedFraction {
   GridRef grid;
-  ConstFieldRef alpha_f;  // with ghosts
-  Real length_squared;    // [m^2]
+  ConstFieldRef alpha_f;       // with ghosts
+  Real length_squared;         // [m^2]
+  WallFaces walls_x, walls_z;  // no gradient there
   FieldRef unsmoothed;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const auto slope_x = [&](int ii) { return ddx_at_xface(grid, alpha_f, ii, j, k); };
+    const auto slope_x = [&](int ii) {
+      return walls_x.has(ii) ? Real(0) : ddx_at_xface(grid, alpha_f, ii, j, k);
+    };
     const auto slope_y = [&](int jj) { return ddy_at_yface(grid, alpha_f, i, jj, k); };
-    const auto slope_z = [&](int kk) { return ddz_at_zface(grid, alpha_f, i, j, kk); };
+    const auto slope_z = [&](int kk) {
+      return walls_z.has(kk) ? Real(0) : ddz_at_zface(grid, alpha_f, i, j, kk);
+    };
     const Real laplacian = (slope_x(i + 1) - slope_x(i)) * (1 / grid.dx) +
                            (slope_y(j + 1) - slope_y(j)) * (1 / grid.dy(j)) +
                            (slope_z(k + 1) - slope_z(k)) * (1 / grid.dz);

@@ -30,6 +30,16 @@ enum class VoidFraction { divided, cfdem_faithful, centre };
 enum class Exchange { by_row, interpolated, smoothed };
 enum class Preconditioner { fft, local_fft };
 
+/// A length in metres. A case may give it in mean diameters of its grains, as "3 d"; load_config
+/// makes metres of them.
+struct Length {
+  double value = 0;
+  bool in_diameters = false;
+  operator double() const { return value; }  // NOLINT(google-explicit-constructor): [m]
+  Length& operator=(double metres) { return *this = Length{metres}; }
+  bool operator==(const Length&) const = default;
+};
+
 /// [time]
 struct TimeConfig {
   double end = 0;               // [s], required
@@ -95,7 +105,7 @@ struct GrainConfig {
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
-  double skin = 4e-5;                          // [m], Verlet skin
+  Length skin{4e-5};                           // [m], Verlet skin
   double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run
   std::optional<AmbientConfig> ambient = {};
   bool operator==(const GrainConfig&) const = default;
@@ -111,7 +121,7 @@ struct CouplingConfig {
   DragLaw drag = DragLaw::gidaspow;
   VoidFraction void_fraction = VoidFraction::divided;
   Exchange exchange = Exchange::by_row;
-  double smoothing_length = 6e-4;  // [m], 3 d in the paper; 0: off
+  Length smoothing_length{6e-4};  // [m], 3 d in the paper; 0: off
   bool alpha_time_derivative = true;
   bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison
   ForceSwitches forces;
@@ -127,9 +137,12 @@ struct PourConfig {
   bool operator==(const PourConfig&) const = default;
 };
 
+/// Flows to start from that are not in a file.
+inline constexpr std::array flow_words{"still", "uniform", "turbulent"};
+
 /// [initial]
 struct InitialConfig {
-  std::filesystem::path fluid = "still";  // or "turbulent", or an absolute path
+  std::filesystem::path fluid = "still";  // or another of flow_words, or an absolute path
   std::filesystem::path grains = {};      // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"

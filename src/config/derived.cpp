@@ -70,16 +70,14 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
   const GrainConfig& grains = *config.grains;
   GrainNumbers n;
   n.d_min = n.d_max = sizes.front().diameter;
-  double total = 0;
   for (const SizeClass& size : sizes) {
     const auto count = static_cast<double>(size.count);
     n.count += size.count;
     n.d_min = std::min(n.d_min, size.diameter);
     n.d_max = std::max(n.d_max, size.diameter);
-    total += count * size.diameter;
     n.solid_volume += count * std::numbers::pi / 6 * std::pow(size.diameter, 3);
   }
-  n.d_mean = total / static_cast<double>(n.count);
+  n.d_mean = mean_diameter(sizes);
   n.rayleigh_min = rayleigh_time(n.d_min, grains.density, grains.material);
   n.rayleigh_mean = rayleigh_time(n.d_mean, grains.density, grains.material);
   n.fraction_min = true_grain_step(config.time) / n.rayleigh_min;
@@ -113,6 +111,16 @@ int grain_substeps(const TimeConfig& time) {
 }
 
 double true_grain_step(const TimeConfig& time) { return time.fluid_step / grain_substeps(time); }
+
+double mean_diameter(const std::vector<SizeClass>& sizes) {
+  double total = 0;
+  std::int64_t count = 0;
+  for (const SizeClass& size : sizes) {
+    total += static_cast<double>(size.count) * size.diameter;
+    count += size.count;
+  }
+  return total / static_cast<double>(count);
+}
 
 double rayleigh_time(double diameter, double density, const Material& material) {
   const double s = material.poisson_ratio;

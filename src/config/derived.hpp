@@ -17,6 +17,9 @@ int grain_substeps(const TimeConfig& time);
 /// The grain step really taken, fluid_step / grain_substeps [s].
 double true_grain_step(const TimeConfig& time);
 
+/// Mean diameter [m] by number of grains; there must be some.
+double mean_diameter(const std::vector<SizeClass>& sizes);
+
 /// Rayleigh time [s] of a sphere: pi r sqrt(rho/G) / (0.1631 s + 0.8766), G = E / (2 (1 + s)),
 /// the time a surface wave takes over it. Li, Xu & Thornton (2005).
 double rayleigh_time(double diameter, double density, const Material& material);

@@ -205,8 +205,8 @@ void add_initial(Sections& all) {
   Keys key(add(all, "initial", "The state at t = 0"), [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid,
-      "\"still\", \"turbulent\" (a log law with perturbations), a restart file `.h5`, or the end "
-      "of a case `.toml`");
+      "\"still\", \"uniform\" (at `mean_velocity` everywhere), \"turbulent\" (a log law with "
+      "perturbations), a restart file `.h5`, or the end of a case `.toml`");
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
   key("seed", &I::seed, "of the perturbations of \"turbulent\"");

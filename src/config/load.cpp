@@ -20,11 +20,12 @@ void resolve_start(Reading& reading, const std::string& key, fs::path& start,
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
   if (node == nullptr || node->table() != nullptr || reading.is_bad(key)) return;
-  if (flow && (start == "still" || start == "turbulent")) return;
+  if (flow && std::count(flow_words.begin(), flow_words.end(), start.string()) > 0) return;
   if (start.extension() != ".h5" && start.extension() != ".toml" &&
       (flow || start.extension() != ".csv")) {
     return reading.complain(
-        key, flow ? "must be \"still\", \"turbulent\" or a file ending in .h5, .toml"
+        key, flow ? fmt::format("must be \"{}\" or a file ending in .h5, .toml",
+                                fmt::join(flow_words, "\", \""))
                   : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
   }
   const fs::path path = fs::absolute(folder / start).lexically_normal();
@@ -92,6 +93,24 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
   return loaded;
 }
 
+/// Makes metres of what is given in diameters. `sizes`: of the grains that are poured, here or in
+/// the case that this one starts from; of others [grains] sizes need not be true. `tell`: if none
+/// are known.
+void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeClass>& sizes,
+                     bool tell) {
+  const auto resolve = [&](const char* key, Length& length) {
+    if (!length.in_diameters || reading.is_bad(key)) return;
+    if (sizes.empty() && tell) {
+      return reading.complain(key,
+                              "must be in metres: diameters are known only of grains that are "
+                              "poured, in this case or in the one it starts from");
+    }
+    length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
+  };
+  resolve("coupling.smoothing_length", config.coupling.smoothing_length);
+  if (config.grains) resolve("grains.skin", config.grains->skin);
+}
+
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain) {
   Loaded loaded;
@@ -119,6 +138,9 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
     }
     if (config.grains) loaded.sizes = config.grains->sizes;
     if (loaded.sizes.empty()) loaded.sizes = grains.sizes;
+    const bool pours = config.grains && initial.pour;
+    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.sizes,
+                    from_starts.empty());
     report(validate(config, loaded.sizes), reading);
   }
   loaded.problems = std::move(reading.problems());

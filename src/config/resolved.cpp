@@ -88,7 +88,10 @@ std::string keys_page() {
       "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
       "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
       "same in a restart\nas in the run that wrote the restart file. Numbers within these ranges "
-      "may still be refused\nif they do not fit other keys.\n";
+      "may still be refused\nif they do not fit other keys. A length `\"3 d\"` is in mean "
+      "diameters, "
+      "by number, of the grains\nthat are poured here or in the case that this one starts from; "
+      "`check` prints it in metres.\n";
   Config defaults;
   for (const Section& section : sections()) {
     if (section.prepare) section.prepare(defaults, true);

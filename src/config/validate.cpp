@@ -4,6 +4,7 @@
 
 #include <fmt/ranges.h>
 
+#include "src/config/keys.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {
@@ -69,6 +70,8 @@ void check_fluid(const Config& c, Findings& found) {
   found.error_if(c.initial.fluid == "turbulent" && !driven,
                  {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient"},
                  "must come with a mean_velocity or pressure_gradient, which sets its log law");
+  found.error_if(c.initial.fluid == "uniform" && !held, {"initial.fluid", "fluid.mean_velocity"},
+                 "must come with a mean_velocity, which it starts at");
   found.error_if(c.initial.fluid == "turbulent" && fluid.kinematic_viscosity == 0,
                  {"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");
   if (!found.error_if(!rows_fit(c.size[1], fluid.cells[1], fluid.first_cell_height),
@@ -89,16 +92,34 @@ void check_initial(const Config& c, Findings& found) {
                  "must say where the [grains] start: a file or {{ pour = {{...}} }}");
 }
 
+/// Keys of [coupling] that were changed and can do nothing.
+void check_coupling(const Config& c, Findings& found) {
+  if (c.fluid && c.grains) return;
+  const char* missing = c.fluid ? "grains" : "fluid";
+  for (const Section& section : sections()) {
+    if (section.name != "coupling") continue;
+    for (const Key& key : section.keys) {
+      found.error_if(key.text(c) != key.text(Config{}), {key.dotted(), missing},
+                     "must be absent without a [{}] section", missing);
+    }
+  }
+}
+
 void check_output(const Config& c, Findings& found) {
-  const auto check = [&](const char* key, double interval) {
+  using O = OutputConfig;
+  const auto check = [&](const char* key, double O::*member) {
+    const double interval = c.output.*member;
     found.warning_if(interval > 0 && interval < c.time.fluid_step * (1 - 1e-9), {key},
                      "is shorter than a fluid step; written after every step");
+    // The default may be longer than a short run.
+    found.warning_if(interval > c.time.end * (1 + 1e-9) && interval != O{}.*member, {key},
+                     "is longer than the run, {:.6g} s; only the start is written", c.time.end);
   };
-  check("output.history_interval", c.output.history_interval);
-  check("output.dune_interval", c.output.dune_interval);
-  check("output.grains_interval", c.output.grains_interval);
-  check("output.fields_interval", c.output.fields_interval);
-  check("output.tracks_interval", c.output.tracks_interval);
+  check("output.history_interval", &O::history_interval);
+  check("output.dune_interval", &O::dune_interval);
+  check("output.grains_interval", &O::grains_interval);
+  check("output.fields_interval", &O::fields_interval);
+  check("output.tracks_interval", &O::tracks_interval);
 }
 
 void check_statistics(const Config& c, Findings& found) {
@@ -138,6 +159,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   if (c.fluid) check_fluid(c, found);
   if (c.grains) check_grains(c, found);
   check_initial(c, found);
+  check_coupling(c, found);
   check_output(c, found);
   check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);

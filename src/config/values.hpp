@@ -96,6 +96,7 @@ using Mismatch = std::optional<std::string>;
 
 /// From TOML; after a mismatch the value is of no use.
 Mismatch convert(const Node& node, double& value);
+Mismatch convert(const Node& node, Length& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
 Mismatch convert(const Node& node, std::filesystem::path& value);
@@ -140,6 +141,7 @@ Mismatch convert(const Node& node, std::array<T, N>& value) {
 std::string toml_text(std::string_view text);
 /// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
 std::string toml_text(double value);
+std::string toml_text(const Length& value);
 std::string toml_text(const std::vector<SizeClass>& value);
 std::string toml_text(const ForceSwitches& value);
 /// As one would write it in a file, cut after 60 characters.
@@ -182,6 +184,8 @@ Mismatch check(const T& value, const Range& range) {
     return check(static_cast<double>(value), range);
   } else if constexpr (std::is_same_v<T, SizeClass>) {
     return check(value.diameter, range);
+  } else if constexpr (std::is_same_v<T, Length>) {
+    return check(value.value, range);
   } else if constexpr (requires { value.data(); }) {
     for (const auto& element : value) {
       if (const Mismatch mismatch = check(element, range)) return mismatch;
@@ -201,6 +205,8 @@ std::string type_text() {
     return "integer";
   } else if constexpr (std::is_floating_point_v<T>) {
     return "number";
+  } else if constexpr (std::is_same_v<T, Length>) {
+    return "number or \"N d\"";
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too
     return "text";
   } else if constexpr (std::is_same_v<T, ForceSwitches>) {

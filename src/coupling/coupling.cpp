@@ -1,11 +1,8 @@
 #include "src/coupling/coupling.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "src/config/load.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -24,34 +21,17 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
   return models.at(config.coupling.drag);
 }
 
-}  // namespace
+Real square(Real a) { return a * a; }
 
-DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
-  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
-  const VoidFraction kind = config.coupling.void_fraction;
-  DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, periodic_x);
-  if (kind == VoidFraction::centre) stencil.points = PointSet::centre;
-  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointSet::cfdem;
-  if (!grid.ranks) return stencil;
-  const Real reach = kOuterShell * r_max;
-  if (reach > std::min(grid.dx, grid.dz)) {
-    throw ConfigError({fmt::format(
-        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
-        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
-        grid.dx, grid.dz, r_max)});
-  }
-  const RankLine &along_x = grid.ranks->along_x(), &along_z = grid.ranks->along_z();
-  if (along_x.count > 1) {
-    stencil.box.lx = 0;
-    if (periodic_x || along_x.position > 0) stencil.i_low = -1;
-    if (periodic_x || along_x.position + 1 < along_x.count) stencil.i_high = grid.nx;
-  }
-  if (along_z.count > 1) {
-    stencil.box.lz = 0;
-    stencil.k_low = -1, stencil.k_high = grid.nz;
-  }
-  return stencil;
+/// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
+/// or with walls others.
+std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidSolver& solver,
+                                              const Grid& grid, const Mirrors& walls) {
+  if (walls == Mirrors{} || config.coupling.smoothing_length == 0) return solver.fft();
+  return std::make_shared<const PlaneFft>(grid, walls);
 }
+
+}  // namespace
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)
@@ -61,8 +41,10 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       drag_(make_drag(config, grains)),
       grid_(grid),
       boundary_(solver.boundary()),
-      smoother_(grid, solver.fft(), 1,
-                std::max(config_.smoothing_length * config_.smoothing_length, 1e-18)),
+      walls_{.x = config.grains->boundary_x == GrainBoundaryX::wall,
+             .z = config.grains->boundary_z == GrainBoundaryZ::wall},
+      smoother_(grid, smoothing_fft(config, solver, grid, walls_), 1,
+                square(std::max<Real>(config_.smoothing_length, 1e-9))),
       always_skips_relaxation_(config.grains->frozen || !config.coupling.relaxation),
       skip_relaxation_(always_skips_relaxation_),
       box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),

@@ -79,6 +79,7 @@ class Coupling {
                   const Kokkos::View<Vec3*>& force);
   void velocity_at(const FluidState& fluid, const GrainState& grains);
   void fraction_at(const FluidState& fluid, const GrainState& grains);
+  WallFaces wall_faces(bool wall, bool along_x) const;
   void reserve_flow_at(int n);
   /// The fraction that drag and stress read.
   Field local_fraction(const FluidState& fluid) const {
@@ -103,6 +104,7 @@ class Coupling {
   DragModel drag_;
   Grid grid_;
   Boundary boundary_;
+  Mirrors walls_;  // of the grains, where the smoothing ends
   PoissonFft smoother_;
   bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
   bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from

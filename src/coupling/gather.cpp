@@ -83,6 +83,17 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
   }
 }
 
+WallFaces Coupling::wall_faces(bool wall, bool along_x) const {
+  if (!wall) return {};
+  const int n = along_x ? grid_.nx : grid_.nz;
+  if (!grid_.ranks) return {0, n};
+  const RankLine& line = along_x ? grid_.ranks->along_x() : grid_.ranks->along_z();
+  WallFaces faces;
+  if (line.position == 0) faces.first = 0;
+  if (line.position + 1 == line.count) faces.last = n;
+  return faces;
+}
+
 /// By row: what the cells around each grain hold, before the smoothing.
 void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
   if (!by_row_) return;
@@ -92,6 +103,8 @@ void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
                   UnsmoothedFraction{.grid = grid_,
                                      .alpha_f = fluid.alpha_f,
                                      .length_squared = length * length,
+                                     .walls_x = wall_faces(walls_.x, true),
+                                     .walls_z = wall_faces(walls_.z, false),
                                      .unsmoothed = local_fraction(fluid)});
     boundary_.fill(on_faces_.stress_share, FieldKind::scalar);
   }

@@ -46,7 +46,8 @@ struct DuneCriteria {
   double rim_reach = 12.0;  ///< how far the rim goes out from a core; a thin foot fits in
   int min_grains = 100;     ///< smaller regions are not dunes
   double centreline_half_width = 3.0;  ///< of the strip in which length and crest are measured
-  double celerity_window = 1.0;        ///< [s]
+  double horn_height = 2.0;  ///< least of what counts as a horn by height: above streaks of grains
+  double celerity_window = 1.0;  ///< [s]
 };
 
 /// Map of the surface height h(x, z), and the regions of it that are dunes.

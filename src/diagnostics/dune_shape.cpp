@@ -26,16 +26,21 @@ struct Extent {
   [[nodiscard]] double size() const { return high - low; }
 };
 
+/// Of the grains of a region, or of the high ones among them.
+struct Outline {
+  double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
+  double right_tip = -infinity;  // the same, z > Cz
+  std::map<int, Extent> strip;   // in x, of the grains on the centreline, by column of bins (ux)
+};
+
 /// What is collected about one region; coordinates are unwrapped.
 struct Region {
   DuneRow row;
   int n_bins = 0;
-  double crest_height = 0.0;     // on the centreline
-  double crest_weight = 0.0;     // sum of weights behind crest_x
-  double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
-  double right_tip = -infinity;  // the same, z > Cz
-  Extent x, z;                   // of all grains
-  std::map<int, Extent> strip;   // in x, of the grains on the centreline, by column of bins (ux)
+  double crest_height = 0.0;  // on the centreline
+  double crest_weight = 0.0;  // sum of weights behind crest_x
+  Extent x, z;                // of all grains
+  Outline all, high;
 };
 
 struct DuneMeasurement {
@@ -44,6 +49,7 @@ struct DuneMeasurement {
   DuneCriteria criteria;
   HeightMap map{grains, domain, criteria};
   std::vector<Region> regions = std::vector<Region>(map.n_regions);
+  std::vector<double> surface = std::vector<double>(map.bins.size());  // medians [m]
 
   Dunes run() {
     sum_grains();
@@ -121,7 +127,6 @@ struct DuneMeasurement {
   /// H over the region; crest_x on the centreline. The strip may miss every bin centre only when
   /// the dune has no sand there, and crest_x then stays at Cx.
   void find_crests() {
-    std::vector<double> surface(map.bins.size(), 0.0);
     for_each_bin([&](std::size_t b, Region& region, double, double z) {
       surface[b] = map.smoothed_surface(map.bins[b]);
       region.row.h = std::max(region.row.h, surface[b]);
@@ -143,40 +148,49 @@ struct DuneMeasurement {
   /// The strip along the centreline, and the most downstream edge on either side of it.
   void collect_outlines() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
-      const double radius = 0.5 * grains[p].d;
-      if (in_strip(z, region)) {
-        const int column = map.bins[map.bin_of_grain[p]].ux;
-        region.strip[column].include(x - radius, x + radius);
-      } else {
-        double& tip = z < region.row.cz ? region.left_tip : region.right_tip;
-        tip = std::max(tip, x + radius);
-      }
+      const int bin = map.bin_of_grain[p];
+      const auto add_to = [&](Outline& outline) {
+        const double radius = 0.5 * grains[p].d;
+        if (in_strip(z, region)) {
+          outline.strip[map.bins[bin].ux].include(x - radius, x + radius);
+        } else {
+          double& tip = z < region.row.cz ? outline.left_tip : outline.right_tip;
+          tip = std::max(tip, x + radius);
+        }
+      };
+      add_to(region.all);
+      if (surface[bin] >= criteria.horn_height * map.mean_diameter) add_to(region.high);
     });
   }
 
   /// From toe to lee foot: the columns around the crest that hold sand without a gap. Of a strip
   /// that is not empty.
-  [[nodiscard]] Extent centreline(const Region& region) const {
-    const double column = region.row.crest_x / map.bin_x;
+  [[nodiscard]] Extent centreline(const std::map<int, Extent>& strip, double crest_x) const {
+    const double column = crest_x / map.bin_x;
     const auto from_crest = [&](const auto& entry) { return std::abs(entry.first + 0.5 - column); };
-    const auto crest = std::ranges::min_element(region.strip, {}, from_crest);
+    const auto crest = std::ranges::min_element(strip, {}, from_crest);
     Extent line;
     for (const int step : {-1, 1}) {
-      for (int i = crest->first; region.strip.contains(i); i += step)
-        line.include(region.strip.at(i).low, region.strip.at(i).high);
+      for (int i = crest->first; strip.contains(i); i += step)
+        line.include(strip.at(i).low, strip.at(i).high);
     }
     return line;
   }
 
   [[nodiscard]] DuneRow finish(const Region& region) const {
     DuneRow row = region.row;
-    if (region.strip.empty()) {
+    if (region.all.strip.empty()) {
       row.l = region.x.size();
     } else {
-      const Extent line = centreline(region);
+      const Extent line = centreline(region.all.strip, row.crest_x);
       row.l = line.size();
-      row.horn_left = std::max(0.0, region.left_tip - line.high);
-      row.horn_right = std::max(0.0, region.right_tip - line.high);
+      row.horn_left = std::max(0.0, region.all.left_tip - line.high);
+      row.horn_right = std::max(0.0, region.all.right_tip - line.high);
+    }
+    if (!region.high.strip.empty()) {
+      const double lee_foot = centreline(region.high.strip, row.crest_x).high;
+      row.horn_left_2d = std::max(0.0, region.high.left_tip - lee_foot);
+      row.horn_right_2d = std::max(0.0, region.high.right_tip - lee_foot);
     }
     row.w = region.z.size();
     if (domain.periodic_z) row.w = std::min(row.w, domain.length_z);

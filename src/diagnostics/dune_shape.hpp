@@ -20,6 +20,7 @@ struct DuneRow {
   double celerity = 0;                   // [m/s]
   std::int64_t n_lost = 0;               // grains that left the domain so far
   double flux = 0;  // streamwise, of grain volume, mean over the footprint [m^2/s]
+  double horn_left_2d = 0, horn_right_2d = 0;  // of what is two grains high [m]
 };
 
 /// The dunes of one time.
@@ -49,6 +50,9 @@ struct Dunes {
 ///            footprint, which is the area of its bins
 ///   horns    from the lee foot on the centreline to the most downstream edge on either side of
 ///            the strip; zero for a heap
+///   horns 2d the same of the grains of bins whose 3 x 3 median of h is at least two mean
+///   diameters,
+///            from their lee foot: single grains that trail from the horns do not count
 /// When the strip is empty (no sand on the centreline) L is the whole extent in x, the horns zero.
 /// Coordinates are in [0, length) along periodic directions; extents never exceed the period.
 Dunes find_dunes(GrainCloud grains, const DuneDomain& domain, const DuneCriteria& criteria = {});

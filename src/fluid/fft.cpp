@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "src/parallel/launch.hpp"
+
 namespace barchan {
 
 namespace {
@@ -28,25 +30,62 @@ RealLines lines_in_a_row(const std::array<int, 3>& e) {
   return {e[0], e[1], e[2], e[0], static_cast<std::ptrdiff_t>(e[0]) * e[1]};
 }
 
+/// `extents` with another number along an axis.
+std::array<int, 3> with(std::array<int, 3> extents, std::size_t axis, int n) {
+  extents[axis] = n;
+  return extents;
+}
+
+/// Lines along x of `extents`, from one array to another, there followed by their images or not.
+void copy_lines(const StridedArray& from, const StridedArray& to, const std::array<int, 3>& extents,
+                bool image) {
+  const Real* in = from.data;
+  Real* out = to.data;
+  const std::ptrdiff_t in_y = from.stride[1], in_z = from.stride[2];
+  const std::ptrdiff_t out_y = to.stride[1], out_z = to.stride[2];
+  const int last = 2 * extents[0] - 1;
+  for_each_cell(
+      "fft: lines and images", CellRange{0, extents[0], 0, extents[1], 0, extents[2]},
+      KOKKOS_LAMBDA(int i, int j, int k) {
+        const Real value = in[i + j * in_y + k * in_z];
+        Real* line = out + j * out_y + k * out_z;
+        line[i] = value;
+        if (image) line[last - i] = value;
+      });
+}
+
+/// Planes of the first half become those of the second, the last first.
+void mirror_planes(const Spectrum& modes) {
+  const int planes = modes.extent_int(2);
+  for_each_cell(
+      "fft: image in z", CellRange{0, modes.extent_int(0), 0, modes.extent_int(1), 0, planes / 2},
+      KOKKOS_LAMBDA(int i, int j, int k) { modes(i, j, planes - 1 - k) = modes(i, j, k); });
+}
+
 }  // namespace
 
-PlaneFft::PlaneFft(const Grid& grid)
-    : rows_(along_x(grid), {grid.nx_all, grid.ny, grid.nz}, 0, 1, 1),
-      planes_(along_z(grid), {grid.nx_all / 2 + 1, rows_.joined_extents()[1], grid.nz_all}, 2, 0,
-              2),
-      columns_(along_x(grid), {planes_.joined_extents()[0], grid.ny, grid.nz_all}, 1, 2, 2),
-      lines_(rows_.is_trivial() ? lines_in_field(grid) : lines_in_a_row(rows_.joined_extents()),
-             {grid.nz_all, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
-      first_x_(Split{.n = grid.nx_all / 2 + 1, .parts = along_z(grid).count}.begin(
+PlaneFft::PlaneFft(const Grid& grid, Mirrors mirrors)
+    : mirrors_(mirrors),
+      period_x_(mirrors.x ? 2 * grid.nx_all : grid.nx_all),
+      period_z_(mirrors.z ? 2 * grid.nz_all : grid.nz_all),
+      rows_(along_x(grid), {grid.nx_all, grid.ny, grid.nz}, 0, 1, 1),
+      planes_(along_z(grid), {period_x_ / 2 + 1, rows_.joined_extents()[1], grid.nz_all}, 2, 0, 2),
+      columns_(along_x(grid), {planes_.joined_extents()[0], grid.ny, period_z_}, 1, 2, 2),
+      lines_(rows_.is_trivial() && !mirrors.x
+                 ? lines_in_field(grid)
+                 : lines_in_a_row(with(rows_.joined_extents(), 0, period_x_)),
+             {period_z_, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
+      first_x_(Split{.n = period_x_ / 2 + 1, .parts = along_z(grid).count}.begin(
           along_z(grid).position)),
-      first_z_(
-          Split{.n = grid.nz_all, .parts = along_x(grid).count}.begin(along_x(grid).position)) {
-  if (!rows_.is_trivial())
-    lines_of_x_ = view_of<Field::Storage>("fft: lines of x", rows_.joined_extents());
+      first_z_(Split{.n = period_z_, .parts = along_x(grid).count}.begin(along_x(grid).position)) {
+  if (!rows_.is_trivial() || mirrors.x)
+    lines_of_x_ =
+        view_of<Field::Storage>("fft: lines of x", with(rows_.joined_extents(), 0, period_x_));
   if (!planes_.is_trivial())
     modes_of_rows_ = view_of<Spectrum>("fft: modes of rows", planes_.cut_extents());
   if (!columns_.is_trivial())
-    modes_of_planes_ = view_of<Spectrum>("fft: modes of planes", planes_.joined_extents());
+    modes_of_planes_ =
+        view_of<Spectrum>("fft: modes of planes", with(planes_.joined_extents(), 2, period_z_));
   spectrum_ = view_of<Spectrum>("fft: spectrum", columns_.joined_extents());
 }
 
@@ -56,16 +95,20 @@ PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
 }
 
 StridedArray PlaneFft::lines_of_x(const Field& f) const {
-  if (rows_.is_trivial()) return inside(f);
-  return contiguous(lines_of_x_.data(), rows_.joined_extents());
+  if (rows_.is_trivial() && !mirrors_.x) return inside(f);
+  return contiguous(lines_of_x_.data(), with(rows_.joined_extents(), 0, period_x_));
 }
 
 void PlaneFft::forward(const Field& in, const Spectrum& out) const {
   const Stages stage = stages(out);
   const StridedArray lines = lines_of_x(in);
   if (!rows_.is_trivial()) rows_.join(inside(in), lines);
+  if (mirrors_.x) {
+    copy_lines(rows_.is_trivial() ? inside(in) : lines, lines, rows_.joined_extents(), true);
+  }
   lines_.forward_x(lines.data, stage.rows.data());
   if (!planes_.is_trivial()) planes_.join(array(stage.rows), array(stage.planes));
+  if (mirrors_.z) mirror_planes(stage.planes);
   lines_.forward_z(stage.planes.data());
   if (!columns_.is_trivial()) columns_.join(array(stage.planes), array(out));
 }
@@ -77,7 +120,11 @@ void PlaneFft::backward(const Spectrum& in, Field& out) const {
   if (!planes_.is_trivial()) planes_.cut(array(stage.planes), array(stage.rows));
   const StridedArray lines = lines_of_x(out);
   lines_.backward_x(stage.rows.data(), lines.data);
-  if (!rows_.is_trivial()) rows_.cut(lines, inside(out));
+  if (!rows_.is_trivial()) {
+    rows_.cut(lines, inside(out));
+  } else if (mirrors_.x) {
+    copy_lines(lines, inside(out), rows_.joined_extents(), false);
+  }
 }
 
 }  // namespace barchan

@@ -10,8 +10,16 @@ namespace barchan {
 /// Fourier coefficients (kx, j, kz), kx fastest, y untransformed and whole: those of one rank.
 using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
 
-/// Both directions without normalisation: backward(forward(f)) = nx nz f, with the nx, nz of all
-/// ranks. All ranks call together.
+/// Directions in which a field goes on as its mirror image beyond both ends: zero gradient there.
+/// Else it goes on periodically.
+struct Mirrors {
+  bool x = false, z = false;
+  bool operator==(const Mirrors&) const = default;
+};
+
+/// Both directions without normalisation: backward(forward(f)) = period_x period_z f. All ranks
+/// call together. With mirrors the field and its image are one period, at twice the cost: the
+/// image is made where a line is whole, and dropped there again.
 ///
 /// Over ranks the lines of x, then of z, then the rows are made whole, three transposes in each
 /// direction:
@@ -19,10 +27,13 @@ using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
 /// where a prime means a share of the ranks beside each other.
 class PlaneFft {
  public:
-  explicit PlaneFft(const Grid& grid);
+  explicit PlaneFft(const Grid& grid, Mirrors mirrors = {});
 
   /// Room for one spectrum, for those who transform there and straight back.
   const Spectrum& spectrum() const { return spectrum_; }
+  /// Cells of all ranks in a period along x and z.
+  int period_x() const { return period_x_; }
+  int period_z() const { return period_z_; }
   /// Wave number of the first mode of this rank along x and z.
   int first_mode_x() const { return first_x_; }
   int first_mode_z() const { return first_z_; }
@@ -38,9 +49,11 @@ class PlaneFft {
   Stages stages(const Spectrum& modes) const;
   StridedArray lines_of_x(const Field& f) const;
 
+  Mirrors mirrors_;
+  int period_x_ = 0, period_z_ = 0;
   Transpose rows_, planes_, columns_;  // that make the lines of x, the lines of z, the rows whole
   LineFft lines_;
-  Field::Storage lines_of_x_;
+  Field::Storage lines_of_x_;                 // whole, with their images; empty where not needed
   Spectrum modes_of_rows_, modes_of_planes_;  // empty where not needed
   int first_x_ = 0, first_z_ = 0;
   Spectrum spectrum_;

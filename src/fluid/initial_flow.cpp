@@ -196,4 +196,8 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
   set_owned(fluid.u.z, grid, [&](int i, int j, int k) { return scale * curl.w(i, j, k); });
 }
 
+void set_uniform_flow(const Config& config, FluidState& fluid) {
+  Kokkos::deep_copy(fluid.u.x.storage, config.fluid.value().mean_velocity);
+}
+
 }  // namespace barchan

@@ -13,4 +13,8 @@ namespace barchan {
 /// Ghosts are not set. `config.fluid` must be there.
 void set_turbulent_flow(const Config& config, FluidState& fluid);
 
+/// Sets the velocity to the configured bulk velocity along x in every cell: the walls begin to slow
+/// it in the first step, by the ghosts. Those are not set. `config.fluid` must be there.
+void set_uniform_flow(const Config& config, FluidState& fluid);
+
 }  // namespace barchan

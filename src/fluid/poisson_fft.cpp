@@ -34,13 +34,14 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
   const auto weight = Kokkos::create_mirror_view(columns_.weight);
   const auto coupling = Kokkos::create_mirror_view(columns_.coupling);
   const auto pivot = Kokkos::create_mirror_view(columns_.pivot);
-  for (int j = 0; j < ny; ++j) weight(j) = rows.dy(j) / (Real(grid.nx_all) * grid.nz_all);
+  const int period_x = fft_->period_x(), period_z = fft_->period_z();
+  for (int j = 0; j < ny; ++j) weight(j) = rows.dy(j) / (Real(period_x) * period_z);
   for (int j = 1; j < ny; ++j) coupling(j) = diffusion / rows.dy_centre(j);
 
   for (int kz = 0; kz < planes; ++kz) {
     for (int kx = 0; kx < n_modes; ++kx) {
-      const Real lambda = eigenvalue(fft_->first_mode_x() + kx, grid.nx_all, grid.dx) +
-                          eigenvalue(fft_->first_mode_z() + kz, grid.nz_all, grid.dz);
+      const Real lambda = eigenvalue(fft_->first_mode_x() + kx, period_x, grid.dx) +
+                          eigenvalue(fft_->first_mode_z() + kz, period_z, grid.dz);
       for (int j = 0; j < ny; ++j) {
         const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(kx, j - 1, kz) : 0;
         const Real diagonal =

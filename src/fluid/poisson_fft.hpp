@@ -9,9 +9,10 @@
 
 namespace barchan {
 
-/// Finite volumes on the grid: periodic in x and z, zero gradient on the walls. Fourier transforms
-/// in x and z, a tridiagonal solve in y with factors made once. Exact to round-off; self-adjoint
-/// in the sum over cells weighted with their volume.
+/// Finite volumes on the grid: periodic in x and z or with zero gradient at both ends, as the
+/// transforms are; zero gradient on the walls in y. Fourier transforms in x and z, a tridiagonal
+/// solve in y with factors made once. Exact to round-off; self-adjoint in the sum over cells
+/// weighted with their volume.
 class PoissonFft {
  public:
   /// mass [-] >= 0, diffusion [m^2] > 0. mass = 0: the mean of f is dropped, phi has zero mean.

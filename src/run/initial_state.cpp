@@ -39,6 +39,7 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
     return fluid;
   }
   if (config.initial.fluid == "turbulent") set_turbulent_flow(config, fluid);
+  if (config.initial.fluid == "uniform") set_uniform_flow(config, fluid);
   return fluid;
 }
 

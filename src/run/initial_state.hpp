@@ -13,9 +13,9 @@ struct InitialFiles {
   std::filesystem::path fluid, grains;  // empty: not from a file
 };
 
-/// Flow at rest, turbulent or from a file; grains poured or from a file. The grains' list and the
-/// fluid fraction come with CoupledStep::start. Among `ranks`, the flow on `pencils`. Throws
-/// InputError if a file does not fit, and what the readers throw.
+/// Flow at rest, uniform, turbulent or from a file; grains poured or from a file. The grains' list
+/// and the fluid fraction come with CoupledStep::start. Among `ranks`, the flow on `pencils`.
+/// Throws InputError if a file does not fit, and what the readers throw.
 SystemState make_initial_state(const Config& config, const InitialFiles& files,
                                MPI_Comm ranks = MPI_COMM_SELF,
                                const Decomposition* pencils = nullptr);

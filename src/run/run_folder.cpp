@@ -32,7 +32,8 @@ constexpr Table history{
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap"};
 constexpr Table dune{
     "dune.csv",
-    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux"};
+    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
+    "horn_left_2d,horn_right_2d"};
 
 constexpr const char* result_names[] = {"config.toml",       "run.json",
                                         "history.csv",       "dune.csv",
@@ -221,9 +222,10 @@ void append_row(const fs::path& folder, const HistoryRow& r) {
 void append_row(const fs::path& folder, const DuneRow& r) {
   append_text(folder / dune.name,
               fmt::format("{:.10g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},"
-                          "{:.9g},{:.9g},{:.9g},{},{:.9g}\n",
+                          "{:.9g},{:.9g},{:.9g},{},{:.9g},{:.9g},{:.9g}\n",
                           r.t, r.dune, r.n_grains, r.w, r.l, r.h, r.cx, r.cy, r.cz, r.horn_left,
-                          r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux));
+                          r.horn_right, r.crest_x, r.volume, r.celerity, r.n_lost, r.flux,
+                          r.horn_left_2d, r.horn_right_2d));
 }
 
 void write_summary(const fs::path& folder, const nlohmann::ordered_json& summary) {

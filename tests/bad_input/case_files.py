@@ -2,7 +2,7 @@
 
 import os
 
-from entry import DUNE, SHORT, TABLE, WET, Entry
+from entry import DRY, DUNE, SHORT, TABLE, WET, Entry
 
 GOOD = {"code": 0, "command": "check case.toml"}
 
@@ -51,6 +51,10 @@ VALUES = [
           '[initial] fluid = "still"', "case.toml | cells"),
     Entry("cells for a terabyte", "-[fluid] first_cell_height ;; [fluid] cells = [2000, 2000, 1000] ;; " + FLUID_STEP +
           "1e-7 ;; [time] grain_step = 1e-7 ;; [time] end = 1e-5", "needs about | GB | fluid.cells"),
+    Entry("a length of no unit", '[grains] skin = "3 dd"', '@skin | a number of metres, or of mean grain diameters as in "3 d"'),
+    Entry("a length below zero", '[coupling] smoothing_length = "-3 d"', "@smoothing_length | at least 0"),
+    Entry("diameters of a table", '[coupling] smoothing_length = "3 d"', "@smoothing_length | must be in metres", base=TABLE,
+          files={"grains.csv": "id,diameter,x,y,z\n"}),
     Entry("one grain", SIZES + "[[2e-4, 1]] ;; " + SHORT, code=0),
     Entry("a title of other letters", '[case] title = "Düne 沙丘 <b>&amp;\\"</b>" ;; ' + SHORT, code=0),
 ]
@@ -60,6 +64,9 @@ CONTRADICTIONS = [
     Entry("one tiny grain among many", "[1.5e-4, 20] => [1e-6, 1]", "@grain_step | d = 1e-06 m"),
     Entry("diameters in mm", SIZES + "[[0.15, 20], [0.2, 160], [0.25, 20]]",
           "@sizes | 0.25 m, wider than the domain | 0.2 mm is 2e-4"),
+    Entry("forces of no flow", '[coupling] forces = ["drag"]', "@forces | must be absent without a [fluid]", base=DRY),
+    Entry("uniform at no speed", '[initial] fluid = "uniform" ;; -[fluid] mean_velocity', "@fluid = | must come with a mean_velocity"),
+    Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),
     Entry("cells smaller than grains", "-[fluid] first_cell_height ;; [fluid] cells = [100, 50, 60] ;; " + FLUID_STEP +
           "1e-4", "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),
 ]

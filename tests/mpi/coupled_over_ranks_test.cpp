@@ -112,6 +112,35 @@ TEST(CoupledOverRanks, FluidFractionHasTheBitsOfOneRank) {
   }
 }
 
+/// A heap in the corner of walls that the flow passes: nothing of it is smoothed through them.
+TEST(CoupledOverRanks, WallsOfTheGrainsKeepTheSolidFractionInside) {
+  Config c = heap_at_the_seam(VoidFraction::divided, GrainBoundaryX::wall);
+  c.grains->boundary_z = GrainBoundaryZ::wall;
+  c.coupling.smoothing_length = 3e-4;
+  c.size = {0.036, 0.006, 0.036};
+  c.fluid->cells = {30, 14, 36};
+  c.initial.pour->centre = {0.0021, 0.0021};
+  const Coupled whole(c);
+  for (const int along_x : shapes(c)) {
+    SCOPED_TRACE(along_x);
+    const Coupled shared(c, MPI_COMM_WORLD, {}, along_x);
+    const Grid& grid = shared.state.fluid->grid;
+    const Field& alpha = shared.state.fluid->alpha_f;
+    EXPECT_LT(difference(whole.state.fluid->alpha_f, alpha, grid), 1e-15);
+    const auto here = test::to_host(alpha);
+    double densest = 0, beyond = 0;
+    test::for_owned_cells(grid, [&](int i, int j, int k) {
+      const double solid = 1 - here(i, j, k);
+      densest = std::max(densest, solid);
+      if (i + grid.i_begin >= 25 || k + grid.k_begin >= 31) {
+        beyond = std::max(beyond, std::abs(solid));
+      }
+    });
+    EXPECT_GT(max_over(MPI_COMM_WORLD, densest), 0.2) << "there is no heap";
+    EXPECT_LT(max_over(MPI_COMM_WORLD, beyond), 1e-12);
+  }
+}
+
 /// Grains near all edges of the pencils and of the domain.
 InitialGrains scattered_grains(const Config& c, int n) {
   InitialGrains grains = testing::random_grains(n, c.size, 8);

@@ -109,6 +109,31 @@ TEST(FluidSmoother, KeepsTheIntegralIsSelfAdjointAndMakesNoNewExtrema) {
   });
 }
 
+/// Cosines with zero gradient at both ends are modes of the step of diffusion.
+TEST(FluidSmoother, MirrorsDampCosinesByTheory) {
+  const std::array<int, 3> n{9, 4, 7};
+  const Grid grid = test::stretched_grid(n, {0.4, 0.3, 0.9}, 0.02);
+  const double length = 0.13;
+  for (const Mirrors mirrors : {Mirrors{true, false}, Mirrors{false, true}, Mirrors{true, true}}) {
+    const PoissonFft smoother(grid, std::make_shared<const PlaneFft>(grid, mirrors), 1,
+                              length * length);
+    // Half waves between mirrors, whole waves where the field is periodic.
+    const double a = (mirrors.x ? 3 : 4) * pi / n[0], b = (mirrors.z ? 5 : 2) * pi / n[2];
+    const auto mode = [&](int i, int, int k) {
+      return std::cos(a * (i + 0.5)) * std::cos(b * (k + 0.5));
+    };
+    const double lambda =
+        std::pow(2 * std::sin(a / 2) / grid.dx, 2) + std::pow(2 * std::sin(b / 2) / grid.dz, 2);
+    Field f("f", grid);
+    test::set_field(f, grid, mode);
+    smoother.solve(f, f);
+    const auto got = test::to_host(f);
+    test::for_owned_cells(grid, [&](int i, int j, int k) {
+      EXPECT_NEAR(got(i, j, k), mode(i, j, k) / (1 + length * length * lambda), 1e-15);
+    });
+  }
+}
+
 /// Fluid fraction and the implicit part of the exchange on faces, and c made of them.
 struct Mixture {
   Grid grid;

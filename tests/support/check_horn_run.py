@@ -120,6 +120,11 @@ def shape(run):
     curves = read(run, "figures_data/morphology")
     for name in ("W", "L", "H", "horn_left", "horn_right"):
         same(f"{name} of the figure", curves[name], table[table["dune"] == 0][name], 1e-10)  # nine digits
+    for name in ("horn_left_2d", "horn_right_2d"):  # frames are a second apart: medians of two
+        high = table[table["dune"] == 0][name]
+        same(f"{name}_1s", curves[name + "_1s"], [high[0], *0.5 * (high[1:] + high[:-1])], 1e-10)
+        if not high.any():
+            raise SystemExit(f"{name} is nowhere: the check is empty")
 
 
 def values(run):

@@ -25,7 +25,8 @@ START = 2.0                               # of the averages [s]; the dune is the
 STEP = np.array([1.1e-3, 0.0, -2.5e-4])   # the dune's way between frames [m]
 MAIN, ARMS, LEFT_ARM = 2775, 375, 150     # grains
 CREST = 3 * D                             # crest from the centroid, as dune.csv is to say
-HEADER = "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost"
+HIGH = np.array([0.5, 0.75])              # of the left and right horn, two grains high
+HEADER = "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,horn_left_2d,horn_right_2d"
 
 
 def block(s, q, layers):
@@ -135,8 +136,8 @@ def write_table(folder, measured):
         C = centroid % (SIZE[0], 1.0, SIZE[2])
         crest = (C[0] + CREST) % SIZE[0]
         lines.append(",".join(f"{v:.12g}" for v in (t, 0, MAIN, W, L, H, *C, left, right, crest, 1e-8,
-                                                    1e-3, 0)))
-        lines.append(f"{t},1,576,{12 * D},{12 * D},{4 * D},{(C[0] + 0.03) % SIZE[0]},0,{C[2]},0,0,0,2e-9,0,0")
+                                                    1e-3, 0, 0, *HIGH * [left, right])))
+        lines.append(f"{t},1,576,{12 * D},{12 * D},{4 * D},{(C[0] + 0.03) % SIZE[0]},0,{C[2]},0,0,0,2e-9,0,0,0,0,0")
     (folder / "dune.csv").write_text("\n".join(lines) + "\n")
 
 

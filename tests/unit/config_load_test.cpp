@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "src/base/words.hpp"
+#include "src/config/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
 
+using test::coupled_case;
 using test::fluid_case;
 using test::grain_case;
 using test::Lines;
@@ -53,8 +55,8 @@ TEST(ConfigLoad, WallTakesTheGrainsMaterialUnlessItNamesItsOwn) {
 }
 
 TEST(ConfigLoad, ForcesAreThoseNamed) {
-  const Config c =
-      load_config_text(fluid_case("[coupling]\nforces = [\"drag\", \"stress\"]\n"), "case.toml");
+  const Config c = load_config_text(
+      coupled_case() + "[coupling]\nforces = [\"drag\", \"stress\"]\n", "case.toml");
   EXPECT_EQ(c.coupling.forces, (ForceSwitches{true, false, true, false, false}));
   refused(fluid_case("[coupling]\nforces = [\"drag\", \"strss\"]\n"),
           "case.toml:8: [coupling] forces = [\"drag\", \"strss\"]: must be an array; \"strss\" "
@@ -111,6 +113,28 @@ TEST(ConfigLoad, SizesAreDiametersAndCounts) {
               "[[0.0002, 10], [0.0002, 0]]: must be an array of [diameter in m above 0, count "
               "above 0]; [0.0002, 0] is not",
           {"grains.sizes=[[2e-4, 10], [2e-4, 0]]"});
+}
+
+TEST(ConfigLoad, LengthsMayBeInMeanDiameters) {
+  // 30 of 0.2 mm and 10 of 0.4 mm: 0.25 mm in the mean.
+  const std::string text = coupled_case("[[0.2e-3, 30], [0.4e-3, 10]]");
+  const auto with = [&](const Lines& overrides) {
+    return load_config_text(text, "case.toml", overrides);
+  };
+  const Config c = with({"coupling.smoothing_length=3 d", "grains.skin=\"0.2d\""});
+  EXPECT_DOUBLE_EQ(c.coupling.smoothing_length, 3 * 0.25e-3);
+  EXPECT_DOUBLE_EQ(c.grains->skin, 0.2 * 0.25e-3);
+  // What is written, and read again for a restart, is in metres.
+  EXPECT_EQ(to_toml(c).find(" d\""), std::string::npos);
+  EXPECT_EQ(config_as_written(to_toml(c), c.file), c);
+  EXPECT_EQ(with({"coupling.smoothing_length=0 d"}).coupling.smoothing_length, 0);
+  for (const std::string wrong : {"3 dd", "d", "3 mm", "3  d", "inf d", " 3 d"}) {
+    EXPECT_EQ(problems(text, {"grains.skin=\"" + wrong + "\""}),
+              only("--set grains.skin: [grains] skin = \"" + wrong +
+                   "\": must be a number of metres, or of mean grain diameters as in \"3 d\""));
+  }
+  refused(text, "--set grains.skin: [grains] skin = \"-1 d\": must be at least 0 and at most 1000",
+          {"grains.skin=-1 d"});
 }
 
 TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
@@ -261,10 +285,10 @@ TEST_F(ConfigStart, PathsAreRelativeToTheFileAndMustExist) {
 TEST_F(ConfigStart, FluidStartIsAWordOrAFile) {
   const std::string path =
       write("case.toml", fluid_case("mean_velocity = 0.2\n[initial]\nfluid = \"turbulant\"\n"));
-  EXPECT_EQ(
-      load(path),
-      only(path + ":9: [initial] fluid = \"turbulant\": must be \"still\", \"turbulent\" or a "
-                  "file ending in .h5, .toml"));
+  EXPECT_EQ(load(path),
+            only(path + ":9: [initial] fluid = \"turbulant\": must be \"still\", \"uniform\", "
+                        "\"turbulent\" or a file ending in .h5, .toml"));
+  EXPECT_EQ(load_config(path, {"initial.fluid=uniform"}).initial.fluid, "uniform");
   EXPECT_EQ(load_config(path, {"initial.fluid=turbulent"}).initial.fluid, "turbulent");
 }
 
@@ -284,10 +308,24 @@ TEST_F(ConfigStart, SizesComeFromTheCaseItStartsFrom) {
   const Config c = load_config(path);
   EXPECT_TRUE(c.grains->sizes.empty());
   EXPECT_EQ(known_sizes(c), (std::vector<SizeClass>{{0.2e-3, 100}}));
+  EXPECT_DOUBLE_EQ(load_config(path, {"grains.skin=0.1 d"}).grains->skin, 0.2e-4);
   // and a grain step too long for those sizes is an error of this case
   const Lines lines = load(path, {"time.grain_step=1e-4"});
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NE(lines[0].find("Rayleigh"), std::string::npos) << lines[0];
+}
+
+TEST_F(ConfigStart, DiametersInATableAreNotKnown) {
+  write("heap.csv", "id,diameter,x,y,z\n");
+  const std::string path =
+      write("case.toml", moved + "skin = \"0.1 d\"\n[initial]\ngrains = \"heap.csv\"\n");
+  EXPECT_EQ(load(path), only(path + ":6: [grains] skin = \"0.1 d\": must be in metres: diameters "
+                                    "are known only of grains that are poured, in this case or in "
+                                    "the one it starts from"));
+  // [grains] sizes says nothing of a table; a start that cannot be read says nothing either.
+  EXPECT_EQ(load(path, {"grains.sizes=[[2e-4, 10]]"}).size(), 2u);
+  write("heap.toml", grain_case("restitution = 3\n"));
+  EXPECT_EQ(load(path, {"initial.grains=heap.toml"}).size(), 2u);
 }
 
 TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {

@@ -8,6 +8,7 @@
 namespace barchan {
 namespace {
 
+using test::coupled_case;
 using test::fluid_case;
 using test::grain_case;
 using test::Lines;
@@ -23,13 +24,6 @@ bool says(const Lines& lines, const std::string& text) {
 Lines warnings(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Config config = load_config_text(text, "case.toml", overrides);
   return config_warnings(config, known_sizes(config));
-}
-
-/// A case with both parts whose cells and steps nothing is said against.
-std::string coupled_case() {
-  return fluid_case(
-      "first_cell_height = 2.625e-4\nmean_velocity = 0.28\n[grains]\nsizes = [[0.2e-3, 100]]\n"
-      "[initial]\ngrains = { pour = { centre = [0.05, 0.02], radius = 0.006 } }\n");
 }
 
 TEST(ConfigValidate, TheCoupledCaseIsClean) {
@@ -83,6 +77,12 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {still, "initial.fluid=turbulent",
        "[initial] fluid = \"turbulent\": must come with a mean_velocity or pressure_gradient, "
        "which sets its log law"},
+      {still, "initial.fluid=uniform",
+       "[initial] fluid = \"uniform\": must come with a mean_velocity, which it starts at"},
+      {grains, "coupling.forces=[\"drag\"]",
+       "[coupling] forces = [\"drag\"]: must be absent without a [fluid] section"},
+      {grains, "coupling.smoothing_length=3e-4", "must be absent without a [fluid] section"},
+      {fluid, "coupling.drag=none", "drag = \"none\": must be absent without a [grains] section"},
       {grains, "initial.fluid=turbulent",
        "[initial] fluid = \"turbulent\": must be absent without a [fluid] section"},
       {still, "initial.grains={ pour = { radius = 0.01 } }",
@@ -112,6 +112,8 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
   // and what is just allowed
   EXPECT_TRUE(
       problems(fluid_case("pressure_gradient = 10\n"), {"initial.fluid=turbulent"}).empty());
+  EXPECT_TRUE(problems(fluid, {"initial.fluid=uniform"}).empty());
+  EXPECT_TRUE(problems(grains, {"coupling.drag=gidaspow"}).empty()) << "as a resolved case has it";
   EXPECT_TRUE(problems(grains, {"initial.grains.pour.radius=0.0199"}).empty());
   EXPECT_FALSE(says(problems(grains, {"domain.size=[0.1, 0.025, 7.3e-4]"}), "its own image"));
   EXPECT_TRUE(problems(still, {"time.fluid_step=1e-3", "time.end=9999999.999"}).empty());
@@ -159,12 +161,18 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
       {"grains.boundary_x=wall", "boundary_x stops grains"},
       {"grains.skin=3e-4", "skin is above the smallest diameter"},
       {"time.end=1.0001", "the run ends at 1.00025 s"},
-      {"output.dune_interval=1e-5",
-       "warning: [output] dune_interval is shorter than a fluid step"}};
+      {"output.dune_interval=1e-5", "warning: [output] dune_interval is shorter than a fluid step"},
+      {"output.history_interval=1.1",
+       "history_interval is longer than the run, 1 s; only the start"},
+      {"output.dune_interval=1.1", "dune_interval is longer than the run"},
+      {"output.grains_interval=1.1", "grains_interval is longer than the run"},
+      {"output.fields_interval=1.1", "fields_interval is longer than the run"},
+      {"output.tracks_interval=1.1", "tracks_interval is longer than the run"}};
   for (const auto& [assignment, words] : unwise) {
     EXPECT_TRUE(says(warnings(coupled_case(), {assignment}), words)) << assignment;
   }
-  for (const char* wise : {"grains.boundary_x=periodic", "time.end=0.3"}) {
+  for (const char* wise :
+       {"grains.boundary_x=periodic", "time.end=0.3", "output.grains_interval=1"}) {
     EXPECT_EQ(warnings(coupled_case(), {wise}), Lines{}) << wise;
   }
 }

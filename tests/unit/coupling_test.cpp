@@ -1,6 +1,7 @@
 // Exchange between fluid and grains: nothing is lost on the way, in either direction.
 #include <gtest/gtest.h>
 
+#include "src/fluid/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
@@ -63,6 +64,97 @@ TEST(Coupling, FluidFractionIsThatOfTheGrainsAndBounded) {
   EXPECT_LT(densest, 0.75);
 }
 
+/// One grain in a corner of 40 x 4 x 30 cells of 0.3 mm, smoothed over 0.3 mm; with `images` those
+/// of the grain in walls at x = 0 and z = 0, in a periodic box of twice the size.
+test::CoupledRun grain_in_a_corner(bool images, Exchange exchange = Exchange::by_row) {
+  constexpr double h = 3e-4;
+  const int n = images ? 2 : 1;
+  Config c = test::water_box({40 * n, 4, 30 * n}, {40 * n * h, 4 * h, 30 * n * h});
+  c.coupling.smoothing_length = h;
+  c.coupling.exchange = exchange;
+  c.grains->boundary_x = images ? GrainBoundaryX::periodic : GrainBoundaryX::wall;
+  c.grains->boundary_z = images ? GrainBoundaryZ::periodic : GrainBoundaryZ::wall;
+  InitialGrains grains;
+  const Vec3 x{1.2e-4, 5e-4, 1.3e-4};
+  testing::add_grain(grains, 2e-4, x);
+  if (images) {
+    const double lx = c.size[0], lz = c.size[2];
+    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, x.z});
+    testing::add_grain(grains, 2e-4, {x.x, x.y, lz - x.z});
+    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, lz - x.z});
+  }
+  return {c, grains};
+}
+
+TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
+  const test::CoupledRun walls = grain_in_a_corner(false), images = grain_in_a_corner(true);
+  const Grid& grid = walls.state.fluid->grid;
+  const auto alpha = test::to_host(walls.state.fluid->alpha_f);
+  const auto mirrored = test::to_host(images.state.fluid->alpha_f);
+  double solid = 0, densest = 0, beyond = 0;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    ASSERT_NEAR(alpha(i, j, k), mirrored(i, j, k), 1e-15);
+    const double fraction = 1 - alpha(i, j, k);
+    solid += fraction * std::pow(3e-4, 3);
+    densest = std::max(densest, fraction);
+    if (i >= 35 || k >= 25) beyond = std::max(beyond, std::abs(fraction));
+  });
+  EXPECT_NEAR(solid / sphere_volume(1e-4), 1, 1e-13);
+  EXPECT_GT(densest, 0.02);
+  EXPECT_LT(beyond, 1e-11) << "through the seam of the flow";
+}
+
+/// Exchange with one grain and its images.
+ExchangeOnFaces exchange_of(test::CoupledRun& run) {
+  const FluidSolver solver(run.config, run.state.fluid->grid);
+  Coupling coupling(run.config, solver, *run.state.grains, run.state.fluid->grid);
+  coupling.gather(*run.state.fluid, *run.state.grains, 1e-4);
+  coupling.deposit(*run.state.grains, *run.state.fluid, 1e-4);
+  return coupling.on_faces();
+}
+
+/// The implicit part on faces across y, over its sum: the flow passes the walls of the grains, so
+/// the faces there are shared.
+TEST(Coupling, WallsOfTheGrainsMirrorTheExchange) {
+  const auto faces_of = [](bool images) {
+    test::CoupledRun run = grain_in_a_corner(images, Exchange::smoothed);
+    return test::to_host(exchange_of(run).implicit.y);
+  };
+  const auto walls = faces_of(false), images = faces_of(true);
+  const auto each = [](auto action) {
+    for (int k = 0; k < 30; ++k)
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 40; ++i) action(i, j, k);
+  };
+  double sum = 0, image_sum = 0, most = 0;
+  each([&](int i, int j, int k) { sum += walls(i, j, k), image_sum += images(i, j, k); });
+  each([&](int i, int j, int k) {
+    ASSERT_NEAR(walls(i, j, k) / sum, images(i, j, k) / image_sum, 1e-13);
+    most = std::max(most, walls(i, j, k) / sum);
+  });
+  EXPECT_GT(most, 0.05);
+}
+
+/// What the drag law and the stress read by row: the deposited fraction, at the walls, too.
+TEST(Coupling, TheSmoothingIsUndoneAtWallsOfTheGrains) {
+  const auto fraction = [](double smoothing) {
+    test::CoupledRun run = grain_in_a_corner(false, Exchange::by_row);
+    run.config.coupling.smoothing_length = smoothing;
+    test::CoupledRun again(run.config, std::move(run.state));
+    if (smoothing == 0) return test::to_host(again.state.fluid->alpha_f);
+    return test::to_host(exchange_of(again).stress_share);
+  };
+  const auto unsmoothed = fraction(3e-4), deposited = fraction(0);
+  double least = 1;
+  for (int k = 0; k < 30; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 40; ++i) {
+        ASSERT_NEAR(unsmoothed(i, j, k), deposited(i, j, k), 1e-13);
+        least = std::min(least, deposited(i, j, k));
+      }
+  EXPECT_LT(least, 0.95);
+}
+
 TEST(Coupling, PressureConvergesAndContinuityHolds) {
   Config config = coupled_config();
   config.solver.pressure_tolerance = 1e-6;
@@ -102,6 +194,32 @@ TEST(Coupling, BulkVelocityIsHeld) {
   Coupled c(coupled_config());
   c.advance(40);
   EXPECT_NEAR(c.step.bulk_velocity(c.state), 0.2, 2e-4);
+}
+
+/// Velocity along x of a lone grain without drag after two steps in water of a bulk velocity of
+/// 0.2 m/s, over that.
+double thrown(bool uniform_start) {
+  Config c = test::water_box({8, 8, 8}, {4e-3, 4e-3, 4e-3});
+  c.fluid->mean_velocity = 0.2;
+  c.coupling.drag = DragLaw::none;
+  InitialGrains grain;
+  testing::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
+  test::CoupledRun run(c, grain);
+  if (uniform_start) set_uniform_flow(c, *run.state.fluid);
+  run.step.fill_ghosts(run.state);
+  run.advance(2);
+  return run.velocity_of(1).x / 0.2;
+}
+
+/// Water that is brought up from rest at once takes a free sphere along, to
+/// (1 + C_m)/(rho_p/rho_f + C_m) of its velocity.
+TEST(Coupling, AUniformStartDoesNotThrowTheGrains) {
+  EXPECT_NEAR(thrown(false), 1.5 / 3.0, 0.01);
+  EXPECT_NEAR(thrown(true), 0, 2e-3);  // the water still makes way for it
+  Config c = coupled_config();
+  c.initial.fluid = "uniform";
+  const Coupled dune(c);
+  EXPECT_NEAR(dune.step.bulk_velocity(dune.state), 0.2, 1e-13);
 }
 
 TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {

@@ -136,6 +136,34 @@ TEST(DuneAnalytics, CrescentHornsReachTheTips) {
   EXPECT_NEAR(dune.crest_x, 0.04 - 14.0 / 3.0 * mm, bin);
 }
 
+/// Horns by height reach as far, to the bin that the median takes from a tip.
+TEST(DuneAnalytics, HornsByHeightReachTheTipsToo) {
+  const DuneRow dune = only_dune(slab_with_arms(3.0 * mm, 9.0 * mm));
+  EXPECT_NEAR(dune.horn_left_2d, 3.0 * mm, bin);
+  EXPECT_NEAR(dune.horn_right_2d, 9.0 * mm, bin);
+  // A slope of 0.3 is two diameters high 1.3 mm behind its outline, on the lee (0.6) half of that.
+  const DuneRow pointed = only_dune(pile(0.04, 0.025, 10.0 * mm, crescent(8.0 * mm)));
+  EXPECT_LT(pointed.horn_left_2d, pointed.horn_left - bin);
+  EXPECT_GT(pointed.horn_left_2d, pointed.horn_left - 3.0 * mm);
+  EXPECT_EQ(only_dune(heap(0.03, 0.02, 13.0 * mm, 3.0 * mm)).horn_left_2d, 0.0);
+}
+
+/// Grains that trail behind one another from the tips, dense enough to belong to the dune.
+TEST(DuneAnalytics, StreaksOfSingleGrainsAreNoHornsByHeight) {
+  const Grains dune = slab_with_arms(3.0 * mm, 9.0 * mm);
+  const Grains streaks = pile(0.04, 0.025, 20.0 * mm, [](double x, double z) {
+    const double tip = z < 0.0 ? 5.5 * mm : 11.5 * mm;
+    return std::abs(z) > 7.0 * mm && std::abs(z) < 8.5 * mm && x > tip && x < tip + 2.5 * mm ? d / 2
+                                                                                             : 0.0;
+  });
+  const DuneRow clean = only_dune(dune), streaky = only_dune(dune + streaks);
+  EXPECT_GT(streaky.n_grains, clean.n_grains + 100);
+  EXPECT_NEAR(streaky.horn_left, clean.horn_left + 2.4 * mm, bin);
+  EXPECT_NEAR(streaky.horn_right, clean.horn_right + 2.4 * mm, bin);
+  EXPECT_NEAR(streaky.horn_left_2d, clean.horn_left_2d, bin / 2);
+  EXPECT_NEAR(streaky.horn_right_2d, clean.horn_right_2d, bin / 2);
+}
+
 TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
   const DuneRow dune = only_dune(grains);

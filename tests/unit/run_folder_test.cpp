@@ -21,7 +21,8 @@ const std::string history_header =
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap\n";
 const std::string dune_header =
-    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux\n";
+    "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
+    "horn_left_2d,horn_right_2d\n";
 
 HistoryRow history_row(double t) {
   return {.t = t, .step = 400, .u_star = 0.0168, .n_grains = 99999};
@@ -69,11 +70,12 @@ TEST(RunFolder, WritesTablesInTheDocumentedFormat) {
   dune.w = 0.04;
   dune.n_lost = 7;
   dune.flux = 2e-6;
+  dune.horn_right_2d = 0.003;
   append_row(run, dune);
   EXPECT_EQ(read_text(run / "history.csv"),
             history_header + "0.1,400,0.0168,0,0,0,0,0,0,0,99999,0,0\n");
   EXPECT_EQ(read_text(run / "dune.csv"),
-            dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7,2e-06\n");
+            dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7,2e-06,0,0.003\n");
 }
 
 TEST(RunFolder, ARestartCutsTheTables) {

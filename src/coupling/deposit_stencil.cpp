@@ -1,0 +1,45 @@
+// Which cells a grain's volume may go to: where directions are periodic, end at walls or are cut.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/config/load.hpp"
+#include "src/coupling/coupling.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// One direction. Points beyond the end of a pencil lie in its ghosts; beyond an end of the domain
+/// they wrap by `length`, or without a period belong to the last cell.
+void set_ends(const RankLine& line, bool periodic, int n, Real& length, int& low, int& high) {
+  if (!periodic || line.count > 1) length = 0;
+  if (line.count == 1) return;
+  if (periodic || line.position > 0) low = -1;
+  if (periodic || line.position + 1 < line.count) high = n;
+}
+
+}  // namespace
+
+DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
+  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  const bool periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  const VoidFraction kind = config.coupling.void_fraction;
+  DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, periodic_x);
+  if (kind == VoidFraction::centre) stencil.points = PointSet::centre;
+  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointSet::cfdem;
+  const RankLine along_x = grid.ranks ? grid.ranks->along_x() : RankLine{};
+  const RankLine along_z = grid.ranks ? grid.ranks->along_z() : RankLine{};
+  set_ends(along_x, periodic_x, grid.nx, stencil.box.lx, stencil.i_low, stencil.i_high);
+  set_ends(along_z, periodic_z, grid.nz, stencil.box.lz, stencil.k_low, stencil.k_high);
+  const Real reach = kOuterShell * r_max;
+  if (grid.ranks && reach > std::min(grid.dx, grid.dz)) {
+    throw ConfigError({fmt::format(
+        "--ranks: cells of {:.3g} x {:.3g} m are smaller than the radius of the largest grain, "
+        "{:.3g} m: start this case with --ranks 1, or with wider cells (fluid.cells)",
+        grid.dx, grid.dz, r_max)});
+  }
+  return stencil;
+}
+
+}  // namespace barchan
