@@ -30,6 +30,14 @@ struct GrainKineticEnergy {
   }
 };
 
+/// Sum of V_p u_x [m^4/s].
+struct GrainVolumeFlow {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION void operator()(int g, Real& sum) const {
+    sum += sphere_volume(grains(g).r) * grains(g).u.x;
+  }
+};
+
 /// Grains outside 0 .. lx along the flow, or nowhere.
 struct CountBeyondOutlet {
   Kokkos::View<const GrainKinematics*> grains;

@@ -116,6 +116,12 @@ void CoupledStep::carry(SystemState& state) {
   grains_->remove_left(grains);
 }
 
+Vec3 CoupledStep::impulse_on_grains() const {
+  if (!coupling_) return {};
+  const ExchangeLedger& step = coupling_->ledger();
+  return step.given_to_grains + step.carried_to_grains + step.flow_on_grains;
+}
+
 std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) const {
   const GrainState& grains = *state.grains;
   const int n = grains.n;

@@ -59,6 +59,8 @@ class CoupledStep {
   /// What changed sides in the last step, and since the run began.
   const ExchangeLedger& exchange() const { return coupling_->ledger(); }
   const Ledger& ledger() const { return ledger_; }
+  /// Of the flow on all grains in the last step [N s].
+  Vec3 impulse_on_grains() const;
   const Phases& phases() const { return phases_; }
   int substeps() const { return n_substeps_; }
 

@@ -31,6 +31,14 @@ double kinetic_energy(const GrainState& grains) {
   return sum_over(grains.ranks, energy);
 }
 
+/// Sum of V_p u_x [m^4/s].
+double volume_flow(const GrainState& grains) {
+  double flow = 0;
+  Kokkos::parallel_reduce("history: flow of the grains", grains.n, GrainVolumeFlow{grains.kin},
+                          flow);
+  return sum_over(grains.ranks, flow);
+}
+
 }  // namespace
 
 RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_domain(run.config)) {
@@ -154,6 +162,10 @@ void ResultsWriter::write_history() {
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
+    const double area = run_.config.size[0] * run_.config.size[2];
+    const double seconds = static_cast<double>(interval.steps) * run_.clock.fluid_step;
+    row.grain_flux = volume_flow(grains) / area;
+    if (interval.steps > 0) row.stress_on_grains = interval.impulse_on_grains / (seconds * area);
   }
   if (rank_of(run_.ranks) == 0) append_row(folder_, row);
   accounts_.interval = {};

@@ -127,12 +127,13 @@ void RunState::count_grains() {
   if (state.grains) n_grains = sum_over(ranks, state.grains->n);
 }
 
-void FluidStepSums::add(const FluidStepReport& report, double fluid_step) {
+void FluidStepSums::add(const FluidStepReport& report, double fluid_step, double impulse) {
   ++steps;
   iterations += report.pressure_iterations;
   most_iterations = std::max<std::int64_t>(most_iterations, report.pressure_iterations);
   continuity_residual = std::max(continuity_residual, report.continuity_residual / fluid_step);
   courant = std::max(courant, report.courant);
+  impulse_on_grains += impulse;
 }
 
 void RunAccounts::begin() {
@@ -141,19 +142,21 @@ void RunAccounts::begin() {
 }
 
 void RunAccounts::save(CheckpointWriter& file) const {
-  const std::array<double, 4> numbers{static_cast<double>(interval.steps),
-                                      static_cast<double>(interval.iterations),
-                                      interval.continuity_residual, interval.courant};
+  const std::array<double, 5> numbers{
+      static_cast<double>(interval.steps), static_cast<double>(interval.iterations),
+      interval.continuity_residual, interval.courant, interval.impulse_on_grains};
   file.array("since_history_row", std::span<const double>(numbers));
 }
 
 void RunAccounts::load(const CheckpointReader& file) {
   if (!file.has("since_history_row")) return;
-  const auto numbers = file.array<double>("since_history_row", {4});
+  auto numbers = file.array<double>("since_history_row", file.extents("since_history_row"));
+  numbers.resize(5);  // earlier versions have four
   interval = {.steps = static_cast<std::int64_t>(numbers[0]),
               .iterations = static_cast<std::int64_t>(numbers[1]),
               .continuity_residual = numbers[2],
-              .courant = numbers[3]};
+              .courant = numbers[3],
+              .impulse_on_grains = numbers[4]};
 }
 
 Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRow>& dune) const {

@@ -55,8 +55,9 @@ struct RunState {
 struct FluidStepSums {
   std::int64_t steps = 0, iterations = 0, most_iterations = 0;
   double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
+  double impulse_on_grains = 0;                 // of the flow along x [N s]
 
-  void add(const FluidStepReport& report, double fluid_step);
+  void add(const FluidStepReport& report, double fluid_step, double impulse);
   double mean_iterations() const {
     return static_cast<double>(iterations) / std::max<double>(1, static_cast<double>(steps));
   }

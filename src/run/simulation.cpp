@@ -88,7 +88,8 @@ void Simulation::one_step() {
   }
   if (!run_.state.fluid) return;
   for (FluidStepSums* sums : {&accounts_.interval, &accounts_.all})
-    sums->add(run_.coupled_step.fluid_report(), run_.clock.fluid_step);
+    sums->add(run_.coupled_step.fluid_report(), run_.clock.fluid_step,
+              run_.coupled_step.impulse_on_grains().x);
 }
 
 /// Empty to go on. Clocks and signals may differ between ranks; all get the same answer.

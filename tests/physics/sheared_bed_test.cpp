@@ -172,6 +172,8 @@ TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
     testing::expect_relative("force on grains and floor over the drive" + what,
                              (on_grains + floor) / (gradient * kWidth * kHeight * kWidth), 1, 1e-6);
     EXPECT_GT(floor, 0);
+    testing::expect_relative("that force in the accounts" + what,
+                             run.step.impulse_on_grains().x / c.time.fluid_step, on_grains, 1e-9);
     testing::expect_below("pressure and stress: grains against flow" + what,
                           run.step.ledger().entries().at("largest_flow_force_mismatch"), 1e-10);
   }
