@@ -49,10 +49,10 @@ inline Work list_build(double pairs, double contacts) {
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }
-/// Gather by row: kinematics five times; flow, pressure and stress, and the fraction written and read;
-/// u_f, the forces of pressure and stress and the carried impulse there and back; two vectors and two
-/// numbers written. Fields come from cache: two planes of 3 rows, 4 interpolations, 7 means over 29
-/// points.
+/// Gather by row: kinematics five times; flow, pressure and stress, and the fraction written and
+/// read; u_f, the forces of pressure and stress and the carried impulse there and back; two vectors
+/// and two numbers written. Fields come from cache: two planes of 3 rows, 4 interpolations, 7 means
+/// over 29 points.
 inline Work gather() {
   return {5.0 * sizeof(GrainKinematics) + 16.0 * sizeof(Vec3) + 4.0 * sizeof(Real),
           6 * 9 + 5 * 24 + 7 * 29 * 2 + 80};
@@ -85,9 +85,10 @@ inline Work flow_step(int nx, int nz) {
 /// The fluid's part of a coupled step. Passes: mass flux 7, mobility 7, volume 1, extrapolation 3,
 /// source 7, start of the iterations 13, correction 17, continuity 5, flow rate 2; deposits cleared
 /// 5 and decoded 10, fractions 2, faces 10, velocity change 6, ledger 9; unsmoothed fraction 2,
-/// pressure 4 and stress 10 on faces, each on cells 6 and summed 6; four smoothing solves.
+/// pressure 4 on faces and 7 on cells; four smoothing solves. The stress is only formed around the
+/// grains and left out.
 inline Work coupled_step(int nx, int nz, double iterations) {
-  return wale() + predict(true) + pass(62, 120) + pass(82, 420) +
+  return wale() + predict(true) + pass(62, 120) + pass(55, 130) +
          iterations * pressure_iteration(nx, nz) + 4 * poisson(nx, nz);
 }
 

@@ -159,7 +159,7 @@ def deposit_halo(p):
 def exchange(p):
     """Coupling::gather(), deposit(), carry(), with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=17))
+            + Counts(reductions=18))
 
 
 # --- the grains --------------------------------------------------------------------------------------

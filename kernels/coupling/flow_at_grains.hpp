@@ -62,24 +62,21 @@ struct HoldForceAtWall {
   }
 };
 
-/// The same on cells, the mean of their faces: the adjoint of alpha_f on faces, so that the solid
-/// fraction times it, over all cells, is what the flow does not get of it.
+/// The same on cells, the mean of their faces: the adjoint of alpha_f on faces. Returns what the
+/// solid fraction of a cell takes of it [N], over all cells what the flow does not get.
 struct ForceOnCells {
-  ConstFaceRef force;  // with ghosts
-  FieldRef x, y, z;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    x(i, j, k) = (force.x(i, j, k) + force.x(i + 1, j, k)) / 2;
-    y(i, j, k) = (force.y(i, j, k) + force.y(i, j + 1, k)) / 2;
-    z(i, j, k) = (force.z(i, j, k) + force.z(i, j, k + 1)) / 2;
-  }
-};
-
-/// Integral of a density on cells over the solid fraction.
-struct SumOverSolid {
   GridRef grid;
-  ConstFieldRef alpha_f, density;
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    return (1 - alpha_f(i, j, k)) * density(i, j, k) * grid.cell_volume(j);
+  ConstFaceRef force;  // with ghosts
+  ConstFieldRef alpha_f;
+  FieldRef x, y, z;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Vec3 density{(force.x(i, j, k) + force.x(i + 1, j, k)) / 2,
+                       (force.y(i, j, k) + force.y(i, j + 1, k)) / 2,
+                       (force.z(i, j, k) + force.z(i, j, k + 1)) / 2};
+    x(i, j, k) = density.x;
+    y(i, j, k) = density.y;
+    z(i, j, k) = density.z;
+    return ((1 - alpha_f(i, j, k)) * grid.cell_volume(j)) * density;
   }
 };
 

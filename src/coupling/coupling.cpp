@@ -40,6 +40,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
               config_.forces.added_mass, config_.forces.buoyancy},
       drag_(make_drag(config, grains)),
       grid_(grid),
+      rows_(grid.on_host()),
       boundary_(solver.boundary()),
       walls_{.x = config.grains->boundary_x == GrainBoundaryX::wall,
              .z = config.grains->boundary_z == GrainBoundaryZ::wall},

@@ -73,10 +73,13 @@ class Coupling {
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
-  void pressure_at(const FluidState& fluid, const GrainState& grains, Real dt);
-  void stress_at(const FluidState& fluid, const GrainState& grains, Real dt);
-  void density_to(const GrainState& grains, const Field& alpha, bool smoothed, Real dt,
-                  const Kokkos::View<Vec3*>& force);
+  CellRange cells_around(const GrainState& grains) const;
+  void pressure_at(const FluidState& fluid, const GrainState& grains, const CellRange& around,
+                   Real dt);
+  void stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
+                 Real dt);
+  void density_to(const GrainState& grains, const CellRange& cells, const Field& alpha,
+                  bool smoothed, Real dt, const Kokkos::View<Vec3*>& force);
   void velocity_at(const FluidState& fluid, const GrainState& grains);
   void fraction_at(const FluidState& fluid, const GrainState& grains);
   WallFaces wall_faces(bool wall, bool along_x) const;
@@ -103,6 +106,7 @@ class Coupling {
   FluidForces forces_;
   DragModel drag_;
   Grid grid_;
+  HostGrid rows_;
   Boundary boundary_;
   Mirrors walls_;  // of the grains, where the smoothing ends
   PoissonFft smoother_;

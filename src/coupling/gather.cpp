@@ -1,6 +1,9 @@
 // From the flow to the grains.
 #include "kernels/coupling/gather.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/coupling/coupling.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
@@ -20,22 +23,47 @@ Vec3 sum_of(const GrainState& grains, const Kokkos::View<Vec3*>& density, MPI_Co
 
 }  // namespace
 
-/// The density on faces to the grains, and both sides of it to the ledger: what the solid fraction
-/// 1 - alpha takes of it, and what the grains get. By row the way to the grains is that of their
-/// volume to alpha, backwards: the two are equal.
-void Coupling::density_to(const GrainState& grains, const Field& alpha, bool smoothed, Real dt,
-                          const Kokkos::View<Vec3*>& force) {
-  for_each_cell("coupling: force density at the walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+/// The cells whose faces the grains read.
+CellRange Coupling::cells_around(const GrainState& grains) const {
+  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
+  Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
+                          ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
+                          Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
+  // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
+  x0 = -max_over(ranks_of(grid_), -x0), x1 = max_over(ranks_of(grid_), x1);
+  z0 = -max_over(ranks_of(grid_), -z0), z1 = max_over(ranks_of(grid_), z1);
+  y1 = max_over(ranks_of(grid_), y1);
+  CellRange cells = owned_cells(grid_);
+  if (!(x0 <= x1)) return cells;  // no grains
+  // One more on either side, and above one for faces; everything where that reaches a periodic
+  // side.
+  const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
+                         int& last) {
+    const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 3;
+    if (!(begin >= 0 && end <= n_all)) return;
+    const int n = last;
+    first = std::clamp(static_cast<int>(begin) - mine, 0, n);
+    last = std::clamp(static_cast<int>(end) - mine, first, n);
+  };
+  shrink(x0, x1, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
+  shrink(z0, z1, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
+  cells.j1 = std::min(grid_.ny, rows_.row_of(y1) + 3);
+  return cells;
+}
+
+/// The density on the faces of `cells` to the grains, and both sides of it to the ledger: what the
+/// solid fraction 1 - alpha takes of it, and what the grains get. By row the way to the grains is
+/// that of their volume to alpha, backwards: the two are equal.
+void Coupling::density_to(const GrainState& grains, const CellRange& cells, const Field& alpha,
+                          bool smoothed, Real dt, const Kokkos::View<Vec3*>& force) {
+  for_each_cell("coupling: force density at the walls",
+                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
                 HoldForceAtWall{force_.y, grid_.ny});
   for (Field* component : {&force_.x, &force_.y, &force_.z})
     boundary_.fill(*component, FieldKind::scalar);  // behind both walls constant, too
   Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
-  for_each_cell("coupling: force density on cells", grid_, ForceOnCells{force_, x, y, z});
-  const auto on_solid = [&](const Field& density) {
-    return sum_each_cell("ledger: force of the flow on the solid fraction", grid_,
-                         SumOverSolid{grid_, alpha, density});
-  };
-  ledger_.flow_on_solid += dt * Vec3{on_solid(x), on_solid(y), on_solid(z)};
+  ledger_.flow_on_solid += dt * sum_vector("coupling: force density on cells", grid_, cells,
+                                           ForceOnCells{grid_, force_, alpha, x, y, z});
   if (by_row_) {
     for (Field* component : {&x, &y, &z}) {
       if (smoothed) smoother_.solve(*component, *component);
@@ -50,18 +78,22 @@ void Coupling::density_to(const GrainState& grains, const Field& alpha, bool smo
   ledger_.flow_on_grains += dt * sum_of(grains, force, ranks_of(grid_));
 }
 
-void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains, Real dt) {
+void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains,
+                           const CellRange& around, Real dt) {
   if (!forces_.pressure_gradient) return;
+  const bool smoothed = by_row_ && config_.smoothing_length > 0;
+  const CellRange cells = smoothed ? owned_cells(grid_) : around;
   for_each_cell(
-      "coupling: pressure force density", grid_,
+      "coupling: pressure force density", cells,
       PressureForceDensity{
           .grid = grid_, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive, .force = force_});
-  density_to(grains, fluid.alpha_f, config_.smoothing_length > 0, dt, flow_at_.pressure);
+  density_to(grains, cells, fluid.alpha_f, smoothed, dt, flow_at_.pressure);
 }
 
 /// And the convective acceleration.
-void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, Real dt) {
-  for_each_cell("coupling: stress force density", grid_,
+void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
+                         Real dt) {
+  for_each_cell("coupling: stress force density", cells,
                 StressForceDensity{.grid = grid_,
                                    .u = fluid.u,
                                    .stress = {grid_, fluid.u, fluid.nu_t, nu_},
@@ -70,7 +102,9 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, Real
                                    .convective = convective_});
   for (Field* component : {&convective_.x, &convective_.y, &convective_.z})
     boundary_.fill(*component, FieldKind::scalar);
-  if (forces_.stress) density_to(grains, local_fraction(fluid), false, dt, flow_at_.stress);
+  if (forces_.stress) {
+    density_to(grains, cells, local_fraction(fluid), false, dt, flow_at_.stress);
+  }
 }
 
 void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
@@ -123,8 +157,9 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   reserve_flow_at(grains.n);
   fraction_at(fluid, grains);
   velocity_at(fluid, grains);
-  pressure_at(fluid, grains, dt);
-  stress_at(fluid, grains, dt);
+  const CellRange around = cells_around(grains);
+  pressure_at(fluid, grains, around, dt);
+  stress_at(fluid, grains, around, dt);
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),

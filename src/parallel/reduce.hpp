@@ -54,6 +54,28 @@ struct Reduction {
   }
 };
 
+/// The sum of a functor's vectors.
+template <class Functor>
+struct VectorSum {
+  Functor functor;
+  CellRange range;
+  KOKKOS_FUNCTION void operator()(int item, Real& x, Real& y, Real& z) const {
+    Body<Functor> body = functor;
+    const CellsOfItem at(range, item);
+    Real row_x = 0, row_y = 0, row_z = 0;
+#pragma omp simd reduction(+ : row_x, row_y, row_z)
+    for (int i = at.i0; i < at.i1; ++i) {
+      const Vec3 value = body(i, at.j, at.k);
+      row_x += value.x;
+      row_y += value.y;
+      row_z += value.z;
+    }
+    x += row_x;
+    y += row_y;
+    z += row_z;
+  }
+};
+
 }  // namespace launch_detail
 
 /// Sum of functor(i, j, k), which may also write, over the cells of all ranks. The order of
@@ -65,6 +87,18 @@ Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) 
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
                           launch_detail::Reduction<false, Functor>{functor, range}, sum);
   return sum_over(ranks_of(grid), sum);
+}
+
+/// The same of vectors, over the given cells of each rank.
+template <class Functor>
+Vec3 sum_vector(const char* label, const Grid& grid, const CellRange& range,
+                const Functor& functor) {
+  std::vector<Real> sum(3);
+  Kokkos::parallel_reduce(label, launch_detail::policy(range),
+                          launch_detail::VectorSum<Functor>{functor, range}, sum[0], sum[1],
+                          sum[2]);
+  sum_over(ranks_of(grid), sum);
+  return {sum[0], sum[1], sum[2]};
 }
 
 /// Largest functor(i, j, k) over the cells of this rank, for values that are not negative; infinity

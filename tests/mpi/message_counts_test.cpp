@@ -109,11 +109,11 @@ MessageCounts scatter_add(const Grid& grid) {
                       5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Unsmoothed fraction; pressure and stress on faces, on cells, three of these smoothed, and what
-/// either side gets of them; convective acceleration. Fraction, smoothed; exchange; totals, volume.
-/// Velocity changes; totals, six sums over faces.
+/// Unsmoothed fraction; extent of the grains; pressure and stress on faces, on cells, three of
+/// these smoothed, and what either side gets of them; convective acceleration. Fraction, smoothed;
+/// exchange; totals, volume. Velocity changes; totals, six sums over faces.
 MessageCounts exchange(const Grid& grid) {
-  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(2 * (3 + 1)) +
+  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(5 + 2 * 2) +
          scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(2) +
          3 * fill(grid) + reductions(1 + 6);
 }
