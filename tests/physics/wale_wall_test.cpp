@@ -53,6 +53,17 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   EXPECT_NEAR(rotation, 0.9036, 5e-5);
 }
 
+/// The cube root of the volume of a cell that is wide, deep and flat.
+TEST(WaleOnGrid, FilterWidthIsThatOfTheCellsVolume) {
+  const Grid grid = test::stretched_grid({6, 7, 5}, {0.4, 0.3, 0.9}, 0.02);
+  const HostGrid h(grid);
+  const Kokkos::View<Real*> width("width", grid.ny);
+  Kokkos::parallel_for("test", grid.ny, FilterWidth{grid, 0.3, width});
+  const auto rows = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), width);
+  for (int j = 0; j < grid.ny; ++j)
+    EXPECT_NEAR(std::pow(rows(j) / 0.3, 3), 0.4 / 6 * h.dy(j) * 0.9 / 5, 1e-14);
+}
+
 /// The first terms of a turbulent flow in the distance from a wall, in wall units: u = y f(x, z),
 /// w = y g(x, z), v = -y^2 (df/dx + dg/dz) / 2, streaks of 100 by 400. Ten rows within y+ = 5.
 TEST(WaleOnGrid, EddyViscosityGrowsWithTheCubeOfTheWallDistance) {
