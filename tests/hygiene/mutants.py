@@ -7,7 +7,8 @@ variable BARCHAN_MUTANT chooses by its number. Every error meets the same tests,
 at the first one that fails. Ends with 1 if under 95 % are noticed, with 2 if a text of the table does not occur
 exactly once or a test fails without an error.
 
-    tests/hygiene/mutants.py [--list] [--jobs N] [WORD ...]     only errors with a WORD in their file or description
+    tests/hygiene/mutants.py [--list] [--jobs N] [WORD ...]     only errors with this number, or with the WORD in their
+                                                              file or description
 """
 import argparse
 import concurrent.futures
@@ -27,9 +28,10 @@ SOURCE, BUILD = WORK / "source", WORK / "build"
 ENOUGH = 0.95
 RANKS = (1, 2, 3)
 # Unit tests of files, words and configuration, which no error of the table can reach, are not built.
-LEFT_OUT = re.compile(r"tests/unit/(checkpoint|command_line|config_\w+|derived|foreign_files|frame_file|grain_files|"
-                      r"hdf5_file|info|mesh|output|parallel_files|pour|report|run_folder|seal|shipped_configs|watchdog)_"
-                      r"test.cpp")
+LEFT_OUT = re.compile(
+    r"tests/unit/(checkpoint|command_line|config_\w+|derived|foreign_files|frame_file|grain_files|hdf5_file|info|mesh|"
+    r"output|parallel_files|pour|report|run_folder|seal|shipped_configs|watchdog)_test.cpp"
+)
 TOGETHER = 0.3  # tests that take less go into one group [s]
 SPOT = re.compile(r"\{\{(.*?) => (.*?)\}\}", re.S)
 TIMED = re.compile(r"^\[       OK \] ([\w/.]+)(?:,.*)? \((\d+) ms\)", re.M)
@@ -51,8 +53,9 @@ def stop(message):
 
 def read_table():
     with TABLE.open("rb") as file:
-        table = tomllib.load(file)["mutant"]
-    return [{"number": number, **entry} for number, entry in enumerate(table, 1)]
+        table = [(name, breaks, text) for name, errors in tomllib.load(file).items() for breaks, text in errors.items()]
+    return [{"number": number, "file": name, "breaks": breaks, "text": text}
+            for number, (name, breaks, text) in enumerate(table, 1)]
 
 
 # --- the copy of the source
@@ -106,7 +109,7 @@ def copy_source(mutants):
         if name == "cmake/flags.cmake":  # a wrong text may leave a variable unused
             content = content.replace(b"-Wpedantic -Werror", b"-Wpedantic")
         if name == "tests/CMakeLists.txt":  # built faster; what counts is compiled in the library
-            content = content.replace(b"IN ITEMS unit_tests mpi_tests)", b"IN ITEMS unit_tests mpi_tests physics_tests)")
+            content = content.replace(b"unit_tests mpi_tests)", b"unit_tests mpi_tests physics_tests)")
         write_if_changed(SOURCE / name, content)
     write_if_changed(SOURCE / "kernels/math/mutant.hpp", SWITCH.encode())
     for name in {m["file"] for m in mutants} - names:
@@ -117,13 +120,15 @@ def build():
     # The Kokkos of another build serves here, too.
     cache = ROOT / "build/release/CMakeCache.txt"
     found = re.search(r"^Kokkos_DIR:PATH=(.*)$", cache.read_text(), re.M) if cache.is_file() else None
+    # Outside git's reach: a new commit is not a new program.
+    environment = os.environ | {"GIT_CEILING_DIRECTORIES": str(WORK)}
     with (WORK / "build.log").open("w") as log:
         for command in (
             ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARCHAN_BENCH=OFF"]
             + ([f"-DKokkos_DIR={found[1]}"] if found else []),
             ["cmake", "--build", BUILD, "--target", "unit_tests", "physics_tests", "mpi_tests"],
         ):
-            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0:
+            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode != 0:
                 stop(f"the copy does not build, see {WORK / 'build.log'}")
 
 
@@ -162,7 +167,7 @@ def passed(name, program, command, times):
 
 
 def groups_of_tests():
-    """Commands and what they take without an error [s], the fast ones first."""
+    """Commands and what they take without an error [s]: the many fast tests first."""
     groups = []
     for name in ("unit_tests", "physics_tests"):
         took = passed(name, name, [BUILD / name, "--gtest_filter=-*Nightly*"],
@@ -170,11 +175,12 @@ def groups_of_tests():
         fast = [test for test, seconds in took.items() if seconds < TOGETHER]
         for tests in [fast] + [[test] for test in took if test not in fast]:
             command = [BUILD / name, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)]
-            groups.append((command, sum(took[test] for test in tests)))
+            groups.append((len(tests) == 1, sum(took[test] for test in tests), command))
     for ranks in RANKS:  # one rank that stops at its first failure would leave the others waiting
-        command = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-np", str(ranks), BUILD / "mpi_tests"]
-        groups.append((command, passed(f"ranks_{ranks}", "mpi_tests", command, lambda _, seconds: seconds)))
-    return sorted(groups, key=lambda group: group[1])
+        command = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-np", str(ranks), BUILD / "mpi_tests",
+                   "--gtest_color=no"]
+        groups.append((True, passed(f"ranks_{ranks}", "mpi_tests", command, lambda _, seconds: seconds), command))
+    return [(command, seconds) for _, seconds, command in sorted(groups, key=lambda group: group[:2])]
 
 
 def judge(mutant, groups):
@@ -186,6 +192,10 @@ def judge(mutant, groups):
     return None
 
 
+def is_meant(mutant, word):
+    return word == str(mutant["number"]) if word.isdigit() else word in mutant["file"] + mutant["breaks"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("words", nargs="*", metavar="WORD")
@@ -193,7 +203,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="errors tried side by side")
     arguments = parser.parse_args()
     table = read_table()
-    chosen = [m for m in table if not arguments.words or any(w in m["file"] + m["breaks"] for w in arguments.words)]
+    chosen = [m for m in table if not arguments.words or any(is_meant(m, word) for word in arguments.words)]
     copy_source(table)
     if arguments.list:
         for m in chosen:
@@ -201,10 +211,13 @@ def main():
         return 0
     build()
     groups = groups_of_tests()
-    print(f"mutants: without an error {len(groups)} groups of tests pass in {sum(s for _, s in groups):.0f} s", flush=True)
+    seconds = sum(s for _, s in groups)
+    print(f"mutants: without an error {len(groups)} groups of tests pass in {seconds:.0f} s", flush=True)
     survived = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for m, found in zip(chosen, pool.map(lambda m: judge(m, groups), chosen)):
+        tried = {pool.submit(judge, m, groups): m for m in chosen}
+        for done in concurrent.futures.as_completed(tried):
+            m, found = tried[done], done.result()
             survived += found is None
             print(f"{m['number']:3d} {'SURVIVED' if found is None else 'killed  '} {m['file']}: {m['breaks']}"
                   + (f" [{found}]" if found else ""), flush=True)

@@ -89,6 +89,18 @@ TEST(Coupling, LedgerClosesToRoundOff) {
   EXPECT_NE(entries.at("impulse_implicit_on_fluid_x"), 0);
 }
 
+// The implicit part that the flow lost in its first step is owed to the grains after it.
+TEST(Coupling, WhatTheImplicitPartTookIsOwedToTheGrains) {
+  Coupled c(coupled_config());
+  c.advance(1);
+  const auto carried = testing::host_copy(c.state.grains->exchange.carried_impulse);
+  Vec3 owed;
+  for (int g = 0; g < c.state.grains->n; ++g) owed += carried(g);
+  const Vec3 lost = c.step.exchange().implicit_on_fluid;
+  EXPECT_GT(norm(lost), 0);
+  EXPECT_LT(norm(owed - lost), 1e-10 * norm(lost));
+}
+
 TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
   for (const VoidFraction v : {VoidFraction::divided, VoidFraction::centre}) {
     for (const DragLaw law : {DragLaw::di_felice, DragLaw::koch_hill, DragLaw::syamlal_obrien,
