@@ -28,14 +28,14 @@ Real wedge_angle(const HostGrains& h) {
 
 /// A column 4 mm wide and 3.6 mm high, periodic across; the floor is the same for all frictions.
 /// Soft grains: overlaps stay below 1 % of d under 40 Pa.
-Real repose_angle(Real mu, Real mu_r) {
+Real repose_angle(Real mu, Real mu_r, unsigned packing) {
   Config config = grain_config();
   config.size = {0.004, 0.006, 0.00135};
   Material& m = config.grains->material;
   m.youngs_modulus = 5e5, m.sliding_friction = mu, m.rolling_friction = mu_r;
   config.grains->wall = m;
   config.grains->wall.sliding_friction = 1, config.grains->wall.rolling_friction = 0.5;
-  InitialGrains grains = lattice_packing(kGrains, config.size, 0.005);
+  InitialGrains grains = lattice_packing(kGrains, config.size, 0.005, packing);
   config.size[0] = 2 * kCentre;
   for (Vec3& x : grains.x) x.x += kCentre - 0.002;
   GrainBench bench(config, grains);
@@ -45,18 +45,29 @@ Real repose_angle(Real mu, Real mu_r) {
   EXPECT_EQ(h.n, kGrains);
   const Real lift = 1e-8 * 9.81 * 2e-4;  // energy that lifts a grain by its diameter [J]
   EXPECT_LT(h.kinetic_energy() / kGrains, 1e-2 * lift) << "it still flows";
-  const Real angle = wedge_angle(h);
-  std::printf("[ measured ] angle of repose at mu %.2f, mu_r %.2f: %.2f degrees\n", mu, mu_r,
-              angle);
-  return angle;
+  return wedge_angle(h);
 }
 
-TEST(ReposeNightly, GrowsWithSlidingAndRollingFriction) {
-  const Real both = repose_angle(0.6, 0.1);
-  const Real slippery = repose_angle(0.1, 0.1), medium = repose_angle(0.3, 0.1);
+/// Mean of four packings, compared with that of LIGGGHTS 3.8.0 (Debian) for the same packings, law
+/// (hertz tangential history, rolling_friction epsd2), floor and step. One packing's angle has a
+/// standard deviation of 0.62 degrees (eight of them in LIGGGHTS at mu 0.6, mu_r 0.1), so the
+/// difference of two such means one of 0.44: the tolerance is three of these.
+Real mean_repose_angle(Real mu, Real mu_r, Real liggghts) {
+  Real sum = 0;
+  for (const unsigned packing : {1u, 2u, 3u, 4u}) sum += repose_angle(mu, mu_r, packing);
+  char claim[80];
+  std::snprintf(claim, sizeof claim, "slope of a heap at mu %.1f, mu_r %.1f [degrees]", mu, mu_r);
+  expect_absolute(claim, sum / 4, liggghts, 1.3);
+  return sum / 4;
+}
+
+TEST(ReposeNightly, IsThatOfLiggghtsAndGrowsWithSlidingAndRollingFriction) {
+  const Real both = mean_repose_angle(0.6, 0.1, 17.72);
+  const Real slippery = mean_repose_angle(0.1, 0.1, 13.34);
+  const Real medium = mean_repose_angle(0.3, 0.1, 16.67);
   EXPECT_LT(slippery, medium);
   EXPECT_LT(medium, both);
-  const Real smooth = repose_angle(0.6, 0), rough = repose_angle(0.6, 0.3);
+  const Real smooth = mean_repose_angle(0.6, 0, 15.29), rough = mean_repose_angle(0.6, 0.3, 18.71);
   EXPECT_LT(smooth, both);
   EXPECT_LT(both, rough);
 }
@@ -99,7 +110,7 @@ void expect_settled(const std::string& name, Real shift) {
   const HostGrains h(bench.state);
   const Real energy = translational_energy(h);
   print_measured(name + ", energy of rotation [J]", h.kinetic_energy() - energy, 0, 0);
-  expect_absolute(name + ", kinetic energy [J]", energy, 0, 2e-10);
+  expect_relative(name + ", kinetic energy [J]", energy, 1.8e-10, 0.1);  // a frozen heap has none
   print_measured(name + ", contacts per grain after 2200 steps", per_grain(), 4.07, 0.02);
 }
 

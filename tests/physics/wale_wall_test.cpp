@@ -48,9 +48,24 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   check([=](double, double y, double z) { return Vec3{0, a * y, -a * z}; }, strain);
   check([=](double x, double y, double) { return Vec3{-a * y, a * x, 0}; }, rotation);
   check([=](double x, double, double z) { return Vec3{a * z, 0, -a * x}; }, rotation);
+  // The same strain with its axes at 45 degrees.
+  check([=](double x, double y, double) { return Vec3{a * y, a * x, 0}; }, strain);
+  check([=](double, double y, double z) { return Vec3{0, a * z, a * y}; }, strain);
+  check([=](double x, double, double z) { return Vec3{a * z, 0, a * x}; }, strain);
   testing::expect_below("WALE at rest, in shear, strain, rotation", worst, 1e-14);
   EXPECT_NEAR(strain, 0.0870, 5e-5);
   EXPECT_NEAR(rotation, 0.9036, 5e-5);
+}
+
+/// The cube root of the volume of a cell that is wide, deep and flat.
+TEST(WaleOnGrid, FilterWidthIsThatOfTheCellsVolume) {
+  const Grid grid = test::stretched_grid({6, 7, 5}, {0.4, 0.3, 0.9}, 0.02);
+  const HostGrid h(grid);
+  const Kokkos::View<Real*> width("width", grid.ny);
+  Kokkos::parallel_for("test", grid.ny, FilterWidth{grid, 0.3, width});
+  const auto rows = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), width);
+  for (int j = 0; j < grid.ny; ++j)
+    EXPECT_NEAR(std::pow(rows(j) / 0.3, 3), 0.4 / 6 * h.dy(j) * 0.9 / 5, 1e-14);
 }
 
 /// The first terms of a turbulent flow in the distance from a wall, in wall units: u = y f(x, z),

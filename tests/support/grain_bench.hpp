@@ -24,6 +24,8 @@ struct GrainBench {
   GrainKinematics grain(std::int64_t id) const { return kinematics()(row_of(id)); }
   /// Sum of its contact forces in the last sub-step [N].
   Vec3 contact_force(std::int64_t id) const { return host_copy(state.contact_force)(row_of(id)); }
+  /// Sum of their torques [N m].
+  Vec3 contact_torque(std::int64_t id) const { return host_copy(state.contact_torque)(row_of(id)); }
 
   GrainState state;
   GrainSolver solver;

@@ -115,6 +115,17 @@ TEST(ContactLaw, DampingDeliversTheRestitution) {
   }
 }
 
+// A9, A10: gamma = 2 sqrt(5/6) damping sqrt(S m) with the stiffness S that a small motion meets,
+// dF_n/d(delta) = 3/2 k_n along the normal and k_t across.
+TEST(ContactLaw, DashpotsBelongToTheirSprings) {
+  const Real m = 1e-8, damping = damping_ratio(0.3);
+  const ContactStiffness k = law(0.3)(kRadius / 2, m, 1e-6);
+  const Real per_spring = 10.0 / 3 * damping * damping * m;
+  EXPECT_NEAR(k.gamma_n * k.gamma_n / (per_spring * 1.5 * k.k_n), 1, 1e-12);
+  EXPECT_NEAR(k.gamma_t * k.gamma_t / (per_spring * k.k_t), 1, 1e-12);
+  EXPECT_NEAR(k.k_t / k.k_n, 6 * law(0.3).g_eff / law(0.3).e_eff, 1e-12);  // Mindlin over Hertz
+}
+
 ContactPair sliding_pair(Real slip) {
   return {.normal = {0, 1, 0},
           .delta_n = 1e-6,
@@ -150,6 +161,31 @@ TEST(ContactForce, NeverLeavesTheCoulombConeWhenElastic) {
     EXPECT_NEAR(dot(c.xi_t, pair.normal), 0, 1e-20);
     EXPECT_NEAR(norm(c.n_cross_f_t), norm(tangential), 1e-12 * c.force.y);
   }
+}
+
+// The normal of a pair turns; its spring turns with it.
+TEST(ContactForce, TangentialDisplacementLiesInTheTangentPlane) {
+  ContactResult history;
+  history.xi_t = {1e-9, 2e-9, 3e-9};  // of a contact whose normal was another
+  const ContactResult c =
+      contact_force(law(1), NoRolling{}, Friction{.sliding = 0.6}, sliding_pair(0), history, 1e-7);
+  EXPECT_EQ(c.xi_t.y, 0);
+  EXPECT_EQ(c.xi_t.x, 1e-9);
+  EXPECT_NEAR(c.force.z / c.force.x, 3, 1e-14);
+}
+
+// Also where the contact slides another way than its spring points, and its dashpot is not along
+// it.
+TEST(ContactForce, SlidingFrictionIsAlongTheSpring) {
+  ContactResult history;
+  history.xi_t = {1e-6, 0, 0};
+  ContactPair pair = sliding_pair(0);
+  pair.slip.z = 0.1;
+  const Friction friction{.sliding = 0.6};
+  const ContactResult c = contact_force(law(0.1), NoRolling{}, friction, pair, history, 1e-7);
+  EXPECT_NEAR(std::hypot(c.force.x, c.force.z), 0.6 * c.force.y, 1e-12 * c.force.y);
+  EXPECT_NEAR(c.force.z / c.force.x, 0.1 * 1e-7 / 1e-6, 1e-12);
+  EXPECT_LT(c.force.x, 0);
 }
 
 TEST(ContactForce, OppositeRolesGiveOppositeForces) {
@@ -219,6 +255,16 @@ TEST(LinearSpring, DeliversTheRestitution) {
     x += dt * v;
   } while (x > 0);
   EXPECT_NEAR(-v / 0.1, 0.5, 1e-3);
+}
+
+// Schaefer, Dippel & Wolf 1996: 2/7 of the mass answers at the contact point of a solid sphere, so
+// that springs with k_t = 2/7 k_n swing with one period. Both dashpots have the same damping ratio.
+TEST(LinearSpring, SwingsAcrossAsItSwingsAlong) {
+  const Real damping = damping_ratio(0.5), m = 1e-8;
+  const ContactStiffness k = LinearSpring{.k_n = 100, .damping = damping}(0, m, 0);
+  EXPECT_NEAR(k.k_t / (Real(2) / 7 * m) / (k.k_n / m), 1, 1e-14);
+  EXPECT_NEAR(k.gamma_n / (2 * std::sqrt(m * k.k_n)), damping, 1e-14);
+  EXPECT_NEAR(k.gamma_t / (2 * std::sqrt(m * k.k_t)), damping, 1e-14);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Exchange between fluid and grains: nothing is lost on the way, in either direction.
 #include <gtest/gtest.h>
 
+#include "kernels/coupling/deposit.hpp"
+#include "kernels/coupling/gather.hpp"
 #include "src/fluid/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
@@ -16,6 +18,67 @@ struct Coupled : test::CoupledRun {
   explicit Coupled(const Config& c) : CoupledRun(c, make_initial_state(c, {})) {}
 };
 
+GrainExchange exchange_of_first(const ExchangeOfGrain& of) {
+  const Kokkos::View<GrainExchange*> result("test: exchange", 1);
+  Kokkos::parallel_for(
+      "test: exchange", 1, KOKKOS_LAMBDA(int g) { result(g) = of(g); });
+  return testing::host_copy(result)(0);
+}
+
+// What one grain gives the fluid: a part of its impulse follows the fluid's velocity within the
+// step.
+TEST(Coupling, ExchangeOfAGrainIsDragAndAddedMass) {
+  const Real dt = 2.5e-4, beta = 3e-6, volume = sphere_volume(1e-4);
+  const Kokkos::View<GrainKinematics*> grains("test: grain", 1);
+  Kokkos::deep_copy(grains, {.x = {}, .r = 1e-4, .u = {0.3, 0.1, 0}, .m = 1e-8, .omega = {}});
+  FluidOnGrains on;
+  on.beta = Kokkos::View<Real*>("test: beta", 1);
+  on.added_mass = Kokkos::View<Real*>("test: added mass", 1);
+  on.drag_impulse = Kokkos::View<Vec3*>("test: drag", 1);
+  on.u_start = Kokkos::View<Vec3*>("test: start", 1);
+  ExchangeOnGrains exchange;
+  exchange.added_mass_force = Kokkos::View<Vec3*>("test: convective", 1);
+  Kokkos::deep_copy(on.beta, beta);
+  Kokkos::deep_copy(on.added_mass, sphere_added_mass(1000, volume));
+  Kokkos::deep_copy(on.drag_impulse, Vec3{1e-10, 2e-10, 3e-10});
+  Kokkos::deep_copy(on.u_start, Vec3{0.1, 0.1, 0.1});
+  Kokkos::deep_copy(exchange.added_mass_force, Vec3{4e-7, 0, 0});
+  const ExchangeOfGrain of{.dt = dt, .grains = grains, .on_grains = on, .exchange = exchange};
+  const GrainExchange given = exchange_of_first(of);
+  EXPECT_NEAR(given.volume, volume, 1e-15 * volume);
+  const Real added = 1000 * volume / 2;  // rho V/2 of a sphere
+  EXPECT_NEAR(given.implicit / (dt * beta + added), 1, 1e-14);
+  const Vec3 impulse{1e-10 + dt * 4e-7 - added * 0.2, 2e-10, 3e-10 + added * 0.1};
+  EXPECT_NEAR(norm(given.impulse - impulse), 0, 1e-14 * norm(impulse));
+}
+
+// The share of a grain's view of the flow that is new (docs/numerics.md, "Dense beds"): alone, one
+// implicit step towards the flow; without drag, its inertia beside that of the water to be squeezed
+// out, r (1 + r/2) of its own volume, r = (1 - alpha)/alpha.
+TEST(Coupling, RelaxationIsByDragAndSqueezedWater) {
+  const Real inertia = 3e-8, displaced = 1e-8, beta = 4e-5, dt = 5e-4;
+  EXPECT_NEAR(exchange_relaxation(inertia, displaced, beta, 1, dt), 3.0 / 5, 1e-14);
+  EXPECT_NEAR(exchange_relaxation(inertia, displaced, 0, 0.4, dt), 3 / (3 + 1.5 * 1.75), 1e-14);
+  EXPECT_NEAR(exchange_relaxation(inertia, displaced, beta, 0.5, dt), 3 / (3 + 1.5 + 2 / 0.25),
+              1e-14);
+}
+
+// Between the floor and the first face above it the pressure force is that of this face.
+TEST(Coupling, PressureForceAtTheFloorIsThatOfTheFirstFace) {
+  Config config = test::water_box({4, 6, 4}, {4e-3, 6e-3, 4e-3});
+  config.grains->frozen = true;
+  InitialGrains grain;
+  testing::add_grain(grain, 2e-4, {1.7e-3, 3e-4, 2.2e-3});
+  test::CoupledRun run(config, grain);
+  run.advance();
+  test::set_everywhere(run.state.fluid->p, test::HostGrid(run.state.fluid->grid).ref(),
+                       [](int, int j, int) { return 5.0 * j * j; });
+  const Real gradient = 5.0 / 1e-3;  // from row 0 to row 1
+  EXPECT_NEAR(
+      test::force_on_first(run, "force_pressure_gradient").y / (-gradient * sphere_volume(1e-4)), 1,
+      1e-12);
+}
+
 TEST(Coupling, LedgerClosesToRoundOff) {
   Coupled c(coupled_config());
   c.advance(30);
@@ -25,6 +88,18 @@ TEST(Coupling, LedgerClosesToRoundOff) {
   EXPECT_LT(entries.at("largest_carried_mismatch"), 1e-10);
   EXPECT_GT(entries.at("impulse_given_to_grains_x"), 0) << "the flow pushes the grains along";
   EXPECT_NE(entries.at("impulse_implicit_on_fluid_x"), 0);
+}
+
+// The implicit part that the flow lost in its first step is owed to the grains after it.
+TEST(Coupling, WhatTheImplicitPartTookIsOwedToTheGrains) {
+  Coupled c(coupled_config());
+  c.advance(1);
+  const auto carried = testing::host_copy(c.state.grains->exchange.carried_impulse);
+  Vec3 owed;
+  for (int g = 0; g < c.state.grains->n; ++g) owed += carried(g);
+  const Vec3 lost = c.step.exchange().implicit_on_fluid;
+  EXPECT_GT(norm(lost), 0);
+  EXPECT_LT(norm(owed - lost), 1e-10 * norm(lost));
 }
 
 TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {

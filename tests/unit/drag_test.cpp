@@ -43,6 +43,17 @@ TEST(Drag, IsFiniteAtZeroSlipAndStokesWhenAlone) {
   }
 }
 
+// Beetstra et al. at Re -> 0 are van der Hoef et al. (2005): F = 10 s/a^2 + a^2 (1 + 1.5 sqrt(s))
+// in units of Stokes drag at the superficial slip a (u_f - u). In a mixture a grain of y mean
+// diameters feels a y + s y^2 + 0.064 a y^3 of it.
+TEST(Drag, BeetstraInSlowFlowIsVanDerHoefs) {
+  const Real stokes = 3 * std::numbers::pi_v<Real> * 1e-3 * 2e-4, a = 0.5;
+  const Real f = 10 * 0.5 / 0.25 + 0.25 * (1 + 1.5 * std::sqrt(0.5));
+  const auto beta = [](Real d) { return Beetstra{.d_mean = 2e-4}(water(0.5, 0, d)); };
+  EXPECT_NEAR(beta(2e-4) / (stokes * a * f * (1 + 0.064 * a)), 1, 1e-6);
+  EXPECT_NEAR(beta(3e-4) / beta(2e-4), (0.75 + 0.5 * 2.25 + 0.032 * 3.375) / 1.032, 1e-12);
+}
+
 TEST(Drag, VelocityRatioIsOneForALoneGrain) {
   for (const Real reynolds : {0.01, 1.0, 100.0}) {
     EXPECT_NEAR(terminal_velocity_ratio(1, reynolds), 1, 1e-12);

@@ -116,6 +116,45 @@ TEST(FluidStencil, StressOfAParabolaAndConvectionOfALinearFlow) {
   });
 }
 
+// Each velocity counts for the volume around its face: v = 1 for that between the centres of the
+// lowest and the highest row, u and w for all.
+TEST(FluidStencil, KineticEnergyWeighsFacesWithTheirVolumes) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  for (const std::size_t moving : {0u, 1u, 2u}) {
+    const FaceVector u = make_faces("test", grid);
+    test::set_faces(u, grid, [&](std::size_t axis, double, double y, double) {
+      return axis == moving && (axis != 1 || y > 1e-9) ? 1.0 : 0.0;
+    });
+    const Field alpha("alpha", grid);
+    Kokkos::deep_copy(alpha.storage, Real(0.5));
+    const Real energy = sum_each_cell("test", grid, KineticEnergy{grid, u, alpha});
+    const double height = moving == 1 ? h.y(grid.ny - 1) - h.y(0) : 0.3;
+    EXPECT_NEAR(energy / (grid.nx * grid.nz), 0.25 * height, 1e-14);
+  }
+}
+
+// div((nu + nu_t) 2S) of a linear flow is 2S grad(nu_t): exact for parabolas along x and z.
+TEST(FluidStencil, StressOfALinearFlowInAVaryingViscosity) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  FaceVector tau = make_faces("test", grid), acceleration = make_faces("test", grid);
+  const Field nu_t("nu_t", grid);
+  const double c = 0.7;
+  test::set_everywhere(nu_t, h.ref(),
+                       [&](int i, int, int k) { return c * (h.x(i) * h.x(i) + h.z(k) * h.z(k)); });
+  const FaceVector u = linear_and_parabola(grid, 1, 0);
+  for_each_cell("test", grid, StoreFaces{grid, {grid, u, nu_t, 0.5}, {grid, u}, tau, acceleration});
+  const auto x = test::to_host(tau.x), y = test::to_host(tau.y), z = test::to_host(tau.z);
+  const Mat3& g = kGradient;
+  const double xx = 2 * g.xx, xy = g.xy + g.yx, xz = g.xz + g.zx, yz = g.yz + g.zy, zz = 2 * g.zz;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    EXPECT_NEAR(x(i, j, k), 2 * c * (xx * h.x_face(i) + xz * h.z(k)), 1e-9);
+    EXPECT_NEAR(y(i, j, k), 2 * c * (xy * h.x(i) + yz * h.z(k)), 1e-9);
+    EXPECT_NEAR(z(i, j, k), 2 * c * (xz * h.x(i) + zz * h.z_face(k)), 1e-9);
+  });
+}
+
 /// What the face of a direction ('x', 'y' or 'z') holds: mean times the face cell's height. The
 /// half cells at the walls belong to the lowest and highest face.
 struct FaceContent {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "kernels/grains/grain_sums.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {
@@ -68,6 +69,59 @@ TEST(GrainSolver, ObliqueCollisionConservesAngularMomentum) {
   EXPECT_GT(norm(rows_by_id(c.state)[1].omega - Vec3{50, -20, 10}), 1) << "they did collide";
 }
 
+TEST(GrainSolver, AWallReturnsByItsOwnRestitution) {
+  Config config = grain_config();
+  config.grains->material.restitution = 0.1;
+  config.grains->wall.restitution = 0.8;
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 1.01e-4, 0.005}, {0, -0.05, 0});
+  GrainBench c(config, g);
+  c.advance(4000, 5e-8);
+  EXPECT_NEAR(c.grain(1).u.y / 0.05, 0.8, 1e-3);
+}
+
+TEST(GrainSolver, KineticEnergyIsOfTranslationAndRotation) {
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.3, 0, 0.4}, {0, 1000, 0});
+  const GrainBench c(grain_config(), g);
+  Real energy = 0;
+  Kokkos::parallel_reduce("test: energy", c.state.n, GrainKineticEnergy{c.state.kin}, energy);
+  const Real m = 2500 * sphere_volume(1e-4);
+  EXPECT_NEAR(energy / (m * (0.25 / 2 + 0.4 * 1e-8 * 1e6 / 2)), 1, 1e-14);
+}
+
+// --- The list of neighbours in time.
+
+/// Two grains that fly at each other from just beyond the reach of the first list.
+GrainBench head_on() {
+  Config config = grain_config();
+  config.grains->skin = 2e-5;
+  const Real apart = 2e-4 + 1.01 * config.grains->skin;
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.5, 0, 0});
+  add_grain(g, 2e-4, {0.005 + apart, 0.005, 0.005}, {-0.5, 0, 0});
+  return {config, g};
+}
+
+TEST(GrainSolver, GrainsFromBeyondTheSkinMeetAtTheirFirstTouch) {
+  const Real dt = 5e-8, way = 2 * 0.5 * dt;  // towards each other in a step
+  GrainBench c = head_on();
+  EXPECT_EQ(c.state.list.n_pairs, 0);
+  while (c.solver.contacts(c.state).n_contacts == 0 && c.grain(1).u.x == 0.5) c.advance(1, dt);
+  const Real overlap = 2e-4 * c.solver.contacts(c.state).max_overlap;
+  EXPECT_GT(overlap, 0);
+  EXPECT_LE(overlap, way * (1 + 1e-9));
+
+  GrainBench at_once = head_on(), always = head_on();
+  at_once.advance(800, dt);
+  for (int n = 0; n < 800; ++n) {
+    always.solver.list().rebuild(always.state, false);
+    always.advance(1, dt);
+  }
+  EXPECT_LT(at_once.grain(1).u.x, 0) << "they have met";
+  EXPECT_EQ(at_once.grain(1).u.x, always.grain(1).u.x);
+}
+
 TEST(GrainSolver, DragRelaxesToTheFluid) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.002, 0.005, 0.005});
@@ -95,6 +149,42 @@ InitialGrains gas() {
               {0.4 * u(), 0.4 * u(), 0.4 * u()});
   }
   return g;
+}
+
+/// Angular momentum of all grains about the middle of the box, and the sum of the sizes of their
+/// spins' parts [kg m^2/s].
+struct AngularMomentum {
+  Vec3 total;
+  Real spin = 0;
+};
+AngularMomentum angular_momentum(const GrainBench& c) {
+  AngularMomentum sum;
+  const auto kin = c.kinematics();
+  for (int g = 0; g < c.state.n; ++g) {
+    const Vec3 spin = sphere_inertia(kin(g).m, kin(g).r) * kin(g).omega;
+    sum.total += kin(g).m * cross(kin(g).x - Vec3{0.005, 0.005, 0.005}, kin(g).u) + spin;
+    sum.spin += norm(spin);
+  }
+  return sum;
+}
+
+// Also of pairs whose grains two chunks share, which add up their forces in a way of their own.
+TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
+  for (const RollingModel model : {RollingModel::epsd2, RollingModel::theta_m, RollingModel::cdt}) {
+    Config config = grain_config();
+    config.grains->material.rolling_friction = 0.3;
+    config.grains->rolling_model = model;
+    InitialGrains g = gas();
+    for (Vec3& x : g.x) x += Vec3{0.0035, 0.0035, 0.0035};  // away from the walls
+    GrainBench c(config, g);
+    const AngularMomentum before = angular_momentum(c);
+    c.advance(600, 2.5e-6);
+    const AngularMomentum after = angular_momentum(c);
+    EXPECT_GT(c.state.list.n_crossing, 100);
+    EXPECT_GT(c.solver.contacts(c.state).n_contacts, 10);
+    EXPECT_GT(after.spin, 0) << "they roll";
+    EXPECT_LT(norm(after.total - before.total), 1e-11 * after.spin);
+  }
 }
 
 // Sub-steps launched ahead of a stale list do nothing until it is rebuilt.

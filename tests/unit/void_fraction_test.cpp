@@ -77,6 +77,10 @@ TEST(DepositStencil, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
   const GridRef grid = host.ref();
   const DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, false);
   EXPECT_EQ(stencil.cell_of({0.001, -1e-5, 0.001}, 0), stencil.cell_of({0.001, 1e-5, 0.001}, 0));
+  // As far below the lid as it was above, though that is another row.
+  const CellIndex below_lid = stencil.cell_of({0.001, 0.004 - 8e-4, 0.001}, 8);
+  EXPECT_EQ(below_lid.j, 7);
+  EXPECT_EQ(stencil.cell_of({0.001, 0.004 + 8e-4, 0.001}, 8), below_lid);
   EXPECT_EQ(stencil.cell_of({0.001, 1e-5, -1e-5}, 0), stencil.cell_of({0.001, 1e-5, 0.00799}, 0));
   EXPECT_EQ(stencil.cell_of({0.01125, 1e-5, 0.001}, 0), stencil.cell_of({0.0111, 1e-5, 0.001}, 0));
   const DepositStencil periodic = deposit_stencil_in(grid, PointSet::divided, true);
