@@ -17,7 +17,7 @@ struct Deposits {
 struct GrainExchange {
   Real volume;    // [m^3]
   Real implicit;  // dt beta + added mass [kg]
-  Vec3 impulse;   // drag and added mass on the grain during the sub-steps [N s]
+  Vec3 impulse;   // drag, added mass and lift on the grain during the sub-steps [N s]
 };
 
 struct ExchangeOfGrain {
@@ -29,9 +29,11 @@ struct ExchangeOfGrain {
   KOKKOS_INLINE_FUNCTION GrainExchange operator()(int g) const {
     const GrainKinematics grain = grains(g);
     const Real added_mass = on_grains.added_mass(g);
+    Vec3 steady = exchange.added_mass_force(g);
+    if (exchange.lift.extent(0) > 0) steady += exchange.lift(g);
     return {.volume = sphere_volume(grain.r),
             .implicit = dt * on_grains.beta(g) + added_mass,
-            .impulse = on_grains.drag_impulse(g) + dt * exchange.added_mass_force(g) -
+            .impulse = on_grains.drag_impulse(g) + dt * steady -
                        added_mass * (grain.u - on_grains.u_start(g))};
   }
 };

@@ -38,18 +38,38 @@ struct SchillerNaumann {
   }
 };
 
+/// Wen & Yu (1966) with Schiller-Naumann; Re = alpha_f d slip / nu.
+KOKKOS_FORCEINLINE_FUNCTION Real wen_yu(const LocalFlow& f) {
+  return schiller_naumann(f, reynolds_number(f, f.alpha_f, f.d_p)) *
+         Kokkos::pow(f.alpha_f, Real(-2.65));
+}
+
+/// Ergun (1952).
+KOKKOS_FORCEINLINE_FUNCTION Real ergun(const LocalFlow& f) {
+  return sphere_volume(f.d_p / 2) * (150 * (1 - f.alpha_f) * f.mu_f / (f.alpha_f * f.d_p * f.d_p) +
+                                     Real(1.75) * f.rho_f * f.slip / f.d_p);
+}
+
 /// Gidaspow (1994): Wen & Yu (1966) with Schiller-Naumann where alpha_f > 0.8, Ergun (1952) at and
 /// below. Re = alpha_f d slip / nu. As CFDEM's GidaspowDrag evaluates it (no cap at Re > 1000);
 /// Lima et al. (2022) B2 with its misprints put right. Limit: Schiller-Naumann at alpha_f = 1.
 struct Gidaspow {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
-    if (f.alpha_f > Real(0.8)) {
-      return schiller_naumann(f, reynolds_number(f, f.alpha_f, f.d_p)) *
-             Kokkos::pow(f.alpha_f, Real(-2.65));
-    }
-    return sphere_volume(f.d_p / 2) *
-           (150 * (1 - f.alpha_f) * f.mu_f / (f.alpha_f * f.d_p * f.d_p) +
-            Real(1.75) * f.rho_f * f.slip / f.d_p);
+    return f.alpha_f > Real(0.8) ? wen_yu(f) : ergun(f);
+  }
+};
+
+/// The same two, blended across alpha_f = 0.8 by Huilin & Gidaspow (2003):
+/// beta = (1 - phi) Ergun + phi Wen-Yu, phi = atan(150 * 1.75 (0.2 - (1 - alpha_f)))/pi + 1/2.
+/// Limits: half of each at alpha_f = 0.8; within 1 % of either beyond 0.12 from it.
+KOKKOS_INLINE_FUNCTION Real wen_yu_share(Real alpha_f) {
+  return Kokkos::atan(Real(150 * 1.75) * (alpha_f - Real(0.8))) / std::numbers::pi_v<Real> +
+         Real(0.5);
+}
+struct GidaspowBlended {
+  KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
+    const Real phi = wen_yu_share(f.alpha_f);
+    return (1 - phi) * ergun(f) + phi * wen_yu(f);
   }
 };
 

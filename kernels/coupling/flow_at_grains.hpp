@@ -14,6 +14,7 @@ namespace barchan {
 struct FluidForces {
   bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
   bool buoyancy = false;
+  bool lift = false, torque = false, wall_drag = false;  // GatherShear; a factor of the drag
 };
 
 /// Force of the pressure gradient on a volume of grain, on faces: -grad p + rho f e_x [N/m^3] (Lima

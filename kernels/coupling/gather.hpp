@@ -4,6 +4,7 @@
 
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/flow_at_grains.hpp"
+#include "kernels/coupling/shear_forces.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
@@ -86,7 +87,8 @@ struct GatherFluid {
                          .mu_f = mu_f,
                          .slip = unsmoothing * norm(u_f - grain.u),
                          .d_p = 2 * grain.r};
-    const Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
+    Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
+    if (forces.wall_drag) beta *= floor_drag_factor(flow, grain.x.y - grain.r);
     const Real share = skip_relaxation ? Real(1)
                                        : exchange_relaxation(grain.m + added_mass, rho_f * volume,
                                                              beta, alpha, dt);
@@ -157,10 +159,11 @@ struct DragAndAddedMass {
   Kokkos::View<Vec3*> drag, added_mass;
   KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 inertia = added_mass_inertia(on_grains, g, grains(g).u, dt);
-    // Of the steady force: what is neither weight nor of the pressure gradient and stress.
+    // Of the steady force: what is neither weight nor lift nor of the pressure gradient and stress.
     added_mass(g) = on_grains.steady_force(g) - weight(grains(g)) - inertia;
     if (exchange.pressure_force.extent(0) > 0)
       added_mass(g) = added_mass(g) - exchange.pressure_force(g) - exchange.stress_force(g);
+    if (exchange.lift.extent(0) > 0) added_mass(g) = added_mass(g) - exchange.lift(g);
     drag(g) = (1 / dt) * on_grains.drag_impulse(g);
   }
 };

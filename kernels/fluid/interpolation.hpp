@@ -67,4 +67,26 @@ KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const ConstFaceRef& f, const Point
           interpolate(f.z, s.x_centre, s.y_centre, s.z_face)};
 }
 
+/// Curl of the interpolated field at the point; exact for linear fields, and at a wall that of the
+/// ghost row.
+KOKKOS_INLINE_FUNCTION Vec3 interpolate_curl(const ConstFaceRef& f, const GridRef& g,
+                                             const PointStencil& s) {
+  // From one node of the stencil to the next along x, y or z.
+  const auto along_x = [&](const ConstFieldRef& c, const LinearStencil& y, const LinearStencil& z) {
+    const int i = s.x_centre.i;
+    return (interpolate(c, {i, 1}, y, z) - interpolate(c, {i, 0}, y, z)) / g.dx;
+  };
+  const auto along_y = [&](const ConstFieldRef& c, const LinearStencil& x, const LinearStencil& z) {
+    const int j = s.y_centre.i;
+    return (interpolate(c, x, {j, 1}, z) - interpolate(c, x, {j, 0}, z)) / g.dy_centre(j + 1);
+  };
+  const auto along_z = [&](const ConstFieldRef& c, const LinearStencil& x, const LinearStencil& y) {
+    const int k = s.z_centre.i;
+    return (interpolate(c, x, y, {k, 1}) - interpolate(c, x, y, {k, 0})) / g.dz;
+  };
+  return {along_y(f.z, s.x_centre, s.z_face) - along_z(f.y, s.x_centre, s.y_face),
+          along_z(f.x, s.x_face, s.y_centre) - along_x(f.z, s.y_centre, s.z_face),
+          along_x(f.y, s.y_face, s.z_centre) - along_y(f.x, s.x_face, s.z_centre)};
+}
+
 }  // namespace barchan

@@ -13,7 +13,10 @@ struct FluidOnGrains {
   Kokkos::View<Real*> added_mass;    // [kg]
   Kokkos::View<Vec3*> drag_impulse;  // sum over the sub-steps of the drag on the grain [N s]
   Kokkos::View<Vec3*> u_start;       // velocity as the fluid step began [m/s]
+  Kokkos::View<Vec3*> spin_f;        // of the fluid, half its vorticity [rad/s]
+  Kokkos::View<Real*> beta_r;        // torque = beta_r (spin_f - spin) [N m s]
   bool none = true;                  // no fluid: nothing but steady_force is there
+  bool turns = false;                // the fluid exerts a torque: spin_f and beta_r are there
 };
 
 /// What the gather keeps of each grain for the deposit and for the next step.
@@ -22,6 +25,7 @@ struct ExchangeOnGrains {
   Kokkos::View<Vec3*> pressure_force;   // of pressure gradient and stress, as the grain sees them,
   Kokkos::View<Vec3*> stress_force;     // relaxed [N]
   Kokkos::View<Vec3*> carried_impulse;  // still owed to the grain by the implicit drag [N s]
+  Kokkos::View<Vec3*> lift;             // part of the steady force [N]; empty without lift
 };
 
 /// A new fluid step: no drag impulse yet, and the velocity to compare with.

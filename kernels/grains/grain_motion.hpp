@@ -15,6 +15,8 @@ struct GrainForces {
   Quad torque;              // [N m]
   Quad u_f{};               // fluid velocity at the grain [m/s]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]
+  Quad spin_f{};            // spin of the fluid [rad/s]
+  Real beta_r = 0;          // T = beta_r (spin_f - omega) [N m s]
   Real inertia_mass = 0;    // grain + added mass [kg]
   Real inertia_moment = 0;  // [kg m^2]
 };
@@ -28,15 +30,16 @@ struct HalfKick {
       : h(half_step),
         h_beta(half_step * f.beta),
         per_mass(1 / (f.inertia_mass + half_step * f.beta)),
-        per_moment(half_step / f.inertia_moment) {}
+        per_moment(half_step / (f.inertia_moment + half_step * f.beta_r)) {}
 
   /// Drag at the new velocity (unconditionally stable):
   ///   (M + h beta) u' = M u + h (F + beta u_f).
-  /// Returns the drag impulse on the grain, h beta (u_f - u') [N s].
+  /// Returns the drag impulse on the grain, h beta (u_f - u') [N s]. The spin likewise.
   /// Limits: beta = 0 is the plain kick; u = u_f, F = 0 stays so.
   KOKKOS_FORCEINLINE_FUNCTION Quad operator()(const GrainForces& f, Quad& u, Quad& omega) const {
     u = fused(per_mass, fused(h, f.force, h_beta * (f.u_f - u)), u);
-    omega = fused(per_moment, f.torque, omega);
+    const Quad torque = f.beta_r > 0 ? fused(f.beta_r, f.spin_f - omega, f.torque) : f.torque;
+    omega = fused(per_moment, torque, omega);
     return h_beta * (f.u_f - u);
   }
 };
@@ -92,6 +95,7 @@ struct KickAndDrift {
     f.u_f = quad(fluid.u_f(g));
     f.beta = fluid.beta(g);
     f.inertia_mass += fluid.added_mass(g);
+    if (fluid.turns) f.spin_f = quad(fluid.spin_f(g)), f.beta_r = fluid.beta_r(g);
     return f;
   }
 

@@ -24,6 +24,7 @@ enum class DragLaw {
   syamlal_obrien,
   beetstra,
   paper_repaired,
+  gidaspow_blended,
   none
 };
 enum class VoidFraction { divided, cfdem_faithful, centre };
@@ -113,6 +114,7 @@ struct GrainConfig {
 
 struct ForceSwitches {  // coupling.forces
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
+  bool lift = false, torque = false, wall_drag = false;
   bool operator==(const ForceSwitches&) const = default;
 };
 

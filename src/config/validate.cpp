@@ -67,6 +67,9 @@ void check_fluid(const Config& c, Findings& found) {
                       "must be absent without a mean_velocity to bring up"))
     found.warning_if(fluid.ramp_time > c.time.end, {"fluid.ramp_time", "time.end"},
                      "is longer than the run");
+  found.error_if(c.coupling.forces.wall_drag && fluid.bottom != WallFlow::no_slip,
+                 {"coupling.forces", "fluid.bottom"},
+                 "must not hold \"wall_drag\" over a free-slip bottom, which is no wall to drag");
   found.error_if(c.initial.fluid == "turbulent" && !driven,
                  {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient"},
                  "must come with a mean_velocity or pressure_gradient, which sets its log law");

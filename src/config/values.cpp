@@ -105,7 +105,7 @@ Mismatch convert(const Node& node, ForceSwitches& value) {
   for (const ForceName& force : force_names) names.push_back(force.name);
   const auto* chosen = std::get_if<NodeArray>(&node.value);
   if (chosen == nullptr) return fmt::format("an array of \"{}\"", fmt::join(names, "\", \""));
-  value = {false, false, false, false, false};
+  for (const ForceName& force : force_names) value.*force.on = false;
   for (const Node& element : *chosen) {
     std::size_t at = 0;
     if (const Mismatch mismatch = convert_name(element, names, at)) {
@@ -171,6 +171,12 @@ std::string toml_text(const ForceSwitches& forces) {
     if (forces.*force.on) names.push_back(toml_text(force.name));
   }
   return fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+std::string all_forces() {
+  ForceSwitches all;
+  for (const ForceName& force : force_names) all.*force.on = true;
+  return toml_text(all);
 }
 
 std::string toml_text(const Node& node) {

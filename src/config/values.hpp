@@ -33,8 +33,8 @@ constexpr auto names_of(ContactModel) { return std::array{"hertz_mindlin"sv, "li
 constexpr auto names_of(GrainBoundaryX) { return std::array{"exit"sv, "periodic"sv, "wall"sv}; }
 constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"sv}; }
 constexpr auto names_of(DragLaw) {
-  return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv, "syamlal_obrien"sv,
-                    "beetstra"sv, "paper_repaired"sv, "none"sv};
+  return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
+                    "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
 }
 constexpr auto names_of(Exchange) { return std::array{"by_row"sv, "interpolated"sv, "smoothed"sv}; }
 constexpr auto names_of(VoidFraction) {
@@ -58,12 +58,15 @@ struct ForceName {
   std::string_view name;
   bool ForceSwitches::*on;
 };
-inline constexpr std::array<ForceName, 5> force_names{
+inline constexpr std::array<ForceName, 8> force_names{
     {{"drag", &ForceSwitches::drag},
      {"pressure_gradient", &ForceSwitches::pressure_gradient},
      {"stress", &ForceSwitches::stress},
      {"added_mass", &ForceSwitches::added_mass},
-     {"buoyancy", &ForceSwitches::buoyancy}}};
+     {"buoyancy", &ForceSwitches::buoyancy},
+     {"lift", &ForceSwitches::lift},
+     {"torque", &ForceSwitches::torque},
+     {"wall_drag", &ForceSwitches::wall_drag}}};
 
 /// What a number may be: each of an array, each diameter of size classes; of a text the bytes. Wide
 /// on purpose: what is merely unusual is the user's business, but powers of it must be numbers.
@@ -144,6 +147,8 @@ std::string toml_text(double value);
 std::string toml_text(const Length& value);
 std::string toml_text(const std::vector<SizeClass>& value);
 std::string toml_text(const ForceSwitches& value);
+/// The names that coupling.forces may hold.
+std::string all_forces();
 /// As one would write it in a file, cut after 60 characters.
 std::string toml_text(const Node& node);
 
@@ -210,7 +215,7 @@ std::string type_text() {
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too
     return "text";
   } else if constexpr (std::is_same_v<T, ForceSwitches>) {
-    return "array of " + toml_text(ForceSwitches{});
+    return "array of " + all_forces();
   } else if constexpr (std::is_same_v<T, std::vector<SizeClass>>) {
     return "array of [diameter, count]";
   } else {

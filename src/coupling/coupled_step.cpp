@@ -24,9 +24,10 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
   still_.weight.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {
     add_fluid(*state.grains);
-    add_exchange(*state.grains);
+    add_exchange(*state.grains, config.coupling.forces);
     fluid_side_ =
-        FluidSideGrains(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic);
+        FluidSideGrains(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic,
+                        config.coupling.forces);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->idle().for_anything()));
   } else if (config.grains->ambient) {
@@ -139,6 +140,7 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) cons
     forces.push_back({"force_drag", drag});
     forces.push_back({"force_added_mass", added});
   }
+  if (grains.exchange.lift.size() > 0) forces.push_back({"force_lift", grains.exchange.lift});
   if (coupling_) {
     forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
     forces.push_back({"force_stress", grains.exchange.stress_force});

@@ -17,6 +17,7 @@ DragModel make_drag(const Config& config, const GrainState& grains) {
       {DragLaw::syamlal_obrien, SyamlalOBrien{}},
       {DragLaw::beetstra, Beetstra{.d_mean = grains.sauter_diameter}},
       {DragLaw::paper_repaired, PaperRepaired{}},
+      {DragLaw::gidaspow_blended, GidaspowBlended{}},
       {DragLaw::none, NoDrag{}}};
   return models.at(config.coupling.drag);
 }
@@ -36,8 +37,9 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidS
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)
     : config_(config.coupling),
-      forces_{config_.forces.drag, config_.forces.pressure_gradient, config_.forces.stress,
-              config_.forces.added_mass, config_.forces.buoyancy},
+      forces_{config_.forces.drag,       config_.forces.pressure_gradient, config_.forces.stress,
+              config_.forces.added_mass, config_.forces.buoyancy,          config_.forces.lift,
+              config_.forces.torque,     config_.forces.wall_drag},
       drag_(make_drag(config, grains)),
       grid_(grid),
       rows_(grid.on_host()),
@@ -54,6 +56,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
       halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),
+      floor_(config.fluid->bottom == WallFlow::no_slip),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
                           config.grains->gravity[2]},
               .displaced = forces_.buoyancy ? rho_f_ : 0},

@@ -17,8 +17,8 @@
 
 namespace barchan {
 
-using DragModel =
-    std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired, NoDrag>;
+using DragModel = std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired,
+                               GidaspowBlended, NoDrag>;
 
 /// Momentum and volume that changed sides in one fluid step, for the ledger.
 struct ExchangeLedger {
@@ -84,6 +84,7 @@ class Coupling {
   void fraction_at(const FluidState& fluid, const GrainState& grains);
   WallFaces wall_faces(bool wall, bool along_x) const;
   void reserve_flow_at(int n);
+  void gather_shear(const FluidState& fluid, GrainState& grains) const;
   /// The fraction that drag and stress read.
   Field local_fraction(const FluidState& fluid) const {
     const bool unsmoothed = by_row_ && config_.smoothing_length > 0;
@@ -117,6 +118,7 @@ class Coupling {
   bool by_row_ = false;  // the exchange
   Halo halo_;
   Real rho_f_ = 0, nu_ = 0;
+  bool floor_ = false;  // no slip at y = 0
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // room of the flow solver
   FlowAtGrains flow_at_;

@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
+FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const ForceSwitches& forces) {
   if (!grid.ranks) return;
   is_cut_ = true;
   const Decomposition& pencils = *grid.ranks;
@@ -19,7 +19,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x) {
              .box = grid.box(periodic_x)};
   copies_ = make_grain_rows(0, ranks_);
   add_fluid(copies_);
-  add_exchange(copies_);
+  add_exchange(copies_, forces);
 }
 
 /// Fills row_, in the order of the owners, and counts_.

@@ -12,8 +12,8 @@ namespace barchan {
 class FluidSideGrains {
  public:
   FluidSideGrains() = default;
-  /// `periodic_x`: grains beyond one end come in at the other.
-  FluidSideGrains(const Grid& grid, bool periodic_x);
+  /// `periodic_x`: grains beyond one end come in at the other. `forces`: whose arrays they have.
+  FluidSideGrains(const Grid& grid, bool periodic_x, const ForceSwitches& forces = {});
 
   /// The grains whose centres lie in this rank's pencil; of their arrays those of the `uses` (see
   /// GrainUse) are filled. Positions are inside the domain. Valid until the next call. All ranks

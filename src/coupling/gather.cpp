@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/coupling/gather_shear.hpp"
 #include "src/coupling/coupling.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
@@ -152,6 +153,21 @@ void Coupling::reserve_flow_at(int n) {
   if (by_row_) reserve_rows(flow_at_.alpha, n);
 }
 
+void Coupling::gather_shear(const FluidState& fluid, GrainState& grains) const {
+  Kokkos::parallel_for("coupling: gather shear", items(grains.n),
+                       GatherShear{.grid = grid_,
+                                   .box = box_,
+                                   .u = fluid.u,
+                                   .rho_f = rho_f_,
+                                   .mu_f = rho_f_ * nu_,
+                                   .lift = forces_.lift,
+                                   .torque = forces_.torque,
+                                   .floor = floor_,
+                                   .grains = grains.kin,
+                                   .on_grains = grains.fluid,
+                                   .exchange = grains.exchange});
+}
+
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
   reserve_flow_at(grains.n);
@@ -180,6 +196,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .exchange = grains.exchange});
       },
       drag_);
+  if (forces_.lift || forces_.torque) gather_shear(fluid, grains);
   skip_relaxation_ = always_skips_relaxation_;
 }
 

@@ -107,7 +107,12 @@ void add_fluid(GrainState& s) {
   allocate(s, Allocated::with_fluid);
 }
 
-void add_exchange(GrainState& s) { allocate(s, Allocated::with_flow); }
+void add_exchange(GrainState& s, const ForceSwitches& forces) {
+  allocate(s, Allocated::with_flow);
+  if (forces.lift) allocate(s, Allocated::with_lift);
+  s.fluid.turns = forces.torque;
+  if (forces.torque) allocate(s, Allocated::with_torque);
+}
 
 Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std::string& unit,
                               unsigned uses) {

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "src/config/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 
 /// When an array of a grain is allocated.
-enum class Allocated { always, with_fluid, with_flow, by_solver };
+enum class Allocated { always, with_fluid, with_flow, with_lift, with_torque, by_solver };
 
 /// What is done with an array of a grain, besides that it is sorted with its grain and goes with it
 /// to another rank.
@@ -80,7 +81,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
 void add_fluid(GrainState& grains);
-void add_exchange(GrainState& grains);
+void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
 /// An array of one number for each grain, zero at first; `uses` as in GrainUse.
 Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
                               unsigned uses);

@@ -55,11 +55,14 @@ VALUES = [
     Entry("a length below zero", '[coupling] smoothing_length = "-3 d"', "@smoothing_length | at least 0"),
     Entry("diameters of a table", '[coupling] smoothing_length = "3 d"', "@smoothing_length | must be in metres", base=TABLE,
           files={"grains.csv": "id,diameter,x,y,z\n"}),
+    Entry("a force that is not there", '[coupling] forces = ["drag", "lfit"]', '@forces | must be an array | did you mean "lift"'),
     Entry("one grain", SIZES + "[[2e-4, 1]] ;; " + SHORT, code=0),
     Entry("a title of other letters", '[case] title = "Düne 沙丘 <b>&amp;\\"</b>" ;; ' + SHORT, code=0),
 ]
 
 CONTRADICTIONS = [
+    Entry("drag at a wall that does not drag", '[coupling] forces = ["drag", "wall_drag"] ;; [fluid] bottom = "free_slip"',
+          "@forces | wall_drag | free-slip bottom"),
     Entry("a million grain steps and more", "[time] grain_step = 1e-11", "@grain_step | millionth"),
     Entry("one tiny grain among many", "[1.5e-4, 20] => [1e-6, 1]", "@grain_step | d = 1e-06 m"),
     Entry("diameters in mm", SIZES + "[[0.15, 20], [0.2, 160], [0.25, 20]]",

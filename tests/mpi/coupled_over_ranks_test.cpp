@@ -202,8 +202,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
   }
 }
 
-TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
-  const Config c = testing::coupled_config();
+void twenty_steps(const Config& c) {
   Coupled whole(c);
   for (int s = 0; s < 20; ++s) whole.step.advance(whole.state);
   for (const int along_x : shapes(c)) {
@@ -228,6 +227,14 @@ TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) {
           "%.1e\n",
           rank_count(MPI_COMM_WORLD), along_x, off[0], off[1], u, alpha);
   }
+}
+
+TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) { twenty_steps(testing::coupled_config()); }
+
+TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
+  Config c = testing::coupled_config();
+  c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+  twenty_steps(c);
 }
 
 /// Round-off grows in a heap of grains as any other disturbance does. Until it has grown, ranks

@@ -84,6 +84,18 @@ TEST(HinderedSettling, GidaspowsForceBalance) {
   check("Gidaspow", DragLaw::gidaspow, test::ergun_force, 0.7);
 }
 
+/// Huilin & Gidaspow (2003): phi of Wen-Yu and 1 - phi of Ergun.
+double blended_force(double v, double alpha, double d, const test::Water& w) {
+  const double phi = std::atan(150 * 1.75 * (0.2 - (1 - alpha))) / std::numbers::pi + 0.5;
+  return phi * test::wen_yu_force(v, alpha, d, w) + (1 - phi) * test::ergun_force(v, alpha, d, w);
+}
+
+TEST(HinderedSettling, BlendedForceBalanceAcrossPointEight) {
+  for (const double alpha : {0.805, 0.8, 0.79}) {
+    check("Gidaspow blended", DragLaw::gidaspow_blended, blended_force, alpha);
+  }
+}
+
 TEST(HinderedSettling, DiFelicesForceBalance) {
   for (const double alpha : {0.9, 0.8, 0.7}) {
     check("Di Felice", DragLaw::di_felice, test::di_felice_force, alpha);

@@ -61,7 +61,7 @@ TEST(ConfigLoad, ForcesAreThoseNamed) {
   refused(fluid_case("[coupling]\nforces = [\"drag\", \"strss\"]\n"),
           "case.toml:8: [coupling] forces = [\"drag\", \"strss\"]: must be an array; \"strss\" "
           "must be one of \"drag\", \"pressure_gradient\", \"stress\", \"added_mass\", "
-          "\"buoyancy\" (did you mean \"stress\"?)");
+          "\"buoyancy\", \"lift\", \"torque\", \"wall_drag\" (did you mean \"stress\"?)");
 }
 
 TEST(ConfigLoad, UnknownKeyNamesTheNearest) {

@@ -70,9 +70,9 @@ TEST(Coupling, PressureForceAtTheFloorIsThatOfTheFirstFace) {
   InitialGrains grain;
   testing::add_grain(grain, 2e-4, {1.7e-3, 3e-4, 2.2e-3});
   test::CoupledRun run(config, grain);
-  run.advance();
   test::set_everywhere(run.state.fluid->p, test::HostGrid(run.state.fluid->grid).ref(),
                        [](int, int j, int) { return 5.0 * j * j; });
+  run.advance();
   const Real gradient = 5.0 / 1e-3;  // from row 0 to row 1
   EXPECT_NEAR(
       test::force_on_first(run, "force_pressure_gradient").y / (-gradient * sphere_volume(1e-4)), 1,
@@ -115,6 +115,18 @@ TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
       EXPECT_LT(c.step.ledger().entries().at("largest_volume_mismatch"), 1e-12);
     }
   }
+}
+
+TEST(Coupling, LedgerClosesWithLiftTorqueAndWallDrag) {
+  Config config = coupled_config();
+  ForceSwitches& forces = config.coupling.forces;
+  forces.lift = forces.torque = forces.wall_drag = true;
+  config.coupling.drag = DragLaw::gidaspow_blended;
+  Coupled c(config);
+  c.advance(30);
+  const auto& entries = c.step.ledger().entries();
+  EXPECT_LT(entries.at("largest_exchange_mismatch"), 1e-10);
+  EXPECT_LT(entries.at("largest_carried_mismatch"), 1e-10);
 }
 
 struct SolidFraction {
@@ -317,10 +329,11 @@ TEST(Coupling, PartsOfTheForceAddUp) {
     Config config = coupled_config();
     config.output.grain_forces = true;
     config.coupling.exchange = exchange;
+    config.coupling.forces.lift = true;
     Coupled c(config);
     c.advance(5);
     const auto forces = c.step.grain_forces(c.state);
-    ASSERT_EQ(forces.size(), 7u);
+    ASSERT_EQ(forces.size(), 8u);
     const auto kin = testing::host_copy(c.state.grains->kin);
     const auto contact = testing::host_copy(c.state.grains->contact_force);
     const auto n = static_cast<std::size_t>(c.state.grains->n);
@@ -330,7 +343,8 @@ TEST(Coupling, PartsOfTheForceAddUp) {
       for (std::size_t g = 0; g < n; ++g) {
         if (f.name.starts_with("force_contact")) of_contacts[g] += values(g);
         (f.name == "force_total" ? total : of_all)[g] += values(g);
-        if (f.name == "force_pressure_gradient" || f.name == "force_stress") {
+        if (f.name == "force_pressure_gradient" || f.name == "force_stress" ||
+            f.name == "force_lift") {
           EXPECT_GT(norm(values(g)), 0) << f.name;
         }
       }

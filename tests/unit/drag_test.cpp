@@ -54,6 +54,28 @@ TEST(Drag, BeetstraInSlowFlowIsVanDerHoefs) {
   EXPECT_NEAR(beta(3e-4) / beta(2e-4), (0.75 + 0.5 * 2.25 + 0.032 * 3.375) / 1.032, 1e-12);
 }
 
+// Huilin & Gidaspow (2003): half of each at alpha_f = 0.8, where "gidaspow" jumps; by then the
+// slope of the share is 150 * 1.75/pi.
+TEST(Drag, BlendsErgunAndWenYuAcrossPointEight) {
+  const auto share = [](Real alpha) {
+    const LocalFlow flow = water(alpha, 0.05);
+    return (GidaspowBlended{}(flow)-ergun(flow)) / (wen_yu(flow) - ergun(flow));
+  };
+  EXPECT_NEAR(share(0.8), 0.5, 1e-12);
+  EXPECT_NEAR((share(0.8001) - share(0.7999)) / 2e-4, 262.5 / std::numbers::pi, 0.1);
+  EXPECT_NEAR(share(0.7), 1 - share(0.9), 1e-9);
+  for (const Real alpha : {0.4, 0.6, 0.95, 1.0}) {
+    const LocalFlow flow = water(alpha, 0.05);
+    EXPECT_NEAR(GidaspowBlended{}(flow) / Gidaspow{}(flow), 1, 0.01) << alpha;
+  }
+  // Across 0.8 it goes on where "gidaspow" jumps.
+  const auto jump = [](const auto& law) {
+    return law(water(0.800001, 0.05)) / law(water(0.8, 0.05));
+  };
+  EXPECT_GT(std::abs(jump(Gidaspow{}) - 1), 0.03);
+  EXPECT_NEAR(jump(GidaspowBlended{}), 1, 1e-3);
+}
+
 TEST(Drag, VelocityRatioIsOneForALoneGrain) {
   for (const Real reynolds : {0.01, 1.0, 100.0}) {
     EXPECT_NEAR(terminal_velocity_ratio(1, reynolds), 1, 1e-12);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/fluid/flow_sums.hpp"
+#include "kernels/fluid/interpolation.hpp"
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/fluid/wale.hpp"
@@ -49,6 +50,22 @@ struct StoreGradient {
     out(i, j, k, 0) = gradient_at_cell(grid, u, i, j, k);
   }
 };
+
+TEST(FluidStencil, CurlAtAPointIsExactForLinearFields) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  const FaceVector u = linear_and_parabola(grid, 1, 0);
+  const test::HostField x = test::to_host(u.x), y = test::to_host(u.y), z = test::to_host(u.z);
+  const ConstFaceRef host{x.ref(), y.ref(), z.ref()};
+  const Mat3& g = kGradient;
+  for (const Vec3& point : {Vec3{0.201, 0.013, 0.33}, Vec3{0.149, 0.002, 0.79},
+                            Vec3{0.07, 0.27, 0.45}, Vec3{0.33, 0.151, 0.11}}) {
+    const Vec3 curl = interpolate_curl(host, h.ref(), PointStencil(h.ref(), {}, point));
+    EXPECT_NEAR(curl.x, g.zy - g.yz, 1e-10);
+    EXPECT_NEAR(curl.y, g.xz - g.zx, 1e-10);
+    EXPECT_NEAR(curl.z, g.yx - g.xy, 1e-10);
+  }
+}
 
 TEST(FluidStencil, GradientIsExactForLinearFieldsAndParabolasInY) {
   const Grid grid = awkward_grid();
