@@ -2,6 +2,7 @@
 // apart for output. Equations: docs/model.md.
 #pragma once
 
+#include "kernels/coupling/cell_point_face.hpp"
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/interpolation.hpp"
@@ -105,6 +106,7 @@ struct GatherFluid {
   SubmergedWeight weight;
   FluidForces forces;
   ExchangeByRow rows;
+  ReadingFromCells cells;
   bool skip_relaxation = false;  // the first step, grains that do not move
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
@@ -113,8 +115,12 @@ struct GatherFluid {
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
     const PointStencil at(grid, box, grain.x);
-    const Real found = interpolate_cell(alpha_f, at);
+    Real found = interpolate_cell(alpha_f, at);
     Vec3 u_f = interpolate_faces(u, at);
+    if (cells.on) {
+      const CellPointFace in_cell(grid, box, grain.x);
+      found = in_cell(grid, alpha_f), u_f = cells(grid, in_cell);
+    }
     if (rows.on) {
       const VelocityByRow by_row = rows(grain);
       u_f.x = by_row.mean_x, u_f.z = by_row.mean_z;

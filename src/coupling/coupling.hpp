@@ -82,6 +82,8 @@ class Coupling {
     return config_.smoothing_length > 0 &&
            (quantity == 0 || config_.exchange == Exchange::smoothed);
   }
+  /// For `cfdem_faithful`, whose grains read from the centres of cells; off for the others.
+  ReadingFromCells velocity_on_cells(const FluidState& fluid);
   void choose_scales(const GrainState& grains, const FluidState& fluid, Real dt);
   void decode(int quantity, const FixedPoint& point, Field& density) const;
   void update_fraction(FluidState& fluid);
