@@ -14,6 +14,7 @@ from pathlib import Path
 
 import style
 import tables
+from validation import cfdem
 from validation import channel
 from validation import contacts
 from validation import flow
@@ -29,6 +30,7 @@ FIGURES = {
     "contacts": contacts.draw,
     "grains_and_water": water.draw,
     "convergence": flow.draw_convergence,
+    "beside_cfdem": cfdem.draw,
 }
 
 

@@ -2,6 +2,7 @@
 // on a volume there. Equations: docs/model.md.
 #pragma once
 
+#include "kernels/coupling/cell_point_face.hpp"
 #include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/interpolation.hpp"
 #include "kernels/fluid/momentum.hpp"
@@ -114,8 +115,9 @@ struct UnsmoothedFraction {
 struct FlowAtGrains {
   Kokkos::View<Vec3*> u;  // [m/s]
   Kokkos::View<Vec3*> pressure,
-      stress;                 // force of either on a volume [N/m^3]; zero where it is off
-  Kokkos::View<Real*> alpha;  // fraction in the grain's own cells, unsmoothed; or empty
+      stress;                       // force of either on a volume [N/m^3]; zero where it is off
+  Kokkos::View<Real*> alpha_f;      // fraction of the flow
+  Kokkos::View<Real*> alpha_cells;  // that of the grain's own cells, unsmoothed; or empty
 };
 
 /// A face vector at the grains' centres, trilinear.
@@ -130,15 +132,47 @@ struct AtCentres {
   }
 };
 
-/// Velocity of the rows that a grain lies in, upwards at its centre.
+/// Velocity and fraction at the grains' centres, trilinear.
+struct FlowAtCentres {
+  GridRef grid;
+  PeriodicBox box;
+  ConstFaceRef u;
+  ConstFieldRef alpha_f;
+  Kokkos::View<const GrainKinematics*> grains;
+  FlowAtGrains flow;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const PointStencil at(grid, box, grains(g).x);
+    flow.u(g) = interpolate_faces(u, at);
+    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
+  }
+};
+
+/// The same as CFDEM reads them, from the centres of cells.
+struct FlowFromCells {
+  GridRef grid;
+  PeriodicBox box;
+  ConstFieldRef x, y, z;  // velocity
+  ConstFieldRef alpha_f;
+  Kokkos::View<const GrainKinematics*> grains;
+  FlowAtGrains flow;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const CellPointFace at(grid, box, grains(g).x);
+    flow.u(g) = {at(grid, x), at(grid, y), at(grid, z)};
+    flow.alpha_f(g) = at(grid, alpha_f);
+  }
+};
+
+/// Velocity of the rows that a grain lies in; upwards, and the fraction, at its centre.
 struct VelocityOfRows {
   ExchangeByRow rows;
+  ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Vec3*> u;
+  FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const {
     const VelocityByRow v = rows(grains(g));
     const PointStencil at(rows.stencil.grid, rows.box, grains(g).x);
-    u(g) = {v.mean_x, interpolate(rows.u.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
+    flow.u(g) = {v.mean_x, interpolate(rows.u.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
+    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
   }
 };
 

@@ -58,7 +58,6 @@ struct GatherFluid {
   GridRef grid;
   PeriodicBox box;
   ConstFaceRef convective;
-  ConstFieldRef alpha_f;
   Real rho_f = 0, mu_f = 0, dt = 0;
   SubmergedWeight weight;
   FluidForces forces;
@@ -76,11 +75,11 @@ struct GatherFluid {
     const Real added_mass = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);
     const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);
 
-    const Real alpha = in_range(interpolate_cell(alpha_f, at));
+    const Real alpha = in_range(flow_at.alpha_f(g));
     // By row the law reads the fraction around the grain. Of the flow it knows the superficial slip
     // and takes alpha_f of the whole force (model A); both go with the fraction of the flow.
-    const bool unsmoothed = flow_at.alpha.extent(0) > 0;
-    const Real alpha_here = unsmoothed ? in_range(flow_at.alpha(g)) : alpha;
+    const bool by_row = flow_at.alpha_cells.extent(0) > 0;
+    const Real alpha_here = by_row ? in_range(flow_at.alpha_cells(g)) : alpha;
     const Real unsmoothing = alpha / alpha_here;
     const LocalFlow flow{.alpha_f = alpha_here,
                          .rho_f = rho_f,

@@ -187,7 +187,8 @@ void add_coupling(Sections& all) {
   using C = CouplingConfig;
   key("drag", &C::drag, "drag law");
   key("void_fraction", &C::void_fraction,
-      "how the volume of a grain is given to the cells around it");
+      "how the volume of a grain is given to the cells around it; \"cfdem_faithful\": and the flow "
+      "read, as in CFDEM");
   key("exchange", &C::exchange,
       "where momentum goes: each part of a grain and its row of cells; the flow at the grain's "
       "centre; or the latter, smoothed");

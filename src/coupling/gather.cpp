@@ -109,12 +109,20 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, cons
 }
 
 void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
+  const auto read = [&](const auto& reading) {
+    Kokkos::parallel_for("coupling: velocity at grains", items(grains.n), reading);
+  };
+  const Field& alpha = fluid.alpha_f;
   if (by_row_) {
-    Kokkos::parallel_for("coupling: velocity of rows", items(grains.n),
-                         VelocityOfRows{rows(fluid), grains.kin, flow_at_.u});
+    read(VelocityOfRows{rows(fluid), alpha, grains.kin, flow_at_});
+  } else if (config_.void_fraction == VoidFraction::cfdem_faithful) {
+    Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
+    for_each_cell("coupling: velocity on cells", grid_, VelocityOnCells{fluid.u, x, y, z});
+    boundary_.fill(x, FieldKind::velocity_x);
+    for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
+    read(FlowFromCells{grid_, box_, x, y, z, alpha, grains.kin, flow_at_});
   } else {
-    Kokkos::parallel_for("coupling: velocity at grains", items(grains.n),
-                         AtCentres{grid_, box_, fluid.u, grains.kin, flow_at_.u});
+    read(FlowAtCentres{grid_, box_, fluid.u, alpha, grains.kin, flow_at_});
   }
 }
 
@@ -145,12 +153,13 @@ void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
   }
   Kokkos::parallel_for(
       "coupling: fraction at grains", items(grains.n),
-      ScalarOverCells{stencil_, local_fraction(fluid), grains.kin, flow_at_.alpha});
+      ScalarOverCells{stencil_, local_fraction(fluid), grains.kin, flow_at_.alpha_cells});
 }
 
 void Coupling::reserve_flow_at(int n) {
   for (auto* array : {&flow_at_.u, &flow_at_.pressure, &flow_at_.stress}) reserve_rows(*array, n);
-  if (by_row_) reserve_rows(flow_at_.alpha, n);
+  reserve_rows(flow_at_.alpha_f, n);
+  if (by_row_) reserve_rows(flow_at_.alpha_cells, n);
 }
 
 void Coupling::gather_shear(const FluidState& fluid, GrainState& grains) const {
@@ -183,7 +192,6 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .grid = grid_,
                                          .box = box_,
                                          .convective = convective_,
-                                         .alpha_f = fluid.alpha_f,
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/coupling/cell_point_face.hpp"
 #include "kernels/coupling/void_fraction.hpp"
 #include "kernels/fluid/interpolation.hpp"
 #include "tests/support/flow_fields.hpp"
@@ -132,6 +133,49 @@ TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
   for (int k = -1; k <= g.nz; ++k)
     for (int i = -1; i <= g.nx; ++i) f.x(i, -1, k) = -f.x(i, 0, k);
   EXPECT_NEAR(interpolate_faces(f, PointStencil(g, box, {0.003, 0, 0.002})).x, 0, 1e-14);
+}
+
+/// Value of a linear field, in cells of one size, at points that fall into all sorts of tetrahedra.
+TEST(CellPointFace, IsExactForLinearFieldsInEqualCells) {
+  const test::HostGrid host(make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.0045, 9, 0)));
+  const GridRef g = host.ref();
+  const auto value = [](Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
+  const test::HostField f = test::host_field(
+      g, [&](int i, int j, int k) { return value(g.x_centre(i), g.y_centre(j), g.z_centre(k)); });
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<Real> share(0, 1);
+  const PeriodicBox box{.lx = g.lx, .lz = g.lz};
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 p{share(generator) * g.lx, share(generator) * g.ly, share(generator) * g.lz};
+    ASSERT_NEAR(CellPointFace(g, box, p)(g, f.ref()), value(p.x, p.y, p.z), 1e-12)
+        << p.x << " " << p.y << " " << p.z;
+  }
+}
+
+/// The four corners of a tetrahedron in stretched rows, from their own definition.
+TEST(CellPointFace, HasTheValuesOfTheCornersOfItsTetrahedra) {
+  const test::HostGrid host = awkward_grid();
+  const GridRef g = host.ref();
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<Real> any(-1, 1);
+  const test::HostField f = test::host_field(g, [&](int, int, int) { return any(generator); });
+  const ConstFieldRef v = f.ref();
+  const PeriodicBox box{.lx = g.lx, .lz = g.lz};
+  const auto read = [&](Real x, Real y, Real z) { return CellPointFace(g, box, {x, y, z})(g, v); };
+  const int i = 3, j = 4, k = 2;
+  const Real x = g.x_centre(i), y = g.y_centre(j), z = g.z_centre(k), most = 1 - 1e-13;
+  EXPECT_NEAR(read(x, y, z), v(i, j, k), 1e-14);
+  EXPECT_NEAR(read(x + most * g.dx / 2, y, z), (v(i, j, k) + v(i + 1, j, k)) / 2, 1e-11);
+  const Real up = g.y_face(j + 1) - y, beyond = g.y_centre(j + 1) - g.y_face(j + 1);
+  EXPECT_NEAR(read(x, y + most * up, z),
+              (beyond * v(i, j, k) + up * v(i, j + 1, k)) / (up + beyond), 1e-11);
+  Real sum = 0, weights = 0;
+  for (const auto& [c, row] : {std::pair{up, j}, std::pair{beyond, j + 1}}) {
+    const Real w = 1 / std::hypot(g.dx / 2, c, g.dz / 2);
+    for (const int a : {i - 1, i})
+      for (const int b : {k, k + 1}) sum += w * v(a, row, b), weights += w;
+  }
+  EXPECT_NEAR(read(x - most * g.dx / 2, y + most * up, z + most * g.dz / 2), sum / weights, 1e-11);
 }
 
 }  // namespace
