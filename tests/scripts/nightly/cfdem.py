@@ -67,13 +67,14 @@ def ergun(runs):
 
 
 def heap(runs):
-    """The heap of 10,000 grains in flow. It spreads alike and is driven half as fast: CFDEM's grains get 1.7 times what its
-    water loses. W and L within 10 and 20 %, the rest within 25 % of what was found, for another realisation's sake."""
+    """The heap of 10,000 grains in flow. It spreads alike and is driven half as fast: CFDEM's grains get 1.7 times what
+    its water loses. Of CFDEM's, two realisations gave H 1.58 and 1.83, shift 0.46 and 0.51, moving 0.55 and 0.80: these
+    bounds hold both and not 1. W and L are held to 10 and 20 %."""
     run = beside.run(beside.CASES / "cfdem-heap.toml", runs / "cfdem-heap")
     moving = moving_heap.Heap(run)
     *_, theirs = beside.read("heap")
     ours = next(row for row in moving.series() if abs(row["t"] - theirs["t"]) < 1e-6)
-    for name, low, high in (("W", 0.9, 1.1), ("L", 0.8, 1.2), ("H", 1.2, 2), ("shift", 0.35, 0.58), ("moving", 0.41, 0.69)):
+    for name, low, high in (("W", 0.9, 1.1), ("L", 0.8, 1.2), ("H", 1.2, 2.2), ("shift", 0.33, 0.65), ("moving", 0.4, 0.9)):
         measured(f"heap in flow at {theirs['t']:g} s: {name} over CFDEM's", ours[name] / theirs[name], low, high)
     return run, moving
 
