@@ -55,8 +55,10 @@ def smoothed(case, folder):
     text = re.sub(r'^(fluid|grains) = "(.*\.toml)"', start, case.read_text(), flags=re.M)
     copy = folder.with_name(f"{folder.name}-cases") / case.name
     copy.parent.mkdir(parents=True, exist_ok=True)
-    copy.write_text(re.sub(r"^\[coupling\]$", '[coupling]\nexchange = "smoothed"', text, flags=re.M))
-    assert 'exchange = "smoothed"' in copy.read_text(), case
+    if 'exchange = "smoothed"' not in text:
+        text = re.sub(r"^\[coupling\]$", '[coupling]\nexchange = "smoothed"', text, flags=re.M)
+    assert 'exchange = "smoothed"' in text, case
+    copy.write_text(text)
     return copy
 
 
@@ -78,13 +80,13 @@ class HeldState:
 
 
 def held_state(folder):
-    """The drag is that of the first step, which the first flow gave; pressure gradient and stress are of that flow."""
+    """The forces are those of the first step, which the first flow gave."""
     with h5py.File(folder / "grains.h5") as file:
         now, later = (grains_of(frame) for frame in frames(file)[:2])
     with h5py.File(folder / "fields.h5") as file:
         *water, alpha = (in_cell(file["grid"], frames(file)[0][name], now["x"]) for name in ("u", "v", "w", "alpha_f"))
     weight = SUBMERGED * np.pi / 6 * now["d"]**3
-    rest = now["force_pressure_gradient"] + now["force_stress"]
+    rest = later["force_pressure_gradient"] + later["force_stress"]
     of_cell = gidaspow(alpha, now["d"], np.linalg.norm(water, axis=0)) * water[0]
     return HeldState(now["id"], now["x"], later["force_drag"][:, 0] / weight, rest[:, 0] / weight, of_cell / weight)
 
