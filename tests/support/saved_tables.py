@@ -12,6 +12,7 @@ import tables
 
 def write(folder, states, drops, heap_run, heap):
     """Of the held grains, the bed of the tutorial and the heap in flow."""
+    folder.mkdir(parents=True, exist_ok=True)
     commit = json.loads((heap_run / "run.json").read_text())["git_hash"]
     notes = {"test": "script.nightly.cfdem",
              "command": "BARCHAN_RESULTS=docs/validation ./barchan test -L nightly -R cfdem", "commit": commit,
