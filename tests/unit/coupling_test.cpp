@@ -63,22 +63,6 @@ TEST(Coupling, RelaxationIsByDragAndSqueezedWater) {
               1e-14);
 }
 
-// Between the floor and the first face above it the pressure force is that of this face.
-TEST(Coupling, PressureForceAtTheFloorIsThatOfTheFirstFace) {
-  Config config = test::water_box({4, 6, 4}, {4e-3, 6e-3, 4e-3});
-  config.grains->frozen = true;
-  InitialGrains grain;
-  testing::add_grain(grain, 2e-4, {1.7e-3, 3e-4, 2.2e-3});
-  test::CoupledRun run(config, grain);
-  test::set_everywhere(run.state.fluid->p, test::HostGrid(run.state.fluid->grid).ref(),
-                       [](int, int j, int) { return 5.0 * j * j; });
-  run.advance();
-  const Real gradient = 5.0 / 1e-3;  // from row 0 to row 1
-  EXPECT_NEAR(
-      test::force_on_first(run, "force_pressure_gradient").y / (-gradient * sphere_volume(1e-4)), 1,
-      1e-12);
-}
-
 TEST(Coupling, LedgerClosesToRoundOff) {
   Coupled c(coupled_config());
   c.advance(30);
