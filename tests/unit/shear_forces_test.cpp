@@ -37,6 +37,11 @@ TEST(Lift, BranchesOfMeiMeet) {
     EXPECT_NEAR(below - above, (1 - 0.3314 * std::sqrt(b)) * std::exp(-4.0), 1e-4);
     EXPECT_LT(saffman_mei_factor(10, b), 1);
   }
+  // b = w d/(2 slip): 0.1 at Re = 10.
+  const LocalShear inside{
+      .rho_f = 1000, .mu_f = 1e-3, .d_p = kD, .slip = 0.05, .vorticity = 50, .gap = 1};
+  EXPECT_NEAR(saffman_mei(inside) / (1.615 * kD * kD * std::sqrt(50.0)),
+              saffman_mei_factor(10, 0.1), 1e-9);
   // Beyond the range of b the factor stays that at its end: no slip, no lift, and nothing infinite.
   LocalShear s = linear_shear(1e-3, 10);
   s.vorticity = 1000;
