@@ -73,6 +73,19 @@ TEST(DuneAnalytics, StreaksOfSingleGrainsAreNoHornsByHeight) {
   EXPECT_NEAR(streaky.horn_right_2d, clean.horn_right_2d, bin / 2);
 }
 
+/// A carpet of single grains at the lee foot: it is sand that the horns are not longer than, but
+/// not the foot of what is two grains high.
+TEST(DuneAnalytics, ACarpetAtTheFootDoesNotShortenHornsByHeight) {
+  const Grains dune = slab_with_arms(6.0 * mm, 6.0 * mm);
+  const Grains carpet = pile(0.04, 0.025, 20.0 * mm, [](double x, double z) {
+    return std::abs(z) < 4.0 * mm && x > 2.5 * mm && x < 5.5 * mm ? d / 2 : 0.0;
+  });
+  const DuneRow clean = only_dune(dune), carpeted = only_dune(dune + carpet);
+  EXPECT_LT(carpeted.horn_left, clean.horn_left - 2.0 * mm);
+  EXPECT_NEAR(carpeted.horn_left_2d, clean.horn_left_2d, bin / 2);
+  EXPECT_NEAR(carpeted.horn_right_2d, clean.horn_right_2d, bin / 2);
+}
+
 TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
   const DuneRow dune = only_dune(grains);
