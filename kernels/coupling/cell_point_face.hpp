@@ -76,14 +76,4 @@ struct CellPointFace {
   }
 };
 
-/// Velocity at the centres of cells.
-struct VelocityOnCells {
-  ConstFaceRef u;
-  FieldRef x, y, z;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Vec3 here = velocity_at_cell(u, i, j, k);
-    x(i, j, k) = here.x, y(i, j, k) = here.y, z(i, j, k) = here.z;
-  }
-};
-
 }  // namespace barchan

@@ -113,9 +113,9 @@ struct UnsmoothedFraction {
 
 /// At each grain now, without any delay.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;  // [m/s]
-  Kokkos::View<Vec3*> pressure,
-      stress;                       // force of either on a volume [N/m^3]; zero where it is off
+  Kokkos::View<Vec3*> u;            // [m/s]
+  Kokkos::View<Vec3*> pressure;     // force of its gradient on a volume [N/m^3]; zero where off
+  Kokkos::View<Vec3*> stress;       // force of the stress, likewise
   Kokkos::View<Real*> alpha_f;      // fraction of the flow
   Kokkos::View<Real*> alpha_cells;  // that of the grain's own cells, unsmoothed; or empty
 };

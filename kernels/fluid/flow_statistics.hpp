@@ -43,16 +43,6 @@ struct AddFlowMoments {
   }
 };
 
-/// Writes it for all cells.
-struct CentreVelocity {
-  ConstFaceRef u;
-  FieldRef x, y, z;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const Vec3 now = velocity_at_cell(u, i, j, k);
-    x(i, j, k) = now.x, y(i, j, k) = now.y, z(i, j, k) = now.z;
-  }
-};
-
 /// Means from the sums, and central second moments <a'b'> = <ab> - <a><b>, both to `result`.
 struct FlowMeans {
   FlowSums sum, result;

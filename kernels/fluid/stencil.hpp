@@ -50,6 +50,16 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 velocity_at_cell(const ConstFaceRef& u, int i, 
           Real(0.5) * (u.z(i, j, k) + u.z(i, j, k + 1))};
 }
 
+/// The same for all cells, written.
+struct CentreVelocity {
+  ConstFaceRef u;
+  FieldRef x, y, z;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const Vec3 now = velocity_at_cell(u, i, j, k);
+    x(i, j, k) = now.x, y(i, j, k) = now.y, z(i, j, k) = now.z;
+  }
+};
+
 /// d/dy at the middle one of three stretched points `below`, `above` apart from it; exact for
 /// parabolas.
 KOKKOS_FORCEINLINE_FUNCTION Real ddy_of_three(Real low, Real mid, Real high, Real below,

@@ -78,8 +78,8 @@ class Coupling {
                    Real dt);
   void stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
                  Real dt);
-  void density_to(const GrainState& grains, const CellRange& cells, const Field& alpha,
-                  bool smoothed, Real dt, const Kokkos::View<Vec3*>& force);
+  void gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
+                      bool smoothed, Real dt, const Kokkos::View<Vec3*>& force);
   void velocity_at(const FluidState& fluid, const GrainState& grains);
   void fraction_at(const FluidState& fluid, const GrainState& grains);
   WallFaces wall_faces(bool wall, bool along_x) const;

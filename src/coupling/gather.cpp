@@ -55,8 +55,8 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
 /// The density on the faces of `cells` to the grains, and both sides of it to the ledger: what the
 /// solid fraction 1 - alpha takes of it, and what the grains get. By row the way to the grains is
 /// that of their volume to alpha, backwards: the two are equal.
-void Coupling::density_to(const GrainState& grains, const CellRange& cells, const Field& alpha,
-                          bool smoothed, Real dt, const Kokkos::View<Vec3*>& force) {
+void Coupling::gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
+                              bool smoothed, Real dt, const Kokkos::View<Vec3*>& force) {
   for_each_cell("coupling: force density at the walls",
                 CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
                 HoldForceAtWall{force_.y, grid_.ny});
@@ -88,7 +88,7 @@ void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains,
       "coupling: pressure force density", cells,
       PressureForceDensity{
           .grid = grid_, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive, .force = force_});
-  density_to(grains, cells, fluid.alpha_f, smoothed, dt, flow_at_.pressure);
+  gather_density(grains, cells, fluid.alpha_f, smoothed, dt, flow_at_.pressure);
 }
 
 /// And the convective acceleration.
@@ -104,7 +104,7 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, cons
   for (Field* component : {&convective_.x, &convective_.y, &convective_.z})
     boundary_.fill(*component, FieldKind::scalar);
   if (forces_.stress) {
-    density_to(grains, cells, local_fraction(fluid), false, dt, flow_at_.stress);
+    gather_density(grains, cells, local_fraction(fluid), false, dt, flow_at_.stress);
   }
 }
 
@@ -117,7 +117,7 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
     read(VelocityOfRows{rows(fluid), alpha, grains.kin, flow_at_});
   } else if (config_.void_fraction == VoidFraction::cfdem_faithful) {
     Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
-    for_each_cell("coupling: velocity on cells", grid_, VelocityOnCells{fluid.u, x, y, z});
+    for_each_cell("coupling: velocity on cells", grid_, CentreVelocity{fluid.u, x, y, z});
     boundary_.fill(x, FieldKind::velocity_x);
     for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
     read(FlowFromCells{grid_, box_, x, y, z, alpha, grains.kin, flow_at_});
