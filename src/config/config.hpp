@@ -17,6 +17,7 @@ enum class RollingModel { none, epsd2, theta_m, cdt };
 enum class ContactModel { hertz_mindlin, linear };
 enum class GrainBoundaryX { exit, periodic, wall };
 enum class GrainBoundaryZ { periodic, wall };
+enum class PourShape { cone, bed };
 enum class DragLaw {
   gidaspow,
   di_felice,
@@ -130,10 +131,11 @@ struct CouplingConfig {
   bool operator==(const CouplingConfig&) const = default;
 };
 
-/// [initial] grains = { pour = {...} }: a jittered lattice cone above the floor that settles.
+/// [initial] grains = { pour = {...} }: a jittered lattice above the floor that settles.
 struct PourConfig {
-  std::array<double, 2> centre{0.04, 0.05};  // x, z [m]
-  double radius = 0;                         // of the unrelaxed cone's foot [m], required
+  PourShape shape = PourShape::cone;         // or a bed over the whole floor
+  std::array<double, 2> centre{0.04, 0.05};  // x, z of the cone [m]
+  double radius = 0;                         // of the unrelaxed cone's foot [m]
   double drop_height = 0;                    // lowest grain above the floor [m]
   std::uint64_t seed = 1;
   bool operator==(const PourConfig&) const = default;

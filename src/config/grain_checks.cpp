@@ -59,7 +59,16 @@ void check_pour(const Config& c, Findings& found) {
                  "must say which grains to pour");
   found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
                  "contradicts pour: grains could not settle");
+  const bool cone = pour.shape == PourShape::cone;
+  found.error_if(!cone && pour.radius > 0,
+                 {"initial.grains.pour.radius", "initial.grains.pour.shape"},
+                 "contradicts shape = \"bed\", which covers the floor");
+  if (found.error_if(cone && pour.radius == 0, {"initial.grains.pour.radius", "initial.grains"},
+                     "must be above 0 for a cone")) {
+    return;
+  }
   for (const int axis : {0, 1}) {
+    if (!cone) break;
     const double extent = c.size[axis == 0 ? 0 : 2];
     const double at = pour.centre[static_cast<std::size_t>(axis)];
     found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
@@ -73,14 +82,15 @@ void check_pour(const Config& c, Findings& found) {
     widest = std::max(widest, size.diameter);
     count += static_cast<double>(size.count);
   }
-  // The cone is cut from a close-packed lattice one per cent wider than the largest grain.
+  // The heap is cut from a close-packed lattice one per cent wider than the largest grain.
   const double spacing = 1.01 * widest;
   if (spacing >= c.size[1]) return;  // told by check_grain_sizes
   const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
-  const double height = 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
+  const double height = cone ? 3 * volume / (std::numbers::pi * pour.radius * pour.radius)
+                             : volume / (c.size[0] * c.size[2]);
   found.error_if(height + pour.drop_height > c.size[1],
                  {"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
-                 "must be larger: the cone would reach about {:.3g} m, above the domain",
+                 "must be larger: the heap would reach about {:.3g} m, above the domain",
                  height + pour.drop_height);
 }
 

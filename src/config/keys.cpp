@@ -218,11 +218,12 @@ void add_initial(Sections& all) {
 void add_pour(Sections& all) {
   all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
   Keys key(add(all, "initial.grains.pour",
-               "A loose cone of the grains of `grains.sizes`, which settles"),
+               "A loose cone or bed of the grains of `grains.sizes`, which settles"),
            [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
-  key("centre", &P::centre, any, "m", "[x, z] of its axis");
-  key("radius", &P::radius, between(1e-9, 1e6), "m", "of its foot", required);
+  key("shape", &P::shape, "a cone, or a bed of equal depth over the whole floor");
+  key("centre", &P::centre, any, "m", "[x, z] of the cone's axis");
+  key("radius", &P::radius, between(0, 1e6), "m", "of the cone's foot; a cone needs one");
   key("drop_height", &P::drop_height, between(0, 1e6), "m", "of its lowest grain above the floor");
   key("seed", &P::seed, "of the order and the jitter of the grains");
 }

@@ -43,10 +43,11 @@ InitialGrains read_grains(const std::filesystem::path& file);
 /// of columns, a diameter that is not positive, an id used twice. Overlap is not looked at.
 InitialGrains parse_grains_csv(std::string_view text, std::string_view file_name);
 
-/// A cone of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
+/// A heap of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
 /// holding the grains of `sizes` in random order: no overlap, no order that survives the collapse.
-/// Sites fill the cone of foot radius pour.radius [m] from its axis outward and upward, so the
-/// number of grains decides its height. Throws std::runtime_error if the cone leaves the domain.
+/// Sites fill a cone of foot radius pour.radius [m] from its axis outward and upward, or a bed from
+/// the floor up, so the number of grains decides the height. Throws std::runtime_error if the heap
+/// leaves the domain.
 InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
                           const std::array<double, 3>& domain);
 

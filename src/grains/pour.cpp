@@ -16,23 +16,70 @@ double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1.0p-53;
 }
 
-struct Site {
-  Vec3 x;         // relative to the centre of the foot [m]
-  double height;  // of the smallest cone through it [m]
+template <class Item>
+void shuffle(std::vector<Item>& items, std::mt19937_64& generator) {
+  for (std::size_t n = items.size(); n > 1; --n) {
+    const double at = uniform(generator) * static_cast<double>(n);
+    std::swap(items[n - 1], items[static_cast<std::size_t>(at)]);
+  }
+}
+
+/// Where grains are poured: a cone over its foot, or a bed over the floor.
+struct Heap {
+  PourShape shape;
+  Vec3 centre;            // of the foot [m]
+  double half_x, half_z;  // of the foot [m]: both the radius of a cone
+
+  Heap(const PourConfig& pour, const std::array<double, 3>& domain)
+      : shape(pour.shape),
+        centre{pour.centre[0], pour.drop_height, pour.centre[1]},
+        half_x(pour.radius),
+        half_z(pour.radius) {
+    if (shape == PourShape::cone) return;
+    half_x = domain[0] / 2, half_z = domain[2] / 2;
+    centre.x = half_x, centre.z = half_z;
+  }
+
+  double area() const {
+    return (shape == PourShape::cone ? std::numbers::pi : 4) * half_x * half_z;
+  }
+
+  /// Of n sites `spacing` apart, about: a site takes spacing^3 / sqrt 2 [m].
+  double height(std::size_t n, double spacing) const {
+    const double volume = static_cast<double>(n) * std::pow(spacing, 3) / std::numbers::sqrt2;
+    return (shape == PourShape::cone ? 3 : 1) * volume / area();
+  }
+
+  /// Of the smallest cone or bed through x, seen from the centre [m]; negative outside the foot.
+  double height_through(const Vec3& x, double spacing) const {
+    if (shape == PourShape::bed) {
+      const bool inside =
+          std::abs(x.x) + spacing / 2 <= half_x && std::abs(x.z) + spacing / 2 <= half_z;
+      return inside ? x.y : -1;
+    }
+    const double r = std::hypot(x.x, x.z);
+    return r < half_x ? x.y / (1 - r / half_x) : -1;
+  }
 };
 
-/// Sites below `top` inside the foot, by the height of the cone that just holds them.
-std::vector<Site> cone_sites(double radius, double spacing, double top) {
+struct Site {
+  Vec3 x;         // relative to the centre of the foot [m]
+  double height;  // of the smallest heap through it [m]
+};
+
+/// Sites of the lattice that lie in the heap of height `top`.
+std::vector<Site> sites_below(double top, const Heap& heap, double spacing) {
   const double layer = spacing * std::sqrt(2.0 / 3.0), row = spacing * std::sqrt(3.0) / 2;
-  const int n_x = static_cast<int>(radius / spacing) + 2, n_z = static_cast<int>(radius / row) + 2;
+  const int n_x = static_cast<int>(heap.half_x / spacing) + 2,
+            n_z = static_cast<int>(heap.half_z / row) + 2;
   std::vector<Site> sites;
   for (int j = 0; spacing / 2 + layer * j < top; ++j) {
     for (int k = -n_z; k <= n_z; ++k) {
       for (int i = -n_x; i <= n_x; ++i) {
         const Vec3 x{spacing * (i + 0.5 * ((k + j) & 1)), spacing / 2 + layer * j,
                      row * (k + (j & 1) / 3.0)};
-        const double r = std::hypot(x.x, x.z);
-        if (r < radius) sites.push_back({x, x.y / (1 - r / radius)});
+        const double height = heap.height_through(x, spacing);
+        if (height >= 0 && height <= top) sites.push_back({x, height});
       }
     }
   }
@@ -44,9 +91,7 @@ std::vector<double> shuffled_diameters(const std::vector<SizeClass>& sizes,
   std::vector<double> d;
   for (const SizeClass& size : sizes)
     d.insert(d.end(), static_cast<std::size_t>(size.count), size.diameter);
-  for (std::size_t n = d.size(); n > 1; --n) {
-    std::swap(d[n - 1], d[static_cast<std::size_t>(uniform(generator) * static_cast<double>(n))]);
-  }
+  shuffle(d, generator);
   return d;
 }
 
@@ -58,33 +103,30 @@ InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& 
   const std::vector<double> diameter = shuffled_diameters(sizes, generator);
   const std::size_t n = diameter.size();
   const double spacing = 1.01 * *std::max_element(diameter.begin(), diameter.end());
-  // A cone of height h holds about pi R^2 h / 3 / (spacing^3 / sqrt 2) sites.
-  const double estimate = static_cast<double>(n) * spacing * spacing * spacing / std::sqrt(2.0) *
-                          3 / (std::numbers::pi * pour.radius * pour.radius);
+  const Heap heap(pour, domain);
   std::vector<Site> sites;
-  for (double top = 1.2 * estimate + 2 * spacing; sites.size() < n; top *= 1.5) {
-    sites = cone_sites(pour.radius, spacing, top);
-    std::erase_if(sites, [top](const Site& s) { return s.height > top; });
+  for (double top = 1.2 * heap.height(n, spacing) + 2 * spacing; sites.size() < n; top *= 1.5) {
+    sites = sites_below(top, heap, spacing);
     if (top > 1e3 * domain[1]) break;
   }
+  if (pour.shape == PourShape::bed) shuffle(sites, generator);  // its last layer has gaps anywhere
   std::stable_sort(sites.begin(), sites.end(),
                    [](const Site& a, const Site& b) { return a.height < b.height; });
   const bool fits = sites.size() >= n &&
                     sites[n - 1].height + spacing / 2 + pour.drop_height < domain[1] &&
-                    pour.centre[0] > pour.radius && pour.centre[0] + pour.radius < domain[0];
+                    heap.centre.x >= heap.half_x && heap.centre.x + heap.half_x <= domain[0];
   if (!fits) {
     throw std::runtime_error(
-        "the poured cone of " + std::to_string(n) +
+        "the poured heap of " + std::to_string(n) +
         " grains does not fit in the domain: change initial.grains.pour.radius, "
         "its centre or domain.size");
   }
   InitialGrains grains;
   for (std::size_t g = 0; g < n; ++g) {
     const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
-    const Vec3 x = sites[g].x;
+    const Vec3 x = heap.centre + sites[g].x;
     grains.add(static_cast<std::int64_t>(g) + 1, diameter[g],
-               {pour.centre[0] + x.x + jitter(), pour.drop_height + x.y + jitter(),
-                pour.centre[1] + x.z + jitter()});
+               {x.x + jitter(), x.y + jitter(), x.z + jitter()});
   }
   return grains;
 }

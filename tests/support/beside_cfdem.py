@@ -17,7 +17,7 @@ ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
 SUBMERGED = 1500 * 9.81  # weight of a grain in water per volume [N/m3]
 SAME_PLACE = 1e-6  # [m]
 # name: (case, lower ends of the classes of height [mm])
-HELD = {"bed": (CASES / "flat-bed.toml", (0, 0.15, 0.25, 0.35, 0.45)),
+HELD = {"bed": (CASES / "cfdem-bed.toml", (0, 0.15, 0.25, 0.35, 0.45)),
         "heap": (ROOT / "configs/barchan-10k.toml", (0, 0.15, 0.35, 0.55, 0.75, 0.95, 1.15))}
 
 

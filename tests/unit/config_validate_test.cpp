@@ -102,6 +102,8 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {grains, "initial.grains.pour.radius=0.021",
        "must keep the cone inside the domain; along z it spans -0.001 to 0.041 m of 0 to 0.04 m"},
       {grains, "initial.grains.pour.drop_height=0.026", "above the domain"},
+      {grains, "initial.grains.pour.radius=0", "radius = 0: must be above 0 for a cone"},
+      {grains, "initial.grains.pour.shape=\"bed\"", "contradicts shape = \"bed\""},
       {grains, "domain.size=[0.1, 0.025, 7.1e-4]", "its own image"},
       {grains, "time.end=1e-4", "end = 0.0001: must be at least one fluid_step, 0.00025 s"},
       {grains, "time.grain_step=1e-3", "must be at most fluid_step, 0.00025 s"},
@@ -147,7 +149,7 @@ TEST(ConfigValidate, PouredConeFitsUnderTheTop) {
     return problems(grain_case(),
                     {"grains.sizes=[[0.25e-3, 10000]]", "initial.grains.pour.radius=" + radius});
   };
-  EXPECT_TRUE(says(on("2.0e-3"), "the cone would reach about 0.0272 m, above the domain"));
+  EXPECT_TRUE(says(on("2.0e-3"), "the heap would reach about 0.0272 m, above the domain"));
   EXPECT_TRUE(on("2.1e-3").empty());
 }
 

@@ -31,6 +31,29 @@ TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
   }
 }
 
+/// Without overlap, through the periodic sides neither.
+TEST(Pour, ABedCoversTheFloorEvenly) {
+  const std::array<double, 3> size{0.006, 0.01, 0.004};
+  const InitialGrains g =
+      pour_grains({.shape = PourShape::bed, .drop_height = 0.001}, kSizes, size);
+  ASSERT_EQ(g.size(), 1000u);
+  std::array<int, 4> quarters{};
+  const auto apart = [](double distance, double period) {
+    return std::remainder(distance, period);
+  };
+  for (std::size_t a = 0; a < g.size(); ++a) {
+    EXPECT_GT(g.x[a].y - g.diameter[a] / 2, 0.001 - 1e-6);
+    EXPECT_LT(g.x[a].y, 0.001 + 4 * 2.525e-4);
+    ++quarters[(g.x[a].x < 0.003 ? 0u : 1u) + (g.x[a].z < 0.002 ? 0u : 2u)];
+    for (std::size_t b = 0; b < a; ++b) {
+      const Vec3 d = g.x[a] - g.x[b];
+      ASSERT_GT(norm(Vec3{apart(d.x, size[0]), d.y, apart(d.z, size[2])}),
+                (g.diameter[a] + g.diameter[b]) / 2);
+    }
+  }
+  for (const int quarter : quarters) EXPECT_NEAR(quarter, 250, 25);
+}
+
 TEST(Pour, TheSeedDecides) {
   const std::array<double, 3> size{0.02, 0.02, 0.012};
   const InitialGrains a = pour_grains(kPour, kSizes, size), b = pour_grains(kPour, kSizes, size);
