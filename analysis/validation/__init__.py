@@ -1,10 +1,10 @@
 """Figures of docs/validation.md, from saved results.
 
-    ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep MESH=RUN_DIR]
+    ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep NAME=DIR]
 
 Writes <figure>.png and .pdf, and channel_summary.csv. The results are tables that the tests write
-when BARCHAN_RESULTS names a folder, and statistics of channel runs taken over with --keep. Each
-says in its first lines which command, commit and machine made it, and when.
+when BARCHAN_RESULTS names a folder, and statistics of channel runs and of the bed-load study taken
+over with --keep. Each says in its first lines which command, commit and machine made it, and when.
 Exit status as of plot.py.
 """
 
@@ -14,6 +14,7 @@ from pathlib import Path
 
 import style
 import tables
+from validation import bed_load
 from validation import cfdem
 from validation import channel
 from validation import contacts
@@ -31,6 +32,7 @@ FIGURES = {
     "grains_and_water": water.draw,
     "convergence": flow.draw_convergence,
     "beside_cfdem": cfdem.draw,
+    bed_load.NAME: bed_load.draw,
 }
 
 
@@ -42,9 +44,9 @@ def parse(arguments):
                         help="folder of the saved results (docs/validation)")
     parser.add_argument("--out", type=Path, default=SAVED, metavar="DIR",
                         help="folder for the pictures (docs/validation)")
-    parser.add_argument("--keep", action="append", default=[], metavar="MESH=RUN_DIR",
-                        help="first save the statistics of a channel run; MESH: "
-                        + ", ".join(channel.MESHES))
+    parser.add_argument("--keep", action="append", default=[], metavar="NAME=DIR",
+                        help=f"first save the statistics of a channel run ({', '.join(channel.MESHES)}) or of the "
+                             f"study {bed_load.NAME}")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     return parser.parse_args(arguments)
 
@@ -68,8 +70,9 @@ def main(arguments):
     unreadable, failed = 0, 0
     try:
         options.out.mkdir(parents=True, exist_ok=True)
-        for mesh, _, run_dir in (text.partition("=") for text in options.keep):
-            print(channel.save(mesh, run_dir, options.source))
+        for name, _, kept in (text.partition("=") for text in options.keep):
+            print(bed_load.save(kept, options.source) if name == bed_load.NAME
+                  else channel.save(name, kept, options.source))
     except (OSError, PlotError) as error:
         return fail(error)
     for name in options.figures or FIGURES:

@@ -1,0 +1,127 @@
+"""bed_load: flux over a flat bed against the shear stress, from the runs of configs/validation/flat-bed-study.toml.
+
+Laws beside it, with the Shields number s = stress / ((rho_s - rho_f) g d) and q* = q / sqrt((rho_s/rho_f - 1) g d^3):
+Wong & Parker, J. Hydraul. Eng. 132, 1159 (2006), fitted to rough beds; van Rijn, J. Hydraul. Eng. 110, 1431 (1984),
+to sand of 0.2 to 2 mm, with the threshold of Soulsby & Whitehouse (1997). In laminar flow grains begin to move at
+s = 0.12 +- 0.03: Ouriemi et al., Phys. Fluids 19, 061706 (2007).
+"""
+
+import datetime
+import json
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+import tables
+from run_folder import NotInRun
+from spread import spread
+from study_folder import StudyFolder, gap_of
+
+NAME = "bed_load"
+SMOOTHING_ITSELF = 2.0  # [s]; from then on the bed is measured
+PACKED = 0.58  # solid fraction of a loose bed: gives the height of its surface
+GRAVITY, VISCOSITY, WATER = 9.81, 1e-6, 1000.0
+LAMINAR_THRESHOLD = 0.12, 0.03
+MOVES = 1e-4  # q* below it counts as rest
+COLUMNS = ("rolling_friction,smoothing_length,mean_velocity,realisation,seconds,stress,shields,grain_reynolds,flux,"
+           "q_star,q_star_deviation")
+
+
+def wong_parker(shields):
+    return 3.97 * np.maximum(0, shields - 0.0495)**1.5
+
+
+def van_rijn(shields, size=4.90):
+    """`size`: D* = d ((rho_s/rho_f - 1) g / nu^2)^(1/3); threshold of Soulsby & Whitehouse."""
+    threshold = 0.30 / (1 + 1.2 * size) + 0.055 * (1 - np.exp(-0.020 * size))
+    return 0.053 * np.maximum(0, shields / threshold - 1)**2.1 / size**0.3
+
+
+def measure(run):
+    """The row of a run; its flux in blocks of one second gives the deviation."""
+    config, history = run.config, run.history
+    diameter = run.grains(0)["d"].astype(float)
+    area = config["domain"]["size"][0] * config["domain"]["size"][2]
+    volume = np.sum(np.pi / 6 * diameter**3)
+    water_above = config["domain"]["size"][1] - volume / (PACKED * area)
+    size = np.median(diameter)
+    excess = config["grains"]["density"] / WATER - 1
+    late = history["t"] > SMOOTHING_ITSELF
+    t, flux = history["t"][late], history["grain_flux"][late]
+    stress = np.mean(history["pressure_gradient"][late]) * water_above
+    scale = np.sqrt(excess * GRAVITY * size**3)
+    blocks = [np.mean(block) / scale for block in np.array_split(flux, max(1, round(t[-1] - SMOOTHING_ITSELF)))]
+    return (config["grains"]["rolling_friction"], config["coupling"]["smoothing_length"],
+            config["fluid"]["mean_velocity"], config["initial"]["realisation"], t[-1] - SMOOTHING_ITSELF, stress,
+            stress / (excess * WATER * GRAVITY * size), np.sqrt(stress / WATER) * size / VISCOSITY,
+            np.mean(flux), np.mean(flux) / scale, np.std(blocks))
+
+
+def save(study_path, folder):
+    """Keeps one row for each finished run of the study as bed_load.csv; returns the path."""
+    study = StudyFolder(study_path)
+    runs = [run for case in study.cases for run in case.runs if gap_of(run.path) is None]
+    if not runs:
+        raise NotInRun(f"needs a finished run in {study_path}")
+    identity = json.loads((runs[0].path / "run.json").read_text())
+    notes = {"title": study.title,
+             "command": "./barchan sweep configs/validation/flat-bed-study.toml",
+             "commit": identity["git_hash"],
+             "machine": f'{tables.machine()}; {identity["device"]}',
+             "date": datetime.date.today().isoformat()}
+    path = folder / f"{NAME}.csv"
+    tables.write(path, notes, [COLUMNS] + [",".join(f"{value:.6g}" for value in measure(run)) for run in runs])
+    return path
+
+
+def fit(shields, q_star):
+    """Slope a and threshold s_c of q* = a (s - s_c)^1.5, by least squares of q*^(2/3) where grains move."""
+    moving = q_star > MOVES
+    if np.unique(np.round(shields[moving], 2)).size < 2:
+        return np.nan, np.nan
+    slope, offset = np.polyfit(shields[moving], q_star[moving]**(2 / 3), 1)
+    return slope**1.5, -offset / slope
+
+
+def fit_with_errors(shields, q_star, draws=500):
+    """The fit and the standard errors of both numbers: runs drawn again, with replacement."""
+    generator = np.random.default_rng(1)
+    again = [fit(shields[rows], q_star[rows])
+             for rows in generator.integers(0, shields.size, (draws, shields.size))]
+    return fit(shields, q_star), np.nanstd(again, axis=0)
+
+
+def means(table):
+    """Of the realisations of each case: Shields number, q* and half its 95 % interval."""
+    points = [table.where("mean_velocity", velocity) for velocity in table.values("mean_velocity")]
+    return np.array([(np.mean(p["shields"]), spread(p["q_star"].tolist()).mean, spread(p["q_star"].tolist()).interval)
+                     for p in points]).T
+
+
+def draw(folder):
+    table = tables.read_saved(folder, NAME)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 3.2))
+    shields = np.linspace(0.02, 0.3, 300)
+    for axes in (left, right):
+        for law, label, dashes in ((wong_parker, "Wong & Parker, rough", ":"), (van_rijn, "van Rijn, fine sand", "--")):
+            axes.plot(shields, law(shields), color="k", lw=0.7, ls=dashes, label=label)
+        centre, width = LAMINAR_THRESHOLD
+        axes.axvspan(centre - width, centre + width, color="0.9", lw=0, label="threshold, laminar")
+        axes.set(yscale="log", ylim=(1e-6, 2), xlim=(0, 0.3), xlabel="Shields number", ylabel="$q^*$")
+    middle = table.where("smoothing_length", 3e-4)
+    for friction, colour in zip(middle.values("rolling_friction"), (style.BLUE, style.VERMILLION)):
+        draw_points(left, middle.where("rolling_friction", friction), colour, f"$\\mu_r$ = {friction:g}")
+    rolls = table.where("rolling_friction", 0.1)
+    for length, colour in zip(sorted(rolls.values("smoothing_length")), (style.GREEN, style.BLUE, style.ORANGE)):
+        draw_points(right, rolls.where("smoothing_length", length), colour, f"smoothed over {length / 2e-4:g} $d$")
+    for index, axes in enumerate((left, right)):
+        axes.legend(loc="lower right", fontsize=6)
+        style.panel_label(axes, index)
+    return figure
+
+
+def draw_points(axes, table, colour, label):
+    shields, q_star, interval = means(table)
+    axes.errorbar(shields, np.maximum(q_star, 1e-6), yerr=np.nan_to_num(interval), ls="", marker="o", ms=3.5, capsize=2,
+                  color=colour, label=label)
