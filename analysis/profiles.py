@@ -16,9 +16,9 @@ STRESSES = (("uu", "$\\langle u'u' \\rangle$", style.BLUE), ("ww", "$\\langle w'
             ("uv", "$-\\langle u'v' \\rangle$", style.VERMILLION))
 
 
-def read_dns():
+def read_dns(name="chan395"):
     """The DNS above the wall, with the columns of in_wall_units."""
-    dns = tables.read(tables.REFERENCE / "dns_channel_mkm1999_chan395.csv")
+    dns = tables.read(tables.REFERENCE / f"dns_channel_mkm1999_{name}.csv")
     names = {"y": "y", "y_plus": "yplus", "U_plus": "U", "uu": "uu", "vv": "vv", "ww": "ww",
              "uv": "uv", "total": "tot"}
     return {name: dns[column][1:] for name, column in names.items()}

@@ -27,6 +27,7 @@ SAVED = tables.ROOT / "docs/validation"
 LARGEST_PNG = 140_000  # [bytes]; the pictures live in the repository
 FIGURES = {
     "channel": channel.draw,
+    "channel_resolved": channel.draw_resolved,
     "taylor_green": flow.draw_taylor_green,
     "contacts": contacts.draw,
     "grains_and_water": water.draw,
@@ -45,7 +46,7 @@ def parse(arguments):
     parser.add_argument("--out", type=Path, default=SAVED, metavar="DIR",
                         help="folder for the pictures (docs/validation)")
     parser.add_argument("--keep", action="append", default=[], metavar="NAME=DIR",
-                        help=f"first save the statistics of a channel run ({', '.join(channel.MESHES)}) or of the "
+                        help=f"first save the statistics of a channel run ({', '.join(channel.SAVED)}) or of the "
                              f"study {bed_load.NAME}")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     return parser.parse_args(arguments)

@@ -1,10 +1,12 @@
-"""channel: the clear-water channel on three meshes beside DNS, and its figures of merit.
+"""channel: the clear-water channel on several meshes beside DNS, and its figures of merit.
+channel_resolved: the same at a lower Reynolds number, every eddy resolved.
 
-DNS: Moser, Kim & Mansour, Phys. Fluids 11, 943 (1999), Re_tau = 392.
+DNS: Moser, Kim & Mansour, Phys. Fluids 11, 943 (1999), Re_tau = 392 and 178.
 """
 
 import datetime
 import json
+import tomllib
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,15 +18,20 @@ import style
 import tables
 from run_folder import NotInRun, PlotError, RunFolder, read_table
 
-# saved as channel_<name>.csv: label, colour, line
+# saved as channel_<name>.csv: case in configs/validation, label, colour, line
 MESHES = {
-    "mesh1": ("mesh 1", style.BLUE, "-"),
-    "mesh1_dns_box": ("mesh 1, box of the DNS", style.SKY, (0, (5, 1.2))),
-    "mesh2": ("mesh 2, box of the DNS", style.GREEN, (0, (3, 1, 1, 1))),
-    "mesh3": ("mesh 3, box of the DNS", style.VERMILLION, "-"),
+    "mesh1": ("channel-mesh-1", "mesh 1", style.BLUE, "-"),
+    "mesh1_dns_box": ("channel-mesh-1", "mesh 1, box of the DNS", style.SKY, (0, (5, 1.2))),
+    "mesh2": ("channel-mesh-2", "mesh 2, box of the DNS", style.GREEN, (0, (3, 1, 1, 1))),
+    "mesh3": ("channel-mesh-3", "mesh 3, box of the DNS", style.VERMILLION, "-"),
+    "across": ("channel-mesh-3", "half the spacing across", style.GREEN, "-"),
+    "along": ("channel-fine", "and along", style.BLACK, (0, (5, 1.2))),
 }
-ROWS = {"mesh1": 30, "mesh1_dns_box": 30, "mesh2": 45, "mesh3": 60}
-DNS_BULK = 17.545  # bulk velocity over u_star
+RESOLVED = {"dns_180": ("channel-dns-180", "this code, no model", style.BLUE, "-")}
+SAVED = MESHES | RESOLVED
+# Where a run may differ from its case.
+TOLD = "domain.size", "fluid.cells", "time.fluid_step", "time.end", "statistics.start"
+BULK = {"chan395": 17.545, "chan180": 15.679}  # bulk velocity over u_star of the DNS
 TOLERANCE = 0.05   # of u_star, and so of U^+
 STRESSES = {"uu": "$\\langle u'u' \\rangle$", "vv": "$\\langle v'v' \\rangle$",
             "ww": "$\\langle w'w' \\rangle$", "uv": "$-\\langle u'v' \\rangle$"}
@@ -49,40 +56,50 @@ class Channel:
         return {**curves, "uv": -curves["uv"]}
 
 
-def read_channels(folder):
-    paths = {name: folder / f"channel_{name}.csv" for name in MESHES}
-    channels = [Channel(name, *MESHES[name], tables.read(path)) for name, path in paths.items()
+def read_channels(folder, meshes=None):
+    meshes = meshes or MESHES
+    paths = {name: folder / f"channel_{name}.csv" for name in meshes}
+    channels = [Channel(name, *meshes[name][1:], tables.read(path)) for name, path in paths.items()
                 if path.exists()]
     if not channels:
-        raise NotInRun(f"needs {folder}/channel_mesh1.csv or another saved channel")
+        raise NotInRun(f"needs {next(iter(paths.values()))} or another saved channel")
     return channels
 
 
-def read_dns():
-    dns = profiles.read_dns()
-    return {**dns, "uv": -dns["uv"]}
+def read_dns(name="chan395"):
+    dns = profiles.read_dns(name)
+    return {**dns, "uv": -dns["uv"], "bulk": BULK[name]}
+
+
+def changes(config, case):
+    """What a run has of the keys TOLD in place of what its case has, as the launcher takes it."""
+    told = []
+    for section, key in (dotted.split(".") for dotted in TOLD):
+        value = config[section][key]
+        if value != case[section][key]:
+            told.append(f" --set '{section}.{key}={str(value).replace(' ', '')}'")
+    return "".join(told)
 
 
 def save(name, run_path, folder):
     """Keeps the statistics of a run as channel_<name>.csv; returns the path."""
-    if name not in MESHES:
-        raise PlotError(f'no mesh "{name}"; meshes: {", ".join(MESHES)}')
+    if name not in SAVED:
+        raise PlotError(f'no mesh "{name}"; meshes: {", ".join(SAVED)}')
     run = RunFolder(run_path)
     source = run.path / "statistics.csv"
     if not source.exists() or not run.domain:
         raise NotInRun(f"needs statistics.csv and config.toml in {run_path}")
     config, identity = run.config, json.loads((run.path / "run.json").read_text())
     fluid, statistics = config["fluid"], config["statistics"]
-    if fluid["cells"][1] != ROWS[name]:
-        raise PlotError(f'{run_path} has {fluid["cells"][1]} rows, {name} has {ROWS[name]}')
+    path = f"configs/validation/{SAVED[name][0]}.toml"
+    case = tomllib.loads((tables.ROOT / path).read_text())
+    if fluid["cells"][1] != case["fluid"]["cells"][1]:
+        raise PlotError(f'{run_path} has {fluid["cells"][1]} rows, {path} has {case["fluid"]["cells"][1]}')
     made = datetime.date.fromtimestamp(source.stat().st_mtime)
     samples = read_table(source)["n_samples"][0]
-    case = "configs/validation/channel-" + name.partition("_")[0].replace("mesh", "mesh-") + ".toml"
-    changes = " --set 'domain.size={}' --set 'fluid.cells={}'".format(
-        *(str(value).replace(" ", "") for value in (config["domain"]["size"], fluid["cells"])))
     notes = {
-        "title": run.title,
-        "command": f"./barchan run {case}" + (changes if name == "mesh1_dns_box" else ""),
+        "title": case["case"]["title"],
+        "command": f"./barchan run {path}{changes(config, case)}",
         "commit": identity["git_hash"],
         "machine": f'{tables.machine()}; {identity["device"]}',
         "date": made.isoformat(),
@@ -111,7 +128,7 @@ def merits(channel, dns):
     curves = channel.curves
     u_star = profiles.friction_velocity(channel.table)
     bulk = float(channel.table.notes["bulk velocity"].split()[0])
-    rows = [("u_star", "m/s", bulk / DNS_BULK, u_star)]
+    rows = [("u_star", "m/s", bulk / dns["bulk"], u_star)]
     for name in STRESSES:
         expected, found = (peak(c["y_plus"], c[name]) for c in (dns, curves))
         stress = "-uv" if name == "uv" else name
@@ -131,10 +148,8 @@ def merits(channel, dns):
     return rows
 
 
-def summary(folder):
-    """Lines of channel_summary.csv: a quantity each, value and deviation in % for each mesh."""
-    dns = read_dns()
-    channels = read_channels(folder)
+def summary(channels, dns):
+    """Lines of a summary: a quantity each, value and deviation in % for each channel."""
     header = ["quantity", "unit", "DNS"]
     for channel in channels:
         header += [channel.name, f"{channel.name} off (%)"]
@@ -157,6 +172,10 @@ def sparse(x, count=28):
 
 def draw(folder):
     return draw_channels(read_channels(folder), read_dns())
+
+
+def draw_resolved(folder):
+    return draw_channels(read_channels(folder, RESOLVED), read_dns("chan180"))
 
 
 def draw_channels(channels, dns):
@@ -197,5 +216,5 @@ def write_summary(source, out):
     path = out / "channel_summary.csv"
     notes = {"made by": "./barchan plot validation channel",
              "DNS": "Moser, Kim & Mansour (1999), Re_tau = 392; u_star from the bulk velocity"}
-    tables.write(path, notes, summary(source))
+    tables.write(path, notes, summary(read_channels(source), read_dns()))
     return path

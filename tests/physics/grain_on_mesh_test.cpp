@@ -21,20 +21,26 @@ Config paper_mesh() {
   return c;
 }
 
-/// Drag on a grain held at x in the flow u = bulk + shear y [N].
-double drag_at(const Vec3& x, double bulk, double shear) {
-  Config c = paper_mesh();
+/// Drag along x on a grain held at x in a flow of u(i, y) [m/s] on the x-faces before cells i [N].
+template <class Velocity>
+double held_drag(Config c, const Vec3& x, const Velocity& u) {
   c.grains->frozen = true;
-  if (shear > 0) c.fluid->bottom = WallFlow::no_slip;
   InitialGrains grain;
   testing::add_grain(grain, kDiameter, x);
   CoupledRun run(c, grain);
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid,
-                  [&](int, int j, int) { return bulk + shear * h.y(j); });
+                  [&](int i, int j, int) { return u(i, h.y(j)); });
   run.step.fill_ghosts(run.state);
   run.advance();
   return test::force_on_first(run, "force_drag").x;
+}
+
+/// In the flow u = bulk + shear y.
+double drag_at(const Vec3& x, double bulk, double shear) {
+  Config c = paper_mesh();
+  if (shear > 0) c.fluid->bottom = WallFlow::no_slip;
+  return held_drag(c, x, [&](int, double y) { return bulk + shear * y; });
 }
 
 struct Range {
@@ -80,6 +86,23 @@ TEST(GrainOnMesh, DragIsSteadyAcrossCellsInShear) {
   check("along y in shear, over Schiller-Naumann", along(low, high, [&](const Vec3& x) {
           return drag(x) / test::schiller_naumann_force(shear * x.y, kDiameter);
         }));
+}
+
+/// CFDEM reads velocities at the centres of cells, where +u and -u on opposite faces are nothing.
+TEST(GrainOnMesh, AsCfdemReadsTheFlowItIsThatOfTheCentres) {
+  const double u = 0.02, shear = 256;
+  const Vec3 on_a_face{2 * kDx, 1.1e-3, 2.5 * kDz};
+  const auto zigzag = [&](int i, double) { return i % 2 == 0 ? u : -u; };
+  Config c = paper_mesh();
+  c.coupling.exchange = Exchange::interpolated;
+  const double felt = test::schiller_naumann_force(u, kDiameter);
+  EXPECT_NEAR(held_drag(c, on_a_face, zigzag), felt, 0.02 * felt);
+  c.coupling.void_fraction = VoidFraction::cfdem_faithful;
+  EXPECT_NEAR(held_drag(c, on_a_face, zigzag), 0, 1e-12 * felt);
+  c.fluid->bottom = WallFlow::no_slip;
+  const double in_shear = test::schiller_naumann_force(shear * on_a_face.y, kDiameter);
+  EXPECT_NEAR(held_drag(c, on_a_face, [&](int, double y) { return shear * y; }), in_shear,
+              0.02 * in_shear);
 }
 
 /// A grain driven along x by its weight through cells that it stirs itself.
