@@ -3,7 +3,7 @@
 set -u
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
-figures=(channel taylor_green contacts grains_and_water convergence beside_cfdem)
+figures=(channel channel_resolved taylor_green contacts grains_and_water convergence beside_cfdem)
 
 # Every saved result says where it comes from.
 for table in "$root"/docs/validation/*.csv; do
