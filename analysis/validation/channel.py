@@ -21,11 +21,11 @@ from run_folder import NotInRun, PlotError, RunFolder, read_table
 # saved as channel_<name>.csv: case in configs/validation, label, colour, line
 MESHES = {
     "mesh1": ("channel-mesh-1", "mesh 1", style.BLUE, "-"),
-    "mesh1_dns_box": ("channel-mesh-1", "mesh 1, box of the DNS", style.SKY, (0, (5, 1.2))),
-    "mesh2": ("channel-mesh-2", "mesh 2, box of the DNS", style.GREEN, (0, (3, 1, 1, 1))),
-    "mesh3": ("channel-mesh-3", "mesh 3, box of the DNS", style.VERMILLION, "-"),
-    "across": ("channel-mesh-3", "half the spacing across", style.GREEN, "-"),
-    "along": ("channel-fine", "and along", style.BLACK, (0, (5, 1.2))),
+    "mesh1_dns_box": ("channel-mesh-1", "mesh 1, DNS box", style.SKY, (0, (5, 1.2))),
+    "mesh2": ("channel-mesh-2", "mesh 2, DNS box", style.GREEN, (0, (3, 1, 1, 1))),
+    "mesh3": ("channel-mesh-3", "mesh 3, DNS box", style.VERMILLION, "-"),
+    "across": ("channel-mesh-3", "half across", style.GREEN, "-"),
+    "along": ("channel-fine", "half both ways", style.BLACK, (0, (5, 1.2))),
 }
 RESOLVED = {"dns_180": ("channel-dns-180", "this code, no model", style.BLUE, "-")}
 SAVED = MESHES | RESOLVED
