@@ -87,9 +87,10 @@ def fit(shields, q_star):
 def fit_with_errors(shields, q_star, draws=500):
     """The fit and the standard errors of both numbers: runs drawn again, with replacement."""
     generator = np.random.default_rng(1)
-    again = [fit(shields[rows], q_star[rows])
-             for rows in generator.integers(0, shields.size, (draws, shields.size))]
-    return fit(shields, q_star), np.nanstd(again, axis=0)
+    again = np.array([fit(shields[rows], q_star[rows])
+                      for rows in generator.integers(0, shields.size, (draws, shields.size))])
+    found = again[np.isfinite(again[:, 0])]
+    return fit(shields, q_star), np.std(found, axis=0) if len(found) > 1 else np.full(2, np.nan)
 
 
 def means(table):
@@ -111,7 +112,8 @@ def draw(folder):
         axes.set(yscale="log", ylim=(1e-6, 2), xlim=(0, 0.3), xlabel="Shields number", ylabel="$q^*$")
     middle = table.where("smoothing_length", 3e-4)
     for friction, colour in zip(middle.values("rolling_friction"), (style.BLUE, style.VERMILLION)):
-        draw_points(left, middle.where("rolling_friction", friction), colour, f"$\\mu_r$ = {friction:g}")
+        points = middle.where("rolling_friction", friction)
+        draw_points(left, points, colour, f"$\\mu_r$ = {friction:g}{threshold_of(points)}")
     rolls = table.where("rolling_friction", 0.1)
     for length, colour in zip(sorted(rolls.values("smoothing_length")), (style.GREEN, style.BLUE, style.ORANGE)):
         draw_points(right, rolls.where("smoothing_length", length), colour, f"smoothed over {length / 2e-4:g} $d$")
@@ -119,6 +121,11 @@ def draw(folder):
         axes.legend(loc="lower right", fontsize=6)
         style.panel_label(axes, index)
     return figure
+
+
+def threshold_of(table):
+    (_, threshold), (_, error) = fit_with_errors(table["shields"], table["q_star"])
+    return f", threshold {threshold:.3f} $\\pm$ {error:.3f}" if np.isfinite(threshold + error) else ""
 
 
 def draw_points(axes, table, colour, label):

@@ -2,12 +2,17 @@
 import math
 import pathlib
 import sys
+import tempfile
+import warnings
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "analysis"))
+import tables  # noqa: E402
 from validation import bed_load  # noqa: E402
+
+warnings.simplefilter("error")
 
 failures = []
 
@@ -58,6 +63,16 @@ if not math.isnan(bed_load.fit(shields, 0 * shields)[0]):
 # The published laws at one point each, by hand: T = 0.1/0.04874 - 1 for van Rijn.
 expect_near("van Rijn at 0.1", float(bed_load.van_rijn(0.1)), 0.053 * (0.1 / 0.04874 - 1)**2.1 / 4.9**0.3, 1e-3)
 expect_near("Wong & Parker at 0.0995", float(bed_load.wong_parker(0.0995)), 3.97 * 0.05**1.5, 1e-12)
+
+# The figure says the threshold that it fits, and draws a study that has one run as well.
+with tempfile.TemporaryDirectory() as folder:
+    rows = [f"{friction},3e-4,{0.2 + s},{n + 1},10,0,{s},3,0,{float(bed_load.wong_parker(s)) * (1 + 0.1 * n)},0"
+            for friction in (0.1, 0) for s in (0.03, 0.08, 0.12, 0.2) for n in range(3)]
+    for lines in rows[:1], rows:
+        tables.write(pathlib.Path(folder) / "bed_load.csv", {"title": "made up"}, [bed_load.COLUMNS, *lines])
+        labels = bed_load.draw(pathlib.Path(folder)).axes[0].get_legend_handles_labels()[1]
+    if not any(label.startswith("$\\mu_r$ = 0.1, threshold 0.0") for label in labels):
+        failures.append(f"the legend has no threshold: {labels}")
 
 for failure in failures:
     print(f"bed_load: {failure}", file=sys.stderr)
