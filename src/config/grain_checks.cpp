@@ -53,6 +53,18 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
                      "is over a quarter of the height: it would smear the dune away");
 }
 
+void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Findings& found) {
+  for (const int axis : {0, 1}) {
+    const double extent = domain[axis == 0 ? 0 : 2];
+    const double at = pour.centre[static_cast<std::size_t>(axis)];
+    found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
+                   {"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
+                   "must keep the cone inside the domain; along {} it spans {:.4g} to {:.4g} m of "
+                   "0 to {:.4g} m",
+                   axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent);
+  }
+}
+
 void check_pour(const Config& c, Findings& found) {
   const PourConfig& pour = *c.initial.pour;
   found.error_if(c.grains->sizes.empty(), {"grains.sizes", "initial.grains"},
@@ -67,31 +79,15 @@ void check_pour(const Config& c, Findings& found) {
                      "must be above 0 for a cone")) {
     return;
   }
-  for (const int axis : {0, 1}) {
-    if (!cone) break;
-    const double extent = c.size[axis == 0 ? 0 : 2];
-    const double at = pour.centre[static_cast<std::size_t>(axis)];
-    found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
-                   {"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
-                   "must keep the cone inside the domain; along {} it spans {:.4g} to {:.4g} m of "
-                   "0 to {:.4g} m",
-                   axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent);
-  }
-  double widest = 0, count = 0;
-  for (const SizeClass& size : c.grains->sizes) {
-    widest = std::max(widest, size.diameter);
-    count += static_cast<double>(size.count);
-  }
-  // The heap is cut from a close-packed lattice one per cent wider than the largest grain.
-  const double spacing = 1.01 * widest;
+  if (cone) check_cone(pour, c.size, found);
+  double count = 0;
+  for (const SizeClass& size : c.grains->sizes) count += static_cast<double>(size.count);
+  const double spacing = poured_spacing(c.grains->sizes);
   if (spacing >= c.size[1]) return;  // told by check_grain_sizes
-  const double volume = count * std::pow(spacing, 3) / std::numbers::sqrt2;
-  const double height = cone ? 3 * volume / (std::numbers::pi * pour.radius * pour.radius)
-                             : volume / (c.size[0] * c.size[2]);
-  found.error_if(height + pour.drop_height > c.size[1],
+  const double top = pour.drop_height + poured_height(pour, c.size, count, spacing);
+  found.error_if(top > c.size[1],
                  {"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
-                 "must be larger: the heap would reach about {:.3g} m, above the domain",
-                 height + pour.drop_height);
+                 "must be larger: the heap would reach about {:.3g} m, above the domain", top);
 }
 
 }  // namespace

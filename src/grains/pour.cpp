@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 
-#include "src/config/config.hpp"
+#include "src/config/derived.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
@@ -38,16 +37,6 @@ struct Heap {
     if (shape == PourShape::cone) return;
     half_x = domain[0] / 2, half_z = domain[2] / 2;
     centre.x = half_x, centre.z = half_z;
-  }
-
-  double area() const {
-    return (shape == PourShape::cone ? std::numbers::pi : 4) * half_x * half_z;
-  }
-
-  /// Of n sites `spacing` apart, about: a site takes spacing^3 / sqrt 2 [m].
-  double height(std::size_t n, double spacing) const {
-    const double volume = static_cast<double>(n) * std::pow(spacing, 3) / std::numbers::sqrt2;
-    return (shape == PourShape::cone ? 3 : 1) * volume / area();
   }
 
   /// Of the smallest cone or bed through x, seen from the centre [m]; negative outside the foot.
@@ -102,10 +91,11 @@ InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& 
   std::mt19937_64 generator(pour.seed);
   const std::vector<double> diameter = shuffled_diameters(sizes, generator);
   const std::size_t n = diameter.size();
-  const double spacing = 1.01 * *std::max_element(diameter.begin(), diameter.end());
+  const double spacing = poured_spacing(sizes);
   const Heap heap(pour, domain);
   std::vector<Site> sites;
-  for (double top = 1.2 * heap.height(n, spacing) + 2 * spacing; sites.size() < n; top *= 1.5) {
+  const double estimate = poured_height(pour, domain, static_cast<double>(n), spacing);
+  for (double top = 1.2 * estimate + 2 * spacing; sites.size() < n; top *= 1.5) {
     sites = sites_below(top, heap, spacing);
     if (top > 1e3 * domain[1]) break;
   }
