@@ -27,11 +27,12 @@ inline Work pass(double doubles, double flops) { return {doubles * sizeof(Real),
 // ---------------------------------------------------------------
 
 /// Sum, kicks, drift: kinematics there and back, reference position, steady force, wall bits; in
-/// water u_f, beta, added mass, and drag impulse there and back. 105 flops, 12 more with drag.
+/// water u_f, its acceleration, three numbers, and the impulse there and back. 105 flops, 60 more
+/// with drag.
 inline Work integrate(bool in_water) {
   const double alone = 2.0 * sizeof(GrainKinematics) + 2.0 * sizeof(Vec3) + 2;
-  const double water = 3.0 * sizeof(Vec3) + 2.0 * sizeof(Real);
-  return {alone + (in_water ? water : 0), in_water ? 117.0 : 105.0};
+  const double water = 4.0 * sizeof(Vec3) + 3.0 * sizeof(Real);
+  return {alone + (in_water ? water : 0), in_water ? 165.0 : 105.0};
 }
 /// Pair forces: i, j and the slot of a pair; history (and rolling torque) and touching flag of a
 /// contact there and back. 177 flops a contact, 44 more with a rolling spring.
@@ -49,13 +50,12 @@ inline Work list_build(double pairs, double contacts) {
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }
-/// Gather by row: kinematics five times; flow, pressure and stress, and the fraction written and
-/// read; u_f, the forces of pressure and stress and the carried impulse there and back; two vectors
-/// and two numbers written. Fields come from cache: two planes of 3 rows, 4 interpolations, 7 means
-/// over 29 points.
+/// Gather by row: kinematics seven times; flow, its change, pressure and stress, and three fractions
+/// written and read; the impulse read; six vectors and three numbers written. Fields come from
+/// cache: four planes of 3 rows, 5 interpolations, 8 means over 29 points.
 inline Work gather() {
-  return {5.0 * sizeof(GrainKinematics) + 16.0 * sizeof(Vec3) + 4.0 * sizeof(Real),
-          6 * 9 + 5 * 24 + 7 * 29 * 2 + 80};
+  return {7.0 * sizeof(GrainKinematics) + 15.0 * sizeof(Vec3) + 9.0 * sizeof(Real),
+          12 * 9 + 5 * 24 + 8 * 29 * 2 + 100};
 }
 /// Deposit: kinematics, three vectors and two numbers read; 29 points sorted into about four cells,
 /// to each of which five sums are added in cache.
@@ -69,8 +69,8 @@ inline Work deposit() {
 /// u, v, w read, nu_t written.
 inline Work wale() { return pass(4, 135); }
 /// u, v, w, nu_t, alpha, three old rates read; rates and u* written; in addition with grains: three
-/// fluxes, the new alpha, six fields of the exchange.
-inline Work predict(bool with_grains) { return with_grains ? pass(24, 330) : pass(14, 301); }
+/// fluxes, the new alpha, three fields of the exchange. Columns of drag between rows left out.
+inline Work predict(bool with_grains) { return with_grains ? pass(21, 315) : pass(14, 301); }
 /// FFT in x (there 2, back 2), in z (2, 2), columns (2 and half a pivot); real transforms take
 /// 2.5 n log2 n flops, the columns 10 a cell.
 inline Work poisson(int nx, int nz) { return pass(10.5, 5 * (std::log2(nx) + std::log2(nz)) + 10); }

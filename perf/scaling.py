@@ -50,7 +50,7 @@ class Machine:
     memory: float           # of a rank [bytes]
     grain_step: tuple       # fixed, per grain
     rebuild: tuple
-    exchange: float         # per grain in the pencil: gather, deposit, carry
+    exchange: float         # per grain in the pencil: gather, deposit
     flow: tuple             # a step without grains
     coupled: tuple          # a step around grains without its iterations and smoothings
     iteration: float        # per cell

@@ -12,10 +12,10 @@ import numpy as np
 
 BYTES = 8                    # of a number
 GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain step
-GATHER = (24, 20)            # numbers of a grain to the fluid ranks and back, before the grain steps
-DEPOSIT = (26, 3)            # the same after them
+GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
+DEPOSIT = 19                 # to the fluid ranks after them
 SWEEPS = 2                   # src/fluid/pressure_solver.cpp
-SMOOTHINGS, EXCHANGE_FILLS = 4, 24
+SMOOTHINGS, EXCHANGE_FILLS = 4, 21
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
 
@@ -127,7 +127,7 @@ def fft_solve(p):
 
 def flow_step(p):
     """FluidSolver::advance() without grains: halo fills, transposes, reductions."""
-    return 11 * fill(p) + fft_solve(p) + Counts(reductions=3)
+    return 8 * fill(p) + fft_solve(p) + Counts(reductions=3)
 
 
 def fills_per_iteration(p):
@@ -157,9 +157,9 @@ def deposit_halo(p):
 
 
 def exchange(p):
-    """Coupling::gather(), deposit(), carry(), with smoothing."""
+    """Coupling::gather(), deposit(), with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=18))
+            + Counts(reductions=14))
 
 
 # --- the grains --------------------------------------------------------------------------------------
@@ -177,9 +177,8 @@ class Border:
 
 
 def to_fluid_and_back(b):
-    """FluidSideGrains, twice a step: copies to the ranks of the flow, and what is found there back."""
-    needs, gives = GATHER[0] + DEPOSIT[0], GATHER[1] + DEPOSIT[1]
-    return (sent(2 * b.away_ranks, needs * b.away) + sent(2 * b.copies_ranks, gives * b.copies)
+    """FluidSideGrains: copies to the ranks of the flow twice a step, and once what is found there back."""
+    return (sent(2 * b.away_ranks, (GATHER[0] + DEPOSIT) * b.away) + sent(b.copies_ranks, GATHER[1] * b.copies)
             + Counts(all_to_alls=2))
 
 

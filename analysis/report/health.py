@@ -122,8 +122,7 @@ def drift(run):
 def ledger(run, summary):
     entries = summary.get("ledger") or {}
     about = {"volume": "Solid volume given to the mesh against that of the grains.",
-             "exchange": "Momentum that the grains got against what the water lost.",
-             "carried": "Momentum of the implicit part, water against grains."}
+             "exchange": "Momentum that the grains got against what the water lost."}
     dropping = run.config.get("coupling", {}).get("void_fraction") == "cfdem_faithful"
     if dropping:
         about["volume"] += " coupling.void_fraction = cfdem_faithful drops volume: expected above it."

@@ -1,23 +1,24 @@
-// Grain to fluid: volume and momentum of the grains as densities on cells, then on faces; and back
-// to the grains what the implicit drag took. Equations: docs/model.md.
+// Grain to fluid: volume and momentum of the grains as densities on cells, then on faces.
+// Equations: docs/model.md.
 #pragma once
 
-#include "kernels/coupling/flow_at_grains.hpp"
+#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/fluid/stencil.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
 
 /// Sums on owned cells in fixed point.
 struct Deposits {
-  static constexpr int kQuantities = 5;  // volume, implicit coefficient, impulse x, y, z
+  static constexpr int kQuantities = 5;  // volume, conductance between rows, impulse x, y, z
   Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
-  FixedPoint volume, implicit, impulse;
+  FixedPoint volume, conductance, impulse;
 };
 
 /// What one grain gives to the fluid in one fluid step.
 struct GrainExchange {
-  Real volume;    // [m^3]
-  Real implicit;  // dt beta + added mass [kg]
-  Vec3 impulse;   // drag, added mass and lift on the grain during the sub-steps [N s]
+  Real volume;   // [m^3]
+  Vec3 impulse;  // drag, added mass and lift on the grain during the sub-steps [N s]
 };
 
 struct ExchangeOfGrain {
@@ -27,15 +28,12 @@ struct ExchangeOfGrain {
   ExchangeOnGrains exchange;
 
   KOKKOS_INLINE_FUNCTION GrainExchange operator()(int g) const {
-    const GrainKinematics grain = grains(g);
-    const Real added_mass = on_grains.added_mass(g);
     Vec3 steady = exchange.added_mass_force(g);
     if (exchange.lift.extent(0) > 0) steady += exchange.lift(g);
-    return {.volume = sphere_volume(grain.r),
-            .implicit = dt * on_grains.beta(g) + added_mass,
-            .impulse = on_grains.drag_impulse(g) + dt * steady -
-                       added_mass * (grain.u - on_grains.u_start(g))};
+    return {.volume = sphere_volume(grains(g).r), .impulse = on_grains.impulse(g) + dt * steady};
   }
+  /// [kg]
+  KOKKOS_INLINE_FUNCTION Real drag(int g) const { return dt * on_grains.beta(g); }
 };
 
 /// Impulse that the rows of one grain exchange through it, as a bound [N s].
@@ -46,19 +44,19 @@ KOKKOS_INLINE_FUNCTION Real between_rows(const ExchangeOfGrain& of_grain, const 
   for (int r = 0; r < v.rows.n; ++r) {
     sum += v.rows.weight(r) * (Kokkos::abs(v.x[r] - v.mean_x) + Kokkos::abs(v.z[r] - v.mean_z));
   }
-  return of_grain.dt * of_grain.on_grains.beta(g) * sum;
+  return of_grain.drag(g) * sum;
 }
 
-/// What all grains together give: volume [m^3], implicit coefficient [kg], sum of |impulse|
+/// What all grains together give: volume [m^3], drag coefficient times dt [kg], sum of |impulse|
 /// components and the impulse itself [N s].
 struct SumExchange {
   ExchangeOfGrain of_grain;
   ExchangeByRow rows;
-  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& implicit, Real& size, Real& x, Real& y,
+  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& drag, Real& size, Real& x, Real& y,
                                   Real& z) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
-    implicit += e.implicit;
+    drag += of_grain.drag(g);
     size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
     if (rows.on) size += between_rows(of_grain, rows, g);
     x += e.impulse.x;
@@ -77,31 +75,38 @@ struct DepositGrain {
     const GrainCells cells = rows.stencil(of_grain.grains(g));
     if (rows.on) {
       const VelocityByRow v = rows(of_grain.grains(g));
-      const Real drag = of_grain.dt * of_grain.on_grains.beta(g);
+      const Real drag = of_grain.drag(g);
       // A row that flows faster than the grain sees on average drags it more: the difference adds
       // up to nothing over the grain.
       add(g, cells, [&](int j) {
         const int r = v.rows.find(j);
-        return Vec3{drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)};
+        return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
+                     .conductance = drag * v.rows.conductance_below(j) / v.rows.weight(r)};
       });
     } else {
-      add(g, cells, [](int) { return Vec3{}; });
+      add(g, cells, [](int) { return InRow{}; });
     }
   }
 
  private:
-  template <class InRow>
-  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, const InRow& of_row) const {
+  /// Of a point of the grain, times the number of its points.
+  struct InRow {
+    Vec3 impulse{};        // beyond that of the whole grain [N s]
+    Real conductance = 0;  // between this row and the one below [kg]
+  };
+  template <class OfRow>
+  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, const OfRow& of_row) const {
     const GrainExchange e = of_grain(g);
     for (int q = 0; q < cells.n; ++q) {
-      const Vec3 impulse = e.impulse + of_row(cells.cell[q].j);
+      const InRow in_row = of_row(cells.cell[q].j);
+      const Vec3 impulse = e.impulse + in_row.impulse;
       const Real w = cells.weight(q);
       const std::int64_t cell = cells.cell[q].linear(rows.stencil.grid);
       const auto put = [&](int quantity, const FixedPoint& point, Real value) {
         Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
       };
       put(0, deposits.volume, e.volume);
-      put(1, deposits.implicit, e.implicit);
+      if (rows.on) put(1, deposits.conductance, in_row.conductance);
       put(2, deposits.impulse, impulse.x);
       put(3, deposits.impulse, impulse.y);
       put(4, deposits.impulse, impulse.z);
@@ -153,8 +158,8 @@ KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
 /// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
 struct SpreadToFaces {
   GridRef grid;
-  ConstFieldRef implicit, impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
-  FaceRef a, m;  // impulse and implicit coefficient on faces
+  ConstFieldRef impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
+  FaceRef given;                                  // on faces
 
   KOKKOS_INLINE_FUNCTION Real on_y_face(const ConstFieldRef& f, int i, int j, int k) const {
     if (j == 0) return 0;
@@ -164,71 +169,19 @@ struct SpreadToFaces {
   }
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     // The fluid gets the opposite of what the grains got.
-    a.x(i, j, k) = -cell_to_xface(impulse_x, i, j, k);
-    a.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
-    a.z(i, j, k) = -cell_to_zface(impulse_z, i, j, k);
-    m.x(i, j, k) = cell_to_xface(implicit, i, j, k);
-    m.y(i, j, k) = on_y_face(implicit, i, j, k);
-    m.z(i, j, k) = cell_to_zface(implicit, i, j, k);
+    given.x(i, j, k) = -cell_to_xface(impulse_x, i, j, k);
+    given.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
+    given.z(i, j, k) = -cell_to_zface(impulse_z, i, j, k);
   }
 };
 
-/// Integrals over the volumes of the faces of one direction, for the ledger: of the impulse
-/// density, and of what the implicit part took while the velocity changed at the rate du_dt
-/// (nothing on the wall).
-struct FaceVolume {
+/// Integral of the impulse density over the volumes of the faces of one direction, for the ledger.
+struct SumImpulse {
   GridRef grid;
   bool y_faces;
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int j) const {
-    return grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j));
-  }
-};
-struct SumImpulse {
-  FaceVolume volume;
   ConstFieldRef impulse;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    return impulse(i, j, k) * volume(j);
-  }
-};
-struct SumImplicit {
-  FaceVolume volume;
-  ConstFieldRef implicit, du_dt;
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    return volume.y_faces && j == 0 ? 0 : implicit(i, j, k) * du_dt(i, j, k) * volume(j);
-  }
-};
-
-/// Change of the fluid velocity within the step on cells: the adjoint of SpreadToFaces.
-struct VelocityChangeOnCells {
-  GridRef grid;
-  ConstFaceRef du_dt;
-  Real dt = 0;
-  FieldRef x, y, z;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const FaceShares share = y_face_shares(j, grid.ny);
-    x(i, j, k) = dt * (du_dt.x(i, j, k) + du_dt.x(i + 1, j, k)) / 2;
-    y(i, j, k) = dt * (share.lower * du_dt.y(i, j, k) + share.upper * du_dt.y(i, j + 1, k));
-    z(i, j, k) = dt * (du_dt.z(i, j, k) + du_dt.z(i, j, k + 1)) / 2;
-  }
-};
-
-/// What the implicit drag took from the fluid within the step beyond the sub-steps' impulse goes
-/// back to the grains, in the weights it was deposited with. Returns the sum over the grains.
-struct CarryToGrain {
-  DepositStencil stencil;
-  ExchangeOfGrain of_grain;
-  ConstFieldRef x, y, z;  // smoothed change of the fluid velocity on cells [m/s]
-  Kokkos::View<Vec3*> carried_impulse;
-
-  KOKKOS_FUNCTION void operator()(int g, Real& sum_x, Real& sum_y, Real& sum_z) const {
-    const GrainCells cells = stencil(of_grain.grains(g));
-    const Vec3 change{mean_over(cells, x), mean_over(cells, y), mean_over(cells, z)};
-    const Vec3 carried = of_grain(g).implicit * change;
-    carried_impulse(g) += carried;
-    sum_x += carried.x;
-    sum_y += carried.y;
-    sum_z += carried.z;
+    return impulse(i, j, k) * (grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j)));
   }
 };
 

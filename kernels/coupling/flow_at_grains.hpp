@@ -111,14 +111,21 @@ struct UnsmoothedFraction {
   }
 };
 
-/// At each grain now, without any delay.
+/// At each grain now.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;            // [m/s]
-  Kokkos::View<Vec3*> pressure;     // force of its gradient on a volume [N/m^3]; zero where off
-  Kokkos::View<Vec3*> stress;       // force of the stress, likewise
-  Kokkos::View<Real*> alpha_f;      // fraction of the flow
-  Kokkos::View<Real*> alpha_cells;  // that of the grain's own cells, unsmoothed; or empty
+  Kokkos::View<Vec3*> u;                // [m/s]
+  Kokkos::View<Vec3*> du_dt;            // its change over the last step [m/s^2], read as u
+  Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
+  Kokkos::View<Vec3*> stress;           // force of the stress, likewise
+  Kokkos::View<Real*> alpha_f;          // fraction of the flow
+  Kokkos::View<Real*> alpha_cells;      // mean over the grain's cells, before the smoothing
+  Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells
 };
+
+/// Where fluid fractions divide or enter drag laws they count as at least 0.1.
+KOKKOS_INLINE_FUNCTION Real least_fraction(Real alpha) {
+  return Kokkos::clamp(alpha, Real(0.1), Real(1));
+}
 
 /// A face vector at the grains' centres, trilinear.
 struct AtCentres {
@@ -132,22 +139,19 @@ struct AtCentres {
   }
 };
 
-/// Velocity and fraction at the grains' centres, trilinear.
-struct FlowAtCentres {
+/// The fluid fraction there, likewise.
+struct FractionAtCentres {
   GridRef grid;
   PeriodicBox box;
-  ConstFaceRef u;
   ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
-  FlowAtGrains flow;
+  Kokkos::View<Real*> at;
   KOKKOS_FUNCTION void operator()(int g) const {
-    const PointStencil at(grid, box, grains(g).x);
-    flow.u(g) = interpolate_faces(u, at);
-    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
+    at(g) = interpolate_cell(alpha_f, PointStencil(grid, box, grains(g).x));
   }
 };
 
-/// The same as CFDEM reads them, from the centres of cells.
+/// Velocity and fraction as CFDEM reads them, from the centres of cells.
 struct FlowFromCells {
   GridRef grid;
   PeriodicBox box;
@@ -162,17 +166,16 @@ struct FlowFromCells {
   }
 };
 
-/// Velocity of the rows that a grain lies in; upwards, and the fraction, at its centre.
-struct VelocityOfRows {
+/// A velocity or its rate of change: that of the rows that a grain lies in; upwards, at its centre.
+struct OfRows {
   ExchangeByRow rows;
-  ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
-  FlowAtGrains flow;
+  Kokkos::View<Vec3*> at;
   KOKKOS_FUNCTION void operator()(int g) const {
     const VelocityByRow v = rows(grains(g));
-    const PointStencil at(rows.stencil.grid, rows.box, grains(g).x);
-    flow.u(g) = {v.mean_x, interpolate(rows.u.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
-    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
+    const PointStencil centre(rows.stencil.grid, rows.box, grains(g).x);
+    const Real up = interpolate(rows.u.y, centre.x_centre, centre.y_face, centre.z_centre);
+    at(g) = {v.mean_x, up, v.mean_z};
   }
 };
 
@@ -185,12 +188,23 @@ KOKKOS_INLINE_FUNCTION Real mean_over(const GrainCells& cells, const ConstFieldR
   }
   return mean;
 }
-struct ScalarOverCells {
+/// And solid per fluid where a grain's cells are fullest. The solid is that before the smoothing,
+/// as many grains as there are take the fluid.
+struct FractionsOverCells {
   DepositStencil stencil;
-  ConstFieldRef f;
+  ConstFieldRef alpha_f, unsmoothed;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Real*> mean;
-  KOKKOS_FUNCTION void operator()(int g) const { mean(g) = mean_over(stencil(grains(g)), f); }
+  FlowAtGrains flow;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainCells cells = stencil(grains(g));
+    Real most = 0;
+    for (int q = 0; q < cells.n; ++q) {
+      const auto [i, j, k] = cells.cell[q];
+      most = Kokkos::max(most, (1 - unsmoothed(i, j, k)) / least_fraction(alpha_f(i, j, k)));
+    }
+    flow.solid_per_fluid(g) = most;
+    flow.alpha_cells(g) = mean_over(cells, unsmoothed);
+  }
 };
 struct VectorOverCells {
   DepositStencil stencil;

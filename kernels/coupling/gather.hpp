@@ -37,31 +37,33 @@ struct SubmergedWeight {
   }
 };
 
-/// Share by which a grain's view of the flow follows the flow in one fluid step. The exchange lags
-/// one step, and in a dense bed the pore water resists squeezing with beta/alpha^2 and the inertia
-/// of the water that has to leave, r (1 + C_m r) of the grain's own volume of it, r = (1 -
-/// alpha)/alpha. Where that exceeds the grain's inertia, following without relaxation overshoots
-/// more each time (docs/numerics.md, "Dense beds"). About 1 in dilute flow; the delay vanishes with
-/// the step.
-KOKKOS_INLINE_FUNCTION Real exchange_relaxation(Real inertia, Real displaced_mass, Real beta,
-                                                Real alpha_f, Real dt) {
-  const Real r = (1 - alpha_f) / alpha_f;
-  const Real squeezed = displaced_mass * r * (1 + kAddedMassCoefficient * r);
-  return inertia / (inertia + squeezed + beta * dt / (alpha_f * alpha_f));
+/// Part of du_dt with which a grain's share of fluid goes on from the last step, K/(1 + K), K =
+/// (m_added + dt beta) over the mass of the share; the rest acts on the added mass alone. One where
+/// grain and fluid are tied; none where the grain hardly moves the fluid, whose changes of one step
+/// are noise as points of the grain cross cells.
+KOKKOS_INLINE_FUNCTION Real lasting_part(Real per_fluid_mass, Real added_mass, Real dt_beta) {
+  const Real tied = per_fluid_mass * (added_mass + dt_beta);
+  return tied / (1 + tied);
 }
 
-/// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step.
-/// The drag coefficient is that of the slip at the start; the drag itself follows the grain.
+/// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step; and
+/// the share of fluid that the grain carries through its sub-steps: what of the fluid around it is
+/// its own if all grains take alike, alpha_f rho_f V_p/(1 - alpha_f). What acts on that share
+/// besides the grain is taken from the last step, in which the fluid there changed by du_dt though
+/// it lost the impulse: where nothing changes, it keeps its velocity (docs/numerics.md, "Dense
+/// beds").
+/// The drag coefficient is that of the slip at the start; the drag itself follows grain and share.
 template <class DragLaw>
 struct GatherFluid {
   DragLaw drag;
   GridRef grid;
   PeriodicBox box;
   ConstFaceRef convective;
-  Real rho_f = 0, mu_f = 0, dt = 0;
+  Real rho_f = 0, mu_f = 0;
+  Real dt = 0, dt_before = 0;  // this step and the last one [s]
   SubmergedWeight weight;
   FluidForces forces;
-  bool skip_relaxation = false;  // the first step, grains that do not move
+  bool by_row = false;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow_at;
   FluidOnGrains on_grains;
@@ -73,13 +75,11 @@ struct GatherFluid {
     const Vec3 u_f = flow_at.u(g);
     const Real volume = sphere_volume(grain.r);
     const Real added_mass = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);
-    const Vec3 added_mass_force = added_mass * interpolate_faces(convective, at);
 
-    const Real alpha = in_range(flow_at.alpha_f(g));
+    const Real alpha = least_fraction(flow_at.alpha_f(g));
     // By row the law reads the fraction around the grain. Of the flow it knows the superficial slip
     // and takes alpha_f of the whole force (model A); both go with the fraction of the flow.
-    const bool by_row = flow_at.alpha_cells.extent(0) > 0;
-    const Real alpha_here = by_row ? in_range(flow_at.alpha_cells(g)) : alpha;
+    const Real alpha_here = by_row ? least_fraction(flow_at.alpha_cells(g)) : alpha;
     const Real unsmoothing = alpha / alpha_here;
     const LocalFlow flow{.alpha_f = alpha_here,
                          .rho_f = rho_f,
@@ -88,27 +88,20 @@ struct GatherFluid {
                          .d_p = 2 * grain.r};
     Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
     if (forces.wall_drag) beta *= floor_drag_factor(flow, grain.x.y - grain.r);
-    const Real share = skip_relaxation ? Real(1)
-                                       : exchange_relaxation(grain.m + added_mass, rho_f * volume,
-                                                             beta, alpha, dt);
-    const auto follow = [&](Vec3& seen, const Vec3& now) { seen += share * (now - seen); };
-    follow(on_grains.u_f(g), u_f);
-    follow(exchange.pressure_force(g), volume * flow_at.pressure(g));
-    follow(exchange.stress_force(g), volume * flow_at.stress(g));
-    const Vec3 paid = share * exchange.carried_impulse(g);
-    exchange.carried_impulse(g) = exchange.carried_impulse(g) - paid;
-
+    const Real per_fluid_mass = flow_at.solid_per_fluid(g) / (rho_f * volume);
+    const Vec3 lasting = lasting_part(per_fluid_mass, added_mass, dt * beta) * flow_at.du_dt(g);
+    const Vec3 added_mass_force =
+        added_mass * (interpolate_faces(convective, at) + flow_at.du_dt(g) - lasting);
+    on_grains.acceleration(g) = lasting + (per_fluid_mass / dt_before) * on_grains.impulse(g);
+    on_grains.per_fluid_mass(g) = per_fluid_mass;
+    on_grains.u_f(g) = u_f;
     on_grains.beta(g) = beta;
     on_grains.added_mass(g) = added_mass;
-    on_grains.steady_force(g) = weight(grain) +
-                                (exchange.pressure_force(g) + exchange.stress_force(g)) +
-                                added_mass_force + (1 / dt) * paid;
+    exchange.pressure_force(g) = volume * flow_at.pressure(g);
+    exchange.stress_force(g) = volume * flow_at.stress(g);
     exchange.added_mass_force(g) = added_mass_force;
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION static Real in_range(Real alpha) {
-    return Kokkos::clamp(alpha, Real(0.1), Real(1));
+    on_grains.steady_force(g) =
+        weight(grain) + (exchange.pressure_force(g) + exchange.stress_force(g)) + added_mass_force;
   }
 };
 
@@ -132,53 +125,46 @@ struct GatherStillFluid {
   }
 };
 
-/// Grains that do not move: the drag impulse of a whole fluid step.
+/// Grains that do not move: the impulse of a whole fluid step, as HalfKick without a kick.
 struct DragOnFrozenGrains {
   Real dt = 0;
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
-    on_grains.drag_impulse(g) = (dt * on_grains.beta(g)) * on_grains.u_f(g);
+    const Real added_mass = on_grains.added_mass(g), k = on_grains.per_fluid_mass(g);
+    const Real with_drag = added_mass + dt * on_grains.beta(g);
+    const Vec3 u_f = on_grains.u_f(g);
+    const Vec3 u_f_new =
+        (1 / (1 + k * with_drag)) * ((1 + k * added_mass) * u_f + dt * on_grains.acceleration(g));
+    on_grains.impulse(g) = with_drag * u_f_new - added_mass * u_f;
   }
 };
 
-/// (m_added / dt) (u - u_start): the force that the added mass took for its own change of
-/// momentum [N].
-KOKKOS_INLINE_FUNCTION Vec3 added_mass_inertia(const FluidOnGrains& on, int g, const Vec3& u,
-                                               Real dt) {
-  return (on.added_mass(g) / dt) * (u - on.u_start(g));
-}
-
-/// Drag, and added mass with the carried impulse [N].
+/// Drag and added mass, means over the fluid step [N].
 struct DragAndAddedMass {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
-  SubmergedWeight weight;
   ExchangeOnGrains exchange;  // empty in still fluid
   Real dt;
   Kokkos::View<Vec3*> drag, added_mass;
   KOKKOS_FUNCTION void operator()(int g) const {
-    const Vec3 inertia = added_mass_inertia(on_grains, g, grains(g).u, dt);
-    // Of the steady force: what is neither weight nor lift nor of the pressure gradient and stress.
-    added_mass(g) = on_grains.steady_force(g) - weight(grains(g)) - inertia;
-    if (exchange.pressure_force.extent(0) > 0)
-      added_mass(g) = added_mass(g) - exchange.pressure_force(g) - exchange.stress_force(g);
-    if (exchange.lift.extent(0) > 0) added_mass(g) = added_mass(g) - exchange.lift(g);
-    drag(g) = (1 / dt) * on_grains.drag_impulse(g);
+    const Vec3 slip_before = on_grains.u_f(g) - on_grains.u_start(g);
+    const Vec3 slip = on_grains.u_f_after(dt, g) - grains(g).u;
+    const Vec3 of_change = (on_grains.added_mass(g) / dt) * (slip - slip_before);
+    drag(g) = (1 / dt) * on_grains.impulse(g) - of_change;
+    added_mass(g) = of_change;
+    if (exchange.added_mass_force.extent(0) > 0) added_mass(g) += exchange.added_mass_force(g);
   }
 };
 
 /// Contact force of the last grain step and the fluid force of the fluid step [N].
 struct ResultantForce {
-  Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
   Kokkos::View<const Vec3*> contact_force;
   Real dt;
   Kokkos::View<Vec3*> total;
   KOKKOS_FUNCTION void operator()(int g) const {
     total(g) = contact_force(g) + on_grains.steady_force(g);
-    if (on_grains.none) return;
-    const Vec3 inertia = added_mass_inertia(on_grains, g, grains(g).u, dt);
-    total(g) += (1 / dt) * on_grains.drag_impulse(g) - inertia;
+    if (!on_grains.none) total(g) += (1 / dt) * on_grains.impulse(g);
   }
 };
 

@@ -36,6 +36,17 @@ struct GrainRows {
     while (r + 1 < n && row[r] != j) ++r;
     return r;
   }
+  /// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
+  /// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
+  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedHeights^2 / 4.
+  KOKKOS_INLINE_FUNCTION Real conductance_below(int j) const {
+    Real sum = 0;
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b)
+        if (row[a] < j && j <= row[b]) sum += weight(a) * weight(b) * (row[b] - row[a]);
+    }
+    return sum;
+  }
 
  private:
   KOKKOS_INLINE_FUNCTION void add(int j, int count, Real y) {

@@ -114,9 +114,8 @@ struct StressDivergence {
 
 /// What the grains do to the fluid in one step, on faces. Wall faces and ghosts are not read.
 struct ExchangeOnFaces {
-  FaceVector impulse;    // momentum per volume given to the fluid at its old velocity [N s/m^3]
-  FaceVector implicit;   // dt K, with the added mass where it is on: how much of it follows the
-                         // change of the fluid velocity within the step [kg/m^3]
+  FaceVector impulse;    // momentum per volume given to the fluid [N s/m^3]
+  Field conductance{};   // of DragBetweenRows, on cells [kg/m^3]; empty: none
   Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
 };
 
@@ -126,10 +125,10 @@ struct AdamsBashforth {
 };
 
 /// Explicit predictor: N = -div(alpha u u) + alpha div(2 (nu + nu_t) S) and
-///   (alpha' + m) u* = alpha u + now N + before N_before + impulse / rho + m u,
-/// m = implicit / rho; primes are the new time level. The alpha before the stress may be another
-/// one than that of the flow. Without exchange m and impulse are zero. The drive is added later.
-/// `rate` holds N_before on entry and N on return.
+///   alpha' u* = alpha u + now N + before N_before + impulse / rho,
+/// primes are the new time level. The alpha before the stress may be another one than that of the
+/// flow. Without exchange the impulse is zero. The drive is added later. `rate` holds N_before on
+/// entry and N on return.
 template <bool with_exchange>
 struct Predict {
   GridRef grid;
@@ -137,20 +136,14 @@ struct Predict {
   StressDivergence stress;
   ConstFieldRef stress_share, alpha_new;
   FaceRef rate, u_star;
-  ConstFaceRef impulse, implicit;  // of ExchangeOnFaces
+  ConstFaceRef impulse;  // of ExchangeOnFaces
   AdamsBashforth weight;
   Real per_density;  // 1 / rho [m^3/kg]
 
   KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
-                                           const Real alpha_here, const Real u, const Real given,
-                                           const Real coefficient) const {
-    const Real explicit_part = momentum + weight.now * n + weight.before * n_before;
-    if constexpr (with_exchange) {
-      const Real m = coefficient * per_density;
-      return (explicit_part + given * per_density + m * u) / (alpha_here + m);
-    } else {
-      return explicit_part / alpha_here;
-    }
+                                           const Real alpha_here, const Real given) const {
+    return (momentum + weight.now * n + weight.before * n_before + given * per_density) /
+           alpha_here;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real at(const ConstFieldRef& f, int i, int j, int k) {
     if constexpr (with_exchange) return f(i, j, k);
@@ -159,29 +152,27 @@ struct Predict {
 
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const ConstFaceRef &u = convection.u, &flux = convection.flux;
+    const ConstFaceRef& flux = convection.flux;
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
     const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
     const Real nx =
         convection.x(i, j, k) + cell_to_xface(stress_share, i, j, k) * stress.x(i, j, k);
-    const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, u.x(i, j, k),
-                            at(impulse.x, i, j, k), at(implicit.x, i, j, k));
+    const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, at(impulse.x, i, j, k));
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
     const Real ny =
         convection.y(i, j, k) + cell_to_yface(grid, stress_share, i, j, k) * stress.y(i, j, k);
-    const Real uy =
-        advance(ny, rate.y(i, j, k), flux.y(i, j, k), cell_to_yface(grid, alpha_new, i, j, k),
-                u.y(i, j, k), at(impulse.y, i, j, k), at(implicit.y, i, j, k));
+    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k),
+                            cell_to_yface(grid, alpha_new, i, j, k), at(impulse.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
     const Real nz =
         convection.z(i, j, k) + cell_to_zface(stress_share, i, j, k) * stress.z(i, j, k);
     const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
-                            u.z(i, j, k), at(impulse.z, i, j, k), at(implicit.z, i, j, k));
+                            at(impulse.z, i, j, k));
     rate.z(i, j, k) = nz;
     u_star.z(i, j, k) = uz;
     return alpha_x * ux * grid.dy(j);

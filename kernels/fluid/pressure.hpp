@@ -7,27 +7,20 @@
 
 namespace barchan {
 
-/// c = alpha^2 / (alpha + m) on faces, m = implicit / rho: how easily pressure moves the mixture's
-/// fluid. One without grains. Zero on the wall below; the wall above is never written.
+/// c = alpha on faces: how easily pressure moves the mixture's fluid. Zero on the wall below; the
+/// wall above is never written.
 struct UpdateMobility {
   GridRef grid;
   ConstFieldRef alpha;
-  ConstFaceRef implicit;  // [kg/m^3]
-  Real per_density;       // 1 / rho
   FaceRef c;
-
-  KOKKOS_FORCEINLINE_FUNCTION Real mobility(Real a, Real m) const { return a * a / (a + m); }
 
   /// Returns c_x dy: what a unit driving force would add to the flow rate here.
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
-    const Real cx = mobility(cell_to_xface(alpha, i, j, k), per_density * implicit.x(i, j, k));
-    const Real cy =
-        mobility(cell_to_yface(grid, alpha, i, j, k), per_density * implicit.y(i, j, k));
-    const Real cz = mobility(cell_to_zface(alpha, i, j, k), per_density * implicit.z(i, j, k));
+    const Real cx = cell_to_xface(alpha, i, j, k);
     c.x(i, j, k) = cx;
-    c.y(i, j, k) = inside * cy;
-    c.z(i, j, k) = cz;
+    c.y(i, j, k) = inside * cell_to_yface(grid, alpha, i, j, k);
+    c.z(i, j, k) = cell_to_zface(alpha, i, j, k);
     return cx * grid.dy(j);
   }
 };
@@ -155,34 +148,23 @@ struct ContinuityResidual {
   }
 };
 
-/// u = u* + g (f dt e_x - (dt / rho) grad p), g = alpha / (alpha + m) on faces (one without
-/// grains). Keeps the old velocity's change as du_dt. Walls stay at rest.
-template <bool with_grains>
+/// u = u* + f dt e_x - (dt / rho) grad p. Keeps the old velocity's change as du_dt. Walls stay at
+/// rest.
 struct CorrectVelocity {
   GridRef grid;
   ConstFaceRef u_star;
-  ConstFieldRef p;  // with ghosts
-  ConstFieldRef alpha;
-  ConstFaceRef implicit;
-  Real per_density;
+  ConstFieldRef p;   // with ghosts
+  Real per_density;  // 1 / rho
   Real drive_dt, dt;
   FaceRef u, du_dt;
 
-  KOKKOS_FORCEINLINE_FUNCTION Real share(Real a, const ConstFieldRef& m, int i, int j,
-                                         int k) const {
-    if constexpr (!with_grains) return 1;
-    return a / (a + per_density * m(i, j, k));
-  }
   /// Returns the Courant number of the new velocity.
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
     const Real push = dt * per_density;
-    const Real gx = share(cell_to_xface(alpha, i, j, k), implicit.x, i, j, k);
-    const Real gy = share(cell_to_yface(grid, alpha, i, j, k), implicit.y, i, j, k);
-    const Real gz = share(cell_to_zface(alpha, i, j, k), implicit.z, i, j, k);
-    const Real ux = u_star.x(i, j, k) + gx * (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
-    const Real uy = inside * (u_star.y(i, j, k) - gy * push * ddy_at_yface(grid, p, i, j, k));
-    const Real uz = u_star.z(i, j, k) - gz * push * ddz_at_zface(grid, p, i, j, k);
+    const Real ux = u_star.x(i, j, k) + (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
+    const Real uy = inside * (u_star.y(i, j, k) - push * ddy_at_yface(grid, p, i, j, k));
+    const Real uz = u_star.z(i, j, k) - push * ddz_at_zface(grid, p, i, j, k);
     du_dt.x(i, j, k) = (ux - u.x(i, j, k)) * (1 / dt);
     du_dt.y(i, j, k) = (uy - u.y(i, j, k)) * (1 / dt);
     du_dt.z(i, j, k) = (uz - u.z(i, j, k)) * (1 / dt);

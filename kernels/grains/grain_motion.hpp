@@ -1,6 +1,6 @@
-// Velocity Verlet with a drag that is linear in the grain's velocity; and one pass over the chunks
-// of grains per sub-step: forces of their inner pairs, sum of all contacts, kick, and drift into
-// the next sub-step.
+// Velocity Verlet of a grain and the fluid that it carries along, with a drag that is linear in
+// their slip; and one pass over the chunks of grains per sub-step: forces of their inner pairs, sum
+// of all contacts, kick, and drift into the next sub-step. Equations: docs/numerics.md, "Grains".
 #pragma once
 
 #include "kernels/grains/fluid_on_grains.hpp"
@@ -11,36 +11,51 @@ namespace barchan {
 
 /// Forces on one grain over a sub-step.
 struct GrainForces {
-  Quad force;               // all but drag [N]
+  Quad force;               // all but drag and added mass [N]
   Quad torque;              // [N m]
-  Quad u_f{};               // fluid velocity at the grain [m/s]
+  Quad u_f{};               // velocity of the grain's share of fluid [m/s]
+  Quad acceleration{};      // of that share by all but the grain [m/s^2]
+  Real per_fluid_mass = 0;  // 1 / its mass [1/kg]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]
+  Real added_mass = 0;      // F = added_mass d(u_f - u)/dt [kg]
   Quad spin_f{};            // spin of the fluid [rad/s]
   Real beta_r = 0;          // T = beta_r (spin_f - omega) [N m s]
-  Real inertia_mass = 0;    // grain + added mass [kg]
+  Real mass = 0;            // of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
 };
 
 /// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the
-/// next.
+/// next. With m of the grain, m_f of its share of fluid, m_a the added mass and s = u_f - u:
+///   m (u' - u) = h F + J,   m_f (u_f' - u_f) = h m_f a - J,   J = h beta s' + m_a (s' - s),
+/// drag at the new slip, so stable at any step. Subtracted, with k = 1/m + 1/m_f:
+///   (1 + k (m_a + h beta)) s' = (1 + k m_a) s + h (a - F/m).
+/// Limits: beta = m_a = 0 is the plain kick; s = 0, F = 0, a = 0 stays so; 1/m_f = a = 0 is drag in
+/// a flow that does not change.
 struct HalfKick {
-  Real h, h_beta, per_mass, per_moment;
+  Real h, per_mass, per_fluid_mass, added_mass, with_drag, kept, gained, per_moment;
 
   KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const GrainForces& f)
       : h(half_step),
-        h_beta(half_step * f.beta),
-        per_mass(1 / (f.inertia_mass + half_step * f.beta)),
-        per_moment(half_step / (f.inertia_moment + half_step * f.beta_r)) {}
+        per_mass(1 / f.mass),
+        per_fluid_mass(f.per_fluid_mass),
+        added_mass(f.added_mass),
+        with_drag(f.added_mass + half_step * f.beta),
+        per_moment(half_step / (f.inertia_moment + half_step * f.beta_r)) {
+    const Real k = per_mass + per_fluid_mass, share = 1 / (1 + k * with_drag);
+    kept = (1 + k * added_mass) * share;
+    gained = h * share;
+  }
 
-  /// Drag at the new velocity (unconditionally stable):
-  ///   (M + h beta) u' = M u + h (F + beta u_f).
-  /// Returns the drag impulse on the grain, h beta (u_f - u') [N s]. The spin likewise.
-  /// Limits: beta = 0 is the plain kick; u = u_f, F = 0 stays so.
-  KOKKOS_FORCEINLINE_FUNCTION Quad operator()(const GrainForces& f, Quad& u, Quad& omega) const {
-    u = fused(per_mass, fused(h, f.force, h_beta * (f.u_f - u)), u);
+  /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
+  KOKKOS_FORCEINLINE_FUNCTION Quad operator()(GrainForces& f, Quad& u, Quad& omega) const {
+    const Quad slip = f.u_f - u;
+    const Quad new_slip = kept * slip + gained * (f.acceleration - per_mass * f.force);
+    const Quad impulse = with_drag * new_slip - added_mass * slip;
+    u = fused(per_mass, fused(h, f.force, impulse), u);
+    f.u_f = f.u_f + h * f.acceleration - per_fluid_mass * impulse;
     const Quad torque = f.beta_r > 0 ? fused(f.beta_r, f.spin_f - omega, f.torque) : f.torque;
     omega = fused(per_moment, torque, omega);
-    return h_beta * (f.u_f - u);
+    return impulse;
   }
 };
 
@@ -80,6 +95,7 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
 /// The start of the sub-steps: first half kick with the stored contact forces, then drift.
 struct KickAndDrift {
   Real dt = 0;
+  Real elapsed = 0;  // since the fluid step began [s]
   Kokkos::View<GrainKinematics*> grains;
   Kokkos::View<Vec3*> contact_force, contact_torque;
   Kokkos::View<const Vec3*> x_reference;  // positions at the last list rebuild
@@ -89,18 +105,20 @@ struct KickAndDrift {
                                                  const ContactSum& contacts) const {
     GrainForces f{.force = contacts.force + quad(fluid.steady_force(g)),
                   .torque = contacts.torque,
-                  .inertia_mass = grain.m,
+                  .mass = grain.m,
                   .inertia_moment = sphere_inertia(grain.m, grain.r)};
     if (fluid.none) return f;
-    f.u_f = quad(fluid.u_f(g));
+    f.u_f = quad(fluid.u_f_after(elapsed, g));
+    f.acceleration = quad(fluid.acceleration(g));
+    f.per_fluid_mass = fluid.per_fluid_mass(g);
     f.beta = fluid.beta(g);
-    f.inertia_mass += fluid.added_mass(g);
+    f.added_mass = fluid.added_mass(g);
     if (fluid.turns) f.spin_f = quad(fluid.spin_f(g)), f.beta_r = fluid.beta_r(g);
     return f;
   }
 
-  /// Half kick from here, then drift; returns the drag impulse. `largest` as below.
-  KOKKOS_FORCEINLINE_FUNCTION Quad kick_and_drift(int g, const HalfKick& kick, const GrainForces& f,
+  /// Half kick from here, then drift; returns the impulse. `largest` as below.
+  KOKKOS_FORCEINLINE_FUNCTION Quad kick_and_drift(int g, const HalfKick& kick, GrainForces& f,
                                                   Quad& x, Quad& u, Quad& omega,
                                                   Real& largest) const {
     const Quad impulse = kick(f, u, omega);
@@ -117,14 +135,14 @@ struct KickAndDrift {
                                          const Quad& impulse) const {
     GrainKinematics& grain = grains(g);
     grain.x = x.vec(), grain.u = u.vec(), grain.omega = omega.vec();
-    if (!fluid.none) fluid.drag_impulse(g) += impulse.vec();
+    if (!fluid.none) fluid.impulse(g) += impulse.vec();
   }
 
   /// Reduces the largest squared displacement from the reference positions [m^2].
   KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
     const GrainKinematics& grain = grains(g);
     Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
-    const GrainForces f =
+    GrainForces f =
         forces(g, grain, {.force = quad(contact_force(g)), .torque = quad(contact_torque(g))});
     const Quad impulse = kick_and_drift(g, HalfKick(dt / 2, f), f, x, u, omega, largest);
     store(g, x, u, omega, impulse);
@@ -195,7 +213,7 @@ struct SumKickDrift {
       motion.contact_torque(g) = sum.torque.vec();
     }
     Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();
-    const GrainForces f = motion.forces(g, grain, sum);
+    GrainForces f = motion.forces(g, grain, sum);
     const HalfKick kick(motion.dt / 2, f);
     Quad impulse = kick(f, u, omega);
     if (!last) impulse = impulse + motion.kick_and_drift(g, kick, f, x, u, omega, largest);

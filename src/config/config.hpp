@@ -126,7 +126,6 @@ struct CouplingConfig {
   Exchange exchange = Exchange::by_row;
   Length smoothing_length{6e-4};  // [m], 3 d in the paper; 0: off
   bool alpha_time_derivative = true;
-  bool relaxation = true;  // of the exchange in dense beds; false: unstable there, for comparison
   ForceSwitches forces;
   bool operator==(const CouplingConfig&) const = default;
 };

@@ -197,8 +197,6 @@ void add_coupling(Sections& all) {
       "paper); 0: not");
   key("alpha_time_derivative", &C::alpha_time_derivative,
       "the flow feels changes of the void fraction in time");
-  key("relaxation", &C::relaxation,
-      "exchange in dense beds is relaxed; false is unstable there, for comparison");
   key("forces", &C::forces, "the forces of the flow on the grains");
 }
 

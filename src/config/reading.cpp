@@ -65,6 +65,7 @@ struct Removed {
   std::string_view key, value, why;  // no value: the key as a whole
 };
 constexpr Removed removed[] = {
+    {"coupling.relaxation", "", "the exchange needs none any more; delete this line"},
     {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
     {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
     {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};

@@ -35,8 +35,6 @@ void Ledger::add(const ExchangeLedger& step) {
   };
   sum("impulse_given_to_grains", step.given_to_grains);
   sum("impulse_taken_from_fluid", step.taken_from_fluid);
-  sum("impulse_implicit_on_fluid", step.implicit_on_fluid);
-  sum("impulse_carried_to_grains", step.carried_to_grains);
   sum("impulse_of_flow_on_solid", step.flow_on_solid);
   sum("impulse_of_flow_on_grains", step.flow_on_grains);
   const auto keep = [this](const char* name, double mismatch) {
@@ -46,8 +44,6 @@ void Ledger::add(const ExchangeLedger& step) {
   keep("largest_volume_mismatch", volume > 0 ? std::abs(step.deposited_volume / volume - 1) : 0);
   keep("largest_exchange_mismatch",
        relative(step.taken_from_fluid - step.given_to_grains, step.given_to_grains));
-  keep("largest_carried_mismatch",
-       relative(step.carried_to_grains - step.implicit_on_fluid, step.implicit_on_fluid));
   keep("largest_flow_force_mismatch",
        relative(step.flow_on_grains - step.flow_on_solid, step.flow_on_solid));
 }

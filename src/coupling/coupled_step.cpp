@@ -57,7 +57,7 @@ void CoupledStep::advance(SystemState& state) {
   move_grains(state);
   deposit(state);
   advance_fluid(state);
-  carry(state);
+  close_step(state);
 }
 
 void CoupledStep::gather(SystemState& state) {
@@ -105,22 +105,18 @@ void CoupledStep::advance_fluid(SystemState& state) {
   phases_["pressure"] += fluid_report_.seconds_pressure;
 }
 
-void CoupledStep::carry(SystemState& state) {
+void CoupledStep::close_step(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
-  const PhaseTimer timer(phases_, coupling_ ? "exchange" : "grains");
-  if (coupling_) {
-    coupling_->carry(*state.fluid, fluid_side_.on_fluid_ranks(grains), dt_);
-    fluid_side_.to_grain_ranks(grains, kCarryWrites);
-    ledger_.close_step(coupling_->ledger(), grains);
-  }
+  if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
+  const PhaseTimer timer(phases_, "grains");
   grains_->remove_left(grains);
 }
 
 Vec3 CoupledStep::impulse_on_grains() const {
   if (!coupling_) return {};
   const ExchangeLedger& step = coupling_->ledger();
-  return step.given_to_grains + step.carried_to_grains + step.flow_on_grains;
+  return step.given_to_grains + step.flow_on_grains;
 }
 
 std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) const {
@@ -132,7 +128,6 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) cons
     Kokkos::parallel_for("output: forces on grains", n,
                          DragAndAddedMass{.grains = grains.kin,
                                           .on_grains = grains.fluid,
-                                          .weight = coupling_ ? coupling_->weight() : still_.weight,
                                           .exchange = grains.exchange,
                                           .dt = dt_,
                                           .drag = drag,
@@ -156,8 +151,7 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) cons
 Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const {
   const Kokkos::View<Vec3*> total = grain_vector("total", grains.n);
   Kokkos::parallel_for("output: resultant force", grains.n,
-                       ResultantForce{.grains = grains.kin,
-                                      .on_grains = grains.fluid,
+                       ResultantForce{.on_grains = grains.fluid,
                                       .contact_force = grains.contact_force,
                                       .dt = dt_,
                                       .total = total});

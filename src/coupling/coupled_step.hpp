@@ -33,21 +33,21 @@ class CoupledStep {
 
   // The parts of a step in their order. What a state does not have, they leave out.
 
-  /// u_f, drag coefficient and steady forces at the grains, of the flow or of still fluid.
+  /// u_f, share of fluid, drag coefficient and steady forces at the grains, of the flow or of still
+  /// fluid.
   void gather(SystemState& state);
-  /// The grain steps of one fluid step; the drag follows the grain at fixed u_f.
+  /// The grain steps of one fluid step; the drag follows the grain and its share of fluid.
   void move_grains(SystemState& state);
-  /// alpha_f; on faces the reaction to the grains' impulse and its implicit part.
+  /// alpha_f; on faces the reaction to the grains' impulse.
   void deposit(SystemState& state);
   /// WALE, u*, p, u.
   void advance_fluid(SystemState& state);
-  /// What the implicit drag took from the fluid, for the grains' next step; the conservation
-  /// ledger; grains beyond the outlet leave.
-  void carry(SystemState& state);
+  /// The conservation ledger; grains beyond the outlet leave.
+  void close_step(SystemState& state);
 
   /// Forces on the grains over the last step by name [N], rows as in the state: drag, pressure
-  /// gradient, stress, added mass (with the impulse carried from the implicit exchange), contact
-  /// normal and tangential, and total, the resultant with weight and buoyancy.
+  /// gradient, stress, added mass, contact normal and tangential, and total, the resultant with
+  /// weight and buoyancy.
   std::vector<NamedForce> grain_forces(const SystemState& state) const;
   /// The last of them alone.
   Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;

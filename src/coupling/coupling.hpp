@@ -25,10 +25,8 @@ struct ExchangeLedger {
   Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
   Vec3 given_to_grains;                         // drag and added mass over the sub-steps [N s]
   Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
-  Vec3 implicit_on_fluid;  // what the implicit drag took beyond that within the step [N s]
-  Vec3 carried_to_grains;  // the same, kept for the grains' next step [N s]
-  Vec3 flow_on_solid;      // pressure gradient and stress: what the solid fraction takes [N s]
-  Vec3 flow_on_grains;     // the same on the grains, before the delay [N s]
+  Vec3 flow_on_solid;   // pressure gradient and stress: what the solid fraction takes [N s]
+  Vec3 flow_on_grains;  // the same on the grains [N s]
 };
 
 /// Adds up what changed sides over a run and keeps the largest mismatch of any step.
@@ -50,23 +48,21 @@ class Ledger {
 /// cut, points of a grain may lie in ghosts; throws ConfigError if it could reach beyond.
 DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max);
 
-/// Unresolved coupling, model A: gather before the sub-steps, deposit after them, carry after the
-/// fluid step. Where the grid is cut, `grains` are those whose centres lie in this rank's pencil
+/// Unresolved coupling, model A: gather before the sub-steps, deposit after them. Where the grid is
+/// cut, `grains` are those whose centres lie in this rank's pencil
 /// (FluidSideGrains), and all ranks call every member together.
 class Coupling {
  public:
   Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
            const Grid& grid);
 
-  /// Velocity, drag coefficient and steady forces of the fluid at each grain.
+  /// Velocity, share of fluid, drag coefficient and steady forces of the fluid at each grain.
   void gather(const FluidState& fluid, GrainState& grains, Real dt);
   /// alpha_f from the grains' volume, and their exchange on the faces; the old alpha_f is kept in
   /// alpha_f_previous.
   void deposit(const GrainState& grains, FluidState& fluid, Real dt);
   /// alpha_f and alpha_f_previous of grains that have just been placed.
   void start(const GrainState& grains, FluidState& fluid);
-  /// Owes the grains what the implicit drag took from the fluid within the step.
-  void carry(const FluidState& fluid, GrainState& grains, Real dt);
 
   const ExchangeOnFaces& on_faces() const { return on_faces_; }
   const SubmergedWeight& weight() const { return weight_; }
@@ -85,12 +81,11 @@ class Coupling {
   WallFaces wall_faces(bool wall, bool along_x) const;
   void reserve_flow_at(int n);
   void gather_shear(const FluidState& fluid, GrainState& grains) const;
-  /// The fraction that drag and stress read.
+  /// The fraction before the smoothing.
   Field local_fraction(const FluidState& fluid) const {
-    const bool unsmoothed = by_row_ && config_.smoothing_length > 0;
-    return unsmoothed ? on_faces_.stress_share : fluid.alpha_f;
+    return config_.smoothing_length > 0 ? unsmoothed_ : fluid.alpha_f;
   }
-  /// The void fraction (quantity 0), the exchange (1 to 4).
+  /// The void fraction (quantity 0), the impulse (2 to 4).
   bool smooths(int quantity) const {
     return config_.smoothing_length > 0 &&
            (quantity == 0 || config_.exchange == Exchange::smoothed);
@@ -99,9 +94,9 @@ class Coupling {
   void decode(int quantity, const FixedPoint& point, Field& density) const;
   void update_fraction(FluidState& fluid);
   void spread_exchange();
-  void sum_faces(Real dt, const FluidState& fluid);
+  void sum_faces();
   ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
-  ExchangeByRow rows(const FluidState& fluid) const;
+  ExchangeByRow rows(const FaceVector& u) const;
 
   CouplingConfig config_;
   FluidForces forces_;
@@ -111,8 +106,6 @@ class Coupling {
   Boundary boundary_;
   Mirrors walls_;  // of the grains, where the smoothing ends
   PoissonFft smoother_;
-  bool always_skips_relaxation_ = false;  // grains take the flow as it is, unrelaxed
-  bool skip_relaxation_ = false;  // the same for this step: the first has nothing to start from
   PeriodicBox box_;
   DepositStencil stencil_;
   bool by_row_ = false;  // the exchange
@@ -122,9 +115,8 @@ class Coupling {
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // room of the flow solver
   FlowAtGrains flow_at_;
-  // Force density; implicit coefficient and impulse densities; velocity changes. All but the first
-  // are room of the flow solver.
-  Field cell_[4];
+  Field cell_[3];     // densities of force or impulse; room of the flow solver
+  Field unsmoothed_;  // fraction; empty without smoothing
   Deposits deposits_;
   ExchangeOnFaces on_faces_;
   ExchangeLedger ledger_;

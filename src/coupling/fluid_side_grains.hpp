@@ -21,9 +21,6 @@ class FluidSideGrains {
   GrainState& to_fluid_ranks(GrainState& grains, unsigned uses);
   const GrainState& to_fluid_ranks(const GrainState& grains, unsigned uses);
 
-  /// Those that were sent last.
-  GrainState& on_fluid_ranks(GrainState& grains) { return is_cut_ ? copies_ : grains; }
-
   /// The arrays of the `uses` back to the grains that were sent last; no grain may have moved to
   /// another row since. All ranks together.
   void to_grain_ranks(GrainState& grains, unsigned uses);

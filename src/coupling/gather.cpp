@@ -62,7 +62,7 @@ void Coupling::gather_density(const GrainState& grains, const CellRange& cells, 
                 HoldForceAtWall{force_.y, grid_.ny});
   for (Field* component : {&force_.x, &force_.y, &force_.z})
     boundary_.fill(*component, FieldKind::scalar);  // behind both walls constant, too
-  Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
+  Field &x = cell_[0], &y = cell_[1], &z = cell_[2];
   ledger_.flow_on_solid += dt * sum_vector("coupling: force density on cells", grid_, cells,
                                            ForceOnCells{grid_, force_, alpha, x, y, z});
   if (by_row_) {
@@ -104,7 +104,8 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, cons
   for (Field* component : {&convective_.x, &convective_.y, &convective_.z})
     boundary_.fill(*component, FieldKind::scalar);
   if (forces_.stress) {
-    gather_density(grains, cells, local_fraction(fluid), false, dt, flow_at_.stress);
+    const Field& alpha = by_row_ ? local_fraction(fluid) : fluid.alpha_f;
+    gather_density(grains, cells, alpha, false, dt, flow_at_.stress);
   }
 }
 
@@ -112,17 +113,21 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
   const auto read = [&](const auto& reading) {
     Kokkos::parallel_for("coupling: velocity at grains", items(grains.n), reading);
   };
-  const Field& alpha = fluid.alpha_f;
+  const auto& kin = grains.kin;
   if (by_row_) {
-    read(VelocityOfRows{rows(fluid), alpha, grains.kin, flow_at_});
-  } else if (config_.void_fraction == VoidFraction::cfdem_faithful) {
-    Field &x = cell_[1], &y = cell_[2], &z = cell_[3];
+    read(OfRows{rows(fluid.u), kin, flow_at_.u});
+    read(OfRows{rows(fluid.du_dt), kin, flow_at_.du_dt});
+  } else {
+    read(AtCentres{grid_, box_, fluid.u, kin, flow_at_.u});
+    read(AtCentres{grid_, box_, fluid.du_dt, kin, flow_at_.du_dt});
+  }
+  read(FractionAtCentres{grid_, box_, fluid.alpha_f, kin, flow_at_.alpha_f});
+  if (config_.void_fraction == VoidFraction::cfdem_faithful) {
+    Field &x = cell_[0], &y = cell_[1], &z = cell_[2];
     for_each_cell("coupling: velocity on cells", grid_, CentreVelocity{fluid.u, x, y, z});
     boundary_.fill(x, FieldKind::velocity_x);
     for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
-    read(FlowFromCells{grid_, box_, x, y, z, alpha, grains.kin, flow_at_});
-  } else {
-    read(FlowAtCentres{grid_, box_, fluid.u, alpha, grains.kin, flow_at_});
+    read(FlowFromCells{grid_, box_, x, y, z, fluid.alpha_f, kin, flow_at_});
   }
 }
 
@@ -137,9 +142,8 @@ WallFaces Coupling::wall_faces(bool wall, bool along_x) const {
   return faces;
 }
 
-/// By row: what the cells around each grain hold, before the smoothing.
+/// What the cells of each grain hold.
 void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
-  if (!by_row_) return;
   const Real length = config_.smoothing_length;
   if (length > 0) {
     for_each_cell("coupling: unsmoothed fraction", grid_,
@@ -149,17 +153,21 @@ void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
                                      .walls_x = wall_faces(walls_.x, true),
                                      .walls_z = wall_faces(walls_.z, false),
                                      .unsmoothed = local_fraction(fluid)});
-    boundary_.fill(on_faces_.stress_share, FieldKind::scalar);
+    boundary_.fill(unsmoothed_, FieldKind::scalar);
   }
-  Kokkos::parallel_for(
-      "coupling: fraction at grains", items(grains.n),
-      ScalarOverCells{stencil_, local_fraction(fluid), grains.kin, flow_at_.alpha_cells});
+  Kokkos::parallel_for("coupling: fractions at grains", items(grains.n),
+                       FractionsOverCells{.stencil = stencil_,
+                                          .alpha_f = fluid.alpha_f,
+                                          .unsmoothed = local_fraction(fluid),
+                                          .grains = grains.kin,
+                                          .flow = flow_at_});
 }
 
 void Coupling::reserve_flow_at(int n) {
-  for (auto* array : {&flow_at_.u, &flow_at_.pressure, &flow_at_.stress}) reserve_rows(*array, n);
-  reserve_rows(flow_at_.alpha_f, n);
-  if (by_row_) reserve_rows(flow_at_.alpha_cells, n);
+  for (auto* array : {&flow_at_.u, &flow_at_.du_dt, &flow_at_.pressure, &flow_at_.stress})
+    reserve_rows(*array, n);
+  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_cells, &flow_at_.solid_per_fluid})
+    reserve_rows(*array, n);
 }
 
 void Coupling::gather_shear(const FluidState& fluid, GrainState& grains) const {
@@ -195,9 +203,10 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,
+                                         .dt_before = fluid.has_history ? fluid.dt_previous : dt,
                                          .weight = weight_,
                                          .forces = forces_,
-                                         .skip_relaxation = skip_relaxation_,
+                                         .by_row = by_row_,
                                          .grains = grains.kin,
                                          .flow_at = flow_at_,
                                          .on_grains = grains.fluid,
@@ -205,7 +214,6 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
       },
       drag_);
   if (forces_.lift || forces_.torque) gather_shear(fluid, grains);
-  skip_relaxation_ = always_skips_relaxation_;
 }
 
 }  // namespace barchan

@@ -33,20 +33,10 @@ class Boundary {
   Boundary(const Grid& grid, WallFlow bottom, WallFlow top, Real top_velocity = 0)
       : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
-  void fill(Field& f, FieldKind kind) const {
-    for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
-                  FillWallGhosts{.f = f,
-                                 .ny = grid_.ny,
-                                 .bottom = ghost_rule(kind, bottom_),
-                                 .top = ghost_rule(kind, top_),
-                                 .top_value = kind == FieldKind::velocity_x ? top_velocity_ : 0});
-    halo_.fill(f);
-  }
-  void fill_velocity(FaceVector& u) const {
-    fill(u.x, FieldKind::velocity_x);
-    fill(u.y, FieldKind::velocity_y);
-    fill(u.z, FieldKind::velocity_z);
-  }
+  void fill(Field& f, FieldKind kind) const { fill(f, kind, top_velocity_); }
+  void fill_velocity(FaceVector& u) const { fill(u, top_velocity_); }
+  /// A rate of change of the velocity: walls do not accelerate.
+  void fill_acceleration(FaceVector& du_dt) const { fill(du_dt, 0); }
   /// Only x and z, for face vectors that no wall rule applies to.
   void fill_periodic(FaceVector& f) const {
     for (Field* component : {&f.x, &f.y, &f.z}) halo_.fill(*component);
@@ -54,6 +44,21 @@ class Boundary {
   const Halo& halo() const { return halo_; }
 
  private:
+  void fill(FaceVector& u, Real top_velocity) const {
+    fill(u.x, FieldKind::velocity_x, top_velocity);
+    fill(u.y, FieldKind::velocity_y, top_velocity);
+    fill(u.z, FieldKind::velocity_z, top_velocity);
+  }
+  void fill(Field& f, FieldKind kind, Real top_velocity) const {
+    for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+                  FillWallGhosts{.f = f,
+                                 .ny = grid_.ny,
+                                 .bottom = ghost_rule(kind, bottom_),
+                                 .top = ghost_rule(kind, top_),
+                                 .top_value = kind == FieldKind::velocity_x ? top_velocity : 0});
+    halo_.fill(f);
+  }
+
   Grid grid_;
   Halo halo_;
   WallFlow bottom_, top_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kernels/fluid/drag_between_rows.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
@@ -56,7 +57,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   predict(fluid, exchange, dt);                    // u*
   choose_drive(fluid, exchange, dt);               // f that gives the wanted bulk velocity
   solve_pressure(fluid, exchange != nullptr, dt);  // p
-  correct(fluid, exchange, dt);                    // u, du/dt
+  correct(fluid, exchange != nullptr, dt);         // u, du/dt
   fluid.has_history = true;
   fluid.dt_previous = dt;
   fluid.time += dt;
@@ -70,6 +71,7 @@ void FluidSolver::fill_fraction_ghosts(FluidState& fluid) const {
 
 void FluidSolver::fill_ghosts(FluidState& fluid) const {
   boundary_.fill_velocity(fluid.u);
+  boundary_.fill_acceleration(fluid.du_dt);
   boundary_.fill(fluid.p, FieldKind::scalar);
   boundary_.fill(fluid.p_previous, FieldKind::scalar);
   fill_fraction_ghosts(fluid);
@@ -107,7 +109,6 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
                           .rate = fluid.rate_previous,
                           .u_star = u_star_,
                           .impulse = on_faces.impulse,
-                          .implicit = on_faces.implicit,
                           .weight = weights(fluid, dt),
                           .per_density = 1 / config_.density});
   };
@@ -118,6 +119,23 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
     const bool shared = exchange->stress_share.storage.size() > 0;
     run(std::true_type{}, flux_, shared ? exchange->stress_share : fluid.alpha_f_previous,
         *exchange);
+    drag_between_rows(fluid, *exchange);
+  }
+}
+
+/// Moves momentum within columns alone, so the flow rate stays.
+void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange) {
+  if (exchange.conductance.storage.size() == 0) return;
+  for (const bool along_x : {true, false}) {
+    for_each_cell("fluid: drag between rows", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+                  DragBetweenRows{.grid = grid_,
+                                  .conductance = exchange.conductance,
+                                  .alpha = fluid.alpha_f,
+                                  .u = along_x ? fluid.u.x : fluid.u.z,
+                                  .density = config_.density,
+                                  .along_x = along_x,
+                                  .u_star = along_x ? u_star_.x : u_star_.z,
+                                  .pivot = source_});
   }
 }
 
@@ -125,9 +143,8 @@ void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchang
   Real drive_response = grid_.height_of_all_columns();  // flow rate per unit of drive times dt
   fluid_height_ = drive_response;
   if (exchange != nullptr) {
-    drive_response = sum_each_cell(
-        "fluid: mobility", grid_,
-        UpdateMobility{grid_, fluid.alpha_f, exchange->implicit, 1 / config_.density, mobility_});
+    drive_response =
+        sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
     boundary_.fill_periodic(mobility_);
     fluid_height_ = sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
   }
@@ -191,36 +208,30 @@ PressureSource<with_grains> FluidSolver::pressure_source(const FaceVector& u,
           .b = source_};
 }
 
-void FluidSolver::correct(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  if (exchange == nullptr) {
-    correct_velocity<false>(fluid, u_star_, dt);
+void FluidSolver::correct(FluidState& fluid, bool coupled, Real dt) {
+  report_.courant = max_each_cell("fluid: correct velocity", grid_,
+                                  CorrectVelocity{.grid = grid_,
+                                                  .u_star = u_star_,
+                                                  .p = fluid.p,
+                                                  .per_density = 1 / config_.density,
+                                                  .drive_dt = fluid.drive * dt,
+                                                  .dt = dt,
+                                                  .u = fluid.u,
+                                                  .du_dt = fluid.du_dt});
+  boundary_.fill_velocity(fluid.u);
+  const auto residual = [&](const auto& continuity) {
+    report_.continuity_residual = max_each_cell("fluid: continuity", grid_, continuity);
+  };
+  if (!coupled) {
+    residual(ContinuityResidual<false>{pressure_source<false>(fluid.u, fluid, 0, dt)});
     return;
   }
-  correct_velocity<true>(fluid, exchange->implicit, dt);
+  boundary_.fill_acceleration(fluid.du_dt);
+  residual(ContinuityResidual<true>{pressure_source<true>(fluid.u, fluid, 0, dt)});
   const Real flow =
       sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
   fluid.flow_missed = flow_rate_ - flow;
   report_.bulk_velocity = flow / fluid_height_;
-}
-
-template <bool with_grains>
-void FluidSolver::correct_velocity(FluidState& fluid, const FaceVector& implicit, Real dt) {
-  report_.courant = max_each_cell("fluid: correct velocity", grid_,
-                                  CorrectVelocity<with_grains>{.grid = grid_,
-                                                               .u_star = u_star_,
-                                                               .p = fluid.p,
-                                                               .alpha = fluid.alpha_f,
-                                                               .implicit = implicit,
-                                                               .per_density = 1 / config_.density,
-                                                               .drive_dt = fluid.drive * dt,
-                                                               .dt = dt,
-                                                               .u = fluid.u,
-                                                               .du_dt = fluid.du_dt});
-  boundary_.fill_velocity(fluid.u);
-  boundary_.fill_periodic(fluid.du_dt);
-  report_.continuity_residual = max_each_cell(
-      "fluid: continuity", grid_,
-      ContinuityResidual<with_grains>{pressure_source<with_grains>(fluid.u, fluid, 0, dt)});
 }
 
 Real FluidSolver::friction_velocity(const FluidState& fluid) const {

@@ -28,9 +28,8 @@ struct FluidStepReport {
 ///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
 ///                                    + alpha f e_x + exchange / rho,
 ///   d(alpha)/dt + div(alpha u) = 0.
-/// Adams-Bashforth for convection and stress; the part of the exchange that follows the fluid
-/// velocity is implicit and diagonal, so one pressure correction projects exactly, up to the
-/// tolerance of the pressure equation.
+/// Adams-Bashforth for convection and stress; the drag between rows is implicit. One pressure
+/// correction projects exactly, up to the tolerance of the pressure equation.
 class FluidSolver {
  public:
   FluidSolver(const Config& config, const Grid& grid);
@@ -71,11 +70,10 @@ class FluidSolver {
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
   void choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
   void solve_pressure(FluidState& fluid, bool coupled, Real dt);
-  void correct(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
-  template <bool with_grains>
-  void correct_velocity(FluidState& fluid, const FaceVector& implicit, Real dt);
+  void correct(FluidState& fluid, bool coupled, Real dt);
   template <bool with_grains>
   PressureSource<with_grains> pressure_source(const FaceVector& u, const FluidState& fluid,
                                               Real drive, Real dt);

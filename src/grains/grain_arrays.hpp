@@ -24,19 +24,20 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
   add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
   add(s.x_reference,      "x_reference",      "m",    always,     kRestart);
-  add(f.u_f,              "u_f",              "m/s",  with_fluid, kRestartWithFlow | kGather);
-  add(e.pressure_force,   "pressure_force",   "N",    with_flow,  kRestart | kGather);
-  add(e.stress_force,     "stress_force",     "N",    with_flow,  kRestart | kGather);
-  add(e.carried_impulse,  "carried_impulse",  "N s",  with_flow,  kRestart | kGather | kDepositReads |
-                                                               kCarryWrites);
+  add(f.impulse,          "impulse",          "N s",  with_fluid, kRestartWithFlow | kGatherReads |
+                                                               kDepositReads);
   add(s.wall_xi_t,        "wall_xi_t",        "m",    by_solver,  kRestart);
   add(s.wall_torque,      "wall_torque",      "N m",  by_solver,  kRestart);
   add(s.wall_touching,    "wall_touching",    "1",    always,     kRestart);
+  add(f.u_f,              "u_f",              "m/s",  with_fluid, kGatherWrites);
+  add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
+  add(f.per_fluid_mass,   "per_fluid_mass",   "1/kg", with_fluid, kGatherWrites);
   add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
   add(f.steady_force,     "steady_force",     "N",    always,     kGatherWrites);
-  add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites | kDepositReads);
-  add(f.drag_impulse,     "drag_impulse",     "N s",  with_fluid, kDepositReads);
-  add(f.u_start,          "u_start",          "m/s",  with_fluid, kDepositReads);
+  add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites);
+  add(f.u_start,          "u_start",          "m/s",  with_fluid);
+  add(e.pressure_force,   "pressure_force",   "N",    with_flow,  kGatherWrites);
+  add(e.stress_force,     "stress_force",     "N",    with_flow,  kGatherWrites);
   add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
   add(e.lift,             "lift",             "N",    with_lift,  kGatherWrites | kDepositReads);
   add(f.spin_f,           "spin_f",           "rad/s", with_torque, kGatherWrites);

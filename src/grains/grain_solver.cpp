@@ -47,8 +47,9 @@ Friction friction_of(const Material& m, CoulombLimit limit) {
           .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
-KickAndDrift motion(const GrainState& grains, Real dt) {
+KickAndDrift motion(const GrainState& grains, Real dt, Real elapsed) {
   return {.dt = dt,
+          .elapsed = elapsed,
           .grains = grains.kin,
           .contact_force = grains.contact_force,
           .contact_torque = grains.contact_torque,
@@ -93,7 +94,7 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
     host_displacement2_ = Kokkos::create_mirror_view(displacement2_);
   }
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt),
+  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt, 0),
                           max_displacement(0));
 }
 
@@ -115,7 +116,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
         .keep_force = list_.with_force && last};
     const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
     Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
-    const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, dt),
+    const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
                                                .pairs = pairs,
                                                .walls = {.planes = walls_,
                                                          .law = std::get<Stiffness>(wall_law_),

@@ -26,9 +26,7 @@ enum GrainUse : unsigned {
   kGatherReads = 8,      // goes to the fluid ranks before the gather,
   kGatherWrites = 16,    // and comes back from it
   kDepositReads = 32,    // goes to the fluid ranks before the deposit
-  kCarryWrites = 64,     // comes back with the impulse carried from the implicit exchange
-  kGather = kGatherReads | kGatherWrites,
-  kFluidSide = kGather | kDepositReads | kCarryWrites,
+  kFluidSide = kGatherReads | kGatherWrites | kDepositReads,
 };
 
 /// An array of a grain: its name (also in restart files), unit and uses.

@@ -209,17 +209,18 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
     flows.config.grains.emplace();
     flows.config.solver.pressure_tolerance = 1e-12;
     FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine),
-                            make_faces("test", flows.grid.mine)};
-    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole),
-                             make_faces("test", flows.grid.whole)};
+    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine), Field("c", flows.grid.mine)};
+    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole), Field("c", flows.grid.whole)};
     set_heap(flows.grid, [&](auto share) {
       flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
       flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);
       const auto drag = [&](int i, int j, int k) { return 2e4 * (1 - share(i, j, k)); };
-      flows.grid.set(on_there.implicit.x, on_here.implicit.x, drag);
-      flows.grid.set(on_there.implicit.z, on_here.implicit.z, drag);
+      const auto brake = [&](int i, int j, int k) { return -5 * (1 - share(i, j, k)); };
+      flows.grid.set(on_there.conductance, on_here.conductance, drag);
+      flows.grid.set(on_there.impulse.x, on_here.impulse.x, brake);
     });
+    Halo(flows.grid.mine).fill(on_here.conductance);
+    Halo(flows.grid.whole).fill(on_there.conductance);
     here.fill_ghosts(flows.here);
     there.fill_ghosts(flows.there);
     for (int step = 0; step < 5; ++step) {

@@ -23,7 +23,9 @@ Config box() {
   return c;
 }
 
-void add_mark(GrainState& s) { add_extra(s, "mark", "m/s", kRestart | kGhosts | kGather); }
+void add_mark(GrainState& s) {
+  add_extra(s, "mark", "m/s", kRestart | kGhosts | kGatherReads | kGatherWrites);
+}
 
 /// The mark of a grain is a number that no other grain has: its velocity along x.
 void set_marks(const GrainState& s, Real sign = 1) {

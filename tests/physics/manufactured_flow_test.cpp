@@ -31,9 +31,7 @@ struct AtTime {
 class Run : public test::FlowRun {
  public:
   Run(const ManufacturedFlow& flow, int n)
-      : FlowRun(make_config(flow, n)),
-        flow_(flow),
-        force_{make_faces("test", grid), make_faces("test", grid)} {
+      : FlowRun(make_config(flow, n)), flow_(flow), force_{make_faces("test", grid)} {
     test::set_velocity(fluid, AtTime{flow_, 0});
     solver.fill_ghosts(fluid);
     project();

@@ -16,8 +16,6 @@ using std::numbers::pi;
 using test::HostField;
 using test::HostGrid;
 
-constexpr double kRho = 1000;  // [kg/m^3]
-
 PoissonFft poisson(const Grid& grid, double mass = 0, double diffusion = 1) {
   return {grid, std::make_shared<const PlaneFft>(grid), mass, diffusion};
 }
@@ -134,21 +132,21 @@ TEST(FluidSmoother, MirrorsDampCosinesByTheory) {
   }
 }
 
-/// Fluid fraction and the implicit part of the exchange on faces, and c made of them.
+/// Fluid fraction and the c made of it.
 struct Mixture {
   Grid grid;
   Boundary boundary{grid, WallFlow::no_slip, WallFlow::free_slip};
   Field alpha{"alpha", grid};
-  FaceVector implicit = make_faces("implicit", grid), c = make_faces("c", grid);
+  FaceVector c = make_faces("c", grid);
 
   void update_mobility() {
     boundary.fill(alpha, FieldKind::scalar);
-    sum_each_cell("test", grid, UpdateMobility{grid, alpha, implicit, 1 / kRho, c});
+    sum_each_cell("test", grid, UpdateMobility{grid, alpha, c});
     boundary.fill_periodic(c);
   }
 };
 
-/// A heap with a sharp, noisy surface: alpha 0.35..0.5 inside and a strong drag.
+/// A heap with a sharp, noisy surface: alpha 0.35..0.5 inside.
 Mixture heap(const Grid& grid) {
   Mixture m{grid};
   const HostGrid h(grid);
@@ -159,26 +157,16 @@ Mixture heap(const Grid& grid) {
     const double noise = uniform(engine);
     return h.y(j) < 0.16 * grid.ly * (1 - r / 0.013) ? noise : 1.0;
   });
-  const auto a = test::to_host(m.alpha);
-  for (const Field& f : {m.implicit.x, m.implicit.y, m.implicit.z}) {
-    test::set_field(
-        f, grid, [&](int i, int j, int k) { return kRho * (a(i, j, k) < 1 ? 2 * a(i, j, k) : 0); });
-  }
   m.update_mobility();
   return m;
 }
 
-/// Random fractions everywhere; with `drag` up to the mass of the fluid, as in a dense bed.
-Mixture random_mixture(const Grid& grid, unsigned seed, bool drag) {
+/// Random fractions everywhere.
+Mixture random_mixture(const Grid& grid, unsigned seed) {
   Mixture m{grid};
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   test::set_field(m.alpha, grid, [&](int, int, int) { return 0.4 + 0.6 * uniform(engine); });
-  if (drag) {
-    for (const Field& f : {m.implicit.x, m.implicit.y, m.implicit.z}) {
-      test::set_field(f, grid, [&](int, int, int) { return kRho * uniform(engine); });
-    }
-  }
   m.update_mobility();
   return m;
 }
@@ -223,10 +211,10 @@ TEST(FluidPressure, UniformMobilityTakesOneIteration) {
   EXPECT_LE(report.residual, 1e-10);
 }
 
-/// -div(c grad p) = b with c = alpha^2 / (alpha + m) on faces, put together from alpha and m here.
+/// -div(c grad p) = b with c = alpha on faces, put together from alpha here.
 struct SparseProblem {
   Grid grid;
-  HostField alpha, mx, my, mz, b;
+  HostField alpha, b;
 
   int index(int i, int j, int k) const {
     return (i + grid.nx) % grid.nx + grid.nx * (j + grid.ny * ((k + grid.nz) % grid.nz));
@@ -242,7 +230,6 @@ struct SparseProblem {
       entries.emplace_back(row, column, -value);
       entries.emplace_back(column, row, -value);
     };
-    const auto c = [&](double a, double m) { return a * a / (a + m / kRho); };
     const auto at = [&](int i, int j, int k) {
       return alpha((i + grid.nx) % grid.nx, j, (k + grid.nz) % grid.nz);
     };
@@ -251,13 +238,13 @@ struct SparseProblem {
       const double here = alpha(i, j, k);
       const int row = index(i, j, k);
       couple(row, index(i - 1, j, k),
-             c(0.5 * (here + at(i - 1, j, k)), mx(i, j, k)) * h.dy(j) / (grid.dx * grid.dx));
+             0.5 * (here + at(i - 1, j, k)) * h.dy(j) / (grid.dx * grid.dx));
       couple(row, index(i, j, k - 1),
-             c(0.5 * (here + at(i, j, k - 1)), mz(i, j, k)) * h.dy(j) / (grid.dz * grid.dz));
+             0.5 * (here + at(i, j, k - 1)) * h.dy(j) / (grid.dz * grid.dz));
       if (j > 0) {  // the mean over the face's volume
         const double mixed =
             (h.dy(j) * here + h.dy(j - 1) * at(i, j - 1, k)) / (h.dy(j) + h.dy(j - 1));
-        couple(row, index(i, j - 1, k), c(mixed, my(i, j, k)) / (h.y(j) - h.y(j - 1)));
+        couple(row, index(i, j - 1, k), mixed / (h.y(j) - h.y(j - 1)));
       }
       rhs(row) = b(i, j, k) * h.dy(j);
       mean += rhs(row) / (grid.ly * grid.nx * grid.nz);
@@ -275,12 +262,7 @@ double disagreement(const Mixture& m, unsigned seed, Preconditioner kind) {
   const Grid& grid = m.grid;
   Field b("b", grid), p("p", grid);
   test::set_random(b, grid, seed);
-  const SparseProblem problem{grid,
-                              test::to_host(m.alpha),
-                              test::to_host(m.implicit.x),
-                              test::to_host(m.implicit.y),
-                              test::to_host(m.implicit.z),
-                              test::to_host(b)};
+  const SparseProblem problem{grid, test::to_host(m.alpha), test::to_host(b)};
   const Eigen::VectorXd exact = problem.solve();
   solve(m.boundary, grid, kind, m.c, b, p, 1e-13);
   const auto got = test::to_host(p);
@@ -298,11 +280,9 @@ TEST(FluidPressureDirect, RandomFractionsAgreeWithASparseFactorisation) {
   for (const std::array<int, 3> n :
        {std::array{8, 6, 10}, std::array{9, 5, 7}, std::array{16, 4, 3}, std::array{5, 12, 8}}) {
     const Grid grid = test::stretched_grid(n, {0.05, 0.025, 0.036}, 0.5 * 0.025 / n[1]);
-    for (const bool drag : {false, true}) {
-      for (const Preconditioner kind : {Preconditioner::local_fft, Preconditioner::fft}) {
-        seed += 2;
-        worst = std::max(worst, disagreement(random_mixture(grid, seed, drag), seed + 1, kind));
-      }
+    for (const Preconditioner kind : {Preconditioner::local_fft, Preconditioner::fft}) {
+      seed += 2;
+      worst = std::max(worst, disagreement(random_mixture(grid, seed), seed + 1, kind));
     }
   }
   testing::expect_below(

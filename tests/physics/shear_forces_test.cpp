@@ -259,7 +259,6 @@ TEST(Lift, IsTakenFromTheFluid) {
                            1e-9);
   // By row the share of the stress is not smoothed: here the grain gets it.
   c.coupling.exchange = Exchange::by_row;
-  c.coupling.relaxation = false;
   c.coupling.forces.stress = c.coupling.forces.pressure_gradient = true;
   testing::expect_below("momentum of both that lift changes, by row",
                         lost_along_z(c, impulse, of_grain), 1e-4);

@@ -134,9 +134,40 @@ TEST(GrainSolver, DragRelaxesToTheFluid) {
   c.advance(2000, 2.5e-6);
   const Real expected = 0.1 * (1 - std::exp(-5e-3 / (1.2 * 5e-3)));
   EXPECT_NEAR(rows_by_id(c.state)[1].u.x, expected, 1e-3 * expected);
-  // The impulse of the drag is what moved grain and added mass.
-  const auto impulse = host_copy(c.state.fluid.drag_impulse);
-  EXPECT_NEAR(impulse(0).x / (1.2 * m * rows_by_id(c.state)[1].u.x), 1, 1e-12);
+  // The impulse of drag and added mass is what moved the grain.
+  const auto impulse = host_copy(c.state.fluid.impulse);
+  EXPECT_NEAR(impulse(0).x / (m * rows_by_id(c.state)[1].u.x), 1, 1e-12);
+}
+
+/// A grain and its share of fluid, one pulled by its weight, the other by what else acts on it:
+/// their slip goes to its end exponentially, and both together keep their momentum.
+TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
+  Config config = grain_config();
+  config.grains->gravity = {0, -9.81, 0};
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.002, 0.005, 0.005}, {0, 0, 0.03});
+  GrainBench c(config, g);
+  const Real m = sphere_volume(1e-4) * 2500, share = 0.4 * m, added = 0.2 * m, beta = m / 2e-3;
+  const Real weight = 9.81 * m, a = -3.0, u_f = 0.05, time = 5e-3;
+  add_fluid(c.state);
+  Kokkos::deep_copy(c.state.fluid.beta, beta);
+  Kokkos::deep_copy(c.state.fluid.added_mass, added);
+  Kokkos::deep_copy(c.state.fluid.per_fluid_mass, 1 / share);
+  Kokkos::deep_copy(c.state.fluid.acceleration, Vec3{0, a, 0});
+  Kokkos::deep_copy(c.state.fluid.steady_force, Vec3{0, -weight, 0});
+  Kokkos::deep_copy(c.state.fluid.u_f, Vec3{u_f, 0, 0});
+  c.advance(2000, 2.5e-6);
+  const Vec3 u = rows_by_id(c.state)[1].u, impulse = host_copy(c.state.fluid.impulse)(0);
+  const Vec3 u_f_now = Vec3{u_f, time * a, 0} - (1 / share) * impulse;
+  const Real reduced = 1 / (1 / m + 1 / share);  // d(slip)/dt (reduced + added) = ... - beta slip
+  const Real kept = std::exp(-time * beta / (reduced + added));
+  const Real end = reduced * (a + 9.81) / beta;
+  EXPECT_NEAR(u_f_now.x - u.x, u_f * kept, 1e-3 * u_f);
+  EXPECT_NEAR(u_f_now.y - u.y, end * (1 - kept), 1e-3 * end);
+  EXPECT_NEAR(u_f_now.z - u.z, -0.03 * kept, 1e-3 * 0.03);
+  const Vec3 momentum = m * u + share * u_f_now;
+  const Vec3 expected{share * u_f, time * (share * a - weight), m * 0.03};
+  EXPECT_LT(norm(momentum - expected), 1e-12 * norm(expected));
 }
 
 /// 1,200 grains of a gas that collide within milliseconds, in a box of 3 mm.

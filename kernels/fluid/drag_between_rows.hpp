@@ -1,0 +1,51 @@
+// Grains that lie in several rows of cells drag the rows along with each other.
+#pragma once
+
+#include "kernels/fluid/stencil.hpp"
+
+namespace barchan {
+
+/// In a column of faces (i, k) of u or w, the change e = u* - u of a step that a drag C between
+/// rows leaves of one without it; implicit, so stable at any step; no momentum is lost:
+///   m_j (e_j - e_j*) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
+/// per area of floor, C_j between rows j - 1 and j. The drag at the old velocities is in e* (docs/
+/// numerics.md, "Exchange").
+struct DragBetweenRows {
+  GridRef grid;
+  ConstFieldRef conductance;  // C_j / dy_j on cells [kg/m^3], with ghosts
+  ConstFieldRef alpha;        // with ghosts
+  ConstFieldRef u;            // before the step [m/s]
+  Real density = 0;           // rho
+  bool along_x = true;        // faces of u, or of w
+  FieldRef u_star, pivot;     // predicted velocity; room of the solver
+
+  KOKKOS_FORCEINLINE_FUNCTION Real on_face(const ConstFieldRef& f, int i, int j, int k) const {
+    return along_x ? cell_to_xface(f, i, j, k) : cell_to_zface(f, i, j, k);
+  }
+  /// C_j [kg/m^2]
+  KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {
+    return on_face(conductance, i, j, k) * grid.dy(j);
+  }
+
+  KOKKOS_FUNCTION void operator()(int i, int, int k) const {
+    int rows = grid.ny;
+    while (rows > 1 && coupling(i, rows - 1, k) == 0) --rows;
+    if (rows == 1) return;
+    Real below = 0, e_below = 0, pivot_below = 0;
+    for (int j = 0; j < rows; ++j) {
+      const Real above = j + 1 < rows ? coupling(i, j + 1, k) : 0;
+      const Real mass = density * on_face(alpha, i, j, k) * grid.dy(j);
+      pivot_below = 1 / (mass + below + above - below * below * pivot_below);
+      e_below = pivot_below * (mass * (u_star(i, j, k) - u(i, j, k)) + below * e_below);
+      pivot(i, j, k) = pivot_below;
+      u_star(i, j, k) = u(i, j, k) + e_below;
+      below = above;
+    }
+    for (int j = rows - 2; j >= 0; --j) {
+      const Real e_above = u_star(i, j + 1, k) - u(i, j + 1, k);
+      u_star(i, j, k) += pivot(i, j, k) * coupling(i, j + 1, k) * e_above;
+    }
+  }
+};
+
+}  // namespace barchan
