@@ -159,7 +159,7 @@ def deposit_halo(p):
 def exchange(p):
     """Coupling::gather(), deposit(), with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=14))
+            + Counts(reductions=15))
 
 
 # --- the grains --------------------------------------------------------------------------------------

@@ -36,29 +36,16 @@ struct ExchangeOfGrain {
   KOKKOS_INLINE_FUNCTION Real drag(int g) const { return dt * on_grains.beta(g); }
 };
 
-/// Impulse that the rows of one grain exchange through it, as a bound [N s].
-KOKKOS_INLINE_FUNCTION Real between_rows(const ExchangeOfGrain& of_grain, const ExchangeByRow& rows,
-                                         int g) {
-  const VelocityByRow v = rows(of_grain.grains(g));
-  Real sum = 0;
-  for (int r = 0; r < v.rows.n; ++r) {
-    sum += v.rows.weight(r) * (Kokkos::abs(v.x[r] - v.mean_x) + Kokkos::abs(v.z[r] - v.mean_z));
-  }
-  return of_grain.drag(g) * sum;
-}
-
 /// What all grains together give: volume [m^3], drag coefficient times dt [kg], sum of |impulse|
 /// components and the impulse itself [N s].
 struct SumExchange {
   ExchangeOfGrain of_grain;
-  ExchangeByRow rows;
   KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& drag, Real& size, Real& x, Real& y,
                                   Real& z) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
     drag += of_grain.drag(g);
     size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
-    if (rows.on) size += between_rows(of_grain, rows, g);
     x += e.impulse.x;
     y += e.impulse.y;
     z += e.impulse.z;
@@ -72,16 +59,18 @@ struct DepositGrain {
   Deposits deposits;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainCells cells = rows.stencil(of_grain.grains(g));
-    if (rows.on) {
-      const VelocityByRow v = rows(of_grain.grains(g));
+    const GrainKinematics grain = of_grain.grains(g);
+    const GrainCells cells = rows.stencil(grain);
+    const GrainRows of = rows.rows_of(grain);
+    if (rows.on && of.n > 1) {
+      const VelocityByRow v = rows.velocity(of, grain);
       const Real drag = of_grain.drag(g);
       // A row that flows faster than the grain sees on average drags it more: the difference adds
       // up to nothing over the grain.
       add(g, cells, [&](int j) {
-        const int r = v.rows.find(j);
+        const int r = of.find(j);
         return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
-                     .conductance = drag * v.rows.conductance_below(j) / v.rows.weight(r)};
+                     .conductance = drag * of.conductance_below(j) / of.weight(r)};
       });
     } else {
       add(g, cells, [](int) { return InRow{}; });

@@ -139,15 +139,19 @@ struct AtCentres {
   }
 };
 
-/// The fluid fraction there, likewise.
-struct FractionAtCentres {
+/// Velocity, its rate of change and the fraction there, likewise.
+struct FlowAtCentres {
   GridRef grid;
   PeriodicBox box;
+  ConstFaceRef u, du_dt;
   ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Real*> at;
+  FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const {
-    at(g) = interpolate_cell(alpha_f, PointStencil(grid, box, grains(g).x));
+    const PointStencil at(grid, box, grains(g).x);
+    flow.u(g) = interpolate_faces(u, at);
+    flow.du_dt(g) = interpolate_faces(du_dt, at);
+    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
   }
 };
 
@@ -166,54 +170,66 @@ struct FlowFromCells {
   }
 };
 
-/// A velocity or its rate of change: that of the rows that a grain lies in; upwards, at its centre.
-struct OfRows {
-  ExchangeByRow rows;
+/// Velocity and its rate of change in the rows that a grain lies in; upwards, and the fraction, at
+/// its centre.
+struct FlowOfRows {
+  DepositStencil stencil;
+  PeriodicBox box;
+  ConstFaceRef u, du_dt;
+  ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Vec3*> at;
+  FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const {
-    const VelocityByRow v = rows(grains(g));
-    const PointStencil centre(rows.stencil.grid, rows.box, grains(g).x);
-    const Real up = interpolate(rows.u.y, centre.x_centre, centre.y_face, centre.z_centre);
-    at(g) = {v.mean_x, up, v.mean_z};
+    const GrainKinematics grain = grains(g);
+    const GrainRows rows(stencil, grain);
+    const PointStencil at(stencil.grid, box, grain.x);
+    flow.u(g) = of_rows(u, rows, at);
+    flow.du_dt(g) = of_rows(du_dt, rows, at);
+    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
+                                      const PointStencil& at) const {
+    const VelocityByRow v(stencil.grid, rows, at, f);
+    return {v.mean_x, interpolate(f.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
   }
 };
 
-/// Means of fields on cells over a grain's points: the adjoint of the deposit.
-KOKKOS_INLINE_FUNCTION Real mean_over(const GrainCells& cells, const ConstFieldRef& f) {
-  Real mean = 0;
-  for (int q = 0; q < cells.n; ++q) {
-    const auto [i, j, k] = cells.cell[q];
-    mean += cells.weight(q) * f(i, j, k);
+/// A vector on cells.
+struct CellVectorRef {
+  ConstFieldRef x, y, z;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const CellIndex& c) const {
+    return {x(c.i, c.j, c.k), y(c.i, c.j, c.k), z(c.i, c.j, c.k)};
   }
-  return mean;
-}
-/// And solid per fluid where a grain's cells are fullest. The solid is that before the smoothing,
-/// as many grains as there are take the fluid.
-struct FractionsOverCells {
+};
+
+/// Means of densities on cells over a grain's points, the adjoint of the deposit; of the fraction,
+/// too, and solid per fluid where its cells are fullest. The solid is that before the smoothing: as
+/// many grains as there are take the fluid.
+struct FlowOverCells {
   DepositStencil stencil;
   ConstFieldRef alpha_f, unsmoothed;
+  bool with_pressure = false, with_stress = false;
+  CellVectorRef pressure, stress;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainCells cells = stencil(grains(g));
-    Real most = 0;
+    Real most = 0, mean = 0;
+    Vec3 of_pressure, of_stress;
     for (int q = 0; q < cells.n; ++q) {
-      const auto [i, j, k] = cells.cell[q];
-      most = Kokkos::max(most, (1 - unsmoothed(i, j, k)) / least_fraction(alpha_f(i, j, k)));
+      const CellIndex c = cells.cell[q];
+      const Real w = cells.weight(q), here = unsmoothed(c.i, c.j, c.k);
+      mean += w * here;
+      most = Kokkos::max(most, (1 - here) / least_fraction(alpha_f(c.i, c.j, c.k)));
+      if (with_pressure) of_pressure += w * pressure(c);
+      if (with_stress) of_stress += w * stress(c);
     }
+    flow.alpha_cells(g) = mean;
     flow.solid_per_fluid(g) = most;
-    flow.alpha_cells(g) = mean_over(cells, unsmoothed);
-  }
-};
-struct VectorOverCells {
-  DepositStencil stencil;
-  ConstFieldRef x, y, z;
-  Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Vec3*> mean;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainCells cells = stencil(grains(g));
-    mean(g) = {mean_over(cells, x), mean_over(cells, y), mean_over(cells, z)};
+    if (with_pressure) flow.pressure(g) = of_pressure;
+    if (with_stress) flow.stress(g) = of_stress;
   }
 };
 

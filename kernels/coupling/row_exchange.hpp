@@ -16,16 +16,15 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
 /// Rows of cells that share a grain: how many of its points each holds, at which mean height [m].
 struct GrainRows {
   int n = 0;
-  int row[kDividedHeights];
-  int points[kDividedHeights];
-  Real height[kDividedHeights];
+  int row[kDividedOffsets];
+  int points[kDividedOffsets];
+  Real height[kDividedOffsets];
 
   KOKKOS_INLINE_FUNCTION GrainRows(const DepositStencil& stencil, const GrainKinematics& grain) {
     const int own = stencil.grid.row_of(grain.x.y);
-    for (int q = 0; q < kDividedHeights; ++q) {
-      const PointsAtHeight at = divided_height(q);
-      const Real y = stencil.inside(grain.x.y + grain.r * at.offset);
-      add(stencil.grid.row_near(y, own), at.points, y);
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const Real y = stencil.inside(grain.x.y + grain.r * divided_offset(q, false));
+      add(stencil.grid.row_near(y, own), points_at_height(q), y);
     }
     for (int r = 0; r < n; ++r) height[r] /= points[r];
   }
@@ -38,7 +37,7 @@ struct GrainRows {
   }
   /// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
   /// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
-  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedHeights^2 / 4.
+  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4.
   KOKKOS_INLINE_FUNCTION Real conductance_below(int j) const {
     Real sum = 0;
     for (int a = 0; a < n; ++a) {
@@ -63,17 +62,16 @@ struct GrainRows {
 /// profile sees the profile; in a bed, where the flow above is a hundred times faster than the flow
 /// between the grains, no grain sees the one for the other.
 struct VelocityByRow {
-  GrainRows rows;
-  Real x[kDividedHeights], z[kDividedHeights];
+  const GrainRows& rows;
+  Real x[kDividedOffsets], z[kDividedOffsets];
   Real mean_x = 0, mean_z = 0;  // over the grain
 
-  KOKKOS_INLINE_FUNCTION VelocityByRow(const DepositStencil& stencil, const PeriodicBox& box,
-                                       const ConstFaceRef& u, const GrainKinematics& grain)
-      : rows(stencil, grain) {
-    const PointStencil at(stencil.grid, box, grain.x);
+  KOKKOS_INLINE_FUNCTION VelocityByRow(const GridRef& grid, const GrainRows& of_grain,
+                                       const PointStencil& at, const ConstFaceRef& u)
+      : rows(of_grain) {
     for (int r = 0; r < rows.n; ++r) {
-      x[r] = in_row(stencil.grid, u.x, at.x_face, at.z_centre, r);
-      z[r] = in_row(stencil.grid, u.z, at.x_centre, at.z_face, r);
+      x[r] = in_row(grid, u.x, at.x_face, at.z_centre, r);
+      z[r] = in_row(grid, u.z, at.x_centre, at.z_face, r);
       mean_x += rows.weight(r) * x[r];
       mean_z += rows.weight(r) * z[r];
     }
@@ -100,8 +98,12 @@ struct ExchangeByRow {
   PeriodicBox box;
   ConstFaceRef u;
 
-  KOKKOS_INLINE_FUNCTION VelocityByRow operator()(const GrainKinematics& grain) const {
-    return {stencil, box, u, grain};
+  KOKKOS_INLINE_FUNCTION GrainRows rows_of(const GrainKinematics& grain) const {
+    return {stencil, grain};
+  }
+  KOKKOS_INLINE_FUNCTION VelocityByRow velocity(const GrainRows& rows,
+                                                const GrainKinematics& grain) const {
+    return {stencil.grid, rows, PointStencil(stencil.grid, box, grain.x), u};
   }
 };
 

@@ -17,34 +17,40 @@ inline constexpr int kDividedPoints = 29;
 inline constexpr Real kInnerShell = 0.6276;  // fractions of the radius
 inline constexpr Real kOuterShell = 0.9085;
 
+/// The coordinates that the points have along x, y and z in units of the grain radius, nine of
+/// each: zero; of either shell, its end and what its corners have, up and down. The corners lie at
+/// a polar angle from z with sin = cos = 1/sqrt 2 and at azimuths of 45 + 90 n degrees.
+inline constexpr int kDividedOffsets = 9;
+KOKKOS_INLINE_FUNCTION constexpr Real divided_offset(int q, bool along_z) {
+  if (q == 0) return 0;
+  const Real shell = q <= 4 ? kInnerShell : kOuterShell;
+  const Real of_corner = along_z ? Real(0.70710678118654752) : Real(0.5);
+  const Real size = (q - 1) % 4 < 2 ? shell : of_corner * shell;
+  return q % 2 == 1 ? size : -size;
+}
+/// Which of them point p has.
+struct DividedAxes {
+  int x = 0, y = 0, z = 0;
+};
+KOKKOS_INLINE_FUNCTION constexpr DividedAxes divided_axes(int p) {
+  if (p == 0) return {};
+  const int shell = p <= 14 ? 1 : 5, q = (p - 1) % 14;
+  if (q < 6) {
+    const int end = shell + q % 2;
+    return {q / 2 == 0 ? end : 0, q / 2 == 1 ? end : 0, q / 2 == 2 ? end : 0};
+  }
+  const int corner = q - 6;
+  return {shell + 2 + (corner & 1), shell + 2 + (corner >> 1 & 1), shell + 2 + (corner >> 2 & 1)};
+}
 /// Offset of point p from the centre in units of the grain radius.
 KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
-  if (p == 0) return {};
-  const Real shell = p <= 14 ? kInnerShell : kOuterShell;
-  const int q = (p - 1) % 14;
-  if (q < 6) {
-    const Real side = q % 2 == 0 ? shell : -shell;
-    return {q / 2 == 0 ? side : 0, q / 2 == 1 ? side : 0, q / 2 == 2 ? side : 0};
-  }
-  const int corner = q - 6;  // polar angle from z: sin = cos = 1/sqrt 2; azimuth 45 + 90 n degrees
-  const Real root_half = Real(0.70710678118654752);
-  return {(corner & 1 ? -shell : shell) / 2, (corner & 2 ? -shell : shell) / 2,
-          (corner & 4 ? -shell : shell) * root_half};
+  const DividedAxes at = divided_axes(p);
+  return {divided_offset(at.x, false), divided_offset(at.y, false), divided_offset(at.z, true)};
 }
-
-/// The same points by height alone: nine at that of the centre, of each shell one at the top and at
-/// the bottom and four at half its radius above and below.
-inline constexpr int kDividedHeights = 9;
-struct PointsAtHeight {
-  Real offset;  // from the centre in units of the grain radius
-  int points;
-};
-KOKKOS_INLINE_FUNCTION constexpr PointsAtHeight divided_height(int q) {
-  if (q == 0) return {0, 9};
-  const Real shell = q <= 4 ? kInnerShell : kOuterShell;
-  const bool at_end = (q - 1) % 4 < 2;
-  const Real height = at_end ? shell : shell / 2;
-  return {q % 2 == 1 ? height : -height, at_end ? 1 : 4};
+/// Points at the height of each offset along y: nine at that of the centre, of each shell one at
+/// the top and at the bottom and four at half its radius above and below.
+KOKKOS_INLINE_FUNCTION constexpr int points_at_height(int q) {
+  return q == 0 ? 9 : (q - 1) % 4 < 2 ? 1 : 4;
 }
 
 /// Indices of a cell, owned or a ghost beside an owned one.
@@ -118,14 +124,17 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
     return grid.row_near(inside(y), row_nearby);
   }
+  KOKKOS_INLINE_FUNCTION int cell_x(Real x) const {
+    const int i = column_x(x);
+    return Kokkos::clamp(box.lx > 0 ? wrap(i, grid.nx) : i, i_low, i_high);
+  }
+  KOKKOS_INLINE_FUNCTION int cell_z(Real z) const {
+    const int k = column_z(z);
+    return Kokkos::clamp(box.lz > 0 ? wrap(k, grid.nz) : k, k_low, k_high);
+  }
   /// The cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
-    int i = column_x(p.x);
-    if (box.lx > 0) i = wrap(i, grid.nx);
-    int k = column_z(p.z);
-    if (box.lz > 0) k = wrap(k, grid.nz);
-    return {Kokkos::clamp(i, i_low, i_high), row_of(p.y, row_nearby),
-            Kokkos::clamp(k, k_low, k_high)};
+    return {cell_x(p.x), row_of(p.y, row_nearby), cell_z(p.z)};
   }
   /// All points lie between those at -reach and +reach: true when over and under each other.
   KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {
@@ -139,21 +148,28 @@ struct DepositStencil {
     const Vec3 x = box.wrap(g.x);
     const int row = grid.row_of(x.y);
     const CellIndex own = cell_of(x, row);
-    const bool keeps_outside = points == PointSet::cfdem;
     if (points == PointSet::centre) {
       cells.add(own);
-    } else if (in_one_column(x, kOuterShell * g.r)) {
-      for (int q = 0; q < kDividedHeights; ++q) {
-        const PointsAtHeight at = divided_height(q);
-        const Real y = x.y + g.r * at.offset;
-        const int j = is_outside(y) && keeps_outside ? own.j : row_of(y, row);
-        cells.add({own.i, j, own.k}, at.points);
-      }
-    } else {
-      for (int p = 0; p < kDividedPoints; ++p) {
-        const Vec3 point = x + g.r * divided_point(p);
-        cells.add(is_outside(point.y) && keeps_outside ? own : cell_of(point, row));
-      }
+      return cells;
+    }
+    constexpr int own_cell = -1;  // in place of a row
+    int i[kDividedOffsets], j[kDividedOffsets], k[kDividedOffsets];
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const Real y = x.y + g.r * divided_offset(q, false);
+      j[q] = is_outside(y) && points == PointSet::cfdem ? own_cell : row_of(y, row);
+    }
+    if (in_one_column(x, kOuterShell * g.r)) {
+      for (int q = 0; q < kDividedOffsets; ++q)
+        cells.add({own.i, j[q] == own_cell ? own.j : j[q], own.k}, points_at_height(q));
+      return cells;
+    }
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      i[q] = cell_x(x.x + g.r * divided_offset(q, false));
+      k[q] = cell_z(x.z + g.r * divided_offset(q, true));
+    }
+    for (int p = 0; p < kDividedPoints; ++p) {
+      const DividedAxes at = divided_axes(p);
+      cells.add(j[at.y] == own_cell ? own : CellIndex{i[at.x], j[at.y], k[at.z]});
     }
     return cells;
   }

@@ -23,6 +23,14 @@ struct FlowRate {
   }
 };
 
+/// Largest velocity along x or z [m/s].
+struct FastestAlong {
+  ConstFaceRef u;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return Kokkos::max(Kokkos::abs(u.x(i, j, k)), Kokkos::abs(u.z(i, j, k)));
+  }
+};
+
 /// alpha |u|^2 dy / 2 with the face values' own volumes [m^3/s^2]: the energy that the convection
 /// conserves. Ghosts of alpha must be valid.
 struct KineticEnergy {

@@ -20,6 +20,7 @@ struct GrainForces {
   Real added_mass = 0;      // F = added_mass d(u_f - u)/dt [kg]
   Quad spin_f{};            // spin of the fluid [rad/s]
   Real beta_r = 0;          // T = beta_r (spin_f - omega) [N m s]
+  bool in_fluid = false;    // otherwise there is neither drag nor added mass
   Real mass = 0;            // of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
 };
@@ -32,15 +33,17 @@ struct GrainForces {
 /// Limits: beta = m_a = 0 is the plain kick; s = 0, F = 0, a = 0 stays so; 1/m_f = a = 0 is drag in
 /// a flow that does not change.
 struct HalfKick {
-  Real h, per_mass, per_fluid_mass, added_mass, with_drag, kept, gained, per_moment;
+  Real h, per_mass, per_moment;
+  Real per_fluid_mass = 0, added_mass = 0, with_drag = 0, kept = 0, gained = 0;
 
   KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const GrainForces& f)
       : h(half_step),
         per_mass(1 / f.mass),
-        per_fluid_mass(f.per_fluid_mass),
-        added_mass(f.added_mass),
-        with_drag(f.added_mass + half_step * f.beta),
         per_moment(half_step / (f.inertia_moment + half_step * f.beta_r)) {
+    if (!f.in_fluid) return;
+    per_fluid_mass = f.per_fluid_mass;
+    added_mass = f.added_mass;
+    with_drag = added_mass + h * f.beta;
     const Real k = per_mass + per_fluid_mass, share = 1 / (1 + k * with_drag);
     kept = (1 + k * added_mass) * share;
     gained = h * share;
@@ -48,11 +51,13 @@ struct HalfKick {
 
   /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Quad operator()(GrainForces& f, Quad& u, Quad& omega) const {
-    const Quad slip = f.u_f - u;
-    const Quad new_slip = kept * slip + gained * (f.acceleration - per_mass * f.force);
-    const Quad impulse = with_drag * new_slip - added_mass * slip;
+    Quad impulse{};
+    if (f.in_fluid) {
+      const Quad slip = f.u_f - u, pull = fused(-per_mass, f.force, f.acceleration);
+      impulse = fused(with_drag, fused(kept, slip, gained * pull), -added_mass * slip);
+      f.u_f = fused(-per_fluid_mass, impulse, fused(h, f.acceleration, f.u_f));
+    }
     u = fused(per_mass, fused(h, f.force, impulse), u);
-    f.u_f = f.u_f + h * f.acceleration - per_fluid_mass * impulse;
     const Quad torque = f.beta_r > 0 ? fused(f.beta_r, f.spin_f - omega, f.torque) : f.torque;
     omega = fused(per_moment, torque, omega);
     return impulse;
@@ -108,6 +113,7 @@ struct KickAndDrift {
                   .mass = grain.m,
                   .inertia_moment = sphere_inertia(grain.m, grain.r)};
     if (fluid.none) return f;
+    f.in_fluid = true;
     f.u_f = quad(fluid.u_f_after(elapsed, g));
     f.acceleration = quad(fluid.acceleration(g));
     f.per_fluid_mass = fluid.per_fluid_mass(g);

@@ -60,13 +60,13 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
               .displaced = forces_.buoyancy ? rho_f_ : 0},
       force_(solver.idle().faces[0]),
       convective_(solver.idle().faces[1]),
+      cells_{solver.idle().cells[0], solver.idle().cells[1], solver.idle().cells[2]},
       on_faces_{make_faces("exchange impulse", grid)} {
   if (config_.smoothing_length > 0) unsmoothed_ = Field("coupling: unsmoothed fraction", grid);
   if (by_row_) {
     on_faces_.stress_share = unsmoothed_;
     on_faces_.conductance = Field("coupling: conductance between rows", grid);
   }
-  std::copy_n(solver.idle().cells.begin(), 3, cell_);
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
   deposits_.volume =
       fixed_point_for(static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max));
@@ -83,12 +83,14 @@ ExchangeByRow Coupling::rows(const FaceVector& u) const {
 void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, Real dt) {
   // Bounds of what one cell can receive: everything.
   std::vector<Real> sum(6);
-  Kokkos::parallel_reduce("coupling: totals", items(grains.n),
-                          SumExchange{of_grain(grains, dt), rows(fluid.u)}, sum[0], sum[1], sum[2],
-                          sum[3], sum[4], sum[5]);
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
+                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
   sum_over(ranks_of(grid_), sum);
-  deposits_.conductance = fixed_point_for(sum[1] * (kDividedHeights * kDividedHeights / 4));
-  deposits_.impulse = fixed_point_for(sum[2]);
+  deposits_.conductance = fixed_point_for(sum[1] * (kDividedOffsets * kDividedOffsets / 4));
+  // Rows exchange no more than by twice the fastest velocity along x and z.
+  const Real fastest =
+      by_row_ ? max_each_cell("coupling: fastest", grid_, FastestAlong{fluid.u}) : Real(0);
+  deposits_.impulse = fixed_point_for(sum[2] + 4 * fastest * sum[1]);
   ledger_.grain_volume = sum[0];
   ledger_.given_to_grains = {sum[3], sum[4], sum[5]};
 }
@@ -133,15 +135,16 @@ void Coupling::update_fraction(FluidState& fluid) {
 
 /// The exchange on faces from the deposited impulse, and what couples rows.
 void Coupling::spread_exchange() {
-  for (int q = 0; q < 3; ++q) {
-    decode(q + 2, deposits_.impulse, cell_[q]);
-    boundary_.fill(cell_[q], FieldKind::scalar);
+  int quantity = 2;
+  for (Field* component : {&cells_.x, &cells_.y, &cells_.z}) {
+    decode(quantity++, deposits_.impulse, *component);
+    boundary_.fill(*component, FieldKind::scalar);
   }
   for_each_cell("coupling: spread to faces", grid_,
                 SpreadToFaces{.grid = grid_,
-                              .impulse_x = cell_[0],
-                              .impulse_y = cell_[1],
-                              .impulse_z = cell_[2],
+                              .impulse_x = cells_.x,
+                              .impulse_y = cells_.y,
+                              .impulse_z = cells_.z,
                               .given = on_faces_.impulse});
   if (!by_row_) return;
   decode(1, deposits_.conductance, on_faces_.conductance);

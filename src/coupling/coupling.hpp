@@ -75,9 +75,10 @@ class Coupling {
   void stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
                  Real dt);
   void gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
-                      bool smoothed, Real dt, const Kokkos::View<Vec3*>& force);
+                      FaceVector& on_cells, bool smoothed, Real dt, const Kokkos::View<Vec3*>& at);
   void velocity_at(const FluidState& fluid, const GrainState& grains);
-  void fraction_at(const FluidState& fluid, const GrainState& grains);
+  void unsmooth(const FluidState& fluid);
+  void over_cells(const FluidState& fluid, const GrainState& grains, Real dt);
   WallFaces wall_faces(bool wall, bool along_x) const;
   void reserve_flow_at(int n);
   void gather_shear(const FluidState& fluid, GrainState& grains) const;
@@ -115,7 +116,7 @@ class Coupling {
   SubmergedWeight weight_;
   FaceVector force_, convective_;  // room of the flow solver
   FlowAtGrains flow_at_;
-  Field cell_[3];     // densities of force or impulse; room of the flow solver
+  FaceVector cells_;  // densities of force or impulse; room of the flow solver
   Field unsmoothed_;  // fraction; empty without smoothing
   Deposits deposits_;
   ExchangeOnFaces on_faces_;

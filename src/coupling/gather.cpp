@@ -52,31 +52,29 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
   return cells;
 }
 
-/// The density on the faces of `cells` to the grains, and both sides of it to the ledger: what the
-/// solid fraction 1 - alpha takes of it, and what the grains get. By row the way to the grains is
-/// that of their volume to alpha, backwards: the two are equal.
+/// A density on the faces of `cells`: what the solid fraction 1 - alpha takes of it to the ledger;
+/// and to the grains. By row the way is that of their volume to alpha, backwards, from the cells
+/// x, y, z on (FlowOverCells): so the grains get what the solid fraction takes.
 void Coupling::gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
-                              bool smoothed, Real dt, const Kokkos::View<Vec3*>& force) {
+                              FaceVector& on_cells, bool smoothed, Real dt,
+                              const Kokkos::View<Vec3*>& at) {
   for_each_cell("coupling: force density at the walls",
                 CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
                 HoldForceAtWall{force_.y, grid_.ny});
   for (Field* component : {&force_.x, &force_.y, &force_.z})
     boundary_.fill(*component, FieldKind::scalar);  // behind both walls constant, too
-  Field &x = cell_[0], &y = cell_[1], &z = cell_[2];
+  auto& [x, y, z] = on_cells;
   ledger_.flow_on_solid += dt * sum_vector("coupling: force density on cells", grid_, cells,
                                            ForceOnCells{grid_, force_, alpha, x, y, z});
-  if (by_row_) {
-    for (Field* component : {&x, &y, &z}) {
-      if (smoothed) smoother_.solve(*component, *component);
-      if (grid_.ranks) boundary_.fill(*component, FieldKind::scalar);
-    }
+  if (!by_row_) {
     Kokkos::parallel_for("coupling: force at grains", items(grains.n),
-                         VectorOverCells{stencil_, x, y, z, grains.kin, force});
-  } else {
-    Kokkos::parallel_for("coupling: force at grains", items(grains.n),
-                         AtCentres{grid_, box_, force_, grains.kin, force});
+                         AtCentres{grid_, box_, force_, grains.kin, at});
+    return;
   }
-  ledger_.flow_on_grains += dt * sum_of(grains, force, ranks_of(grid_));
+  for (Field* component : {&x, &y, &z}) {
+    if (smoothed) smoother_.solve(*component, *component);
+    if (grid_.ranks) boundary_.fill(*component, FieldKind::scalar);
+  }
 }
 
 void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains,
@@ -88,7 +86,7 @@ void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains,
       "coupling: pressure force density", cells,
       PressureForceDensity{
           .grid = grid_, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive, .force = force_});
-  gather_density(grains, cells, fluid.alpha_f, smoothed, dt, flow_at_.pressure);
+  gather_density(grains, cells, fluid.alpha_f, cells_, smoothed, dt, flow_at_.pressure);
 }
 
 /// And the convective acceleration.
@@ -105,7 +103,8 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, cons
     boundary_.fill(*component, FieldKind::scalar);
   if (forces_.stress) {
     const Field& alpha = by_row_ ? local_fraction(fluid) : fluid.alpha_f;
-    gather_density(grains, cells, alpha, false, dt, flow_at_.stress);
+    // The impulse of the last step is done with.
+    gather_density(grains, cells, alpha, on_faces_.impulse, false, dt, flow_at_.stress);
   }
 }
 
@@ -115,15 +114,12 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
   };
   const auto& kin = grains.kin;
   if (by_row_) {
-    read(OfRows{rows(fluid.u), kin, flow_at_.u});
-    read(OfRows{rows(fluid.du_dt), kin, flow_at_.du_dt});
+    read(FlowOfRows{stencil_, box_, fluid.u, fluid.du_dt, fluid.alpha_f, kin, flow_at_});
   } else {
-    read(AtCentres{grid_, box_, fluid.u, kin, flow_at_.u});
-    read(AtCentres{grid_, box_, fluid.du_dt, kin, flow_at_.du_dt});
+    read(FlowAtCentres{grid_, box_, fluid.u, fluid.du_dt, fluid.alpha_f, kin, flow_at_});
   }
-  read(FractionAtCentres{grid_, box_, fluid.alpha_f, kin, flow_at_.alpha_f});
   if (config_.void_fraction == VoidFraction::cfdem_faithful) {
-    Field &x = cell_[0], &y = cell_[1], &z = cell_[2];
+    auto& [x, y, z] = cells_;
     for_each_cell("coupling: velocity on cells", grid_, CentreVelocity{fluid.u, x, y, z});
     boundary_.fill(x, FieldKind::velocity_x);
     for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
@@ -142,25 +138,35 @@ WallFaces Coupling::wall_faces(bool wall, bool along_x) const {
   return faces;
 }
 
-/// What the cells of each grain hold.
-void Coupling::fraction_at(const FluidState& fluid, const GrainState& grains) {
+void Coupling::unsmooth(const FluidState& fluid) {
   const Real length = config_.smoothing_length;
-  if (length > 0) {
-    for_each_cell("coupling: unsmoothed fraction", grid_,
-                  UnsmoothedFraction{.grid = grid_,
+  if (length == 0) return;
+  for_each_cell("coupling: unsmoothed fraction", grid_,
+                UnsmoothedFraction{.grid = grid_,
+                                   .alpha_f = fluid.alpha_f,
+                                   .length_squared = length * length,
+                                   .walls_x = wall_faces(walls_.x, true),
+                                   .walls_z = wall_faces(walls_.z, false),
+                                   .unsmoothed = unsmoothed_});
+  boundary_.fill(unsmoothed_, FieldKind::scalar);
+}
+
+/// What the cells of each grain hold.
+void Coupling::over_cells(const FluidState& fluid, const GrainState& grains, Real dt) {
+  const auto& [px, py, pz] = cells_;
+  const auto& [sx, sy, sz] = on_faces_.impulse;
+  Kokkos::parallel_for("coupling: flow over cells of grains", items(grains.n),
+                       FlowOverCells{.stencil = stencil_,
                                      .alpha_f = fluid.alpha_f,
-                                     .length_squared = length * length,
-                                     .walls_x = wall_faces(walls_.x, true),
-                                     .walls_z = wall_faces(walls_.z, false),
-                                     .unsmoothed = local_fraction(fluid)});
-    boundary_.fill(unsmoothed_, FieldKind::scalar);
-  }
-  Kokkos::parallel_for("coupling: fractions at grains", items(grains.n),
-                       FractionsOverCells{.stencil = stencil_,
-                                          .alpha_f = fluid.alpha_f,
-                                          .unsmoothed = local_fraction(fluid),
-                                          .grains = grains.kin,
-                                          .flow = flow_at_});
+                                     .unsmoothed = local_fraction(fluid),
+                                     .with_pressure = by_row_ && forces_.pressure_gradient,
+                                     .with_stress = by_row_ && forces_.stress,
+                                     .pressure = {px, py, pz},
+                                     .stress = {sx, sy, sz},
+                                     .grains = grains.kin,
+                                     .flow = flow_at_});
+  for (const auto& density : {flow_at_.pressure, flow_at_.stress})
+    ledger_.flow_on_grains += dt * sum_of(grains, density, ranks_of(grid_));
 }
 
 void Coupling::reserve_flow_at(int n) {
@@ -188,11 +194,12 @@ void Coupling::gather_shear(const FluidState& fluid, GrainState& grains) const {
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
   reserve_flow_at(grains.n);
-  fraction_at(fluid, grains);
+  unsmooth(fluid);
   velocity_at(fluid, grains);
   const CellRange around = cells_around(grains);
   pressure_at(fluid, grains, around, dt);
   stress_at(fluid, grains, around, dt);
+  over_cells(fluid, grains, dt);
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),

@@ -181,12 +181,26 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     });
     Halo(grid).fill(f);
     const Real in_cells = sum_each_cell("test: cells", grid, InCells{grid, f, deposits});
-    const Kokkos::View<Vec3*> found("test: found", static_cast<std::size_t>(there.n));
+    const auto n = static_cast<std::size_t>(there.n);
+    const FlowAtGrains found{.u = {},
+                             .du_dt = {},
+                             .pressure = {"test: found", n},
+                             .stress = {},
+                             .alpha_f = {},
+                             .alpha_cells = {"test: mean", n},
+                             .solid_per_fluid = {"test: largest", n}};
     Kokkos::parallel_for("test: gather", there.n,
-                         VectorOverCells{stencil, f, f, f, there.kin, found});
+                         FlowOverCells{.stencil = stencil,
+                                       .alpha_f = f,
+                                       .unsmoothed = f,
+                                       .with_pressure = true,
+                                       .pressure = {f, f, f},
+                                       .stress = {f, f, f},
+                                       .grains = there.kin,
+                                       .flow = found});
     Real at_grains = 0;
-    Kokkos::parallel_reduce("test: at grains", there.n, AtGrains{there.fluid.impulse, found},
-                            at_grains);
+    Kokkos::parallel_reduce("test: at grains", there.n,
+                            AtGrains{there.fluid.impulse, found.pressure}, at_grains);
     at_grains = sum_over(MPI_COMM_WORLD, at_grains);
     EXPECT_GT(std::abs(at_grains), 1e-3);
     EXPECT_NEAR(in_cells / at_grains, 1, 1e-11);

@@ -111,10 +111,10 @@ MessageCounts scatter_add(const Grid& grid) {
 
 /// Unsmoothed fraction; extent of the grains; pressure and stress on faces, on cells, three of
 /// these smoothed, and what either side gets of them; convective acceleration. Fraction, smoothed;
-/// impulse, conductance; totals, volume, three sums over faces.
+/// impulse, conductance; totals, fastest velocity, volume, three sums over faces.
 MessageCounts exchange(const Grid& grid) {
   return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(5 + 2 * 2) +
-         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(2 + 3);
+         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(2 + 1 + 3);
 }
 
 /// Grains of this rank in the pencil of each rank.

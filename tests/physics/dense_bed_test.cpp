@@ -45,6 +45,7 @@ double growth(const Mixture& m) {
     const double of_added_mass = f.added_mass * (change - lasting);
     const double steady = (push + of_added_mass) / m.dt;
     f.inertia_moment = 1;
+    f.in_fluid = true;
     const HalfKick kick(m.dt / n / 2, f);
     Quad velocity{w, 0, 0, 0}, spin{};
     impulse = 0;

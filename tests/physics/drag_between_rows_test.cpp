@@ -51,7 +51,7 @@ TEST(DragBetweenRows, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(chain - direct).eigenvalues();
     slackest = std::min(slackest, difference.minCoeff());
     stiffest = std::max(stiffest, difference.maxCoeff());
-    EXPECT_LE(sum, kDividedHeights * kDividedHeights / 4);
+    EXPECT_LE(sum, kDividedOffsets * kDividedOffsets / 4);
   }
   EXPECT_GT(slackest, -1e-14);
   EXPECT_LT(stiffest, 4);

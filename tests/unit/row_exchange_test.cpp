@@ -11,13 +11,24 @@
 namespace barchan {
 namespace {
 
+/// The rows of a grain and the velocities that it sees there.
+struct Seen {
+  GrainRows rows;
+  VelocityByRow velocity;
+
+  Seen(const DepositStencil& stencil, const PeriodicBox& box, const ConstFaceRef& u,
+       const GrainKinematics& grain)
+      : rows(stencil, grain), velocity(stencil.grid, rows, {stencil.grid, box, grain.x}, u) {}
+  Seen(const Seen&) = delete;
+};
+
 /// Velocity along x seen by a grain of 0.2 mm at height y in water whose rows j move with u(j);
 /// along z it is -2 u. Rows grow from 0.26 mm upwards.
 struct Water {
   test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4))};
   GridRef grid = host.ref();
 
-  VelocityByRow at(Real y, const std::function<Real(int)>& u) const {
+  Seen at(Real y, const std::function<Real(int)>& u) const {
     const auto x = test::host_field(grid, [&](int, int j, int) { return u(j); });
     const auto z = test::host_field(grid, [&](int, int j, int) { return -2 * u(j); });
     const ConstFieldRef along_x = x.ref(), along_z = z.ref();
@@ -33,8 +44,8 @@ TEST(RowExchange, AGrainInOneRowSeesALinearProfile) {
   const Water w;
   const auto seen = w.at(w.off_centre(), [&](int j) { return 3 * w.grid.y_centre(j); });
   EXPECT_EQ(seen.rows.n, 1);
-  EXPECT_NEAR(seen.mean_x, 3 * w.off_centre(), 1e-14);
-  EXPECT_NEAR(seen.mean_z, -6 * w.off_centre(), 1e-14);
+  EXPECT_NEAR(seen.velocity.mean_x, 3 * w.off_centre(), 1e-14);
+  EXPECT_NEAR(seen.velocity.mean_z, -6 * w.off_centre(), 1e-14);
 }
 
 // Rising ever faster, rising ever slower: the slope of the flatter side, also on growing rows.
@@ -43,11 +54,11 @@ TEST(RowExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
   const auto expect_slope_of_side = [&](int side, const std::function<Real(Real)>& profile) {
     const auto u = [&](int j) { return profile(w.grid.y_centre(j)); };
     const Real slope = (u(4 + side) - u(4)) / (w.grid.y_centre(4 + side) - w.grid.y_centre(4));
-    EXPECT_NEAR(w.at(w.off_centre(), u).mean_x, u(4) + slope * 5e-5, 1e-14);
+    EXPECT_NEAR(w.at(w.off_centre(), u).velocity.mean_x, u(4) + slope * 5e-5, 1e-14);
   };
   expect_slope_of_side(-1, [](Real y) { return 1e3 * y * y; });
   expect_slope_of_side(1, [](Real y) { return std::sqrt(y); });
-  EXPECT_EQ(w.at(w.off_centre(), [](int j) { return j == 4 ? 1 : 0; }).mean_x, 1);
+  EXPECT_EQ(w.at(w.off_centre(), [](int j) { return j == 4 ? 1 : 0; }).velocity.mean_x, 1);
 }
 
 // Nineteen of the 29 points lie at or above the centre; neither row sees the other one's water.
@@ -55,9 +66,9 @@ TEST(RowExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const Water w;
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
   ASSERT_EQ(seen.rows.n, 2);
-  EXPECT_NEAR(seen.mean_x, 19.0 / 29, 1e-14);
-  EXPECT_EQ(seen.x[seen.rows.find(3)], 0);
-  EXPECT_EQ(seen.x[seen.rows.find(4)], 1);
+  EXPECT_NEAR(seen.velocity.mean_x, 19.0 / 29, 1e-14);
+  EXPECT_EQ(seen.velocity.x[seen.rows.find(3)], 0);
+  EXPECT_EQ(seen.velocity.x[seen.rows.find(4)], 1);
 }
 
 }  // namespace
