@@ -51,7 +51,7 @@ KOKKOS_INLINE_FUNCTION Real lasting_part(Real per_fluid_mass, Real added_mass, R
 /// its own if all grains take alike, alpha_f rho_f V_p/(1 - alpha_f). What acts on that share
 /// besides the grain is taken from the last step, in which the fluid there changed by du_dt though
 /// it lost the impulse: where nothing changes, it keeps its velocity (docs/numerics.md, "Dense
-/// beds").
+/// beds"). In the first step it is the force of pressure gradient, stress and convection.
 /// The drag coefficient is that of the slip at the start; the drag itself follows grain and share.
 template <class DragLaw>
 struct GatherFluid {
@@ -64,6 +64,7 @@ struct GatherFluid {
   SubmergedWeight weight;
   FluidForces forces;
   bool by_row = false;
+  bool first = false;  // these grains have taken no impulse from this flow yet
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow_at;
   FluidOnGrains on_grains;
@@ -89,10 +90,15 @@ struct GatherFluid {
     Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
     if (forces.wall_drag) beta *= floor_drag_factor(flow, grain.x.y - grain.r);
     const Real per_fluid_mass = flow_at.solid_per_fluid(g) / (rho_f * volume);
+    const Vec3 u_grad_u = interpolate_faces(convective, at);
     const Vec3 lasting = lasting_part(per_fluid_mass, added_mass, dt * beta) * flow_at.du_dt(g);
-    const Vec3 added_mass_force =
-        added_mass * (interpolate_faces(convective, at) + flow_at.du_dt(g) - lasting);
-    on_grains.acceleration(g) = lasting + (per_fluid_mass / dt_before) * on_grains.impulse(g);
+    Vec3 added_mass_force = added_mass * (u_grad_u + flow_at.du_dt(g) - lasting);
+    Vec3 acceleration = lasting + (per_fluid_mass / dt_before) * on_grains.impulse(g);
+    if (first) {
+      acceleration = (1 / rho_f) * (flow_at.pressure(g) + flow_at.stress(g)) - u_grad_u;
+      added_mass_force = added_mass * u_grad_u;
+    }
+    on_grains.acceleration(g) = acceleration;
     on_grains.per_fluid_mass(g) = per_fluid_mass;
     on_grains.u_f(g) = u_f;
     on_grains.beta(g) = beta;

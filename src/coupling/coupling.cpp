@@ -154,6 +154,7 @@ void Coupling::spread_exchange() {
 void Coupling::start(const GrainState& grains, FluidState& fluid) {
   deposit(grains, fluid, 0);
   Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
+  first_ = true;
 }
 
 void Coupling::sum_faces() {

@@ -110,6 +110,7 @@ class Coupling {
   PeriodicBox box_;
   DepositStencil stencil_;
   bool by_row_ = false;  // the exchange
+  bool first_ = false;   // step of grains that have just been placed
   Halo halo_;
   Real rho_f_ = 0, nu_ = 0;
   bool floor_ = false;  // no slip at y = 0

@@ -214,6 +214,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .weight = weight_,
                                          .forces = forces_,
                                          .by_row = by_row_,
+                                         .first = first_,
                                          .grains = grains.kin,
                                          .flow_at = flow_at_,
                                          .on_grains = grains.fluid,
@@ -221,6 +222,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
       },
       drag_);
   if (forces_.lift || forces_.torque) gather_shear(fluid, grains);
+  first_ = false;
 }
 
 }  // namespace barchan

@@ -77,6 +77,20 @@ void check_ergun(const Bed& bed) {
                           1);
 }
 
+/// Grains placed in a steady flow through themselves, as after a run that held them, feel from the
+/// first step on what they felt there.
+TEST(PackedBed, ANewRunGoesOnInASteadyFlow) {
+  const Bed bed{.alpha = 0.4, .superficial = 1e-3};
+  FrozenBed steady(bed), again(bed);
+  steady.run.advance(60);
+  again.run.state.fluid = steady.run.state.fluid;
+  again.run.step.fill_ghosts(again.run.state);
+  again.run.advance(1);
+  testing::expect_relative("impulse on the bed in the first step of a new run [N s]",
+                           again.run.step.exchange().given_to_grains.x,
+                           steady.run.step.exchange().given_to_grains.x, 0.05);
+}
+
 TEST(PackedBed, PressureDropIsErguns) {
   for (const double alpha : {0.4, 0.5, 0.7}) {
     for (const double superficial : {2e-4, 0.02, 0.1}) check_ergun({alpha, superficial});

@@ -9,7 +9,7 @@ import beside_cfdem as beside
 
 MOVING = 5e-3  # a grain that is faster along the stream moves [m/s]
 LAYERS = (0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2)  # lower ends [mm]
-SINCE, UNTIL = 0.1, 0.3  # [s], of the profile; the second of the series, too
+SINCE, UNTIL = 0.1, 0.5  # [s], of the profile; the second of the series, too
 SHAPE = ("W", "L", "H", "Cx")  # columns of dune.csv
 
 
