@@ -63,9 +63,11 @@ def smoothed(case, folder):
 
 
 def run_held(name, folder, **keys):
-    """The grains of a case held in the flow that it starts from, for two steps of 0.25 ms."""
-    return run(smoothed(HELD[name][0], folder), folder, grains__frozen="true", time__fluid_step=2.5e-4, time__end=5e-4,
-               output__grain_forces="true", output__grains_interval=2.5e-4, output__fields_interval=2.5e-4, **keys)
+    """The grains of a case held in the flow that it starts from, for two steps so short that it does not change."""
+    instant = "1e-7"
+    return run(smoothed(HELD[name][0], folder), folder, grains__frozen="true", time__fluid_step=instant,
+               time__grain_step=instant, time__end="2e-7", output__grain_forces="true", output__grains_interval=instant,
+               output__fields_interval=instant, **keys)
 
 
 @dataclass
