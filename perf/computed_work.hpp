@@ -57,10 +57,10 @@ inline Work gather() {
   return {7.0 * sizeof(GrainKinematics) + 15.0 * sizeof(Vec3) + 9.0 * sizeof(Real),
           12 * 9 + 5 * 24 + 8 * 29 * 2 + 100};
 }
-/// Deposit: kinematics, three vectors and two numbers read; 29 points sorted into about four cells,
-/// to each of which five sums are added in cache.
+/// Deposit: kinematics, two vectors and a number read; 29 points sorted into about four cells, to each
+/// of which five sums are added in cache.
 inline Work deposit() {
-  return {sizeof(GrainKinematics) + 3.0 * sizeof(Vec3) + 2.0 * sizeof(Real), 29 * 16 + 4 * 5 * 3};
+  return {sizeof(GrainKinematics) + 2.0 * sizeof(Vec3) + sizeof(Real), 29 * 16 + 4 * 5 * 3};
 }
 
 // --- flow, per cell and fluid step

@@ -95,7 +95,7 @@ struct DepositGrain {
         Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
       };
       put(0, deposits.volume, e.volume);
-      if (rows.on) put(1, deposits.conductance, in_row.conductance);
+      if (in_row.conductance > 0) put(1, deposits.conductance, in_row.conductance);
       put(2, deposits.impulse, impulse.x);
       put(3, deposits.impulse, impulse.y);
       put(4, deposits.impulse, impulse.z);

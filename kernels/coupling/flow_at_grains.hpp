@@ -122,7 +122,7 @@ struct FlowAtGrains {
   Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells
 };
 
-/// Where fluid fractions divide or enter drag laws they count as at least 0.1.
+/// In drag laws a fluid fraction counts as at least 0.1.
 KOKKOS_INLINE_FUNCTION Real least_fraction(Real alpha) {
   return Kokkos::clamp(alpha, Real(0.1), Real(1));
 }
@@ -222,7 +222,7 @@ struct FlowOverCells {
       const CellIndex c = cells.cell[q];
       const Real w = cells.weight(q), here = unsmoothed(c.i, c.j, c.k);
       mean += w * here;
-      most = Kokkos::max(most, (1 - here) / least_fraction(alpha_f(c.i, c.j, c.k)));
+      most = Kokkos::max(most, (1 - here) / Kokkos::max(alpha_f(c.i, c.j, c.k), Real(1e-3)));
       if (with_pressure) of_pressure += w * pressure(c);
       if (with_stress) of_stress += w * stress(c);
     }

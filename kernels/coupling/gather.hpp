@@ -48,10 +48,12 @@ KOKKOS_INLINE_FUNCTION Real lasting_part(Real per_fluid_mass, Real added_mass, R
 
 /// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step; and
 /// the share of fluid that the grain carries through its sub-steps: what of the fluid around it is
-/// its own if all grains take alike, alpha_f rho_f V_p/(1 - alpha_f). What acts on that share
+/// its own if all grains take alike, alpha_f rho_f V_p/(1 - alpha_f), the solid before the
+/// smoothing, in the fullest of the grain's cells. What acts on that share
 /// besides the grain is taken from the last step, in which the fluid there changed by du_dt though
 /// it lost the impulse: where nothing changes, it keeps its velocity (docs/numerics.md, "Dense
-/// beds"). In the first step it is the force of pressure gradient, stress and convection.
+/// beds"). In the first step it is the force of convection, and of pressure gradient and stress
+/// where they act on the grains.
 /// The drag coefficient is that of the slip at the start; the drag itself follows grain and share.
 template <class DragLaw>
 struct GatherFluid {
@@ -60,7 +62,7 @@ struct GatherFluid {
   PeriodicBox box;
   ConstFaceRef convective;
   Real rho_f = 0, mu_f = 0;
-  Real dt = 0, dt_before = 0;  // this step and the last one [s]
+  Real dt = 0;
   SubmergedWeight weight;
   FluidForces forces;
   bool by_row = false;
@@ -93,7 +95,7 @@ struct GatherFluid {
     const Vec3 u_grad_u = interpolate_faces(convective, at);
     const Vec3 lasting = lasting_part(per_fluid_mass, added_mass, dt * beta) * flow_at.du_dt(g);
     Vec3 added_mass_force = added_mass * (u_grad_u + flow_at.du_dt(g) - lasting);
-    Vec3 acceleration = lasting + (per_fluid_mass / dt_before) * on_grains.impulse(g);
+    Vec3 acceleration = lasting + (per_fluid_mass / dt) * on_grains.impulse(g);
     if (first) {
       acceleration = (1 / rho_f) * (flow_at.pressure(g) + flow_at.stress(g)) - u_grad_u;
       added_mass_force = added_mass * u_grad_u;
@@ -125,7 +127,8 @@ struct GatherStillFluid {
     if (on_grains.none) return;
     const LocalFlow flow{
         .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};
-    on_grains.u_f(g) = Vec3{};
+    on_grains.u_f(g) = on_grains.acceleration(g) = Vec3{};
+    on_grains.per_fluid_mass(g) = 0;
     on_grains.beta(g) = SchillerNaumann{}(flow);
     on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
   }

@@ -37,7 +37,8 @@ struct GrainRows {
   }
   /// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
   /// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
-  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4.
+  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4. For rows
+  /// higher than a sixth of the grain: then each between its ends holds a point.
   KOKKOS_INLINE_FUNCTION Real conductance_below(int j) const {
     Real sum = 0;
     for (int a = 0; a < n; ++a) {

@@ -5,11 +5,12 @@
 
 namespace barchan {
 
-/// In a column of faces (i, k) of u or w, the change e = u* - u of a step that a drag C between
-/// rows leaves of one without it; implicit, so stable at any step; no momentum is lost:
-///   m_j (e_j - e_j*) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
-/// per area of floor, C_j between rows j - 1 and j. The drag at the old velocities is in e* (docs/
-/// numerics.md, "Exchange").
+/// Changes of velocity within a step drag neighbouring rows along, too. In each column (i, k) of
+/// faces of u or w, with the change e* = u* - u that the predictor has made and the change e that
+/// is left of it, per area of floor:
+///   m_j (e_j - e*_j) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
+/// C_j the conductance between rows j - 1 and j. Implicit, so stable at any step; no momentum is
+/// lost. The drag at the old velocities is in u* already (docs/numerics.md, "Drag between rows").
 struct DragBetweenRows {
   GridRef grid;
   ConstFieldRef conductance;  // C_j / dy_j on cells [kg/m^3], with ghosts

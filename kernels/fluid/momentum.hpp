@@ -112,7 +112,8 @@ struct StressDivergence {
   }
 };
 
-/// What the grains do to the fluid in one step, on faces. Wall faces and ghosts are not read.
+/// What the grains do to the fluid in one step, on faces. Of the impulse wall faces and ghosts are
+/// not read.
 struct ExchangeOnFaces {
   FaceVector impulse;    // momentum per volume given to the fluid [N s/m^3]
   Field conductance{};   // of DragBetweenRows, on cells [kg/m^3]; empty: none

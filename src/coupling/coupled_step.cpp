@@ -108,8 +108,8 @@ void CoupledStep::advance_fluid(SystemState& state) {
 void CoupledStep::close_step(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
-  if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
   const PhaseTimer timer(phases_, "grains");
+  if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);
 }
 

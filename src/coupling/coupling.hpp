@@ -65,7 +65,6 @@ class Coupling {
   void start(const GrainState& grains, FluidState& fluid);
 
   const ExchangeOnFaces& on_faces() const { return on_faces_; }
-  const SubmergedWeight& weight() const { return weight_; }
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// Grains live on ranks of their own, chosen for equal contact work. For gather, deposit and carry
+/// Grains live on ranks of their own, chosen for equal contact work. For gather and deposit
 /// copies of them go to the pencils of the flow, and results come back. Where one rank has
 /// everything there are no copies: the grains themselves are on the fluid's rank.
 class FluidSideGrains {

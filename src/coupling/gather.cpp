@@ -210,7 +210,6 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,
-                                         .dt_before = fluid.has_history ? fluid.dt_previous : dt,
                                          .weight = weight_,
                                          .forces = forces_,
                                          .by_row = by_row_,

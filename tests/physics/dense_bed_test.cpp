@@ -65,7 +65,8 @@ double growth(const Mixture& m) {
   }
   double largest = 0;
   for (const std::complex<double>& value : step.eigenvalues()) {
-    if (std::abs(value - 1.0) < 1e-7) continue;  // the momentum of both together, or their place
+    // Free grains: the momentum of both together, and their place.
+    if (m.period == 0 && std::abs(value - 1.0) < 1e-7) continue;
     largest = std::max(largest, std::abs(value));
   }
   return largest;

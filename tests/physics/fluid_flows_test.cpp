@@ -144,11 +144,14 @@ TEST(FluidFlow, ANewSolverContinuesBitForBit) {
   config.fluid->mean_velocity = 0.28;
   config.time.fluid_step = 5e-4;
   const Grid grid = make_grid(config);
-  const ExchangeOnFaces exchange = no_exchange(grid);
-  for (Field m : {exchange.impulse.x, exchange.impulse.y, exchange.impulse.z}) {
-    test::set_field(m, grid,
-                    [](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? -0.9 : 0.; });
-  }
+  ExchangeOnFaces exchange = no_exchange(grid);
+  exchange.conductance = Field("test: conductance", grid);
+  const auto in_corner = [](double value) {
+    return [=](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? value : 0.; };
+  };
+  for (Field m : {exchange.impulse.x, exchange.impulse.y, exchange.impulse.z})
+    test::set_field(m, grid, in_corner(-0.9));
+  test::set_field(exchange.conductance, grid, in_corner(300));
   const auto run = [&](bool change_solver) {
     FluidState fluid = make_fluid_state(grid);
     set_turbulent_flow(config, fluid);

@@ -145,7 +145,7 @@ TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
   EXPECT_LT(beyond, 1e-11) << "through the seam of the flow";
 }
 
-/// Exchange with one grain and its images, each pulled down by the water.
+/// Exchange with one grain and its images, each lifted by the water.
 ExchangeOnFaces exchange_of(test::CoupledRun& run) {
   const FluidSolver solver(run.config, run.state.fluid->grid);
   Coupling coupling(run.config, solver, *run.state.grains, run.state.fluid->grid);

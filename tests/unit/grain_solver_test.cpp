@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "kernels/coupling/gather.hpp"
+#include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "tests/support/grain_bench.hpp"
 
@@ -168,6 +170,30 @@ TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
   const Vec3 momentum = m * u + share * u_f_now;
   const Vec3 expected{share * u_f, time * (share * a - weight), m * 0.03};
   EXPECT_LT(norm(momentum - expected), 1e-12 * norm(expected));
+}
+
+/// What a grain that cannot move takes from its share of fluid in a step: as one of infinite mass.
+TEST(GrainSolver, HeldGrainsBrakeTheirShareOfFluid) {
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.002, 0.005, 0.005});
+  GrainBench c(grain_config(), g);
+  const Real share = 4e-9, added = 2e-9, beta = 3e-5, dt = 5e-4;
+  const Vec3 u_f{0.05, 0, 0.01}, acceleration{-3, 2, 0};
+  add_fluid(c.state);
+  Kokkos::deep_copy(c.state.fluid.beta, beta);
+  Kokkos::deep_copy(c.state.fluid.added_mass, added);
+  Kokkos::deep_copy(c.state.fluid.per_fluid_mass, 1 / share);
+  Kokkos::deep_copy(c.state.fluid.acceleration, acceleration);
+  Kokkos::deep_copy(c.state.fluid.u_f, u_f);
+  Kokkos::parallel_for("test: held", 1, DragOnFrozenGrains{.dt = dt, .on_grains = c.state.fluid});
+  GrainForces f{.force = {}, .torque = {}};
+  f.u_f = quad(u_f), f.acceleration = quad(acceleration);
+  f.per_fluid_mass = 1 / share, f.beta = beta, f.added_mass = added;
+  f.mass = 1e30, f.inertia_moment = 1, f.in_fluid = true;
+  Quad u{}, spin{};
+  const Vec3 expected = HalfKick(dt, f)(f, u, spin).vec();
+  EXPECT_LT(norm(host_copy(c.state.fluid.impulse)(0) - expected), 1e-14 * norm(expected));
+  EXPECT_GT(norm(f.u_f.vec() - u_f), 0.01) << "the water has slowed down";
 }
 
 /// 1,200 grains of a gas that collide within milliseconds, in a box of 3 mm.
