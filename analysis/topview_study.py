@@ -88,9 +88,11 @@ def draw_grid(grid, window, times, labels):
     for i, time in enumerate(times):
         page.text(LEFT - 0.06, HEAD + i * (height + GAP) + 0.5 * height, f"{time:.3g} s", ha="right",
                   va="center")
+    # As large as the longest label fits over a column, at 0.6 of its size a letter.
+    label_size = min(plt.rcParams["font.size"], 72 * (width + GAP) / (0.62 * max(map(len, labels))))
     for j, column in enumerate(grid):
         x = LEFT + j * (width + GAP)
-        page.text(x + 0.5 * width, HEAD - 0.06, labels[j], ha="center", va="baseline")
+        page.text(x + 0.5 * width, HEAD - 0.06, labels[j], ha="center", va="baseline", fontsize=label_size)
         for i, grains in enumerate(column):
             if grains is not None:  # else the case has not come so far
                 picture = top_view(grains.x, grains.d, window, round(FINER * style.DPI * width), top)
