@@ -61,16 +61,16 @@ struct DepositGrain {
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = of_grain.grains(g);
     const GrainCells cells = rows.stencil(grain);
-    const GrainRows of = rows.rows_of(grain);
-    if (rows.on && of.n > 1) {
-      const VelocityByRow v = rows.velocity(of, grain);
+    const GrainRows in_rows = rows.rows_of(grain);
+    if (rows.on && in_rows.n > 1) {
+      const VelocityByRow v = rows.velocity(in_rows, grain);
       const Real drag = of_grain.drag(g);
       // A row that flows faster than the grain sees on average drags it more: the difference adds
       // up to nothing over the grain.
       add(g, cells, [&](int j) {
-        const int r = of.find(j);
+        const int r = in_rows.find(j);
         return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
-                     .conductance = drag * of.conductance_below(j) / of.weight(r)};
+                     .conductance = drag * in_rows.conductance_below(j) / in_rows.weight(r)};
       });
     } else {
       add(g, cells, [](int) { return InRow{}; });

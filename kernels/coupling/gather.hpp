@@ -5,7 +5,7 @@
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/flow_at_grains.hpp"
 #include "kernels/coupling/shear_forces.hpp"
-#include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/grain_motion.hpp"
 
 namespace barchan {
 
@@ -49,11 +49,10 @@ KOKKOS_INLINE_FUNCTION Real lasting_part(Real per_fluid_mass, Real added_mass, R
 /// Fluid velocity, drag coefficient and all steady forces at each grain, for one fluid step; and
 /// the share of fluid that the grain carries through its sub-steps: what of the fluid around it is
 /// its own if all grains take alike, alpha_f rho_f V_p/(1 - alpha_f), the solid before the
-/// smoothing, in the fullest of the grain's cells. What acts on that share
-/// besides the grain is taken from the last step, in which the fluid there changed by du_dt though
-/// it lost the impulse: where nothing changes, it keeps its velocity (docs/numerics.md, "Dense
-/// beds"). In the first step it is the force of convection, and of pressure gradient and stress
-/// where they act on the grains.
+/// smoothing, in the fullest of the grain's cells. What acts on that share besides the grain is
+/// taken from the last step, in which the fluid there changed by du_dt though it lost the impulse:
+/// where nothing changes, it keeps its velocity (docs/numerics.md, "Dense beds"). In the first step
+/// it is convection, and pressure gradient and stress where these act on the grains.
 /// The drag coefficient is that of the slip at the start; the drag itself follows grain and share.
 template <class DragLaw>
 struct GatherFluid {
@@ -134,17 +133,19 @@ struct GatherStillFluid {
   }
 };
 
-/// Grains that do not move: the impulse of a whole fluid step, as HalfKick without a kick.
+/// Grains that do not move: the impulse of a whole fluid step, in one kick of infinite mass.
 struct DragOnFrozenGrains {
   Real dt = 0;
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
-    const Real added_mass = on_grains.added_mass(g), k = on_grains.per_fluid_mass(g);
-    const Real with_drag = added_mass + dt * on_grains.beta(g);
-    const Vec3 u_f = on_grains.u_f(g);
-    const Vec3 u_f_new =
-        (1 / (1 + k * with_drag)) * ((1 + k * added_mass) * u_f + dt * on_grains.acceleration(g));
-    on_grains.impulse(g) = with_drag * u_f_new - added_mass * u_f;
+    GrainForces f{.force = {}, .torque = {}};
+    f.u_f = quad(on_grains.u_f(g)), f.acceleration = quad(on_grains.acceleration(g));
+    f.per_fluid_mass = on_grains.per_fluid_mass(g);
+    f.beta = on_grains.beta(g), f.added_mass = on_grains.added_mass(g);
+    f.mass = f.inertia_moment = Kokkos::Experimental::infinity_v<Real>;
+    f.in_fluid = true;
+    Quad u{}, spin{};
+    on_grains.impulse(g) = HalfKick(dt, f)(f, u, spin).vec();
   }
 };
 

@@ -48,8 +48,8 @@ class Ledger {
 /// cut, points of a grain may lie in ghosts; throws ConfigError if it could reach beyond.
 DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max);
 
-/// Unresolved coupling, model A: gather before the sub-steps, deposit after them. Where the grid is
-/// cut, `grains` are those whose centres lie in this rank's pencil
+/// Unresolved coupling, model A: gather before the sub-steps, deposit after them. Where the grid
+/// is cut, `grains` are those whose centres lie in this rank's pencil
 /// (FluidSideGrains), and all ranks call every member together.
 class Coupling {
  public:
