@@ -115,6 +115,7 @@ struct UnsmoothedFraction {
 struct FlowAtGrains {
   Kokkos::View<Vec3*> u;                // [m/s]
   Kokkos::View<Vec3*> du_dt;            // its change over the last step [m/s^2], read as u
+  Kokkos::View<Vec3*> u_grad_u;         // convective acceleration at the centre [m/s^2]
   Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
   Kokkos::View<Vec3*> stress;           // force of the stress, likewise
   Kokkos::View<Real*> alpha_f;          // fraction of the flow
@@ -139,11 +140,11 @@ struct AtCentres {
   }
 };
 
-/// Velocity, its rate of change and the fraction there, likewise.
+/// Velocity, its rate of change, convection and the fraction there, likewise.
 struct FlowAtCentres {
   GridRef grid;
   PeriodicBox box;
-  ConstFaceRef u, du_dt;
+  ConstFaceRef u, du_dt, u_grad_u;
   ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
@@ -151,6 +152,7 @@ struct FlowAtCentres {
     const PointStencil at(grid, box, grains(g).x);
     flow.u(g) = interpolate_faces(u, at);
     flow.du_dt(g) = interpolate_faces(du_dt, at);
+    flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     flow.alpha_f(g) = interpolate_cell(alpha_f, at);
   }
 };
@@ -170,12 +172,12 @@ struct FlowFromCells {
   }
 };
 
-/// Velocity and its rate of change in the rows that a grain lies in; upwards, and the fraction, at
-/// its centre.
+/// Velocity and its rate of change in the rows that a grain lies in; upwards, convection and the
+/// fraction, at its centre.
 struct FlowOfRows {
   DepositStencil stencil;
   PeriodicBox box;
-  ConstFaceRef u, du_dt;
+  ConstFaceRef u, du_dt, u_grad_u;
   ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
@@ -185,6 +187,7 @@ struct FlowOfRows {
     const PointStencil at(stencil.grid, box, grain.x);
     flow.u(g) = of_rows(u, rows, at);
     flow.du_dt(g) = of_rows(du_dt, rows, at);
+    flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     flow.alpha_f(g) = interpolate_cell(alpha_f, at);
   }
 

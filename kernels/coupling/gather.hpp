@@ -57,9 +57,6 @@ KOKKOS_INLINE_FUNCTION Real lasting_part(Real per_fluid_mass, Real added_mass, R
 template <class DragLaw>
 struct GatherFluid {
   DragLaw drag;
-  GridRef grid;
-  PeriodicBox box;
-  ConstFaceRef convective;
   Real rho_f = 0, mu_f = 0;
   Real dt = 0;
   SubmergedWeight weight;
@@ -73,8 +70,7 @@ struct GatherFluid {
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    const PointStencil at(grid, box, grain.x);
-    const Vec3 u_f = flow_at.u(g);
+    const Vec3 u_f = flow_at.u(g), u_grad_u = flow_at.u_grad_u(g);
     const Real volume = sphere_volume(grain.r);
     const Real added_mass = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);
 
@@ -91,7 +87,6 @@ struct GatherFluid {
     Real beta = Real(forces.drag) * (unsmoothing * unsmoothing) * drag(flow);
     if (forces.wall_drag) beta *= floor_drag_factor(flow, grain.x.y - grain.r);
     const Real per_fluid_mass = flow_at.solid_per_fluid(g) / (rho_f * volume);
-    const Vec3 u_grad_u = interpolate_faces(convective, at);
     const Vec3 lasting = lasting_part(per_fluid_mass, added_mass, dt * beta) * flow_at.du_dt(g);
     Vec3 added_mass_force = added_mass * (u_grad_u + flow_at.du_dt(g) - lasting);
     Vec3 acceleration = lasting + (per_fluid_mass / dt) * on_grains.impulse(g);
@@ -158,7 +153,7 @@ struct DragAndAddedMass {
   Kokkos::View<Vec3*> drag, added_mass;
   KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 slip_before = on_grains.u_f(g) - on_grains.u_start(g);
-    const Vec3 slip = on_grains.u_f_after(dt, g) - grains(g).u;
+    const Vec3 slip = on_grains.u_f_after(dt, g).vec() - grains(g).u;
     const Vec3 of_change = (on_grains.added_mass(g) / dt) * (slip - slip_before);
     drag(g) = (1 / dt) * on_grains.impulse(g) - of_change;
     added_mass(g) = of_change;

@@ -55,7 +55,7 @@ KOKKOS_INLINE_FUNCTION constexpr int points_at_height(int q) {
 
 /// Indices of a cell, owned or a ghost beside an owned one.
 struct CellIndex {
-  int i = 0, j = 0, k = 0;
+  int i, j, k;
   /// Its number among the owned cells and the ghosts around them in x and z.
   KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
     return i + 1 + std::int64_t{grid.nx + 2} * (j + std::int64_t{grid.ny} * (k + 1));

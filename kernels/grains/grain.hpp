@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "kernels/math/vec3.hpp"
+#include "kernels/math/quad.hpp"
 
 namespace barchan {
 
@@ -17,25 +17,6 @@ static_assert(sphere_volume(0.5) > 0.523598 && sphere_volume(0.5) < 0.523599);  
 /// Moment of inertia of a solid sphere about its centre, 2/5 m r^2 [kg m^2].
 KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_inertia(Real mass, Real radius) {
   return Real(0.4) * mass * radius * radius;
-}
-
-/// Three components and a spare number, loaded and stored together.
-struct alignas(32) Quad {
-  Real x, y, z, w;
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 vec() const { return {x, y, z}; }
-};
-KOKKOS_FORCEINLINE_FUNCTION Quad quad(const Vec3& a) { return {a.x, a.y, a.z, 0}; }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
-}
-KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
-}
-KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
-  return {fused(s, a.x, b.x), fused(s, a.y, b.y), fused(s, a.z, b.z), fused(s, a.w, b.w)};
-}
-KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
-  return {s * a.x, s * a.y, s * a.z, s * a.w};
 }
 
 /// What a contact needs of one grain, side by side in memory: two cache lines per neighbour

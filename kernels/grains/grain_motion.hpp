@@ -69,7 +69,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, 
                                                 Real radius, bool has_rolling, ContactSum& sum) {
   const PairForce& pair = list.pair_force(slot);
   sum.force = fused(sign, pair.force, sum.force);
-  sum.torque = fused(pair.force.w / 2 - radius, pair.n_cross_f_t, sum.torque);
+  sum.torque = fused(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
   if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
 }
 
@@ -114,7 +114,7 @@ struct KickAndDrift {
                   .inertia_moment = sphere_inertia(grain.m, grain.r)};
     if (fluid.none) return f;
     f.in_fluid = true;
-    f.u_f = quad(fluid.u_f_after(elapsed, g));
+    f.u_f = fluid.u_f_after(elapsed, g);
     f.acceleration = quad(fluid.acceleration(g));
     f.per_fluid_mass = fluid.per_fluid_mass(g);
     f.beta = fluid.beta(g);

@@ -12,6 +12,15 @@ namespace barchan {
 /// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
 inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
 
+/// A Quad of each pair of a block, as numbers that a loop over the pairs can read.
+struct BlockOfQuads {
+  alignas(64) Real row[kBlock][Quad::kSize];
+
+  KOKKOS_FORCEINLINE_FUNCTION Quad operator[](int q) const { return Quad(row[q]); }
+  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const Quad& a) { a.store(row[q]); }
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 vec(int q) const { return {row[q][0], row[q][1], row[q][2]}; }
+};
+
 /// Vectors of the pairs of a block, component by component: the law writes these in full vectors,
 /// in a pass of its own they become one Quad a pair.
 struct BlockOfVectors {
@@ -20,9 +29,10 @@ struct BlockOfVectors {
   KOKKOS_FORCEINLINE_FUNCTION void put(int q, const Vec3& a, Real a_w) {
     x[q] = a.x, y[q] = a.y, z[q] = a.z, w[q] = a_w;
   }
-  KOKKOS_FORCEINLINE_FUNCTION void to_quads(int n, Quad* to) const {
+  KOKKOS_FORCEINLINE_FUNCTION void to_quads(int n, BlockOfQuads& to) const {
 #pragma GCC ivdep
-    for (int q = 0; q < n; ++q) to[q].x = x[q], to[q].y = y[q], to[q].z = z[q], to[q].w = w[q];
+    for (int q = 0; q < n; ++q)
+      to.row[q][0] = x[q], to.row[q][1] = y[q], to.row[q][2] = z[q], to.row[q][3] = w[q];
   }
 };
 
@@ -46,10 +56,10 @@ struct PairForces {
 
   /// A block of pairs (a, b), a row each: inputs, history, results.
   struct Stage {
-    alignas(64) Quad separation[kBlock], slip[kBlock], spin_a[kBlock], spin_b[kBlock];
+    BlockOfQuads separation, slip, spin_a, spin_b;
     Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
-    Quad xi[kBlock], rolling[kBlock];
-    Quad force[kBlock], n_cross_f_t[kBlock];  // force.w: overlap
+    BlockOfQuads xi, rolling;
+    BlockOfQuads force, n_cross_f_t;  // the fourth of force: overlap
     BlockOfVectors new_xi, new_rolling, new_force, new_n_cross_f_t;
   };
 
@@ -92,7 +102,7 @@ struct PairForces {
       evaluate(s, slots, n, n_active - begin);
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
-        const Real half_overlap = s.force[q].w / 2;
+        const Real half_overlap = s.force[q].w() / 2;
         ContactSum& a = sums[list.i(p) - first_row];
         a.force = a.force + s.force[q];
         a.torque = fused(half_overlap - s.r_a[q], s.n_cross_f_t[q], a.torque);
@@ -162,16 +172,16 @@ struct PairForces {
   KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int p) const {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
-    s.separation[q] = a.x_r() - b.x_r();
-    s.slip[q] = a.u_m() - b.u_m();
-    s.spin_a[q] = a.spin(), s.spin_b[q] = b.spin();
+    s.separation.put(q, a.x_r() - b.x_r());
+    s.slip.put(q, a.u_m() - b.u_m());
+    s.spin_a.put(q, a.spin()), s.spin_b.put(q, b.spin());
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
-    s.xi[q] = quad(list.xi_t(p));
-    if constexpr (Rolling::has_history) s.rolling[q] = quad(list.rolling(p));
+    s.xi.put(q, quad(list.xi_t(p)));
+    if constexpr (Rolling::has_history) s.rolling.put(q, quad(list.rolling(p)));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void apply_law(Stage& s, int q) const {
-    const Vec3 separation = box.nearest_image(s.separation[q].vec());
+    const Vec3 separation = box.nearest_image(s.separation.vec(q));
     const Real distance = norm(separation);
     const Vec3 normal = (1 / distance) * separation;
     const Real r_a = s.r_a[q], r_b = s.r_b[q];
@@ -179,16 +189,16 @@ struct PairForces {
     const Real overlap = r_a + r_b - distance;
     const bool touches = overlap > 0;
     const Real delta_n = touches ? overlap : 0;
-    const Vec3 spin_a = s.spin_a[q].vec(), spin_b = s.spin_b[q].vec();
+    const Vec3 spin_a = s.spin_a.vec(q), spin_b = s.spin_b.vec(q);
     const Vec3 arm_spin = fused(r_a - delta_n / 2, spin_a, (r_b - delta_n / 2) * spin_b);
     ContactResult history;
-    history.xi_t = s.xi[q].vec();
-    if constexpr (Rolling::has_history) history.rolling = s.rolling[q].vec();
+    history.xi_t = s.xi.vec(q);
+    if constexpr (Rolling::has_history) history.rolling = s.rolling.vec(q);
     const ContactResult result =
         contact_force(law, rolling, friction,
                       ContactPair{.normal = normal,
                                   .delta_n = delta_n,
-                                  .slip = contact_slip(s.slip[q].vec(), arm_spin, normal),
+                                  .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
                                   .spin_difference = spin_a - spin_b,
                                   .r_eff = effective.r,
                                   .m_eff = effective.m},
@@ -207,10 +217,10 @@ struct PairForces {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_history(const Stage& s, int q, int p) const {
-    list.xi_t(p) = s.xi[q].vec();
-    list.touching(p) = s.force[q].w > 0 ? 1 : 0;
-    if constexpr (kRolls) list.rolling(p) = s.rolling[q].vec();
-    if (keep_force) list.force(p) = s.force[q].vec();
+    list.xi_t(p) = s.xi.vec(q);
+    list.touching(p) = s.force[q].w() > 0 ? 1 : 0;
+    if constexpr (kRolls) list.rolling(p) = s.rolling.vec(q);
+    if (keep_force) list.force(p) = s.force.vec(q);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_pair_force(const Stage& s, int q, int p) const {

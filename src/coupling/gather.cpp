@@ -114,9 +114,11 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
   };
   const auto& kin = grains.kin;
   if (by_row_) {
-    read(FlowOfRows{stencil_, box_, fluid.u, fluid.du_dt, fluid.alpha_f, kin, flow_at_});
+    read(FlowOfRows{stencil_, box_, fluid.u, fluid.du_dt, convective_, fluid.alpha_f, kin,
+                    flow_at_});
   } else {
-    read(FlowAtCentres{grid_, box_, fluid.u, fluid.du_dt, fluid.alpha_f, kin, flow_at_});
+    read(FlowAtCentres{grid_, box_, fluid.u, fluid.du_dt, convective_, fluid.alpha_f, kin,
+                       flow_at_});
   }
   if (config_.void_fraction == VoidFraction::cfdem_faithful) {
     auto& [x, y, z] = cells_;
@@ -170,7 +172,8 @@ void Coupling::over_cells(const FluidState& fluid, const GrainState& grains, Rea
 }
 
 void Coupling::reserve_flow_at(int n) {
-  for (auto* array : {&flow_at_.u, &flow_at_.du_dt, &flow_at_.pressure, &flow_at_.stress})
+  for (auto* array :
+       {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_rows(*array, n);
   for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_cells, &flow_at_.solid_per_fluid})
     reserve_rows(*array, n);
@@ -195,18 +198,15 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
   reserve_flow_at(grains.n);
   unsmooth(fluid);
-  velocity_at(fluid, grains);
   const CellRange around = cells_around(grains);
   pressure_at(fluid, grains, around, dt);
   stress_at(fluid, grains, around, dt);
   over_cells(fluid, grains, dt);
+  velocity_at(fluid, grains);
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),
                              GatherFluid{.drag = law,
-                                         .grid = grid_,
-                                         .box = box_,
-                                         .convective = convective_,
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,

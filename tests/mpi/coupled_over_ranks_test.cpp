@@ -184,6 +184,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     const auto n = static_cast<std::size_t>(there.n);
     const FlowAtGrains found{.u = {},
                              .du_dt = {},
+                             .u_grad_u = {},
                              .pressure = {"test: found", n},
                              .stress = {},
                              .alpha_f = {},

@@ -50,13 +50,13 @@ double growth(const Mixture& m) {
     Quad velocity{w, 0, 0, 0}, spin{};
     impulse = 0;
     for (int k = 0; k < n; ++k) {
-      f.force.x = steady - stiffness * x;
-      impulse += kick(f, velocity, spin).x;
-      x += m.dt / n * velocity.x;
-      f.force.x = steady - stiffness * x;
-      impulse += kick(f, velocity, spin).x;
+      f.force = quad({steady - stiffness * x, 0, 0});
+      impulse += kick(f, velocity, spin).vec().x;
+      x += m.dt / n * velocity.vec().x;
+      f.force = quad({steady - stiffness * x, 0, 0});
+      impulse += kick(f, velocity, spin).vec().x;
     }
-    w = velocity.x;
+    w = velocity.vec().x;
     const double given = m.smoothing * (impulse + of_added_mass);
     change = (m.squeezed ? -r * m.smoothing * w : u - given / water) - u;
     push = m.squeezed ? r * (given + water * change) : 0;
