@@ -5,9 +5,6 @@
 
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
 #define BARCHAN_VECTOR_REGISTERS
-#if defined(__FMA__)
-#include <immintrin.h>
-#endif
 #endif
 
 namespace barchan {
@@ -36,14 +33,24 @@ struct Quad {
 KOKKOS_FORCEINLINE_FUNCTION Quad quad(const Vec3& a) { return {a.x, a.y, a.z, 0}; }
 
 #ifdef BARCHAN_VECTOR_REGISTERS
-KOKKOS_FORCEINLINE_FUNCTION Quad operator+(Quad a, const Quad& b) { return a.v += b.v, a; }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator-(Quad a, const Quad& b) { return a.v -= b.v, a; }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, Quad a) { return a.v *= s, a; }
+KOKKOS_FORCEINLINE_FUNCTION Quad operator+(Quad a, const Quad& b) {
+  a.v += b.v;
+  return a;
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator-(Quad a, const Quad& b) {
+  a.v -= b.v;
+  return a;
+}
+KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, Quad a) {
+  a.v *= s;
+  return a;
+}
 KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, Quad a, const Quad& b) {
-#if defined(__FMA__)
-  a.v = _mm256_fmadd_pd(_mm256_set1_pd(s), a.v, b.v);
+#if defined(__FMA__) && !defined(__clang__)  // which g++ does not find by itself
+  const Quad factor(s, s, s, s);
+  a.v = __builtin_ia32_vfmaddpd256(factor.v, a.v, b.v);
 #else
-  a.v = s * a.v + b.v;
+  for (int q = 0; q < Quad::kSize; ++q) a.v[q] = fused(s, a.v[q], b.v[q]);
 #endif
   return a;
 }
