@@ -16,6 +16,7 @@ PROGRAM = os.environ.get("BARCHAN_PROGRAM", str(ROOT / "build/release/barchan"))
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
 SUBMERGED = 1500 * 9.81  # weight of a grain in water per volume [N/m3]
 SAME_PLACE = 1e-6  # [m]
+SAME_FLOW = 1e-3  # of the fastest
 # name: (case, lower ends of the classes of height [mm])
 HELD = {"bed": (CASES / "cfdem-bed.toml", (0, 0.15, 0.25, 0.35, 0.45)),
         "heap": (ROOT / "configs/barchan-10k.toml", (0, 0.15, 0.35, 0.55, 0.75, 0.95, 1.15))}
@@ -78,6 +79,7 @@ class HeldState:
     x: np.ndarray  # [m]
     drag: np.ndarray
     rest: np.ndarray  # pressure gradient and stress
+    water: np.ndarray  # velocity along the stream in the grain's cell [m/s]
     drag_of_cell: np.ndarray  # by water and fluid fraction of the grain's cell: CFDEM with `interpolation false`
 
 
@@ -90,7 +92,8 @@ def held_state(folder):
     weight = SUBMERGED * np.pi / 6 * now["d"]**3
     rest = later["force_pressure_gradient"] + later["force_stress"]
     of_cell = gidaspow(alpha, now["d"], np.linalg.norm(water, axis=0)) * water[0]
-    return HeldState(now["id"], now["x"], later["force_drag"][:, 0] / weight, rest[:, 0] / weight, of_cell / weight)
+    return HeldState(now["id"], now["x"], later["force_drag"][:, 0] / weight, rest[:, 0] / weight, water[0],
+                     of_cell / weight)
 
 
 def in_cell(grid, field, x):
@@ -137,9 +140,11 @@ def mean_of(name, part):
 
 
 def index_of(state, rows):
-    """Where the grains of these rows are in the state, or None if they lie elsewhere."""
+    """Where the grains of these rows are in the state; None if they lie elsewhere, or in another flow."""
     index = np.searchsorted(state.ids, [row["id"] for row in rows])
     if index.max() >= len(state.ids):
         return None
     there = np.array([[row["x"], row["y"], row["z"]] for row in rows]) * 1e-3
-    return index if np.abs(state.x[index] - there).max() < SAME_PLACE else None
+    water = np.array([row["water"] for row in rows])
+    same_flow = np.abs(state.water[index] - water).max() < SAME_FLOW * np.abs(water).max()
+    return index if np.abs(state.x[index] - there).max() < SAME_PLACE and same_flow else None

@@ -29,7 +29,7 @@ def held(name, runs):
     rows = [row for row in beside.read("held_grains") if row["case"] == name]
     index = beside.index_of(state, rows)
     reference = {part: beside.mean_of(name, part) for part in ("drag", "rest")}
-    if index is None:  # starts are chaotic: another compiler may pack another bed
+    if index is None:  # starts are chaotic: another compiler may pack another bed, another order of sums stir the flow
         print(f"{name}: the starts give another state here: means alone, of another bed and another flow")
         measured(f"{name}: mean of our drag over CFDEM's", state.drag.mean() / reference["drag"], 0.2, 1)
         return state
