@@ -50,15 +50,15 @@ inline Work list_build(double pairs, double contacts) {
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }
-/// Gather by row: kinematics seven times; flow, its change, pressure and stress, and three fractions
-/// written and read; the impulse read; six vectors and three numbers written. Fields come from
-/// cache: four planes of 3 rows, 5 interpolations, 8 means over 29 points.
+/// Gather by row: kinematics seven times; flow, its change, convection, pressure and stress, and
+/// three fractions written and read; the impulse read; six vectors and three numbers written.
+/// Fields come from cache: four planes of 3 rows, 5 interpolations, 8 means over 29 points.
 inline Work gather() {
-  return {7.0 * sizeof(GrainKinematics) + 15.0 * sizeof(Vec3) + 9.0 * sizeof(Real),
+  return {7.0 * sizeof(GrainKinematics) + 17.0 * sizeof(Vec3) + 9.0 * sizeof(Real),
           12 * 9 + 5 * 24 + 8 * 29 * 2 + 100};
 }
-/// Deposit: kinematics, two vectors and a number read; 29 points sorted into about four cells, to each
-/// of which five sums are added in cache.
+/// Deposit: kinematics, two vectors and a number read; 29 points sorted into about four cells, to
+/// each of which five sums are added in cache.
 inline Work deposit() {
   return {sizeof(GrainKinematics) + 2.0 * sizeof(Vec3) + sizeof(Real), 29 * 16 + 4 * 5 * 3};
 }
