@@ -163,6 +163,9 @@ void expect_still(const std::string& name, const Config& config, const InitialGr
   bench.advance(48000, 2.5e-6);
   settle(bench, 0.01, 2e-4);
   bench.advance(4000, 2.5e-6);
+  // The liquid may stop a grain where it cannot stay: it then rolls off, and must come to rest.
+  for (int n = 0; n < 100 && unrest(HostGrains(bench.state)).imbalance > 1e-7; ++n)
+    bench.advance(4000, 2.5e-6);
   Unrest worst;
   Real floor_error = 0;
   for (int n = 0; n < 100; ++n) {  // 0.1 s
