@@ -209,9 +209,9 @@ struct SumKickDrift {
     return wanted < least ? least : (wanted < largest_margin ? wanted : largest_margin);
   }
 
-  /// Kick, and unless it is the last sub-step kick and drift of the next one. Returns the squared
-  /// speed of the drift [m^2/s^2].
-  KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum sum, Real& largest) const {
+  /// Adds the walls to the sum of a grain's contacts; kick, and unless it is the last sub-step kick
+  /// and drift of the next one. Returns the squared speed of the drift [m^2/s^2].
+  KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum& sum, Real& largest) const {
     const GrainKinematics& grain = motion.grains(g);
     if (kLargestChunk == 1 || pairs.list.near_wall(g)) walls.add(g, grain, motion.dt, sum);
     if (last) {

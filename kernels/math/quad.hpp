@@ -33,26 +33,30 @@ struct Quad {
 KOKKOS_FORCEINLINE_FUNCTION Quad quad(const Vec3& a) { return {a.x, a.y, a.z, 0}; }
 
 #ifdef BARCHAN_VECTOR_REGISTERS
-KOKKOS_FORCEINLINE_FUNCTION Quad operator+(Quad a, const Quad& b) {
-  a.v += b.v;
-  return a;
+KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
+  Quad sum;
+  sum.v = a.v + b.v;
+  return sum;
 }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator-(Quad a, const Quad& b) {
-  a.v -= b.v;
-  return a;
+KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
+  Quad difference;
+  difference.v = a.v - b.v;
+  return difference;
 }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, Quad a) {
-  a.v *= s;
-  return a;
+KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
+  Quad product;
+  product.v = s * a.v;
+  return product;
 }
-KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, Quad a, const Quad& b) {
+KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
+  Quad sum;
 #if defined(__FMA__) && !defined(__clang__)  // which g++ does not find by itself
   const Quad factor(s, s, s, s);
-  a.v = __builtin_ia32_vfmaddpd256(factor.v, a.v, b.v);
+  sum.v = __builtin_ia32_vfmaddpd256(factor.v, a.v, b.v);
 #else
-  for (int q = 0; q < Quad::kSize; ++q) a.v[q] = fused(s, a.v[q], b.v[q]);
+  for (int q = 0; q < Quad::kSize; ++q) sum.v[q] = fused(s, a.v[q], b.v[q]);
 #endif
-  return a;
+  return sum;
 }
 #else
 KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
