@@ -5,7 +5,7 @@
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/flow_at_grains.hpp"
 #include "kernels/coupling/shear_forces.hpp"
-#include "kernels/grains/grain_motion.hpp"
+#include "kernels/grains/half_kick.hpp"
 
 namespace barchan {
 
