@@ -134,11 +134,8 @@ struct DragOnFrozenGrains {
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
     GrainForces f{.force = {}, .torque = {}};
-    f.u_f = quad(on_grains.u_f(g)), f.acceleration = quad(on_grains.acceleration(g));
-    f.per_fluid_mass = on_grains.per_fluid_mass(g);
-    f.beta = on_grains.beta(g), f.added_mass = on_grains.added_mass(g);
+    f.add_fluid(on_grains, 0, g);
     f.mass = f.inertia_moment = Kokkos::Experimental::infinity_v<Real>;
-    f.in_fluid = true;
     Quad u{}, spin{};
     on_grains.impulse(g) = HalfKick(dt, f)(f, u, spin).vec();
   }

@@ -53,7 +53,8 @@ KOKKOS_INLINE_FUNCTION constexpr int points_at_height(int q) {
   return q == 0 ? 9 : (q - 1) % 4 < 2 ? 1 : 4;
 }
 
-/// Indices of a cell, owned or a ghost beside an owned one.
+/// Indices of a cell, owned or a ghost beside an owned one. Not set by default: GrainCells has
+/// many.
 struct CellIndex {
   int i, j, k;
   /// Its number among the owned cells and the ghosts around them in x and z.

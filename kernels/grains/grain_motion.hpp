@@ -3,7 +3,6 @@
 // of all contacts, kick, and drift into the next sub-step. Equations: docs/numerics.md, "Grains".
 #pragma once
 
-#include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/half_kick.hpp"
 #include "kernels/grains/pair_forces.hpp"
 #include "kernels/grains/wall_contact.hpp"
@@ -58,14 +57,7 @@ struct KickAndDrift {
                   .torque = contacts.torque,
                   .mass = grain.m,
                   .inertia_moment = sphere_inertia(grain.m, grain.r)};
-    if (fluid.none) return f;
-    f.in_fluid = true;
-    f.u_f = fluid.u_f_after(elapsed, g);
-    f.acceleration = quad(fluid.acceleration(g));
-    f.per_fluid_mass = fluid.per_fluid_mass(g);
-    f.beta = fluid.beta(g);
-    f.added_mass = fluid.added_mass(g);
-    if (fluid.turns) f.spin_f = quad(fluid.spin_f(g)), f.beta_r = fluid.beta_r(g);
+    if (!fluid.none) f.add_fluid(fluid, elapsed, g);
     return f;
   }
 

@@ -2,7 +2,7 @@
 // slip. Equations: docs/numerics.md, "Grains".
 #pragma once
 
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
 
@@ -20,6 +20,17 @@ struct GrainForces {
   bool in_fluid = false;    // otherwise there is neither drag nor added mass
   Real mass = 0;            // of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
+
+  /// What the fluid does to grain g, `elapsed` [s] into the fluid step.
+  KOKKOS_FORCEINLINE_FUNCTION void add_fluid(const FluidOnGrains& fluid, Real elapsed, int g) {
+    in_fluid = true;
+    u_f = fluid.u_f_after(elapsed, g);
+    acceleration = quad(fluid.acceleration(g));
+    per_fluid_mass = fluid.per_fluid_mass(g);
+    beta = fluid.beta(g);
+    added_mass = fluid.added_mass(g);
+    if (fluid.turns) spin_f = quad(fluid.spin_f(g)), beta_r = fluid.beta_r(g);
+  }
 };
 
 /// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the

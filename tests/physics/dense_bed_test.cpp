@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "kernels/grains/grain_motion.hpp"
+#include "kernels/grains/half_kick.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/packing.hpp"
 

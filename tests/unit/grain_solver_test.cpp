@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "kernels/coupling/gather.hpp"
-#include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
+#include "kernels/grains/half_kick.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {
