@@ -264,7 +264,7 @@ def model_of_run(run, config, x, z):
     p = counts.Pencil(*cells, *shape)
     where = counts.layout(counts.columns_of_grains(x, z, (size[0], size[2])), shape, (cells[0], cells[2]))
     grain_steps = round(config["time"]["fluid_step"] / config["time"]["grain_step"])
-    rebuilds = run["communication"]["list_rebuilds"] - 1 / run["steps"]  # the first was before the first step
+    rebuilds = run["list_rebuilds"] - 1 / run["steps"]  # the first was before the first step
     return counts.coupled_step(p, where.border(0), run["pressure_iterations_mean"], grain_steps, rebuilds)
 
 

@@ -188,8 +188,8 @@ def grain_step(b):
 
 
 def rebuild(b):
-    """NeighborList::rebuild() where no grain changes its rank: the balance, three counts, the ghosts."""
-    return sent(b.ghost_ranks, GHOST * b.ghosts) + Counts(reductions=2, all_to_alls=3)
+    """NeighborList::rebuild() where no grain changes its rank: balance, speeds, three counts, the ghosts."""
+    return sent(b.ghost_ranks, GHOST * b.ghosts) + Counts(reductions=4, all_to_alls=3)
 
 
 def coupled_step(p, b, iterations, grain_steps, rebuilds):

@@ -20,8 +20,9 @@ from run_folder import NotInRun, PlotError
 HERE = Path(__file__).parent
 MARKS = {health_checks.OK: ("ok", "✓"), health_checks.LOOK: ("look", "!"),
          health_checks.UNKNOWN: ("none", "–")}
-PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "deposit": "grains to mesh",
-          "fluid": "flow", "pressure": "pressure", "output": "files", "analytics": "dune analytics"}
+PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "list": "neighbour lists",
+          "deposit": "grains to mesh", "fluid": "flow", "pressure": "pressure", "output": "files",
+          "analytics": "dune analytics"}
 
 
 def write_files(run):

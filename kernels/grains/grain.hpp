@@ -22,16 +22,16 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_inertia(Real mass, Real radius
 /// What a contact needs of one grain, side by side in memory: two cache lines per neighbour
 /// instead of eleven.
 struct alignas(32) GrainKinematics {
-  Vec3 x;      // centre [m]
-  Real r = 0;  // radius [m]
-  Vec3 u;      // velocity [m/s]
-  Real m = 0;  // mass [kg]
-  Vec3 omega;  // spin [rad/s]
-  Real padding = 0;
+  Vec3 x;         // centre [m]
+  Real r = 0;     // radius [m]
+  Vec3 u;         // velocity [m/s]
+  Real m = 0;     // mass [kg]
+  Vec3 omega;     // spin [rad/s]
+  Real skin = 0;  // distance that it may move until the neighbour list is searched again [m]
 
   KOKKOS_FORCEINLINE_FUNCTION Quad x_r() const { return {x.x, x.y, x.z, r}; }
   KOKKOS_FORCEINLINE_FUNCTION Quad u_m() const { return {u.x, u.y, u.z, m}; }
-  KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, padding}; }
+  KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, skin}; }
 };
 
 /// Asks the caches of a CPU for something that is needed soon.
@@ -42,14 +42,20 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch([[maybe_unused]] const T& a) {
                          __builtin_prefetch(begin + line);))
 }
 
-/// Lets a sub-step go ahead while the list still covers the displacement of all grains. A host that
-/// waits for a device only now and then launches sub-steps ahead of that knowledge; those behind a
-/// stale list then do nothing.
+/// Squared displacement since the list was searched beyond the square of a grain's skin [m^2]; what
+/// is not a number counts as infinitely far: the next rebuild meets and reports it.
+KOKKOS_FORCEINLINE_FUNCTION Real excess_over_skin(const Vec3& displacement, Real skin) {
+  const Real excess = dot(displacement, displacement) - skin * skin;
+  return excess == excess ? excess : Kokkos::Experimental::infinity_v<Real>;
+}
+
+/// Lets a sub-step go ahead while no grain has moved farther than its skin. A host that waits for a
+/// device only now and then launches sub-steps ahead of that knowledge; those behind a stale list
+/// then do nothing.
 struct ListValidity {
-  Kokkos::View<const Real*> displacement2;  // largest squared displacement since the list [m^2] ...
-  int before = 0;                           // ... as this sub-step begins: in this element
-  Real limit = 0;                           // [m^2]
-  KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return displacement2(before) <= limit; }
+  Kokkos::View<const Real*> excess;  // largest of all grains [m^2] ...
+  int before = 0;                    // ... as this sub-step begins: in this element
+  KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return excess(before) <= 0; }
 };
 
 /// Sum of the contact forces [N] and torques [N m] on a grain.

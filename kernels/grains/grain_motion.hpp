@@ -67,11 +67,7 @@ struct KickAndDrift {
                                                   Real& largest) const {
     const Quad impulse = kick(f, u, omega);
     x = fused(dt, u, x);
-    const Vec3 displacement = x.vec() - x_reference(g);
-    const Real squared = dot(displacement, displacement);
-    // What is not a number counts as infinitely far: the next rebuild meets and reports it.
-    if (!(squared <= largest))
-      largest = squared > largest ? squared : Kokkos::Experimental::infinity_v<Real>;
+    largest = Kokkos::max(largest, excess_over_skin(x.vec() - x_reference(g), grains(g).skin));
     return impulse;
   }
 
@@ -82,7 +78,7 @@ struct KickAndDrift {
     if (!fluid.none) fluid.impulse(g) += impulse.vec();
   }
 
-  /// Reduces the largest squared displacement from the reference positions [m^2].
+  /// Reduces the largest excess over the skin of a grain [m^2].
   KOKKOS_FUNCTION void operator()(int g, Real& largest) const {
     const GrainKinematics& grain = grains(g);
     Quad x = grain.x_r(), u = grain.u_m(), omega = grain.spin();

@@ -81,7 +81,7 @@ struct FindWindows {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
   Windows window;
-  Real reach = 0;  // largest sum of two radii + skin [m]
+  Real reach = 0;  // largest distance of the grains of a pair [m]
 
   KOKKOS_FUNCTION void operator()(int c) const {
     for (int m = 0; m < kForwardColumns; ++m) {
@@ -98,25 +98,24 @@ struct FindWindows {
   }
 };
 
-/// Walks the candidates of one grain and calls f(j) for each within r_i + r_j + skin.
+/// Walks the candidates of one grain and calls f(j) for each within the radii and skins of both.
 struct PairSearch {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
   Windows window;
   PeriodicBox box;
-  Real skin = 0;    // [m]
-  Real r_max = 0;   // largest radius [m]
-  int n_owned = 0;  // rows from here on are ghosts; two of them are no pair of this rank
+  Real largest = 0;  // radius + skin of any grain [m]
+  int n_owned = 0;   // rows from here on are ghosts; two of them are no pair of this rank
 
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
     const GrainKinematics& a = grains(i);
-    const Real highest = a.x.y + (a.r + r_max + skin);
+    const Real own = a.r + a.skin, highest = a.x.y + (own + largest);
     for (int j = begin; j < end; ++j) {
       const GrainKinematics& b = grains(j);
       if (b.x.y > highest) break;  // sorted by height
       const Vec3 s = box.nearest_image(a.x - b.x);
-      const Real cutoff = a.r + b.r + skin;
+      const Real cutoff = own + (b.r + b.skin);
       if (dot(s, s) < cutoff * cutoff && (i < n_owned || j < n_owned)) action(j);
     }
   }

@@ -12,6 +12,25 @@ Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
   return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
 }
 
+/// List rebuilds during its own life are a phase of their own, not time of the grains.
+class RebuildSeconds {
+ public:
+  RebuildSeconds(Phases& phases, const NeighborList& list)
+      : phases_(phases), list_(list), before_(list.seconds()) {}
+  ~RebuildSeconds() {
+    const double seconds = list_.seconds() - before_;
+    phases_["grains"] -= seconds;
+    phases_["list"] += seconds;
+  }
+  RebuildSeconds(const RebuildSeconds&) = delete;
+  RebuildSeconds& operator=(const RebuildSeconds&) = delete;
+
+ private:
+  Phases& phases_;
+  const NeighborList& list_;
+  double before_;
+};
+
 }  // namespace
 
 CoupledStep::CoupledStep(const Config& config, SystemState& state)
@@ -80,6 +99,7 @@ void CoupledStep::gather(SystemState& state) {
 void CoupledStep::move_grains(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
+  const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
   if (!frozen_) {
     grains_->advance(grains, n_substeps_, dt_ / n_substeps_);
@@ -108,6 +128,7 @@ void CoupledStep::advance_fluid(SystemState& state) {
 void CoupledStep::close_step(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
+  const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
   if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
   grains_->remove_left(grains);

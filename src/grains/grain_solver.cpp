@@ -88,14 +88,13 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
 
 /// Before the sub-steps: first half kick and drift.
 void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
-  if (displacement2_.extent_int(0) != ahead_ + 1) {
-    displacement2_ =
-        Kokkos::View<Real*>("squared displacement", static_cast<std::size_t>(ahead_) + 1);
-    host_displacement2_ = Kokkos::create_mirror_view(displacement2_);
+  if (excess_.extent_int(0) != ahead_ + 1) {
+    excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
+    host_excess_ = Kokkos::create_mirror_view(excess_);
   }
   Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt, 0),
-                          max_displacement(0));
+                          max_excess(0));
 }
 
 /// Sub-step s: forces at the new positions and second half kick, then, unless it is the last one,
@@ -110,7 +109,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
         .friction = pair_friction_,
         .box = list_.box(),
         .dt = dt,
-        .validity = {.displacement2 = displacement2_, .before = element(s), .limit = list_.limit()},
+        .validity = {.excess = excess_, .before = element(s)},
         .grains = grains.kin,
         .list = grains.list,
         .keep_force = list_.with_force && last};
@@ -129,22 +128,22 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
                                                .last = last,
                                                .largest_margin = list_.largest_margin()};
     Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
-                            items(grains.list.chunks.count()), sum, max_displacement(s + 1));
+                            items(grains.list.chunks.count()), sum, max_excess(s + 1));
   };
   std::visit(launch, pair_law_, rolling_);
 }
 
 void GrainSolver::rebuild(GrainState& grains, int s) {
   list_.rebuild(grains, false);
-  Kokkos::deep_copy(Kokkos::subview(displacement2_, element(s)), Real(0));
+  Kokkos::deep_copy(Kokkos::subview(excess_, element(s)), Real(0));
 }
 
 /// Over ranks, before each sub-step: ghosts to where their grains are, or a new list as soon as a
 /// grain of any rank has moved too far for it.
 void GrainSolver::update_ghosts(GrainState& grains, int s) {
-  Real displacement2 = 0;
-  Kokkos::deep_copy(displacement2, Kokkos::subview(displacement2_, element(s)));
-  if (max_over(grains.ranks, displacement2) <= list_.limit()) {
+  Real excess = 0;
+  Kokkos::deep_copy(excess, Kokkos::subview(excess_, element(s)));
+  if (max_over(grains.ranks, excess) <= 0) {
     list_.update_ghosts(grains);
   } else {
     rebuild(grains, s);
@@ -156,10 +155,8 @@ void GrainSolver::update_ghosts(GrainState& grains, int s) {
 int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
   const int end = std::min(s + ahead_, n);
   for (int next = s; next < end; ++next) sub_step(grains, next, next + 1 == n, dt);
-  Kokkos::deep_copy(host_displacement2_, displacement2_);
-  const auto is_stale = [&](int step) {
-    return !(host_displacement2_(element(step)) <= list_.limit());
-  };
+  Kokkos::deep_copy(host_excess_, excess_);
+  const auto is_stale = [&](int step) { return !(host_excess_(element(step)) <= 0); };
   while (s < end && !is_stale(s)) ++s;
   if (s < n && is_stale(s)) rebuild(grains, s);
   return s;

@@ -49,12 +49,12 @@ class GrainSolver {
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  /// Element of displacement2_ for a sub-step.
+  /// Element of excess_ for a sub-step.
   int element(int step) const { return step % (ahead_ + 1); }
   /// Reduces into the element of a sub-step, without a wait.
-  Kokkos::Max<Real, DeviceMemory> max_displacement(int step) const {
+  Kokkos::Max<Real, DeviceMemory> max_excess(int step) const {
     return Kokkos::Max<Real, DeviceMemory>(
-        Kokkos::View<Real, DeviceMemory>(displacement2_.data() + element(step)));
+        Kokkos::View<Real, DeviceMemory>(excess_.data() + element(step)));
   }
   void kick_and_drift(const GrainState& grains, Real dt);
   void sub_step(const GrainState& grains, int s, bool last, Real dt);
@@ -68,9 +68,9 @@ class GrainSolver {
   Friction pair_friction_, wall_friction_;
   WallPlanes walls_;
   int ahead_ = kLargestChunk > 1 ? 1 : 16;
-  // Largest squared displacement from the list's positions as a sub-step begins [m^2].
-  Kokkos::View<Real*> displacement2_;
-  Kokkos::View<Real*>::host_mirror_type host_displacement2_;
+  // Largest squared displacement beyond the skin of a grain as a sub-step begins [m^2].
+  Kokkos::View<Real*> excess_;
+  Kokkos::View<Real*>::host_mirror_type host_excess_;
 };
 
 }  // namespace barchan

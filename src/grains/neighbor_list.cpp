@@ -11,6 +11,7 @@
 
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/errors.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
@@ -34,14 +35,14 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 }  // namespace
 
 NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
-    : skin_(config.grains->skin),
+    : skins_(config, r_max),
       r_max_(r_max),
       lx_(config.size[0]),
       exit_x_(config.grains->boundary_x == GrainBoundaryX::exit) {
-  const Real cutoff = 2 * r_max + skin_;
   const Real lz = config.size[2];
   columns_.periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
   columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  const Real cutoff = reach();
   columns_.nx = column_count(lx_, cutoff, columns_.periodic_x, "x");
   columns_.nz = column_count(lz, cutoff, columns_.periodic_z, "z");
   columns_.inverse_width_x = columns_.nx / lx_;
@@ -163,11 +164,9 @@ Windows NeighborList::find_windows(const GrainState& grains, int n) {
                        LinkColumns{.columns = columns_, .occupied = occupied_});
   static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
   const Windows window(reinterpret_cast<int*>(key_room_.data()), static_cast<std::size_t>(n));
-  Kokkos::parallel_for("neighbors: windows", occupied_.n,
-                       FindWindows{.grains = grains.kin,
-                                   .occupied = occupied_,
-                                   .window = window,
-                                   .reach = 2 * r_max_ + skin_});
+  Kokkos::parallel_for(
+      "neighbors: windows", occupied_.n,
+      FindWindows{.grains = grains.kin, .occupied = occupied_, .window = window, .reach = reach()});
   return window;
 }
 
@@ -218,8 +217,7 @@ void NeighborList::search(GrainState& grains) {
                                .occupied = occupied_,
                                .window = window,
                                .box = box_,
-                               .skin = skin_,
-                               .r_max = r_max_,
+                               .largest = r_max_ + skins_.largest(),
                                .n_owned = grains.n};
   Kokkos::parallel_for("neighbors: count", n,
                        CountPairs{.search = pair_search,
@@ -244,17 +242,15 @@ void NeighborList::search(GrainState& grains) {
 
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
+  const ScopedSeconds timer(seconds_);
   wrap(grains);
   take_room(grains);
   if (rebuilds_ > 0) collect_history(grains);
   if (ranks_) redistribute(grains);
   sort(grains, drop);
-  const auto kin = grains.kin;
-  const auto reference = grains.x_reference;
-  Kokkos::parallel_for(
-      "neighbors: reference positions", grains.n,
-      KOKKOS_LAMBDA(int g) { reference(g) = kin(g).x; });
+  skins_.set(grains);
   find_ghosts_and_pairs(grains);
+  Kokkos::fence("end of a list rebuild: its kernels count as its own");
 }
 
 /// The end of a rebuild: from here on the list holds.
@@ -274,6 +270,7 @@ void NeighborList::drop_left(GrainState& grains) {
 
 void NeighborList::restore(GrainState& grains) {
   const int n = grains.n;
+  if (!skins_.are_of(grains)) return rebuild(grains, false);
   take_room(grains);
   Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
                                               static_cast<std::size_t>(std::max(n, 1)));

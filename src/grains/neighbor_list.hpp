@@ -10,13 +10,15 @@
 #include "src/grains/ghost_grains.hpp"
 #include "src/grains/grain_migration.hpp"
 #include "src/grains/grain_partition.hpp"
+#include "src/grains/grain_skins.hpp"
 #include "src/grains/grain_state.hpp"
 
 namespace barchan {
 
-/// Half Verlet list with skin: valid until a grain has moved half the skin from where it was at the
-/// last rebuild. A rebuild sorts the grains in space, keeps the contact history and, when asked,
-/// drops grains beyond the outlet. Throws StateError naming the grain if a position is not finite.
+/// Half Verlet list with a skin around each grain (SetSkins): valid until a grain has moved its
+/// skin from where it was at the last rebuild. A rebuild sorts the grains in space, keeps the
+/// contact history and, when asked, drops grains beyond the outlet. Throws StateError naming the
+/// grain if a position is not finite.
 ///
 /// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
 /// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it,
@@ -25,14 +27,13 @@ class NeighborList {
  public:
   NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF);
 
-  /// The list covers motions up to this squared distance [m^2].
-  Real limit() const { return skin_ * skin_ / 4; }
   /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
   void rebuild(GrainState& grains, bool drop);
   /// Such a rebuild if there are any.
   void drop_left(GrainState& grains);
   /// Searches again from x_reference in the present order: the list of the last rebuild, with its
-  /// contact history. All ranks together, on as many as there were.
+  /// contact history. Where it had another skin (grains.skin changed): a new list. All ranks
+  /// together, on as many as there were.
   void restore(GrainState& grains);
   /// The contacts that the next rebuild or restore carries over, as a restart file has them, under
   /// rows of `grains` as they are now.
@@ -46,8 +47,10 @@ class NeighborList {
   const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
   std::int64_t n_migrated() const { return ranks_ ? ranks_->migrate.n_sent() : 0; }
   /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
-  Real largest_margin() const { return skin_ / 10; }
+  Real largest_margin() const { return skins_.least() / 5; }
   std::int64_t rebuilds() const { return rebuilds_; }
+  /// Wall time of all rebuilds so far.
+  double seconds() const { return seconds_; }
   /// Memory that nobody else uses during a call of rebuild or restore: those take it, as far as it
   /// goes, for what they need only until they return.
   void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
@@ -63,6 +66,7 @@ class NeighborList {
  private:
   void collect_history(const GrainState& grains);
   void redistribute(GrainState& grains);
+  Real reach() const { return 2 * (r_max_ + skins_.largest()); }
   Windows find_windows(const GrainState& grains, int n);
   void reserve_pairs(PairList& list) const;
   void search(GrainState& grains);
@@ -79,9 +83,11 @@ class NeighborList {
 
   SearchColumns columns_;
   PeriodicBox box_;
-  Real skin_ = 0, r_max_ = 0, lx_ = 0;
+  GrainSkins skins_;
+  Real r_max_ = 0, lx_ = 0;
   bool exit_x_ = false;
   std::int64_t rebuilds_ = 0;
+  double seconds_ = 0;
   OccupiedColumns occupied_;
   std::unique_ptr<Ranks> ranks_;
   ContactHistory history_;

@@ -77,7 +77,6 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
   c["grains"] = run.state.grains->n;
   c["ghost_grains"] = run.state.grains->n_ghosts;
   c["grain_imbalance"] = list.partition()->imbalance();
-  c["list_rebuilds"] = per_step(run, static_cast<double>(list.rebuilds()));
   return c;
 }
 
@@ -201,6 +200,10 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["pressure_iterations_max"] = all.most_iterations;
   json["max_cfl"] = all.courant;
   json["max_overlap"] = max_overlap;
+  if (run.state.grains) {
+    const auto rebuilds = static_cast<double>(run.coupled_step.neighbor_list().rebuilds());
+    json["list_rebuilds"] = per_step(run, rebuilds);
+  }
   json["max_continuity_residual"] = all.continuity_residual;
   if (ranks > 1) json["communication"] = communication(run, messages_at_start);
   json["ledger"] = run.coupled_step.ledger().entries();

@@ -56,12 +56,6 @@ void give_each_its_own(const GrainState& grains) {
       KOKKOS_LAMBDA(int g) { impulse(g).x = 1 + Kokkos::sin(static_cast<Real>(id(g))); });
 }
 
-void move_by_the_last_bit(const GrainState& grains, int row) {
-  const auto kin = grains.kin;
-  Kokkos::parallel_for(
-      "test: last bit", 1, KOKKOS_LAMBDA(int) { kin(row).x.x *= 1 + 4e-16; });
-}
-
 /// A field times what was deposited of the impulse along x.
 struct InCells {
   GridRef grid;
@@ -248,7 +242,7 @@ TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
 TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
   const Config c = testing::coupled_config();
   Coupled whole(c), moved(c), shared(c, MPI_COMM_WORLD);
-  move_by_the_last_bit(*moved.state.grains, 100);
+  testing::move_by_the_last_bit(*moved.state.grains, 100, 101);
   double worst_share = 0;
   for (int s = 1; s <= 200; ++s) {
     for (Coupled* one : {&whole, &moved, &shared}) one->step.advance(one->state);

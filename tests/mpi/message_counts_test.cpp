@@ -155,11 +155,12 @@ MessageCounts back_from_fluid(const std::vector<int>& n, int writes) {
 
 // --- the grains --------------------------------------------------------------------------------
 
-/// Position, velocity and spin of the ghosts, and the largest displacement.
+/// Position, velocity and spin of the ghosts, and the largest excess over a skin.
 MessageCounts sub_step(const ExchangeCounts& ghosts) { return rows(ghosts.to, 9) + reductions(1); }
-/// Ghosts whole; the balance; numbers of grains, contacts and ghosts.
+/// Ghosts whole; the balance; the largest and the mean speed; numbers of grains, contacts and
+/// ghosts.
 MessageCounts rebuild(const ExchangeCounts& ghosts) {
-  return rows(ghosts.to, 13) + reductions(2) + all_to_alls(3);
+  return rows(ghosts.to, 13) + reductions(4) + all_to_alls(3);
 }
 
 /// Grains on the floor of a shallow channel, cut in one of all shapes.

@@ -59,6 +59,14 @@ inline std::vector<double> differences(const GrainNumbers& a, const GrainNumbers
   return off;
 }
 
+/// The rows [begin, end).
+inline void move_by_the_last_bit(const GrainState& grains, int begin, int end) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: last bit", Kokkos::RangePolicy<>(begin, end),
+      KOKKOS_LAMBDA(int row) { kin(row).x.x *= 1 + 4e-16; });
+}
+
 /// The same case twice.
 struct SharedGrains {
   SharedGrains(const Config& c, const InitialGrains& grains)

@@ -98,7 +98,7 @@ TEST(GrainSolver, KineticEnergyIsOfTranslationAndRotation) {
 GrainBench head_on() {
   Config config = grain_config();
   config.grains->skin = 2e-5;
-  const Real apart = 2e-4 + 1.01 * config.grains->skin;
+  const Real apart = 2e-4 + 1.51 * config.grains->skin;  // alike fast: half as wide again
   InitialGrains g;
   add_grain(g, 2e-4, {0.005, 0.005, 0.005}, {0.5, 0, 0});
   add_grain(g, 2e-4, {0.005 + apart, 0.005, 0.005}, {-0.5, 0, 0});
@@ -115,8 +115,8 @@ TEST(GrainSolver, GrainsFromBeyondTheSkinMeetAtTheirFirstTouch) {
   EXPECT_LE(overlap, way * (1 + 1e-9));
 
   GrainBench at_once = head_on(), always = head_on();
-  at_once.advance(800, dt);
-  for (int n = 0; n < 800; ++n) {
+  at_once.advance(1000, dt);
+  for (int n = 0; n < 1000; ++n) {
     always.solver.list().rebuild(always.state, false);
     always.advance(1, dt);
   }
