@@ -2,6 +2,8 @@
 #include "perf/bench.hpp"
 #include "perf/cases.hpp"
 #include "perf/events.hpp"
+#include "perf/options.hpp"
+#include "src/io/checkpoint.hpp"
 
 namespace barchan {
 
@@ -10,7 +12,7 @@ CaseFacts describe(const RunningCase& c) {
   if (c.state.grains) {
     f.sizes["grains"] = c.grains();
     f.sizes["substeps"] = c.step->substeps();
-    f.notes["heap"] = c.heap_source;
+    f.notes["grains"] = c.grains_source;
   }
   if (c.state.fluid) {
     const Grid& g = c.state.fluid->grid;
@@ -103,6 +105,20 @@ void add_case(const CaseSpec& spec) {
   add_benchmark(spec.name, [spec](benchmark::State& run) { run_case(run, spec); })->UseRealTime();
 }
 
+/// The last state of a run in the folder of --runs.
+std::optional<std::filesystem::path> state_of(const std::string& run) {
+  return latest_checkpoint(options().runs / run);
+}
+
+/// Moving dunes, where someone has computed them.
+void register_dunes() {
+  if (const auto dune = state_of("dune-10k")) add_case(moving_dune("coupled/dune_10k", *dune));
+  if (const auto dune = state_of("dune-100k")) {
+    add_case(moving_grains("dem/dune_100k", *dune));
+    add_case(moving_dune("coupled/dune_100k", *dune));
+  }
+}
+
 }  // namespace
 
 void register_cases() {
@@ -121,6 +137,7 @@ void register_cases() {
   add_case(heap_in_channel("coupled/heap_10k", "heap_10k", 1));
   add_case(heap_in_channel("coupled/heap_10k_mesh3", "heap_10k", 3));
   add_case(heap_in_channel("coupled/heap_100k", "heap_100k", 1));
+  register_dunes();
 }
 
 }  // namespace barchan

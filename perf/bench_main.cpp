@@ -26,6 +26,8 @@ void take_options(int& argc, char** argv) {
       options().tiny = true;
     } else if (name == "--heaps") {
       options().heaps = value;
+    } else if (name == "--runs") {
+      options().runs = value;
     } else if (name == "--records") {
       options().records = value;
     } else {

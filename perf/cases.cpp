@@ -6,6 +6,8 @@
 #include "perf/heaps.hpp"
 #include "perf/options.hpp"
 #include "src/config/load.hpp"
+#include "src/fluid/domain.hpp"
+#include "src/output/state_file.hpp"
 #include "src/run/initial_state.hpp"
 
 namespace barchan {
@@ -80,6 +82,24 @@ CaseSpec shipped_10k(const std::string& name) {
   return sized(spec);
 }
 
+CaseSpec moving_dune(const std::string& name, const std::filesystem::path& restart) {
+  const CheckpointReader file(restart, MPI_COMM_SELF);
+  return {.name = name,
+          .config = config_as_written(file.provenance().config, restart),
+          .dune = restart,
+          .untimed_steps = 5};
+}
+
+CaseSpec moving_grains(const std::string& name, const std::filesystem::path& restart) {
+  CaseSpec spec = moving_dune(name, restart);
+  Config& c = spec.config;
+  const double buoyancy = c.fluid->density / c.grains->density;
+  for (double& g : c.grains->gravity) g *= 1 - buoyancy;
+  c.fluid.reset();
+  spec.untimed_steps = 2;
+  return spec;
+}
+
 namespace {
 
 /// Lets the water find its way around the grains before they may move: a flow that does not know of
@@ -109,25 +129,39 @@ void repeat_along_x(InitialGrains& grains, int copies, double lx) {
 }  // namespace
 
 RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
-  Config& config = spec.config;
-  Config flow_alone = config;
-  flow_alone.grains.reset();
-  state = make_initial_state(flow_alone, {});
-  if (config.grains) {
-    Heap heap = settled_heap(spec.heap);
-    heap_source = heap.source;
-    if (config.size != paper_channel) move_into(heap.grains, config.size);
-    repeat_along_x(heap.grains, spec.heaps_in_a_row, config.size[0]);
-    config.size[0] *= spec.heaps_in_a_row;
-    state.grains = make_grain_state(heap.grains, config.grains->density);
+  const Config& config = spec.config;
+  if (!spec.dune.empty() && config.fluid) {
+    const CheckpointReader file(spec.dune, MPI_COMM_SELF);
+    grains_source = spec.dune.string();
+    state.fluid = make_fluid_state(make_grid(config));
+    state.grains = grains_in_file(file, MPI_COMM_SELF);
+    step = std::make_unique<CoupledStep>(config, state);
+    load_state(file, state, *step);
+  } else {
+    Config flow_alone = config;
+    flow_alone.grains.reset();
+    state = make_initial_state(flow_alone, {});
+    if (config.grains) put_grains();
+    if (state.fluid && state.grains) flow_around_held_grains(config, state);
+    step = std::make_unique<CoupledStep>(config, state);
+    step->start(state);
   }
-  if (state.fluid && state.grains) flow_around_held_grains(config, state);
-  step = std::make_unique<CoupledStep>(config, state);
-  step->start(state);
   // The list and the rows have two sets of memory, taken in the first two rebuilds.
   if (state.grains) step->neighbor_list().rebuild(*state.grains, true);
   for (int n = 0; n < spec.untimed_steps; ++n) advance();
   bytes_ = array_bytes();
+}
+
+/// Those of a heap, or of a dune.
+void RunningCase::put_grains() {
+  Config& config = spec.config;
+  Heap heap = spec.dune.empty() ? settled_heap(spec.heap)
+                                : Heap{read_grains(spec.dune), spec.dune.string()};
+  grains_source = heap.source;
+  if (spec.dune.empty() && config.size != paper_channel) move_into(heap.grains, config.size);
+  repeat_along_x(heap.grains, spec.heaps_in_a_row, config.size[0]);
+  config.size[0] *= spec.heaps_in_a_row;
+  state.grains = make_grain_state(heap.grains, config.grains->density);
 }
 
 void RunningCase::advance() {

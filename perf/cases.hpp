@@ -1,6 +1,7 @@
 // The workloads: configurations, settled heaps, and the case that is being run.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -12,8 +13,9 @@ namespace barchan {
 struct CaseSpec {
   std::string name;  // also the key under which the running case is kept
   Config config;
-  std::string heap = {};   // "heap_100k", "heap_10k", "lattice" (nothing touches) or none
-  int heaps_in_a_row = 1;  // copies along x, each in a box of the size of `config`
+  std::string heap = {};            // "heap_100k", "heap_10k", "lattice" (nothing touches) or none
+  std::filesystem::path dune = {};  // restart file to go on from, in place of a heap
+  int heaps_in_a_row = 1;           // copies along x, each in a box of the size of `config`
   bool rebuild_each_step = false;
   int untimed_steps = 2;  // CoupledStep::advance before the first timed one
 };
@@ -30,6 +32,10 @@ CaseSpec channel_flow(const std::string& name, int mesh);
 CaseSpec heap_in_channel(const std::string& name, const std::string& heap, int mesh);
 /// configs/barchan-10k.toml, from a perturbed flow over a heap at rest.
 CaseSpec shipped_10k(const std::string& name);
+/// A moving dune: the run of a restart file goes on.
+CaseSpec moving_dune(const std::string& name, const std::filesystem::path& restart);
+/// Its grains alone, from the same places and velocities, with the weight that they have in water.
+CaseSpec moving_grains(const std::string& name, const std::filesystem::path& restart);
 
 /// A case that is set up and warm.
 class RunningCase {
@@ -43,11 +49,13 @@ class RunningCase {
   double per_grain(std::int64_t count) const { return static_cast<double>(count) / grains(); }
 
   CaseSpec spec;
-  std::string heap_source;  // file, or "settled here"
+  std::string grains_source;  // file, or "settled here"
   SystemState state;
   std::unique_ptr<CoupledStep> step;
 
  private:
+  void put_grains();
+
   std::int64_t bytes_ = 0;
 };
 

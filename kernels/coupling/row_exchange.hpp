@@ -21,10 +21,11 @@ struct GrainRows {
   Real height[kDividedOffsets];
 
   KOKKOS_INLINE_FUNCTION GrainRows(const DepositStencil& stencil, const GrainKinematics& grain) {
+    constexpr DividedSets sets = divided_sets();
     const int own = stencil.grid.row_of(grain.x.y);
     for (int q = 0; q < kDividedOffsets; ++q) {
       const Real y = stencil.inside(grain.x.y + grain.r * divided_offset(q, false));
-      add(stencil.grid.row_near(y, own), points_at_height(q), y);
+      add(stencil.grid.row_near(y, own), Kokkos::popcount(sets.y[q]), y);
     }
     for (int r = 0; r < n; ++r) height[r] /= points[r];
   }

@@ -47,11 +47,38 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
   const DividedAxes at = divided_axes(p);
   return {divided_offset(at.x, false), divided_offset(at.y, false), divided_offset(at.z, true)};
 }
-/// Points at the height of each offset along y: nine at that of the centre, of each shell one at
-/// the top and at the bottom and four at half its radius above and below.
-KOKKOS_INLINE_FUNCTION constexpr int points_at_height(int q) {
-  return q == 0 ? 9 : (q - 1) % 4 < 2 ? 1 : 4;
+
+/// A set of points, a bit each.
+using PointSet = std::uint32_t;
+inline constexpr PointSet kAllPoints = (PointSet{1} << kDividedPoints) - 1;
+
+/// The points with the q-th coordinate along each axis.
+struct DividedSets {
+  PointSet x[kDividedOffsets]{}, y[kDividedOffsets]{}, z[kDividedOffsets]{};
+};
+KOKKOS_INLINE_FUNCTION constexpr DividedSets divided_sets() {
+  DividedSets sets;
+  for (int p = 0; p < kDividedPoints; ++p) {
+    const DividedAxes at = divided_axes(p);
+    const PointSet point = PointSet{1} << p;
+    sets.x[at.x] |= point, sets.y[at.y] |= point, sets.z[at.z] |= point;
+  }
+  return sets;
 }
+
+/// Columns or rows of cells along one direction that share a grain, and which points each holds.
+struct PointsAlong {
+  int n = 0;
+  int cell[kDividedOffsets];
+  PointSet points[kDividedOffsets];
+
+  KOKKOS_INLINE_FUNCTION void add(int c, PointSet set) {
+    int q = 0;
+    while (q < n && cell[q] != c) ++q;
+    if (q == n) cell[n] = c, points[n++] = 0;
+    points[q] |= set;
+  }
+};
 
 /// Indices of a cell, owned or a ghost beside an owned one. Not set by default: GrainCells has
 /// many.
@@ -76,30 +103,36 @@ struct GrainCells {
   CellIndex cell[kDividedPoints];
   int count[kDividedPoints];
 
-  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points = 1) {
+  /// A cell that is not there yet, unless it holds no point.
+  KOKKOS_INLINE_FUNCTION void put(const CellIndex& c, int points) {
+    if (points == 0) return;
     n_points += points;
+    cell[n] = c;
+    count[n++] = points;
+  }
+  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points) {
     for (int q = 0; q < n; ++q) {
       if (cell[q] == c) {
+        n_points += points;
         count[q] += points;
         return;
       }
     }
-    cell[n] = c;
-    count[n++] = points;
+    put(c, points);
   }
   /// Share of the grain in its q-th cell; the shares add up to one.
   KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
 };
 
 /// `cfdem`: a point outside gives its share to the grain's own cell, as CFDEM does.
-enum class PointSet { divided, centre, cfdem };
+enum class PointModel { divided, centre, cfdem };
 
 /// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
 /// beyond the outlet goes to the last cell, periodic directions wrap. Where the grid is cut among
 /// ranks, points of a grain inside may lie in the ghosts of the neighbours' cells.
 struct DepositStencil {
   GridRef grid;
-  PointSet points = PointSet::divided;
+  PointModel points = PointModel::divided;
   PeriodicBox box;            // directions that are periodic and not cut
   int i_low = 0, i_high = 0;  // a point beyond belongs to these
   int k_low = 0, k_high = 0;
@@ -137,11 +170,6 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
     return {cell_x(p.x), row_of(p.y, row_nearby), cell_z(p.z)};
   }
-  /// All points lie between those at -reach and +reach: true when over and under each other.
-  KOKKOS_INLINE_FUNCTION bool in_one_column(const Vec3& x, Real reach) const {
-    return column_x(x.x - reach) == column_x(x.x + reach) &&
-           column_z(x.z - reach) == column_z(x.z + reach);
-  }
   KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
 
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
@@ -149,35 +177,69 @@ struct DepositStencil {
     const Vec3 x = box.wrap(g.x);
     const int row = grid.row_of(x.y);
     const CellIndex own = cell_of(x, row);
-    if (points == PointSet::centre) {
-      cells.add(own);
+    if (points == PointModel::centre) {
+      cells.put(own, 1);
       return cells;
     }
-    constexpr int own_cell = -1;  // in place of a row
-    int i[kDividedOffsets], j[kDividedOffsets], k[kDividedOffsets];
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real y = x.y + g.r * divided_offset(q, false);
-      j[q] = is_outside(y) && points == PointSet::cfdem ? own_cell : row_of(y, row);
+    PointSet to_own = 0;
+    const PointsAlong rows = rows_of_points(x.y, g.r, row, to_own);
+    const PointsAlong along_x = columns_x(x.x, g.r, own.i), along_z = columns_z(x.z, g.r, own.k);
+    for (int b = 0; b < rows.n; ++b) {
+      for (int a = 0; a < along_x.n; ++a) {
+        const PointSet set = rows.points[b] & along_x.points[a];
+        for (int c = 0; c < along_z.n; ++c)
+          cells.put({along_x.cell[a], rows.cell[b], along_z.cell[c]},
+                    Kokkos::popcount(set & along_z.points[c]));
+      }
     }
-    if (in_one_column(x, kOuterShell * g.r)) {
-      for (int q = 0; q < kDividedOffsets; ++q)
-        cells.add({own.i, j[q] == own_cell ? own.j : j[q], own.k}, points_at_height(q));
-      return cells;
-    }
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      i[q] = cell_x(x.x + g.r * divided_offset(q, false));
-      k[q] = cell_z(x.z + g.r * divided_offset(q, true));
-    }
-    for (int p = 0; p < kDividedPoints; ++p) {
-      const DividedAxes at = divided_axes(p);
-      cells.add(j[at.y] == own_cell ? own : CellIndex{i[at.x], j[at.y], k[at.z]});
-    }
+    if (to_own != 0) cells.add(own, Kokkos::popcount(to_own));
     return cells;
+  }
+
+ private:
+  /// Rows that hold the points of a grain around the height y; `to_own`: the points that are not in
+  /// them but in the grain's own cell.
+  KOKKOS_INLINE_FUNCTION PointsAlong rows_of_points(Real y, Real r, int row,
+                                                    PointSet& to_own) const {
+    constexpr DividedSets sets = divided_sets();
+    PointsAlong rows;
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const Real at = y + r * divided_offset(q, false);
+      if (points == PointModel::cfdem && is_outside(at)) {
+        to_own |= sets.y[q];
+      } else {
+        rows.add(row_of(at, row), sets.y[q]);
+      }
+    }
+    return rows;
+  }
+  /// Likewise along x; all of them in the column `own` if the outermost ones are.
+  KOKKOS_INLINE_FUNCTION PointsAlong columns_x(Real x, Real r, int own) const {
+    constexpr DividedSets sets = divided_sets();
+    PointsAlong columns;
+    if (column_x(x - kOuterShell * r) == column_x(x + kOuterShell * r)) {
+      columns.add(own, kAllPoints);
+      return columns;
+    }
+    for (int q = 0; q < kDividedOffsets; ++q)
+      columns.add(cell_x(x + r * divided_offset(q, false)), sets.x[q]);
+    return columns;
+  }
+  KOKKOS_INLINE_FUNCTION PointsAlong columns_z(Real z, Real r, int own) const {
+    constexpr DividedSets sets = divided_sets();
+    PointsAlong columns;
+    if (column_z(z - kOuterShell * r) == column_z(z + kOuterShell * r)) {
+      columns.add(own, kAllPoints);
+      return columns;
+    }
+    for (int q = 0; q < kDividedOffsets; ++q)
+      columns.add(cell_z(z + r * divided_offset(q, false)), sets.z[q]);
+    return columns;
   }
 };
 
 /// On a grid that is not cut.
-inline DepositStencil deposit_stencil_in(const GridRef& grid, PointSet points, bool periodic_x) {
+inline DepositStencil deposit_stencil_in(const GridRef& grid, PointModel points, bool periodic_x) {
   return {.grid = grid,
           .points = points,
           .box = grid.box(periodic_x),
@@ -192,7 +254,8 @@ struct FixedPoint {
   Real scale = 1;  // integers per unit, a power of two
 
   KOKKOS_INLINE_FUNCTION std::int64_t encode(Real value) const {
-    return static_cast<std::int64_t>(Kokkos::round(value * scale));
+    const Real number = value * scale;
+    return static_cast<std::int64_t>(number + (number < 0 ? Real(-0.5) : Real(0.5)));
   }
   KOKKOS_INLINE_FUNCTION Real decode(std::int64_t sum) const {
     return static_cast<Real>(sum) / scale;

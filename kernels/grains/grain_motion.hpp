@@ -99,7 +99,7 @@ struct SumKickDrift {
   Walls<Stiffness, Rolling> walls;
   bool has_rolling = false;
   bool last = false;
-  Real largest_margin = 0;  // within which pairs are active [m]
+  Real least_slack = 0;  // of a grain at rest [m]
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
     if (!pairs.validity.holds()) {  // so that the next one is closed, too
@@ -110,41 +110,47 @@ struct SumKickDrift {
     ContactSum sums[kLargestChunk];
     sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
     if constexpr (kLargestChunk > 1) {
-      if (!(pairs.list.slack(chunk) >= 0)) find_active(chunk, begin, end);
+      if (pairs.list.worn(chunk)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);
     }
-    Real fastest = 0;  // squared speed [m^2/s^2]
+    bool worn = false;
     for (int g = begin; g < end; ++g) {
-      const Real speed2 = move(g, sums[g - begin], largest);
-      fastest = speed2 > fastest ? speed2 : fastest;
+      const Real speed = move(g, sums[g - begin], largest);
+      if constexpr (kLargestChunk > 1) {
+        Real& slack = pairs.list.slack(g);
+        slack -= motion.dt * speed;
+        worn = worn || !(slack >= 0);
+      }
     }
-    if constexpr (kLargestChunk > 1) {
-      // Largest displacement of two grains towards each other [m].
-      const Real displacement = 2 * motion.dt * Kokkos::sqrt(fastest);
-      pairs.list.slack(chunk) -= displacement;
-      pairs.list.margin(chunk) = next_margin(displacement);
-    }
+    pairs.list.worn(chunk) = worn;
   }
 
-  /// The pairs, and the grains beside walls, that can come into contact before the slack is used
-  /// up.
+  /// The pairs, and the grains beside walls, that can come into contact before a grain has used up
+  /// its slack. That is as far as each comes in the same time at the speed that it has, and a
+  /// little more.
   KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
-    const Real margin = pairs.list.margin(chunk);
-    pairs.find_active(chunk, margin);
-    for (int g = begin; g < end; ++g)
-      pairs.list.near_wall(g) = walls.is_near(g, motion.grains(g), margin);
-    pairs.list.slack(chunk) = margin;
+    Real way = 0;  // of all grains in a sub-step [m]
+    for (int g = begin; g < end; ++g) way += motion.dt * norm(motion.grains(g).u);
+    const Real n_steps = steps_of_slack(way / (end - begin));
+    for (int g = begin; g < end; ++g) {
+      const GrainKinematics& grain = motion.grains(g);
+      const Real slack = least_slack + n_steps * motion.dt * norm(grain.u);
+      pairs.list.slack(g) = slack;
+      pairs.list.near_wall(g) = walls.is_near(g, grain, slack);
+    }
+    pairs.find_active(chunk);
   }
 
-  /// Enough for some forty sub-steps: where grains hardly move, hardly more than contacts is
-  /// active.
-  KOKKOS_FORCEINLINE_FUNCTION Real next_margin(Real displacement) const {
-    const Real least = largest_margin / 10, wanted = 40 * displacement;
-    return wanted < least ? least : (wanted < largest_margin ? wanted : largest_margin);
+  /// For how many sub-steps slack is best given. To look for active pairs costs once, more of them
+  /// cost in every sub-step, and how many more grows with `way`, the mean one of a grain in a
+  /// sub-step [m]. Measured (docs/performance.md); hardly anything changes from 20 to 200.
+  KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real way) const {
+    const Real n_steps = Kokkos::sqrt(100 * least_slack / way);
+    return n_steps < 100 ? n_steps : 100;
   }
 
   /// Adds the walls to the sum of a grain's contacts; kick, and unless it is the last sub-step kick
-  /// and drift of the next one. Returns the squared speed of the drift [m^2/s^2].
+  /// and drift of the next one. Returns the speed of the drift [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Real move(int g, ContactSum& sum, Real& largest) const {
     const GrainKinematics& grain = motion.grains(g);
     if (kLargestChunk == 1 || pairs.list.near_wall(g)) walls.add(g, grain, motion.dt, sum);
@@ -158,7 +164,7 @@ struct SumKickDrift {
     Quad impulse = kick(f, u, omega);
     if (!last) impulse = impulse + motion.kick_and_drift(g, kick, f, x, u, omega, largest);
     motion.store(g, x, u, omega, impulse);
-    return dot(u.vec(), u.vec());
+    return norm(u.vec());
   }
 };
 

@@ -7,6 +7,13 @@
 
 namespace barchan {
 
+/// For how long skins can last [s] that are `least` wide at rest and `largest` at most [m]: as long
+/// as the fastest grain needs for the largest skin; shorter where so many are fast, `mean` [m/s],
+/// that skins would on average be more than half as wide again as at rest.
+KOKKOS_INLINE_FUNCTION Real skin_horizon(Real least, Real largest, Real fastest, Real mean) {
+  return Kokkos::min((largest - least) / fastest, least / 2 / mean);
+}
+
 /// Skins of the grains: as far as each comes in the same time at the speed that it has, and beyond
 /// that what it may gain meanwhile. A few fast grains then do not wear out the list of a bed at
 /// rest.

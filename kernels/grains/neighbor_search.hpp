@@ -81,12 +81,12 @@ struct FindWindows {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
   Windows window;
-  Real reach = 0;  // largest distance of the grains of a pair [m]
 
   KOKKOS_FUNCTION void operator()(int c) const {
     for (int m = 0; m < kForwardColumns; ++m) {
       const int other = occupied.forward(c, m);
       if (other < 0) continue;
+      const Real reach = occupied.widest(c) + occupied.widest(other);
       int j = occupied.start(other);
       const int end = occupied.start(other + 1);
       for (int i = occupied.start(c); i < occupied.start(c + 1); ++i) {
@@ -98,19 +98,30 @@ struct FindWindows {
   }
 };
 
+/// Offset of the m-th column of the outer ring.
+struct OuterColumn {
+  int dx = 0, dz = 0;
+  KOKKOS_FORCEINLINE_FUNCTION explicit OuterColumn(int m)
+      : dx(m < 10 ? 2 * (m % 2) * 2 - 2 : (m - 10) / 2 - 1),
+        dz(m < 10 ? m / 2 - 2 : 4 * (m % 2) - 2) {}
+  KOKKOS_FORCEINLINE_FUNCTION bool is_forward() const { return dx > 0 || (dx == 0 && dz > 0); }
+};
+
 /// Walks the candidates of one grain and calls f(j) for each within the radii and skins of both.
 struct PairSearch {
+  SearchColumns columns;
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
   Windows window;
   PeriodicBox box;
-  Real largest = 0;  // radius + skin of any grain [m]
-  int n_owned = 0;   // rows from here on are ghosts; two of them are no pair of this rank
+  int n_owned = 0;  // rows from here on are ghosts; two of them are no pair of this rank
 
+  /// From row `begin` on in column c.
   template <class Action>
-  KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int begin, int end, const Action& action) const {
+  KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int c, int begin, const Action& action) const {
     const GrainKinematics& a = grains(i);
-    const Real own = a.r + a.skin, highest = a.x.y + (own + largest);
+    const Real own = a.r + a.skin, highest = a.x.y + (own + occupied.widest(c));
+    const int end = occupied.start(c + 1);
     for (int j = begin; j < end; ++j) {
       const GrainKinematics& b = grains(j);
       if (b.x.y > highest) break;  // sorted by height
@@ -122,10 +133,28 @@ struct PairSearch {
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_partner(int i, const Action& action) const {
     const int c = occupied.of_grain(i);
-    scan(i, i + 1, occupied.start(c + 1), action);
+    scan(i, c, i + 1, action);
     for (int m = 0; m < kForwardColumns; ++m) {
       const int other = occupied.forward(c, m);
-      if (other >= 0) scan(i, window(i, m), occupied.start(other + 1), action);
+      if (other >= 0) scan(i, other, window(i, m), action);
+    }
+    if (columns.is_wide(grains(i))) scan_outer_ring(i, c, action);
+  }
+
+ private:
+  /// A pair of the outer ring is found by the wide one of its grains; if both are, by the one that
+  /// has the other in front.
+  template <class Action>
+  KOKKOS_FUNCTION void scan_outer_ring(int i, int c, const Action& action) const {
+    for (int m = 0; m < kOuterColumns; ++m) {
+      const OuterColumn at(m);
+      std::uint32_t id = 0;
+      if (!columns.neighbor(occupied.id(c), at.dx, at.dz, id)) continue;
+      const int other = occupied.find(id);
+      if (other < 0) continue;
+      scan(i, other, occupied.start(other), [&](int j) {
+        if (at.is_forward() || !columns.is_wide(grains(j))) action(j);
+      });
     }
   }
 };

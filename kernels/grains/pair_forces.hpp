@@ -115,15 +115,16 @@ struct PairForces {
     }
   }
 
-  /// Lists the inner pairs of a chunk that are within `margin` [m] of contact as active.
-  KOKKOS_FUNCTION void find_active(int chunk, Real margin) const {
+  /// Lists the inner pairs of a chunk as active that come into contact if both go as far as their
+  /// slacks.
+  KOKKOS_FUNCTION void find_active(int chunk) const {
     const int begin = list.inner_first(list.chunks.begin(chunk));
     const int end = list.inner_first(list.chunks.end(chunk));
     int* active = &list.active(begin - list.n_crossing);
     int n = 0;
     for (int p = begin; p < end; ++p) {
       active[n] = p;
-      n += is_near(p, margin) ? 1 : 0;
+      n += is_near(p, list.slack(list.i(p)) + list.slack(list.j(p))) ? 1 : 0;
     }
     list.n_active(chunk) = n;
   }

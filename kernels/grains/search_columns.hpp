@@ -28,11 +28,14 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t gather_bits(std::uint32_t a)
 /// Columns along one direction, at most.
 inline constexpr int kMaxColumns = 65535;
 
-/// The x-z columns of the domain, each at least one cutoff wide. Their numbers begin with that of
-/// the column at `origin`, those before it follow at the end: the columns of a rank, a piece of the
-/// Morton curve from `origin` on, come before those of others.
+/// The x-z columns of the domain. The partners of a grain are in its column and the `rings` of
+/// columns around it; those of two grains that are not wide, in the first ring. Numbers of columns
+/// begin with that of the column at `origin`, those before it follow at the end: the columns of a
+/// rank, a piece of the Morton curve from `origin` on, come before those of others.
 struct SearchColumns {
   int nx = 1, nz = 1;
+  int rings = 1;         // 1 or 2
+  Real most_narrow = 0;  // radius + skin of a grain that is not wide, at most [m]
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
@@ -55,6 +58,9 @@ struct SearchColumns {
     const Real level = Kokkos::clamp((x.y / height + 1) / 3, Real(0), Real(1));
     const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
     return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION bool is_wide(const GrainKinematics& grain) const {
+    return rings > 1 && grain.r + grain.skin > most_narrow;
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
@@ -86,6 +92,7 @@ KOKKOS_FUNCTION int count_up_to(const Values& ascending, int n, std::uint32_t va
 
 inline constexpr std::uint64_t kDroppedKey = ~std::uint64_t{0};
 inline constexpr int kForwardColumns = 4;  // half of the eight columns around one
+inline constexpr int kOuterColumns = 16;   // of the ring around these
 
 /// The columns that hold grains, in key order.
 struct OccupiedColumns {
@@ -94,6 +101,7 @@ struct OccupiedColumns {
   Kokkos::View<int*> start;                      // (n + 1) first grain of each
   Kokkos::View<int*> of_grain;                   // (grains) occupied column of each grain
   Kokkos::View<int* [kForwardColumns]> forward;  // (n) occupied column or -1
+  Kokkos::View<Real*> widest;                    // (n) largest radius + skin [m]
 
   /// Position of a column id in `id`, or -1.
   KOKKOS_FUNCTION int find(std::uint32_t column) const {
@@ -131,12 +139,17 @@ struct StartColumns {
   }
 };
 
-/// Fills `forward`: half of the neighbouring columns, so that each pair is met once.
+/// Fills `forward`, half of the neighbouring columns, so that each pair is met once; and `widest`.
 struct LinkColumns {
   SearchColumns columns;
+  Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
 
   KOKKOS_FUNCTION void operator()(int c) const {
+    Real widest = 0;
+    for (int g = occupied.start(c); g < occupied.start(c + 1); ++g)
+      widest = Kokkos::max(widest, grains(g).r + grains(g).skin);
+    occupied.widest(c) = widest;
     const int dx[kForwardColumns] = {0, 1, 1, 1};
     const int dz[kForwardColumns] = {1, -1, 0, 1};
     for (int m = 0; m < kForwardColumns; ++m) {
@@ -158,17 +171,17 @@ struct GrainOwners {
   }
 };
 
-/// The other ranks that own a column next to a grain's: they need a copy of it.
+/// The other ranks that own a column in the rings around a grain's: they need a copy of it.
 struct GhostDestinations {
-  static constexpr int kMost = 8;
+  static constexpr int kMost = 8 + kOuterColumns;
   int n = 0;
   int rank[kMost];
 
   KOKKOS_FUNCTION GhostDestinations(const SearchColumns& columns, const GrainOwners& owners,
                                     const Vec3& x) {
     const std::uint32_t column = columns.column_of(x);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dz = -1; dz <= 1; ++dz) {
+    for (int dx = -columns.rings; dx <= columns.rings; ++dx) {
+      for (int dz = -columns.rings; dz <= columns.rings; ++dz) {
         std::uint32_t other = 0;
         if (!columns.neighbor(column, dx, dz, other)) continue;
         add(owners.of_place(other + columns.origin), owners.me);

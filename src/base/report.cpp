@@ -111,7 +111,8 @@ std::string format_progress(const Progress& p, double eta_seconds) {
   std::string text = fmt::format("t {:.4g} s  {:.1f} %", p.t, percent);
   if (eta_seconds >= 0) text += "  left " + format_duration(eta_seconds);
   if (p.grain_steps_per_second > 0) {
-    text += fmt::format("  {} grain-steps/s", si_rate(p.grain_steps_per_second));
+    text += fmt::format("  {} grain-steps/s  {:.2g} lists/step", si_rate(p.grain_steps_per_second),
+                        p.list_rebuilds);
   }
   if (p.cell_steps_per_second > 0) {
     text += fmt::format("  {} cell-steps/s  CFL {:.3f}  p-it {:.1f}",

@@ -46,6 +46,7 @@ void error(fmt::format_string<Args...> format, Args&&... args) {
 struct Progress {
   double t = 0, t_start = 0, t_end = 0;  // simulated time: now, at the start of this run, end [s]
   double grain_steps_per_second = 0;     // 0: no grains
+  double list_rebuilds = 0;              // per fluid step
   double cell_steps_per_second = 0;      // 0: no fluid
   double cfl = 0;
   double pressure_iterations = 0;  // mean over the last interval

@@ -20,8 +20,6 @@ constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
 // Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
 // gathered in.
 constexpr double bytes_per_grain = 1000;
-// Speed of two CPU cores, for the estimate of the wall time.
-constexpr double cell_steps_per_second = 5e6, grain_steps_per_second = 1.5e7;
 
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
@@ -175,32 +173,20 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes) {
   derived.fluid_steps = fluid_steps(config.time);
   derived.grain_substeps = grain_substeps(config.time);
   derived.grain_step = true_grain_step(config.time);
-  double seconds_per_step = 0;
   if (config.fluid) {
     derived.fluid = derive_fluid(config);
     const auto cells = static_cast<double>(derived.fluid->cells);
     derived.memory += bytes_per_cell * cells;
-    seconds_per_step += cells / cell_steps_per_second;
   }
   if (config.grains && !sizes.empty()) {
     derived.grains = derive_grains(config, sizes, derived.fluid);
     const auto count = static_cast<double>(derived.grains->count);
     derived.memory += bytes_per_grain * count;
-    if (!config.grains->frozen) {
-      seconds_per_step += count * derived.grain_substeps / grain_steps_per_second;
-    }
   }
-  derived.wall_time = seconds_per_step * static_cast<double>(derived.fluid_steps);
   return derived;
 }
 
 namespace {
-
-std::string duration(double seconds) {
-  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
 
 template <class... Args>
 void line(std::string& text, const char* name, fmt::format_string<Args...> value, Args&&... args) {
@@ -255,7 +241,6 @@ std::string to_text(const Derived& derived) {
   }
   line(text, "steps", "{}", steps);
   line(text, "memory", "about {:.0f} MB", std::max(1.0, derived.memory / 1e6));
-  line(text, "wall time", "about {} (two CPU cores)", duration(derived.wall_time));
   return text;
 }
 

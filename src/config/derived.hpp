@@ -75,7 +75,6 @@ struct Derived {
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
   double memory = 0;                   // [bytes], estimate
-  double wall_time = 0;                // [s], estimate from the assumed rates
 };
 
 /// `sizes` as from known_sizes; may be empty. `config` must have passed validate.

@@ -96,13 +96,13 @@ void CoupledStep::gather(SystemState& state) {
                        BeginFluidStep{grains.kin, grains.fluid});
 }
 
-void CoupledStep::move_grains(SystemState& state) {
+void CoupledStep::move_grains(SystemState& state, int n) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
   const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
   if (!frozen_) {
-    grains_->advance(grains, n_substeps_, dt_ / n_substeps_);
+    grains_->advance(grains, n, dt_ / n_substeps_);
   } else if (!grains.fluid.none) {
     Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
                          DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});

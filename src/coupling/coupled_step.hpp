@@ -37,7 +37,9 @@ class CoupledStep {
   /// fluid.
   void gather(SystemState& state);
   /// The grain steps of one fluid step; the drag follows the grain and its share of fluid.
-  void move_grains(SystemState& state);
+  void move_grains(SystemState& state) { move_grains(state, n_substeps_); }
+  /// The first n of them.
+  void move_grains(SystemState& state, int n);
   /// alpha_f; on faces the reaction to the grains' impulse.
   void deposit(SystemState& state);
   /// WALE, u*, p, u.

@@ -25,9 +25,9 @@ DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real
   const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
   const bool periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
   const VoidFraction kind = config.coupling.void_fraction;
-  DepositStencil stencil = deposit_stencil_in(grid, PointSet::divided, periodic_x);
-  if (kind == VoidFraction::centre) stencil.points = PointSet::centre;
-  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointSet::cfdem;
+  DepositStencil stencil = deposit_stencil_in(grid, PointModel::divided, periodic_x);
+  if (kind == VoidFraction::centre) stencil.points = PointModel::centre;
+  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointModel::cfdem;
   const RankLine along_x = grid.ranks ? grid.ranks->along_x() : RankLine{};
   const RankLine along_z = grid.ranks ? grid.ranks->along_z() : RankLine{};
   set_ends(along_x, periodic_x, grid.nx, stencil.box.lx, stencil.i_low, stencil.i_high);

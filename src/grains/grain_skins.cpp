@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "kernels/grains/grain_skins.hpp"
@@ -11,24 +12,32 @@ namespace barchan {
 
 namespace {
 
-/// The largest skin over the largest diameter. With wider ones rebuilds are rarer, but the columns
-/// of the search are as much wider, and hold more grains (docs/performance.md).
+/// Columns are as wide as two grains reach whose skins are so much wider than at rest; faster
+/// grains are looked for in the second ring.
+constexpr Real kNarrowSkin = 3;
+/// Where a domain is too narrow for two rings: the largest skin over the largest diameter. With
+/// wider ones rebuilds are rarer, but columns are as much wider, and hold more grains.
 constexpr Real kLargestSkin = 0.4;
 
 }  // namespace
 
 GrainSkins::GrainSkins(const Config& config, Real r_max)
-    : least_(config.grains->skin / 2), largest_(std::max(least_, kLargestSkin * 2 * r_max)) {
-  // Three columns must fit into a periodic direction, whatever way it is rounded.
-  const auto fit = [&](bool periodic, Real extent) {
-    if (periodic) largest_ = std::clamp((1 - 1e-9) * extent / 6 - r_max, least_, largest_);
-  };
-  fit(config.grains->boundary_x == GrainBoundaryX::periodic, config.size[0]);
-  fit(config.grains->boundary_z == GrainBoundaryZ::periodic, config.size[2]);
+    : least_(config.grains->skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_)) {
+  Real narrowest = std::numeric_limits<Real>::infinity();  // of the periodic directions
+  if (config.grains->boundary_x == GrainBoundaryX::periodic) narrowest = config.size[0];
+  if (config.grains->boundary_z == GrainBoundaryZ::periodic)
+    narrowest = std::min(narrowest, config.size[2]);
+  narrowest *= 1 - 1e-9;  // whatever way columns are rounded
+  // No column may be met twice.
+  if (narrowest >= 5 * column_width_) {
+    largest_ = column_width_ - r_max;
+  } else {
+    rings_ = 1;
+    largest_ = std::max(least_, std::min(kLargestSkin * 2 * r_max, narrowest / 6 - r_max));
+    column_width_ = 2 * (r_max + largest_);
+  }
 }
 
-/// The horizon is as long as the fastest grain needs for the largest skin; shorter where so many
-/// are fast that skins would on average be more than half as wide again as at rest.
 void GrainSkins::set(const GrainState& grains) const {
   SpeedsOfGrains speeds{.grains = grains.kin};
   Real fastest = 0, horizon = 0;
@@ -42,7 +51,7 @@ void GrainSkins::set(const GrainState& grains) const {
     std::vector<std::int64_t> of_all{sum, grains.n};
     sum_over(grains.ranks, of_all);
     const Real mean = speeds.unit * static_cast<Real>(of_all[0]) / static_cast<Real>(of_all[1]);
-    if (mean > 0) horizon = std::min((largest_ - least_) / fastest, least_ / 2 / mean);
+    if (mean > 0) horizon = skin_horizon(least_, largest_, fastest, mean);
   }
   Kokkos::parallel_for("neighbors: skins", items(grains.n),
                        SetSkins{.least = least_,

@@ -15,13 +15,18 @@ class GrainSkins {
   /// Of a grain at rest, half of grains.skin; and of any grain [m].
   Real least() const { return least_; }
   Real largest() const { return largest_; }
+  /// Columns of the neighbour search: how many rings of them hold the partners of a grain, and how
+  /// wide they must be [m].
+  int rings() const { return rings_; }
+  Real column_width() const { return column_width_; }
   /// Sets those of a new list, from where the grains are now (x_reference). All ranks together.
   void set(const GrainState& grains) const;
   /// False if any is not within these bounds. All ranks together.
   bool are_of(const GrainState& grains) const;
 
  private:
-  Real least_ = 0, largest_ = 0;
+  int rings_ = 2;
+  Real least_ = 0, largest_ = 0, column_width_ = 0;
 };
 
 }  // namespace barchan

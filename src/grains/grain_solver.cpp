@@ -92,7 +92,7 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
     excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
     host_excess_ = Kokkos::create_mirror_view(excess_);
   }
-  Kokkos::deep_copy(grains.list.slack, -1.0);  // the first drift does not keep account
+  Kokkos::deep_copy(grains.list.worn, 1);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt, 0),
                           max_excess(0));
 }
@@ -126,7 +126,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
                                                          .touching = grains.wall_touching},
                                                .has_rolling = list_.with_rolling,
                                                .last = last,
-                                               .largest_margin = list_.largest_margin()};
+                                               .least_slack = list_.least_slack()};
     Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
                             items(grains.list.chunks.count()), sum, max_excess(s + 1));
   };

@@ -36,13 +36,14 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 
 NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
     : skins_(config, r_max),
-      r_max_(r_max),
       lx_(config.size[0]),
       exit_x_(config.grains->boundary_x == GrainBoundaryX::exit) {
   const Real lz = config.size[2];
   columns_.periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
   columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
-  const Real cutoff = reach();
+  const Real cutoff = skins_.column_width();
+  columns_.rings = skins_.rings();
+  columns_.most_narrow = cutoff / 2;
   columns_.nx = column_count(lx_, cutoff, columns_.periodic_x, "x");
   columns_.nz = column_count(lz, cutoff, columns_.periodic_z, "z");
   columns_.inverse_width_x = columns_.nx / lx_;
@@ -160,13 +161,14 @@ Windows NeighborList::find_windows(const GrainState& grains, int n) {
       StartColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
   Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
   reserve(occupied_.forward, "forward columns", occupied_.n);
-  Kokkos::parallel_for("neighbors: link columns", occupied_.n,
-                       LinkColumns{.columns = columns_, .occupied = occupied_});
+  reserve(occupied_.widest, "widest of columns", occupied_.n);
+  Kokkos::parallel_for(
+      "neighbors: link columns", occupied_.n,
+      LinkColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
   static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
   const Windows window(reinterpret_cast<int*>(key_room_.data()), static_cast<std::size_t>(n));
-  Kokkos::parallel_for(
-      "neighbors: windows", occupied_.n,
-      FindWindows{.grains = grains.kin, .occupied = occupied_, .window = window, .reach = reach()});
+  Kokkos::parallel_for("neighbors: windows", occupied_.n,
+                       FindWindows{.grains = grains.kin, .occupied = occupied_, .window = window});
   return window;
 }
 
@@ -177,10 +179,9 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.pair_force, "pairs: force of a crossing pair", list.n_crossing);
   reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
-  reserve(list.slack, "chunks: slack", list.chunks.count());
-  Kokkos::deep_copy(list.slack, -1.0);
-  reserve(list.margin, "chunks: margin", list.chunks.count());
-  Kokkos::deep_copy(list.margin, largest_margin());
+  reserve(list.slack, "pairs: slack", kLargestChunk > 1 ? list.chunks.n : 0);
+  reserve(list.worn, "chunks: worn", list.chunks.count());
+  Kokkos::deep_copy(list.worn, 1);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
   if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
@@ -213,11 +214,11 @@ void NeighborList::search(GrainState& grains) {
   reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Quad));
   const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
-  const PairSearch pair_search{.grains = grains.kin,
+  const PairSearch pair_search{.columns = columns_,
+                               .grains = grains.kin,
                                .occupied = occupied_,
                                .window = window,
                                .box = box_,
-                               .largest = r_max_ + skins_.largest(),
                                .n_owned = grains.n};
   Kokkos::parallel_for("neighbors: count", n,
                        CountPairs{.search = pair_search,

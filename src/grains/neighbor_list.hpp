@@ -46,8 +46,8 @@ class NeighborList {
   GrainPartition* partition() const { return ranks_ ? &ranks_->partition : nullptr; }
   const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
   std::int64_t n_migrated() const { return ranks_ ? ranks_->migrate.n_sent() : 0; }
-  /// Largest distance from contact within which pairs are evaluated in every sub-step [m].
-  Real largest_margin() const { return skins_.least() / 5; }
+  /// The way of a grain at rest for which pairs that may touch are looked for [m].
+  Real least_slack() const { return skins_.least() / 100; }
   std::int64_t rebuilds() const { return rebuilds_; }
   /// Wall time of all rebuilds so far.
   double seconds() const { return seconds_; }
@@ -66,7 +66,6 @@ class NeighborList {
  private:
   void collect_history(const GrainState& grains);
   void redistribute(GrainState& grains);
-  Real reach() const { return 2 * (r_max_ + skins_.largest()); }
   Windows find_windows(const GrainState& grains, int n);
   void reserve_pairs(PairList& list) const;
   void search(GrainState& grains);
@@ -84,7 +83,7 @@ class NeighborList {
   SearchColumns columns_;
   PeriodicBox box_;
   GrainSkins skins_;
-  Real r_max_ = 0, lx_ = 0;
+  Real lx_ = 0;
   bool exit_x_ = false;
   std::int64_t rebuilds_ = 0;
   double seconds_ = 0;

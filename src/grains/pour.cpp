@@ -121,4 +121,21 @@ InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& 
   return grains;
 }
 
+InitialGrains packed_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
+                            const std::array<double, 3>& domain) {
+  // As dense as a heap, 0.64 of the volume. Displaced so far, a third of the 12 neighbours touch.
+  constexpr double lattice = 1.05, displacement = 0.1;
+  InitialGrains grains = pour_grains(pour, sizes, domain);
+  const double d = mean_diameter(sizes), closer = lattice * d / poured_spacing(sizes);
+  const Heap heap(pour, domain);
+  std::mt19937_64 generator(pour.seed);
+  const auto displaced = [&] { return displacement * d * (2 * uniform(generator) - 1); };
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    Vec3 x = heap.centre + closer * (grains.x[g] - heap.centre);
+    x = x + Vec3{displaced(), displaced(), displaced()};
+    grains.x[g] = {x.x, std::max(x.y, grains.diameter[g] / 2), x.z};
+  }
+  return grains;
+}
+
 }  // namespace barchan

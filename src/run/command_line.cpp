@@ -68,12 +68,13 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     command->add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml
+    command->add_option("--out", line.out, "run folder (default: runs/<config name>)")
+        ->type_name("DIR");
+    command->add_option("--threads", line.threads, "threads per rank (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
   }
-  run->add_option("--out", line.out, "run folder (default: runs/<config name>)")->type_name("DIR");
   run->add_option("--restart", line.restart, "go on from this restart file")->type_name("FILE");
-  run->add_option("--threads", line.threads, "threads per rank (default: all)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
   run->add_option("--patience", line.patience,
                   "wall time without progress after which several ranks give up (default: 600, "
                   "0: never)")

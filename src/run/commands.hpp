@@ -32,14 +32,21 @@ struct CommandLine {
 /// `version` is the text for --version. Throws InputError after bad usage.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);
 
+/// --out, or runs/<name of the case>.
+std::filesystem::path run_folder(const CommandLine& line);
+
+/// [bytes]
+double memory_of_machine();
+
 /// A case from its configuration to its results, and the cases it starts from. Returns the exit
 /// code: 0 done, 3 stopped on request. Throws ConfigError (exit code 2) and std::runtime_error
 /// (exit code 1).
 int run_command(const CommandLine& line);
 
-/// Writes the resolved configuration, its derived numbers and its warnings to `out`, the first
-/// alone with --resolved-only; returns the exit code 0. Throws ConfigError when the case is not
-/// valid.
+/// Writes the resolved configuration, its derived numbers, what it will cost and its warnings to
+/// `out`, the first alone with --resolved-only (and then Kokkos need not run); returns the exit
+/// code 0. Throws ConfigError when the case is not valid, InputError when its grains do not suit
+/// it.
 int run_check(const CommandLine& line, std::ostream& out);
 
 /// What a result or restart file holds, and where it came from: several lines. Throws

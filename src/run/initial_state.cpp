@@ -72,32 +72,37 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
   }
 }
 
-/// What the configuration alone did not show: whether the steps and the domain suit these grains.
-void check_sizes(const InitialGrains& grains, const Config& config, const std::string& source) {
-  const auto [least, most] = std::minmax_element(grains.diameter.begin(), grains.diameter.end());
-  for (const Finding& f : check_grain_sizes(config, {{*least, 1}, {*most, 1}})) {
+}  // namespace
+
+void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
+                 const std::string& source) {
+  for (const Finding& f : check_grain_sizes(config, sizes)) {
     if (f.severity != Finding::Severity::error) continue;
     throw InputError(fmt::format("{}: with these grains {} {}", source, f.keys.front(), f.message));
   }
 }
 
-}  // namespace
+InitialGrains checked_grains(const Config& config, const std::filesystem::path& file) {
+  const bool poured = config.initial.pour.has_value();
+  PourConfig pour = config.initial.pour.value_or(PourConfig{});
+  pour.seed += static_cast<std::uint64_t>(config.initial.realisation - 1);
+  InitialGrains grains =
+      poured ? pour_grains(pour, config.grains->sizes, config.size) : read_grains(file);
+  const std::string source = poured ? "initial.grains.pour" : file.string();
+  if (grains.size() == 0) throw InputError(source + " holds no grains");
+  const auto [least, most] = std::minmax_element(grains.diameter.begin(), grains.diameter.end());
+  check_sizes({{*least, 1}, {*most, 1}}, config, source);
+  wrap(grains, config);
+  check_inside(grains, config, source);
+  return grains;
+}
 
 SystemState make_initial_state(const Config& config, const InitialFiles& files, MPI_Comm ranks,
                                const Decomposition* pencils) {
   SystemState state;
   if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
   if (config.grains) {
-    const bool poured = config.initial.pour.has_value();
-    PourConfig pour = config.initial.pour.value_or(PourConfig{});
-    pour.seed += static_cast<std::uint64_t>(config.initial.realisation - 1);
-    InitialGrains grains =
-        poured ? pour_grains(pour, config.grains->sizes, config.size) : read_grains(files.grains);
-    const std::string source = poured ? "initial.grains.pour" : files.grains.string();
-    if (grains.size() == 0) throw InputError(source + " holds no grains");
-    check_sizes(grains, config, source);
-    wrap(grains, config);
-    check_inside(grains, config, source);
+    const InitialGrains grains = checked_grains(config, files.grains);
     state.grains = make_grain_state(grains, config.grains->density, ranks);
   }
   return state;

@@ -5,6 +5,7 @@
 
 #include "src/config/config.hpp"
 #include "src/coupling/coupled_step.hpp"
+#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 
@@ -12,6 +13,15 @@ namespace barchan {
 struct InitialFiles {
   std::filesystem::path fluid, grains;  // empty: not from a file
 };
+
+/// Refuses grains of sizes that the steps or the domain do not suit: InputError, which says that
+/// they came from `source`.
+void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
+                 const std::string& source);
+
+/// The grains that a case starts with: poured, or of a .csv or .h5 `file`. Throws InputError if the
+/// case does not suit them, and what the readers throw.
+InitialGrains checked_grains(const Config& config, const std::filesystem::path& file);
 
 /// Flow at rest, uniform, turbulent or from a file; grains poured or from a file. The grains' list
 /// and the fluid fraction come with CoupledStep::start. Among `ranks`, the flow on `pencils`.

@@ -53,19 +53,24 @@ void check_environment() {
   }
 }
 
+template <class Work>
+int with_kokkos(const CommandLine& line, const Work& work) {
+  check_environment();
+  Kokkos::InitializationSettings settings;
+  if (line.threads > 0) settings.set_num_threads(line.threads);
+  // Ranks that share cores were asked for: a warning from each would bury the run's own lines.
+  if (rank_count(MPI_COMM_WORLD) > 1) settings.set_disable_warnings(true);
+  const Kokkos::ScopeGuard kokkos(settings);
+  return work();
+}
+
 int execute(const CommandLine& line) {
   switch (line.command) {
-    case Command::run: {
-      check_environment();
-      Kokkos::InitializationSettings settings;
-      if (line.threads > 0) settings.set_num_threads(line.threads);
-      // Ranks that share cores were asked for: a warning from each would bury the run's own lines.
-      if (rank_count(MPI_COMM_WORLD) > 1) settings.set_disable_warnings(true);
-      const Kokkos::ScopeGuard kokkos(settings);
-      return run_command(line);
-    }
+    case Command::run:
+      return with_kokkos(line, [&] { return run_command(line); });
     case Command::check:
-      return run_check(line, std::cout);
+      if (line.resolved_only) return run_check(line, std::cout);
+      return with_kokkos(line, [&] { return run_check(line, std::cout); });
     case Command::keys:
       std::cout << keys_page();
       break;

@@ -1,16 +1,13 @@
-// The commands run and check.
+// The command run.
 #include <unistd.h>
-
-#include <ostream>
 
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/realisation.hpp"
-#include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/commands.hpp"
 #include "src/run/simulation.hpp"
+#include "src/run/starts.hpp"
 #include "src/run/watchdog.hpp"
 
 namespace barchan {
@@ -36,14 +33,12 @@ void run_one(const Config& config, const RunOptions& options);
 /// is run in the same realisation, or run to its end, if the state is missing.
 fs::path start_file(const fs::path& source, const fs::path& beside, int realisation) {
   if (source.extension() != ".toml") return source.extension().empty() ? fs::path() : source;
-  const Config first = load_config(source), config = realisation_of(first, realisation);
-  const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
-  const fs::path folder = beside / (source.stem().string() + other);
-  const bool same = is_written_in(folder / "config.toml", config);
+  const StartCase start = start_case(source, beside, realisation);
+  const auto& [first, config, folder, begun, done] = start;
   // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
-  if (!broadcast(same && status_in(folder / "run.json") == "done", MPI_COMM_WORLD)) {
+  if (!broadcast(done, MPI_COMM_WORLD)) {
     report::info("first the case it starts from: {} -> {}", config.title, folder.string());
-    auto restart = same ? latest_checkpoint(folder) : std::nullopt;
+    auto restart = begun ? latest_checkpoint(folder) : std::nullopt;
     if (!restart && config.time.end > first.time.end)  // the same flow some time later
       restart = start_file(source, beside, realisation - 1);
     run_one(config, {.folder = folder, .restart = restart});
@@ -66,8 +61,7 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
 /// Refuses what this machine cannot hold, before it is asked for the memory.
 void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
   const double need = derive(config, sizes).memory / rank_count(MPI_COMM_WORLD);
-  const double have =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double have = memory_of_machine();
   if (need <= have) return;
   throw InputError(fmt::format(
       "{}: this case needs about {:.3g} GB a rank, and this machine has {:.3g} GB: take fewer "
@@ -94,7 +88,8 @@ void check_folder(const Config& config, const RunOptions& options) {
 }
 
 void run_one(const Config& config, const RunOptions& options) {
-  const auto sizes = known_sizes(config);
+  const auto sizes =
+      options.restart ? known_sizes(config) : grains_ahead(config, options.folder).sizes;
   check_memory(config, sizes);
   check_folder(config, options);
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
@@ -116,17 +111,25 @@ void run_one(const Config& config, const RunOptions& options) {
 
 }  // namespace
 
+double memory_of_machine() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+fs::path run_folder(const CommandLine& line) {
+  return line.out.value_or(fs::path("runs") / line.file.stem());
+}
+
 int run_command(const CommandLine& line) {
   const Watchdog watchdog(line.patience, MPI_COMM_WORLD);
   const Config config = load_config(line.file, line.overrides);
   if (line.dry_run) {
     report::info("{}", config.title);
-    show_numbers(config, known_sizes(config));
+    show_numbers(config, grains_ahead(config, run_folder(line)).sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }
-  const RunOptions options{.folder = line.out.value_or(fs::path("runs") / line.file.stem()),
-                           .restart = line.restart};
+  const RunOptions options{.folder = run_folder(line), .restart = line.restart};
   try {
     if (line.starts_only) {
       start_files(config, options.folder);
@@ -138,25 +141,6 @@ int run_command(const CommandLine& line) {
   } catch (const Stopped&) {
     return 3;
   }
-}
-
-int run_check(const CommandLine& line, std::ostream& out) {
-  const Config config = load_config(line.file, line.overrides);
-  if (line.resolved_only) {
-    out << to_toml(config);
-    return 0;
-  }
-  const auto sizes = known_sizes(config);
-  out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
-  out << "\n# What follows from it\n\n" << to_text(derive(config, sizes));
-  if (config.grains && sizes.empty()) {
-    out << "  grain sizes             as in " << config.initial.grains.string()
-        << ": the grain step is checked against them in the run\n";
-  }
-  const auto warnings = config_warnings(config, sizes);
-  if (!warnings.empty()) out << '\n';
-  for (const std::string& warning : warnings) out << warning << '\n';
-  return 0;
 }
 
 }  // namespace barchan

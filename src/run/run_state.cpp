@@ -44,6 +44,10 @@ double per_step(const RunState& run, double sum) {
   return sum / std::max<double>(1, static_cast<double>(run.clock.steps_done()));
 }
 
+double rebuilds_per_step(const RunState& run) {
+  return per_step(run, static_cast<double>(run.coupled_step.neighbor_list().rebuilds()));
+}
+
 /// Cells of all ranks, each as often as it was computed.
 double cell_steps(const RunState& run) {
   if (!run.state.fluid) return 0;
@@ -98,6 +102,18 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
   }
   count_grains();
   clock.start = clock.step;
+}
+
+RunState::RunState(const Config& the_case, std::unique_ptr<const Decomposition> the_pencils,
+                   SystemState first)
+    : config(the_case),
+      provenance(make_provenance(config)),
+      clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
+      pencils(std::move(the_pencils)),
+      state(std::move(first)),
+      coupled_step(config, state) {
+  coupled_step.start(state);
+  count_grains();
 }
 
 void RunState::go_on_from(const CheckpointReader& file) {
@@ -165,6 +181,7 @@ Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRow>
   p.t_start = static_cast<double>(run.clock.start) * run.clock.fluid_step;
   p.t_end = run.config.time.end;
   p.grain_steps_per_second = static_cast<double>(grain_steps) / seconds;
+  if (run.state.grains) p.list_rebuilds = rebuilds_per_step(run);
   if (run.state.fluid) {
     p.cell_steps_per_second = cell_steps(run) / seconds;
     p.cfl = run.coupled_step.fluid_report().courant;
@@ -200,10 +217,7 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["pressure_iterations_max"] = all.most_iterations;
   json["max_cfl"] = all.courant;
   json["max_overlap"] = max_overlap;
-  if (run.state.grains) {
-    const auto rebuilds = static_cast<double>(run.coupled_step.neighbor_list().rebuilds());
-    json["list_rebuilds"] = per_step(run, rebuilds);
-  }
+  if (run.state.grains) json["list_rebuilds"] = rebuilds_per_step(run);
   json["max_continuity_residual"] = all.continuity_residual;
   if (ranks > 1) json["communication"] = communication(run, messages_at_start);
   json["ledger"] = run.coupled_step.ledger().entries();

@@ -31,6 +31,8 @@ struct RunClock {
 struct RunState {
   /// Starts a new run, or goes on from a restart file; see Simulation. All ranks together.
   RunState(const Config& config, const CheckpointReader* restart, const InitialFiles& files);
+  /// Starts from a state that was made for it, with the same `pencils`.
+  RunState(const Config& config, std::unique_ptr<const Decomposition> pencils, SystemState state);
 
   /// One fluid step.
   void advance();

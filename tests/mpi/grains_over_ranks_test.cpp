@@ -69,6 +69,19 @@ TEST(GrainsOverRanks, PairsAreThoseOfOneRank) {
   }
 }
 
+// A few fast grains have partners two columns away, and so on ranks that own no column beside
+// theirs.
+TEST(GrainsOverRanks, PairsOfFastGrainsAreThoseOfOneRank) {
+  const std::array<double, 3> size{0.003, 0.003, 0.003};
+  InitialGrains grains = testing::random_grains(5000, size, 5);
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (g % 20 != 0) grains.u[g] = 1e-3 * grains.u[g];
+  const SharedGrains s(box(size), grains);
+  const auto whole = owned_in(pairs_of(s.whole.state));
+  ASSERT_GT(whole.size(), 10000u);
+  EXPECT_EQ(whole, owned_in(from_all_ranks(pairs_of(s.shared.state))));
+}
+
 TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
   const Config c = box({0.008, 0.006, 0.005});
   SharedGrains s(c, testing::lattice_packing(6000, c.size, 0.5));

@@ -23,7 +23,7 @@ struct GrainInThinRows {
   GridRef grid = host.ref();
 
   GrainRows rows(Real y) const {
-    return {deposit_stencil_in(grid, PointSet::divided, false),
+    return {deposit_stencil_in(grid, PointModel::divided, false),
             GrainKinematics{.x = {0.004, y, 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}}};
   }
 };
@@ -58,7 +58,7 @@ TEST(DragBetweenRows, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   const test::HostGrid host = thick_rows();
   const GridRef grid = host.ref();
   const GrainRows two{
-      deposit_stencil_in(grid, PointSet::divided, false),
+      deposit_stencil_in(grid, PointModel::divided, false),
       {.x = {0.004, grid.y_face(4), 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}}};
   EXPECT_NEAR(two.conductance_below(4), 19.0 / 29 * 10 / 29, 1e-15);
   EXPECT_EQ(two.conductance_below(3) + two.conductance_below(5), 0);

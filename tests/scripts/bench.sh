@@ -21,8 +21,14 @@ compare() {  # compare EXPECTED_STATUS ARGUMENT...
 
 says() { grep -qE -- "$2" "$1" || fail "expected '$2', got '$(cat "$1")'"; }
 
-suite "$dir/a.jsonl" --benchmark_repetitions=2
-"$bench" --benchmark_list_tests 2> /dev/null | sed 's|/[a-z]*_time$||' > "$dir/names"
+# Dunes that move, in place of those of 10,000 and 100,000 grains.
+for dune in dune-10k dune-100k; do
+  "$BARCHAN_PROGRAM" run "$root/tests/support/small_dune.toml" --quiet --out "$dir/runs/$dune" > "$dir/out" 2>&1 ||
+    fail "the dune of a benchmark: $(tail -n 5 "$dir/out")"
+done
+
+suite "$dir/a.jsonl" --benchmark_repetitions=2 "--runs=$dir/runs"
+"$bench" --benchmark_list_tests "--runs=$dir/runs" 2> /dev/null | sed 's|/[a-z]*_time$||' > "$dir/names"
 "$python" "$root/tests/support/check_bench_records.py" "$dir/a.jsonl" "$dir/names" || failures=$((failures + 1))
 
 # Two records of one program.

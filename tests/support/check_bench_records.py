@@ -38,7 +38,8 @@ def check_counts(record):
     case, counts = record["case"], record["counts"]
     has_grains = "grains" in record["sizes"]
     if has_grains and case != "kernel/integration":
-        expect(case, counts["contacts"] > record["sizes"]["grains"] / 2, f"{counts['contacts']} contacts")
+        least = 0 if "dune" in case else 0.5  # the dune of the test has 200 grains, most of them fly
+        expect(case, counts["contacts"] > least * record["sizes"]["grains"], f"{counts['contacts']} contacts")
         expect(case, counts["pairs"] >= counts["contacts"], "fewer pairs than contacts")
     if case == "kernel/integration":
         expect(case, counts["pairs"] == 0, f"{counts['pairs']} pairs among loose grains")
@@ -72,7 +73,7 @@ def main():
     with open(sys.argv[2], encoding="utf-8") as file:
         names = file.read().split()
     found = [record["case"] for record in records]
-    expect("suite", len(names) >= 18, f"only {len(names)} benchmarks")
+    expect("suite", len(names) >= 21, f"only {len(names)} benchmarks")
     expect("suite", sorted(found) == sorted(names), f"records of {found}, not of {names}")
     for record in records:
         check_whole(record)

@@ -48,7 +48,10 @@ TEST(CommandLine, RunWithAll) {
 }
 
 TEST(CommandLine, CheckAndInfo) {
-  const CommandLine check = parse({"check", "case.toml", "--set", "time.end=1"});
+  const CommandLine check =
+      parse({"check", "case.toml", "--set", "time.end=1", "--threads", "2", "--out", "runs/a"});
+  EXPECT_EQ(check.threads, 2);
+  EXPECT_EQ(check.out, "runs/a");
   EXPECT_EQ(check.command, Command::check);
   EXPECT_EQ(check.file, "case.toml");
   EXPECT_EQ(check.overrides, std::vector<std::string>{"time.end=1"});
@@ -78,7 +81,7 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({"run", "a.toml", "--patience", "-1"}, "--patience");
   expect_bad({"run", "a.toml", "--patience", "soon"}, "--patience");
   expect_bad({"run", "a.toml", "--set"}, "--set");
-  expect_bad({"check", "a.toml", "--out", "d"}, "--out");
+  expect_bad({"check", "a.toml", "--restart", "r.h5"}, "--restart");
   expect_bad({"info"}, "FILE is required");
 }
 

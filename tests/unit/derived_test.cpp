@@ -100,13 +100,8 @@ TEST(Derived, ASecondWallHalvesTheDepthAndNoWallHasNoFriction) {
   EXPECT_EQ(derive(c, {}).fluid->u_star, 0.0);
 }
 
-TEST(Derived, CostGrowsWithStepsCellsAndGrains) {
-  const Derived d = derive(paper_case(), table_2);
-  EXPECT_NEAR(d.wall_time, 400000 * (0.4725 / 5 + 1 / 1.5), 1e-3);
-  Config frozen = paper_case();
-  frozen.grains->frozen = true;
-  EXPECT_NEAR(derive(frozen, table_2).wall_time, 400000 * 0.4725 / 5, 1e-3);
-  EXPECT_GT(d.memory, derive(paper_case(), {}).memory);
+TEST(Derived, MemoryGrowsWithGrains) {
+  EXPECT_GT(derive(paper_case(), table_2).memory, derive(paper_case(), {}).memory);
 }
 
 }  // namespace

@@ -135,6 +135,24 @@ TEST_P(NeighborListShapes, NorAnyOfAFewFastGrains) {
   for (const auto& pair : all_pairs(s, false, lx, lz)) EXPECT_TRUE(listed.count(pair));
 }
 
+// Among many grains some pairs lie two columns apart: one of theirs is fast.
+TEST(NeighborList, FastGrainsMeetPartnersTwoColumnsAway) {
+  Config c = grain_config();
+  c.size = {0.003, 0.003, 0.003};
+  GrainState s = make_grain_state(random_grains(5000, c.size, 5), 2500);
+  slow_down_most(s, 1e-3);
+  NeighborList list(c, s.r_max);
+  list.rebuild(s, false);
+  EXPECT_EQ(listed_pairs(s), all_pairs(s, true, 0, c.size[2]));
+  const auto i = host_copy(s.list.i), j = host_copy(s.list.j);
+  const auto kin = host_copy(s.kin);
+  const Real column = 2 * s.r_max + 3 * c.grains->skin;
+  int n_far = 0;
+  for (int p = 0; p < s.list.n_pairs; ++p)
+    n_far += std::abs(kin(i(p)).x.x - kin(j(p)).x.x) > column ? 1 : 0;
+  EXPECT_GT(n_far, 100);
+}
+
 // However fast all are, a skin is on average at most half as wide again as at rest.
 TEST(NeighborList, WhenAllAreFastNoneHasAWideSkin) {
   const Config c = grain_config();

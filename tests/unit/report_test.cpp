@@ -73,16 +73,19 @@ TEST(Progress, ShowsWhatARunHas) {
   Progress p{.t = 2.5, .t_start = 0, .t_end = 10};
   EXPECT_EQ(format_progress(p, -1), "t 2.5 s  25.0 %");
   p.grain_steps_per_second = 17.3e6;
+  p.list_rebuilds = 0.625;
   p.n_grains = 98765;
-  EXPECT_EQ(format_progress(p, 185),
-            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  grains 98765");
+  EXPECT_EQ(
+      format_progress(p, 185),
+      "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  0.62 lists/step  grains 98765");
   p.cell_steps_per_second = 9.1e6;
   p.cfl = 0.051;
   p.pressure_iterations = 4.96;
   p.dune_width = 0.0451;
   p.dune_length = 0.06;
   EXPECT_EQ(format_progress(p, 185),
-            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  9.10 M cell-steps/s  "
+            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  0.62 lists/step  9.10 M "
+            "cell-steps/s  "
             "CFL 0.051  p-it 5.0  grains 98765  W 45.1 mm  L 60.0 mm");
 }
 

@@ -1,0 +1,37 @@
+// The command check.
+#include <ostream>
+
+#include "src/base/errors.hpp"
+#include "src/config/derived.hpp"
+#include "src/config/load.hpp"
+#include "src/config/resolved.hpp"
+#include "src/config/validate.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/run/commands.hpp"
+#include "src/run/estimate.hpp"
+
+namespace barchan {
+
+int run_check(const CommandLine& line, std::ostream& out) {
+  const Config config = load_config(line.file, line.overrides);
+  if (line.resolved_only) {
+    out << to_toml(config);
+    return 0;
+  }
+  const std::filesystem::path folder = run_folder(line);
+  const GrainsAhead ahead = grains_ahead(config, folder);
+  for (const StartCase& start : missing_starts(config, folder))
+    grains_ahead(start.config, start.folder);  // throws if the run of a start would
+  const Derived derived = derive(config, ahead.sizes);
+  std::string cost = "  wall time               not timed: this machine has too little memory\n";
+  if (derived.memory < memory_of_machine())
+    cost = as_input([&] { return estimate(config, folder, ahead); });
+  out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
+  out << "\n# What follows from it\n\n" << to_text(derived) << cost;
+  const auto warnings = config_warnings(config, ahead.sizes);
+  if (!warnings.empty()) out << '\n';
+  for (const std::string& warning : warnings) out << warning << '\n';
+  return 0;
+}
+
+}  // namespace barchan

@@ -1,0 +1,144 @@
+#include "src/run/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <Kokkos_Core.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/grains/grain_skins.hpp"
+#include "src/base/report.hpp"
+#include "src/config/derived.hpp"
+#include "src/grains/grain_skins.hpp"
+#include "src/run/initial_state.hpp"
+
+namespace barchan {
+
+namespace {
+
+// Measured in runs of the shipped cases (docs/performance.md, Estimates). A grain step of a moving
+// dune is dearer than one at rest: contacts come and go, and are looked for more often.
+constexpr double moving_over_resting = 1.2;
+// Iterations of the pressure equation where grains move.
+constexpr double iterations_of_moving = 4;
+// A line of history.csv with run.json [s], and what frames take on their way to the disk [byte/s].
+constexpr double seconds_per_history_line = 1e-3, bytes_per_second = 1e8;
+constexpr double bytes_of_grain = 100, bytes_of_cell = 56;
+
+bool moves(const Config& config) { return config.grains && !config.grains->frozen; }
+
+double times(double interval, double duration) {
+  return interval > 0 ? std::max(0.0, duration) / interval : 0;
+}
+
+double output_seconds(const Config& config, double n_grains, const PartSeconds& parts) {
+  const OutputConfig& o = config.output;
+  const double end = config.time.end;
+  const auto often = [&](double interval) {
+    return interval > 0 ? times(std::max(interval, config.time.fluid_step), end) : 0;
+  };
+  double bytes = n_grains * bytes_of_grain * (often(o.grains_interval) + often(o.tracks_interval));
+  if (config.fluid) {
+    const auto& [nx, ny, nz] = config.fluid->cells;
+    bytes += bytes_of_cell * nx * ny * nz * often(o.fields_interval);
+  }
+  double seconds = seconds_per_history_line * often(o.history_interval) + bytes / bytes_per_second +
+                   parts.dunes * often(o.dune_interval);
+  if (const auto& s = config.statistics) {
+    seconds += parts.sample * times(std::max(s->interval, config.time.fluid_step), end - s->start);
+  }
+  return seconds;
+}
+
+/// The fastest grains, about [m/s]: slower than the flow, else as they fall.
+double fastest_of(const Config& config, const GrainNumbers& grains) {
+  if (config.fluid) return std::max(0.4 * derive(config, {}).fluid->bulk_velocity, 1e-3);
+  if (grains.fall_velocity > 0) return grains.fall_velocity;
+  const auto& g = config.grains->gravity;
+  return std::sqrt(std::hypot(g[0], g[1], g[2]) * config.size[1]);
+}
+
+/// Grains for the pilot: those that are there, or what those that are poured will settle to.
+InitialGrains grains_for(const Config& config, const GrainsAhead& ahead) {
+  if (!config.grains) return {};
+  if (ahead.grains) return *ahead.grains;
+  const Config& pours = ahead.poured_in;
+  // What loses no energy does not settle.
+  if (config.grains->material.restitution == 1) return checked_grains(pours, {});
+  return packed_grains(*pours.initial.pour, pours.grains->sizes, pours.size);
+}
+
+RunSeconds timed(const Config& config, const GrainsAhead& ahead, double budget) {
+  return run_seconds(config, ahead.sizes, time_parts(config, grains_for(config, ahead), budget));
+}
+
+/// Two digits of what takes less than ten seconds.
+std::string about(double seconds) {
+  return "about " + (seconds < 9.95 ? fmt::format("{:.1f} s", seconds) : format_duration(seconds));
+}
+
+std::string shares(const RunSeconds& s) {
+  std::string text;
+  const auto add = [&](const char* name, double seconds) {
+    const double share = std::round(100 * seconds / s.all());
+    if (share > 0) text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, share);
+  };
+  add("grains", s.grains);
+  add("lists", s.lists);
+  add("exchange", s.exchange);
+  add("flow", s.flow);
+  add("output", s.output);
+  return text;
+}
+
+}  // namespace
+
+double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes) {
+  const GrainNumbers grains = *derive(config, sizes).grains;
+  const GrainSkins skins(config, grains.d_max / 2);
+  const double fastest = fastest_of(config, grains);
+  const double mean = fastest / 30;  // most grains of a dune hardly move
+  return fastest > 0 ? 1 / skin_horizon(skins.least(), skins.largest(), fastest, mean) : 0;
+}
+
+RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes,
+                       const PartSeconds& parts) {
+  const Derived derived = derive(config, sizes);
+  const auto steps = static_cast<double>(derived.fluid_steps);
+  RunSeconds s;
+  const bool moving_flow = moves(config) && config.fluid;
+  const double iterations =
+      moving_flow ? std::max(1.0, iterations_of_moving / std::max(1.0, parts.iterations)) : 1;
+  s.flow = steps * (parts.flow + iterations * parts.pressure);
+  s.exchange = steps * parts.exchange;
+  if (moves(config) && derived.grains) {
+    s.grains = steps * derived.grain_substeps * parts.grain_step *
+                   (moving_flow ? moving_over_resting : 1) +
+               steps * parts.state_checks;
+    // Rebuilds during a grain step: one at most.
+    const double rebuilds =
+        std::min(rebuild_rate(config, sizes) * config.time.end, steps * derived.grain_substeps);
+    s.lists = rebuilds * parts.rebuild;
+  }
+  const double n_grains = derived.grains ? static_cast<double>(derived.grains->count) : 0;
+  s.output = output_seconds(config, n_grains, parts);
+  return s;
+}
+
+std::string estimate(const Config& config, const std::filesystem::path& folder,
+                     const GrainsAhead& ahead) {
+  const auto missing = missing_starts(config, folder);
+  const double budget = 1.5 / (2 + static_cast<double>(missing.size()));
+  const RunSeconds here = timed(config, ahead, 2 * budget);
+  const int threads = Kokkos::DefaultExecutionSpace().concurrency();
+  std::string text = fmt::format("  {:<24}{} on {} thread{}, timed just now ({})\n", "wall time",
+                                 about(here.all()), threads, threads == 1 ? "" : "s", shares(here));
+  for (const StartCase& start : missing) {
+    const RunSeconds before = timed(start.config, grains_ahead(start.config, start.folder), budget);
+    text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
+                        start.folder.filename().string());
+  }
+  return text;
+}
+
+}  // namespace barchan

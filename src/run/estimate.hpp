@@ -1,0 +1,32 @@
+// How long a case will take on this machine.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/run/pilot.hpp"
+#include "src/run/starts.hpp"
+
+namespace barchan {
+
+/// Wall seconds of a whole run, by part.
+struct RunSeconds {
+  double flow = 0, exchange = 0, grains = 0, lists = 0, output = 0;
+  double all() const { return flow + exchange + grains + lists + output; }
+};
+
+/// What a run of the case takes whose parts take so long. `sizes`: of its grains.
+RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes,
+                       const PartSeconds& parts);
+
+/// New neighbour lists in a second of simulated time, about. `sizes` must hold some.
+double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes);
+
+/// Lines for a terminal: what the case takes on this machine, timed for about a second, and the
+/// starts that are missing beside `folder`. `ahead`: its grains. Kokkos must run; all ranks
+/// together.
+std::string estimate(const Config& config, const std::filesystem::path& folder,
+                     const GrainsAhead& ahead);
+
+}  // namespace barchan

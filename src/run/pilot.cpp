@@ -1,0 +1,196 @@
+#include "src/run/pilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "src/coupling/state_checks.hpp"
+#include "src/fluid/domain.hpp"
+#include "src/fluid/initial_flow.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/run/results_writer.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr double most_cells = 1e6, most_grains = 3e5;
+
+/// A part of the case that has the same cells and grains: all of it, or a slice across x.
+struct Slice {
+  Config config;
+  InitialGrains grains;
+  double cells_per_cell = 1, grains_per_grain = 1;  // of the case, for each in the slice
+};
+
+/// `grains` in order of x from the first on, as many as are timed, moved to x = 0.
+InitialGrains first_grains(const InitialGrains& grains, double length) {
+  std::vector<std::size_t> order(grains.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t g) { return grains.x[g].x; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(most_grains)));
+  InitialGrains first;
+  const double start = grains.x[order.front()].x;
+  for (const std::size_t g : order) {
+    const Vec3 x = grains.x[g] - Vec3{start, 0, 0};
+    if (x.x <= length) first.add(grains.id[g], grains.diameter[g], x);
+  }
+  return first;
+}
+
+Slice slice_of(const Config& config, const InitialGrains& grains) {
+  Slice slice{.config = config, .grains = grains};
+  if (config.fluid) {
+    const auto& [nx, ny, nz] = config.fluid->cells;
+    const int parts = std::clamp(
+        static_cast<int>(std::ceil(static_cast<double>(nx) * ny * nz / most_cells)), 1, nx / 8 + 1);
+    slice.config.fluid->cells[0] = nx / parts;
+    slice.config.size[0] *= (nx / parts) / static_cast<double>(nx);
+    slice.cells_per_cell = static_cast<double>(nx) / (nx / parts);
+  }
+  const auto n = static_cast<double>(grains.size());
+  if (slice.cells_per_cell > 1 || n > most_grains) {
+    if (n > 0) slice.grains = first_grains(grains, slice.config.size[0]);
+    slice.grains_per_grain = n / std::max<double>(1, static_cast<double>(slice.grains.size()));
+  }
+  return slice;
+}
+
+/// So heavy that nothing moves them: they touch as they do in the heap for as long as is timed.
+void hold_grains(GrainConfig& grains) {
+  grains.density *= 1e9;
+  grains.gravity = {};
+  grains.max_overlap = 1;
+}
+
+/// What lies outside the domain would be met by no cell; a start in another domain may have that.
+InitialGrains inside(const InitialGrains& grains, const std::array<double, 3>& size) {
+  InitialGrains kept;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vec3& x = grains.x[g];
+    const bool in = x.x >= 0 && x.x <= size[0] && x.z >= 0 && x.z <= size[2] && x.y <= size[1];
+    if (in) kept.add(grains.id[g], grains.diameter[g], x);
+  }
+  return kept;
+}
+
+RunState start(const Config& config, const InitialGrains& grains) {
+  const MPI_Comm ranks = MPI_COMM_WORLD;
+  auto pencils = make_decomposition(config, ranks);
+  SystemState state;
+  if (config.fluid) {
+    state.fluid = make_fluid_state(make_grid(config, pencils.get()));
+    set_uniform_flow(config, *state.fluid);
+  }
+  if (config.grains) state.grains = make_grain_state(grains, config.grains->density, ranks);
+  return {config, std::move(pencils), std::move(state)};
+}
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto start = WallClock::now();
+  work();
+  Kokkos::fence("end of a part that is timed");
+  return seconds_since(start);
+}
+
+/// A quarter of the values are less: other programs only ever make a part take longer.
+double lower_quartile(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Steps of a short run, each part of them timed.
+class Pilot {
+ public:
+  explicit Pilot(const Slice& slice)
+      : slice_(slice),
+        run_(start(slice.config, slice.grains)),
+        diagnostics_(run_),
+        checks_(slice.config, run_.ranks),
+        moves_(slice.config.grains && !slice.config.grains->frozen) {}
+
+  PartSeconds time(double budget) {
+    const auto start = WallClock::now();
+    one_step();  // brings memory and plans into being
+    for (auto* seconds : {&flow_, &pressure_, &iterations_, &exchange_, &grains_, &checks_took_})
+      seconds->clear();
+    const auto go_on = [&] {
+      return flow_.size() < 3 || (seconds_since(start) < budget && flow_.size() < 300);
+    };
+    try {
+      while (broadcast(go_on(), run_.ranks)) one_step();
+    } catch (const StateError&) {  // a flow that is unstable soon; what was timed is as good
+    }
+    return parts();
+  }
+
+ private:
+  void one_step() {
+    CoupledStep& step = run_.coupled_step;
+    SystemState& state = run_.state;
+    const double gather = seconds_of([&] { step.gather(state); });
+    if (moves_) grains_.push_back(seconds_of([&] { step.move_grains(state, n_); }) / n_);
+    exchange_.push_back(gather + seconds_of([&] { step.deposit(state); }));
+    flow_.push_back(seconds_of([&] { step.advance_fluid(state); }));
+    pressure_.push_back(step.fluid_report().seconds_pressure);
+    iterations_.push_back(step.fluid_report().pressure_iterations);
+    step.close_step(state);
+    checks_took_.push_back(seconds_of([&] { check(); }));
+    // As many grain steps as take about 20 ms, but some: the first looks for contacts anew.
+    constexpr int least = 16;
+    if (moves_)
+      n_ = std::min(std::max(least, static_cast<int>(0.02 / grains_.back())), step.substeps());
+  }
+
+  /// What the checks of a run say of this one does not matter.
+  void check() {
+    try {
+      checks_.check(run_.state, run_.coupled_step);
+    } catch (const StateError&) {
+    }
+  }
+
+  PartSeconds parts() {
+    PartSeconds p;
+    p.pressure = slice_.cells_per_cell * lower_quartile(pressure_);
+    p.flow = slice_.cells_per_cell * lower_quartile(flow_) - p.pressure;
+    p.iterations = lower_quartile(iterations_);
+    p.exchange =
+        std::max(slice_.cells_per_cell, slice_.grains_per_grain) * lower_quartile(exchange_);
+    p.grain_step = slice_.grains_per_grain * lower_quartile(grains_);
+    p.state_checks = lower_quartile(checks_took_);
+    if (moves_) {
+      auto& list = run_.coupled_step.neighbor_list();
+      const auto rebuild = [&] { list.rebuild(*run_.state.grains, false); };
+      const double first = seconds_of(rebuild);
+      p.rebuild = slice_.grains_per_grain * std::min(first, seconds_of(rebuild));
+    }
+    if (run_.state.grains)
+      p.dunes = slice_.grains_per_grain * seconds_of([&] { diagnostics_.find_dunes(); });
+    if (run_.config.statistics)
+      p.sample = slice_.cells_per_cell * seconds_of([&] { diagnostics_.sample(); });
+    return p;
+  }
+
+  const Slice& slice_;
+  RunState run_;
+  RunDiagnostics diagnostics_;
+  StateChecks checks_;
+  bool moves_;
+  int n_ = 1;  // grain steps at a time
+  std::vector<double> flow_, pressure_, iterations_, exchange_, grains_, checks_took_;
+};
+
+}  // namespace
+
+PartSeconds time_parts(const Config& config, const InitialGrains& grains, double budget) {
+  Slice slice = slice_of(config, inside(grains, config.size));
+  if (slice.config.grains) hold_grains(*slice.config.grains);
+  return Pilot(slice).time(budget);
+}
+
+}  // namespace barchan

@@ -1,0 +1,92 @@
+#include "src/run/starts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "src/base/errors.hpp"
+#include "src/config/load.hpp"
+#include "src/config/realisation.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/run/initial_state.hpp"
+#include "src/run/run_folder.hpp"
+
+namespace barchan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path folder_beside(const fs::path& folder) { return fs::absolute(folder).parent_path(); }
+
+std::vector<SizeClass> sizes_of(const InitialGrains& grains) {
+  std::map<double, std::int64_t> count;
+  for (const double diameter : grains.diameter) ++count[diameter];
+  std::vector<SizeClass> sizes;
+  for (const auto& [diameter, n] : count) sizes.push_back({diameter, n});
+  return sizes;
+}
+
+void add_missing(const Config& config, const fs::path& folder, std::vector<StartCase>& missing) {
+  const auto add = [&](const fs::path& source) {
+    if (source.extension() != ".toml") return;
+    StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
+    const bool known = std::ranges::any_of(
+        missing, [&](const StartCase& other) { return other.folder == start.folder; });
+    if (known || start.done) return;
+    if (!start.begun) add_missing(start.config, start.folder, missing);
+    missing.push_back(std::move(start));
+  };
+  if (config.fluid) add(config.initial.fluid);
+  if (config.grains) add(config.initial.grains);
+}
+
+GrainsAhead grains_in(const fs::path& file, const Config& config) {
+  GrainsAhead ahead;
+  ahead.grains = as_input([&] { return checked_grains(config, file); });
+  ahead.sizes = sizes_of(*ahead.grains);
+  ahead.source = file;
+  return ahead;
+}
+
+}  // namespace
+
+StartCase start_case(const fs::path& source, const fs::path& beside, int realisation) {
+  StartCase start;
+  start.first = load_config(source);
+  start.config = realisation_of(start.first, realisation);
+  const std::string other = start.config == start.first ? "" : fmt::format("-r{}", realisation);
+  start.folder = beside / (source.stem().string() + other);
+  start.begun = is_written_in(start.folder / "config.toml", start.config);
+  start.done = start.begun && status_in(start.folder / "run.json") == "done";
+  return start;
+}
+
+std::vector<StartCase> missing_starts(const Config& config, const fs::path& folder) {
+  std::vector<StartCase> missing;
+  add_missing(config, folder, missing);
+  return missing;
+}
+
+GrainsAhead grains_ahead(const Config& config, const fs::path& folder) {
+  if (!config.grains) return {};
+  if (config.initial.pour) {
+    GrainsAhead ahead;
+    ahead.sizes = config.grains->sizes;
+    ahead.poured_in = config;
+    ahead.source = config.file;
+    return ahead;
+  }
+  const fs::path& source = config.initial.grains;
+  if (source.extension() != ".toml") return grains_in(source, config);
+  const StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
+  if (start.done) {
+    if (const auto state = latest_checkpoint(start.folder)) return grains_in(*state, config);
+  }
+  GrainsAhead ahead = grains_ahead(start.config, start.folder);
+  check_sizes(ahead.sizes, config, source);
+  return ahead;
+}
+
+}  // namespace barchan

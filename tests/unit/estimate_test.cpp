@@ -1,0 +1,198 @@
+// What check knows of a case before it is run: its grains, its starts, and how long it will take.
+#include "src/run/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "src/base/errors.hpp"
+#include "src/config/load.hpp"
+#include "src/run/commands.hpp"
+#include "src/run/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace barchan {
+namespace {
+
+const std::vector<SizeClass> kSizes = {{1.5e-4, 50}, {2e-4, 900}, {2.5e-4, 50}};
+
+/// A thousand grains in a channel; 1000 fluid steps of 50 grain steps.
+Config dune() {
+  Config c;
+  c.time = {.end = 0.5, .fluid_step = 5e-4, .grain_step = 1e-5};
+  c.size = {0.04, 0.02, 0.02};
+  c.fluid = FluidConfig{.cells = {40, 20, 20}, .mean_velocity = 0.2};
+  c.grains = GrainConfig{};
+  c.output = {
+      .history_interval = 0, .dune_interval = 0, .grains_interval = 0, .fields_interval = 0};
+  return c;
+}
+
+TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {
+  Config c = dune();
+  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.flow = 2, .pressure = 1, .iterations = 4}).flow, 3000);
+  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.exchange = 3}).exchange, 3000);
+  // Of a flow that moves them: more than at rest, but not twice as much.
+  const double moving = run_seconds(c, kSizes, {.grain_step = 1}).grains;
+  EXPECT_GT(moving, 50000);
+  EXPECT_LT(moving, 100000);
+  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.rebuild = 2}).lists, rebuild_rate(c, kSizes));
+  c.grains->frozen = true;
+  EXPECT_EQ(run_seconds(c, kSizes, {.grain_step = 1, .rebuild = 2}).all(), 0);
+  c.grains->frozen = false;
+  c.fluid.reset();
+  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.grain_step = 1}).grains, 50000);
+}
+
+TEST(RunSeconds, CountOutputAndStatistics) {
+  Config c = dune();
+  c.output.dune_interval = 0.05;
+  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.dunes = 7}).output, 70);
+  c.statistics = StatisticsConfig{.start = 0.3, .interval = 0.01};
+  EXPECT_NEAR(run_seconds(c, kSizes, {.sample = 2}).output, 40, 1e-9);
+  c.output.grains_interval = 1e-9;  // a frame after every step, no more
+  const double frames = run_seconds(c, kSizes, {}).output;
+  EXPECT_GT(frames, 0);
+  c.time.end *= 2;
+  EXPECT_NEAR(run_seconds(c, kSizes, {}).output, 2 * frames, 1e-9);
+}
+
+// A list is good for as long as the fastest grain stays within the widest skin, 0.4 diameters.
+TEST(RebuildRate, FollowsTheFastestGrains) {
+  Config c = dune();
+  const double rate = rebuild_rate(c, kSizes);  // at 0.4 of 0.2 m/s, from a skin of 0.02 mm
+  EXPECT_NEAR(rate, 0.08 / (1.25e-4 + 6 * 2e-5 - 2e-5), 1e-6 * rate);
+  c.fluid->mean_velocity = 0.4;
+  EXPECT_NEAR(rebuild_rate(c, kSizes), 2 * rate, 1e-6 * rate);
+  c.fluid.reset();
+  c.grains->ambient = AmbientConfig{};
+  EXPECT_LT(rebuild_rate(c, kSizes), rate / 2);  // they fall at some 20 mm/s
+}
+
+TEST(PackedGrains, TouchAsInAHeapAtRest) {
+  for (const auto& sizes : {kSizes, std::vector<SizeClass>{{2e-4, 1000}}}) {
+    const InitialGrains g =
+        packed_grains({.centre = {0.01, 0.006}, .radius = 0.003}, sizes, {0.02, 0.02, 0.012});
+    double touching = 0;
+    for (std::size_t a = 0; a < g.size(); ++a) {
+      EXPECT_GE(g.x[a].y, g.diameter[a] / 2);
+      for (std::size_t b = 0; b < a; ++b) {
+        const double overlap = (g.diameter[a] + g.diameter[b]) / 2 - norm(g.x[a] - g.x[b]);
+        if (overlap > 0) ++touching;
+        ASSERT_LT(overlap, 0.5 * 2.5e-4);
+      }
+    }
+    // Settled heaps of 3,000 to 100,000 grains have 1.9 to 2.4 contacts a grain, and a heap so
+    // small has a wide surface.
+    EXPECT_GT(touching / 1000, 1.0);
+    EXPECT_LT(touching / 1000, 2.4);
+  }
+}
+
+/// A folder with a table of two grains and cases that use it.
+class GrainsAheadTest : public ::testing::Test {
+ protected:
+  GrainsAheadTest() {
+    write("grains.csv", "id,diameter,x,y,z\n1,2e-4,0.004,2e-4,0.003\n2,1.5e-4,0.006,2e-4,0.003\n");
+    write("table.toml", text("\"grains.csv\""));
+    write("poured.toml", text("{ pour = { centre = [0.005, 0.003], radius = 0.001 } }") +
+                             "[grains]\nsizes = [[2e-4, 30]]\n");
+    write("after.toml", text("\"poured.toml\""));
+  }
+  static std::string text(const std::string& grains) {
+    return "[case]\ntitle = \"t\"\n[time]\nend = 2e-4\nfluid_step = 1e-4\n[domain]\nsize = "
+           "[0.01, 0.01, 0.006]\n[initial]\ngrains = " +
+           grains + "\n" + (grains.starts_with("{") ? "" : "[grains]\n");
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  GrainsAhead ahead(const std::string& name) const {
+    return grains_ahead(load_config(folder_ / name), folder_ / "runs/case");
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(GrainsAheadTest, ATableIsCounted) {
+  const GrainsAhead grains = ahead("table.toml");
+  EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{1.5e-4, 1}, {2e-4, 1}}));
+  ASSERT_TRUE(grains.grains.has_value());
+  EXPECT_EQ(grains.grains->size(), 2u);
+}
+
+TEST_F(GrainsAheadTest, ATableThatTheRunWouldRefuseIsRefused) {
+  write("grains.csv", "id,x,y,z\n1,0.004,2e-4,0.003\n");
+  EXPECT_TRUE(contains(message_of([&] { ahead("table.toml"); }), "\"diameter\" is missing"));
+  write("grains.csv", "id,diameter,x,y,z\n1,2e-5,0.004,2e-4,0.003\n");
+  EXPECT_TRUE(contains(message_of([&] { ahead("table.toml"); }), "Rayleigh"));
+  write("grains.csv", "id,diameter,x,y,z\n1,2e-4,0.4,2e-4,0.003\n");
+  EXPECT_THROW(ahead("table.toml"), InputError);
+}
+
+TEST_F(GrainsAheadTest, OfAStartThoseThatItPoursUntilItHasResults) {
+  const Config config = load_config(folder_ / "after.toml");
+  GrainsAhead grains = ahead("after.toml");
+  EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{2e-4, 30}}));
+  EXPECT_FALSE(grains.grains.has_value());
+  EXPECT_EQ(grains.poured_in.title, "t");
+  const auto missing = missing_starts(config, folder_ / "runs/case");
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_EQ(missing[0].folder.filename(), "poured");
+  Simulation(missing[0].config, {.folder = missing[0].folder, .restart = {}}, {}).run();
+  EXPECT_TRUE(missing_starts(config, folder_ / "runs/case").empty());
+  grains = ahead("after.toml");
+  ASSERT_TRUE(grains.grains.has_value());
+  EXPECT_EQ(grains.grains->size(), 30u);
+}
+
+// Times differ from hour to hour; a factor of five is what no hour makes of a right estimate.
+TEST(Estimate, IsNearWhatTheRunTakes) {
+  const TemporaryFolder folder;
+  const Config config =
+      load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml",
+                  {"time.end=0.1", "output.history_interval=0.05", "output.grains_interval=0.05"});
+  const GrainsAhead ahead = grains_ahead(config, folder / "run");
+  const auto pilot = packed_grains(*config.initial.pour, config.grains->sizes, config.size);
+  const double estimated = run_seconds(config, ahead.sizes, time_parts(config, pilot, 0.2)).all();
+  Simulation simulation(config, {.folder = folder / "run", .restart = {}}, {});
+  const auto start = WallClock::now();
+  simulation.run();
+  const double taken = seconds_since(start);
+  EXPECT_GT(estimated, taken / 5);
+  EXPECT_LT(estimated, taken * 5);
+}
+
+TEST(Estimate, OfManyGrainsIsMoreThanOfFew) {
+  const Config config = load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml");
+  PourConfig pour = *config.initial.pour;
+  const auto few = packed_grains(pour, {{2e-4, 100}}, config.size);
+  pour.shape = PourShape::bed;
+  const auto many = packed_grains(pour, {{2e-4, 5000}}, config.size);
+  EXPECT_GT(time_parts(config, many, 0.1).grain_step, 5 * time_parts(config, few, 0.1).grain_step);
+}
+
+TEST(Check, TellsTheTimeTheStartsAndNarrowCells) {
+  CommandLine line;
+  line.file = BARCHAN_SOURCE_DIR "/configs/quickstart.toml";
+  const TemporaryFolder folder;
+  line.out = folder / "quickstart";
+  std::ofstream(folder / "grains.csv") << "id,diameter,x,y,z\n1,2e-4,0.004,2e-4,0.003\n";
+  line.overrides = {"fluid.cells=[300,30,150]", "initial.fluid=\"turbulent\"",
+                    "time.fluid_step=1e-4",
+                    "initial.grains=\"" + (folder / "grains.csv").string() + "\""};
+  std::ostringstream out;
+  EXPECT_EQ(run_check(line, out), 0);
+  EXPECT_TRUE(contains(out.str(), "  grains                  1, d 0.2 to 0.2")) << out.str();
+  EXPECT_TRUE(contains(out.str(), "  wall time               about "));
+  EXPECT_TRUE(contains(out.str(), "makes the smallest cell 1.00 mean grain diameters"));
+  line.overrides.clear();
+  out.str("");
+  EXPECT_EQ(run_check(line, out), 0);
+  for (const char* start : {"channel-small", "heap-3k", "flow-over-heap-3k"})
+    EXPECT_TRUE(contains(out.str(), "before that: " + std::string(start))) << out.str();
+}
+
+}  // namespace
+}  // namespace barchan
