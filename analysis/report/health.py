@@ -31,7 +31,7 @@ def checks(run, summary):
     if flow and grains:
         found += ledger(run, summary)
     if grains:
-        found += [overlap(run, summary), balance(summary)]
+        found += [overlap(run, summary), grain_step(run, summary), balance(summary)]
     return found
 
 
@@ -141,6 +141,14 @@ def overlap(run, summary):
                   "Of a touching pair, over the sum of its radii. More: grains too soft, or a grain step too "
                   "long.",
                   percent)
+
+
+def grain_step(run, summary):
+    name = "grain_step_over_stable"
+    return judged("grain step over stable step", extreme(run, summary, name, name), 1.1,
+                  "The longest step for which the contacts are stable follows from the stiffness and damping of "
+                  "all contacts of a grain. Beyond it grains that lie still shake by themselves. Cure: a shorter "
+                  "time.grain_step.")
 
 
 def balance(summary):

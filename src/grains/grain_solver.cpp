@@ -6,6 +6,7 @@
 
 #include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
+#include "kernels/grains/stable_step.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -192,6 +193,31 @@ void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Ve
                                      .tangential = tangential});
 }
 
+/// Of this rank.
+Real GrainSolver::stable_step(const GrainState& grains) const {
+  Real of_pairs = std::numeric_limits<Real>::infinity(), of_grains = of_pairs;
+  if (pair_friction_.sliding == 0 && wall_friction_.sliding == 0) return of_pairs;
+  const Kokkos::View<Real* [2]> sums("tangential sums", static_cast<std::size_t>(grains.n));
+  const auto find = [&](const auto& law) {
+    using Stiffness = std::decay_t<decltype(law)>;
+    Kokkos::parallel_reduce("grains: tangential stiffness of pairs", items(grains.list.n_pairs),
+                            TangentialOfPairs<Stiffness>{.law = law,
+                                                         .box = list_.box(),
+                                                         .list = grains.list,
+                                                         .grains = grains.kin,
+                                                         .sums = sums},
+                            Kokkos::Min<Real>(of_pairs));
+    Kokkos::parallel_reduce("grains: stable step", items(grains.n),
+                            StableStepOfGrains<Stiffness>{.law = std::get<Stiffness>(wall_law_),
+                                                          .walls = walls_,
+                                                          .grains = grains.kin,
+                                                          .sums = sums},
+                            Kokkos::Min<Real>(of_grains));
+  };
+  std::visit(find, pair_law_);
+  return std::min(of_pairs, of_grains);
+}
+
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   ContactSummary summary;
   Kokkos::parallel_reduce(
@@ -202,7 +228,8 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   if (summary.n_contacts == 0)
     summary.max_overlap = 0;  // the maximum over nothing is minus infinity
   return {.n_contacts = sum_over(grains.ranks, summary.n_contacts),
-          .max_overlap = max_over(grains.ranks, summary.max_overlap)};
+          .max_overlap = max_over(grains.ranks, summary.max_overlap),
+          .stable_step = -max_over(grains.ranks, -stable_step(grains))};
 }
 
 }  // namespace barchan

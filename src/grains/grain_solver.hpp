@@ -1,6 +1,7 @@
 // The grains' equations of motion over the sub-steps of one fluid step.
 #pragma once
 
+#include <limits>
 #include <variant>
 
 #include "kernels/grains/contact_geometry.hpp"
@@ -16,6 +17,8 @@ using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
 struct ContactSummary {
   std::int64_t n_contacts = 0;  // grain-grain
   Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
+  // Longest grain step for which they are stable [s]; infinite without friction.
+  Real stable_step = std::numeric_limits<Real>::infinity();
 };
 
 /// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
@@ -61,6 +64,7 @@ class GrainSolver {
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
+  Real stable_step(const GrainState& grains) const;
 
   NeighborList list_;
   StiffnessLaw pair_law_, wall_law_;

@@ -139,6 +139,23 @@ void ResultsWriter::write_due() {
   if (history) write_summary("running", "");
 }
 
+/// Over the longest step for which contacts are stable; warns of the first time it is longer by
+/// more than that is uncertain.
+double ResultsWriter::grain_step_over_stable(Real stable) {
+  if (run_.config.grains->frozen) return 0;
+  const double ratio = run_.clock.fluid_step / run_.coupled_step.substeps() / stable;
+  double& largest = accounts_.grain_step_over_stable;
+  constexpr double most = 1.1;
+  if (ratio > most && largest <= most) {
+    report::warn(
+        "t = {:.4g} s: the grain step is {:.3g} times the longest for which contacts are stable, "
+        "{:.3g} s; grains that lie still shake by themselves: shorten time.grain_step",
+        run_.clock.time(), ratio, stable);
+  }
+  largest = std::max(largest, ratio);
+  return ratio;
+}
+
 void ResultsWriter::write_history() {
   const FluidStepSums& interval = accounts_.interval;
   HistoryRow row;
@@ -162,6 +179,7 @@ void ResultsWriter::write_history() {
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
+    row.grain_step_over_stable = grain_step_over_stable(contacts.stable_step);
     const double area = run_.config.size[0] * run_.config.size[2];
     const double seconds = static_cast<double>(interval.steps) * run_.clock.fluid_step;
     row.grain_flux = volume_flow(grains) / area;

@@ -64,6 +64,7 @@ class ResultsWriter {
   std::string write_failure(const StateError& problem) const;
 
  private:
+  double grain_step_over_stable(Real stable);
   void write_history();
   void write_frames();
   bool restart_due() const;

@@ -30,7 +30,7 @@ constexpr Table history{
     "history.csv",
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap,grain_flux,"
-    "stress_on_grains"};
+    "stress_on_grains,grain_step_over_stable"};
 constexpr Table dune{
     "dune.csv",
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
@@ -214,11 +214,11 @@ void append_row(const fs::path& folder, const HistoryRow& r) {
   append_text(
       folder / history.name,
       fmt::format("{:.10g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.4g},{},{},"
-                  "{:.6g},{:.9g},{:.9g}\n",
+                  "{:.6g},{:.9g},{:.9g},{:.4g}\n",
                   r.t, r.step, r.u_star, r.bulk_velocity, r.pressure_gradient,
                   r.fluid_kinetic_energy, r.grain_kinetic_energy, r.cfl, r.continuity_residual,
                   r.pressure_iterations, r.n_grains, r.n_contacts, r.max_overlap, r.grain_flux,
-                  r.stress_on_grains));
+                  r.stress_on_grains, r.grain_step_over_stable));
 }
 
 void append_row(const fs::path& folder, const DuneRow& r) {

@@ -40,9 +40,10 @@ struct HistoryRow {
   double continuity_residual = 0;  // largest of the interval [1/s]
   double pressure_iterations = 0;  // mean of the interval
   std::int64_t n_grains = 0, n_contacts = 0;
-  double max_overlap = 0;       // over the mean diameter of the pair
-  double grain_flux = 0;        // solid volume per width and time along x [m^2/s]
-  double stress_on_grains = 0;  // of the flow along x, mean of the interval [Pa]
+  double max_overlap = 0;             // over the mean diameter of the pair
+  double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
+  double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
+  double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
 };
 
 // The next four throw std::runtime_error naming the file and the reason.

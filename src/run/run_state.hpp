@@ -67,8 +67,9 @@ struct FluidStepSums {
 
 /// Sums, extremes and rates for history.csv, the progress line and run.json.
 struct RunAccounts {
-  FluidStepSums interval, all;  // since the last row of history.csv; since begin()
-  double max_overlap = 0;       // over the mean diameter of the pair
+  FluidStepSums interval, all;        // since the last row of history.csv; since begin()
+  double max_overlap = 0;             // over the mean diameter of the pair
+  double grain_step_over_stable = 0;  // largest
   std::int64_t grain_steps = 0;
   Phases phases;  // wall time, besides those of the coupled step
   WallClock::time_point start = WallClock::now();

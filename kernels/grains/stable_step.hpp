@@ -1,0 +1,73 @@
+// The longest grain step for which contacts are stable. In a packing the tangential dashpots of all
+// contacts of a grain brake its spin together: they, not the springs, limit an explicit step.
+#pragma once
+
+#include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/contact_law.hpp"
+
+namespace barchan {
+
+/// Longest stable step [s] of a mode of motion with stiffness `k` [N/m] and damping `gamma` [kg/s]
+/// over an inertia `m` [kg]. The kicks take positions of now and velocities half a step old, so an
+/// oscillation from step to step begins to grow where k dt^2 + 2 gamma dt = 4 m. Limits: 2
+/// sqrt(m/k) without damping, 2 m / gamma without a spring.
+KOKKOS_INLINE_FUNCTION Real stable_step(Real k, Real gamma, Real m) {
+  return 4 * m / (gamma + Kokkos::sqrt(gamma * gamma + 4 * k * m));
+}
+
+/// Inertia of a sphere against slip at its surface over its mass: 1 / (1 + m r^2 / I) = 2/7; of its
+/// spin alone I / (m r^2) = 2/5.
+inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
+
+/// Adds up the tangential springs and dashpots of each grain's contacts (of all of its contacts at
+/// the same time: an upper bound within some 10 %, docs/numerics.md); reduces the shortest step of
+/// any contact alone.
+template <class Stiffness>
+struct TangentialOfPairs {
+  Stiffness law;
+  PeriodicBox box;
+  PairList list;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<Real* [2]> sums;  // (n): stiffness [N/m], damping [kg/s]
+
+  KOKKOS_FUNCTION void operator()(int p, Real& shortest) const {
+    const int i = list.i(p), j = list.j(p);
+    const GrainKinematics &a = grains(i), &b = grains(j);
+    const Real overlap = a.r + b.r - norm(box.nearest_image(a.x - b.x));
+    if (!(overlap > 0)) return;
+    const EffectivePair effective = effective_pair(a.r, b.r, a.m, b.m);
+    const ContactStiffness k = law(effective.r, effective.m, overlap);
+    for (const int g : {i, j}) {
+      if (g >= list.chunks.n) continue;
+      Kokkos::atomic_add(&sums(g, 0), k.k_t);
+      Kokkos::atomic_add(&sums(g, 1), k.gamma_t);
+    }
+    const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
+    shortest = step < shortest ? step : shortest;
+  }
+};
+
+/// Adds the walls; reduces the shortest step of all grains [s].
+template <class Stiffness>
+struct StableStepOfGrains {
+  Stiffness law;
+  WallPlanes walls;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<const Real* [2]> sums;
+
+  KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
+    const GrainKinematics& grain = grains(g);
+    Real stiffness = sums(g, 0), damping = sums(g, 1);
+    const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
+    for (int w = 0; w < walls.n; ++w) {
+      const Real overlap = walls[w].overlap(grain);
+      if (!(overlap > 0)) continue;
+      const ContactStiffness k = law(grain.r, grain.m, overlap);
+      stiffness += k.k_t, damping += k.gamma_t;
+      take(stable_step(k.k_t, k.gamma_t, kSlipInertia * grain.m));
+    }
+    if (stiffness > 0) take(stable_step(stiffness, damping, kSpinInertia * grain.m));
+  }
+};
+
+}  // namespace barchan
