@@ -233,7 +233,7 @@ struct DepositStencil {
       return columns;
     }
     for (int q = 0; q < kDividedOffsets; ++q)
-      columns.add(cell_z(z + r * divided_offset(q, false)), sets.z[q]);
+      columns.add(cell_z(z + r * divided_offset(q, true)), sets.z[q]);
     return columns;
   }
 };
