@@ -19,9 +19,9 @@ KOKKOS_INLINE_FUNCTION Real stable_step(Real k, Real gamma, Real m) {
 /// spin alone I / (m r^2) = 2/5.
 inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
 
-/// Adds up the tangential springs and dashpots of the contacts of each grain. Beside the step of all
-/// grains together this is within some 10 % (docs/numerics.md); reduces the shortest step of any
-/// contact alone.
+/// Adds up the tangential springs and dashpots of the contacts of each grain, which gives the step
+/// within some 10 % of that of all grains together (docs/numerics.md); reduces the shortest step of
+/// any contact alone [s].
 template <class Stiffness>
 struct TangentialOfPairs {
   Stiffness law;
