@@ -156,7 +156,8 @@ void add_grains(Sections& all) {
   key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
   key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
   key("skin", &G::skin, between(0, 1e3), "m",
-      "margin of the neighbour lists between grains at rest: these last until one has moved half of "
+      "margin of the neighbour lists between grains at rest: these last until one has moved half "
+      "of "
       "it, a fast one more");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");

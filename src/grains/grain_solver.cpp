@@ -1,6 +1,7 @@
 #include "src/grains/grain_solver.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -193,7 +194,6 @@ void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Ve
                                      .tangential = tangential});
 }
 
-/// Of this rank.
 Real GrainSolver::stable_step(const GrainState& grains) const {
   Real of_pairs = std::numeric_limits<Real>::infinity(), of_grains = of_pairs;
   if (pair_friction_.sliding == 0 && wall_friction_.sliding == 0) return of_pairs;
@@ -215,7 +215,7 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                             Kokkos::Min<Real>(of_grains));
   };
   std::visit(find, pair_law_);
-  return std::min(of_pairs, of_grains);
+  return -max_over(grains.ranks, -std::min(of_pairs, of_grains));
 }
 
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {
@@ -228,8 +228,7 @@ ContactSummary GrainSolver::contacts(const GrainState& grains) const {
   if (summary.n_contacts == 0)
     summary.max_overlap = 0;  // the maximum over nothing is minus infinity
   return {.n_contacts = sum_over(grains.ranks, summary.n_contacts),
-          .max_overlap = max_over(grains.ranks, summary.max_overlap),
-          .stable_step = -max_over(grains.ranks, -stable_step(grains))};
+          .max_overlap = max_over(grains.ranks, summary.max_overlap)};
 }
 
 }  // namespace barchan

@@ -1,7 +1,6 @@
 // The grains' equations of motion over the sub-steps of one fluid step.
 #pragma once
 
-#include <limits>
 #include <variant>
 
 #include "kernels/grains/contact_geometry.hpp"
@@ -17,8 +16,6 @@ using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
 struct ContactSummary {
   std::int64_t n_contacts = 0;  // grain-grain
   Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
-  // Longest grain step for which they are stable [s]; infinite without friction.
-  Real stable_step = std::numeric_limits<Real>::infinity();
 };
 
 /// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
@@ -38,6 +35,8 @@ class GrainSolver {
   void remove_left(GrainState& grains) { list_.drop_left(grains); }
   /// Contacts and largest overlap from the last sub-step.
   ContactSummary contacts(const GrainState& grains) const;
+  /// Longest grain step for which they are stable [s]; infinite without contacts or friction.
+  Real stable_step(const GrainState& grains) const;
   /// Normal and tangential contact force of each grain in the last sub-step [N]; throws
   /// std::logic_error without output.grain_forces.
   void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
@@ -64,7 +63,6 @@ class GrainSolver {
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
-  Real stable_step(const GrainState& grains) const;
 
   NeighborList list_;
   StiffnessLaw pair_law_, wall_law_;

@@ -64,7 +64,7 @@ class ResultsWriter {
   std::string write_failure(const StateError& problem) const;
 
  private:
-  double grain_step_over_stable(Real stable);
+  double grain_step_over_stable();
   void write_history();
   void write_frames();
   bool restart_due() const;

@@ -49,7 +49,7 @@ Real slip_left(Real ratio) {
   const auto kin = bench.kinematics();
   kin(0).omega.z = 1e-6;
   Kokkos::deep_copy(bench.state.kin, kin);
-  bench.advance(600, ratio * bench.solver.contacts(bench.state).stable_step);
+  bench.advance(600, ratio * bench.solver.stable_step(bench.state));
   const GrainKinematics grain = bench.grain(1);
   return std::abs(grain.u.x + grain.r * grain.omega.z) / (grain.r * 1e-6);
 }
@@ -68,7 +68,7 @@ Real energy_of_still_grains(Real ratio) {
   GrainBench bench(config, lattice_packing(400, config.size, 0.005, 1));
   set_weight(bench.state, {0, -9.81, 0});
   bench.advance(60000, 1e-5);
-  const Real dt = ratio * bench.solver.contacts(bench.state).stable_step;
+  const Real dt = ratio * bench.solver.stable_step(bench.state);
   bench.advance(static_cast<int>(0.02 / dt), dt);
   const HostGrains h(bench.state);
   return h.kinetic_energy() / h.n / (1e-8 * 9.81 * 2e-8);
@@ -84,12 +84,12 @@ TEST(StableStep, IsInfiniteWithoutContactsOrFriction) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.005, 5e-4, 0.005});
   GrainBench apart(soft_grains(), g);
-  EXPECT_TRUE(std::isinf(apart.solver.contacts(apart.state).stable_step));
+  EXPECT_TRUE(std::isinf(apart.solver.stable_step(apart.state)));
   Config smooth = soft_grains();
   smooth.grains->material.sliding_friction = smooth.grains->wall.sliding_friction = 0;
   g.x[0].y = 0.99e-4;
   GrainBench touching(smooth, g);
-  EXPECT_TRUE(std::isinf(touching.solver.contacts(touching.state).stable_step));
+  EXPECT_TRUE(std::isinf(touching.solver.stable_step(touching.state)));
 }
 
 }  // namespace

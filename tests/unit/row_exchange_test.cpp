@@ -33,8 +33,8 @@ struct Water {
     const auto z = test::host_field(grid, [&](int, int j, int) { return -2 * u(j); });
     const ConstFieldRef along_x = x.ref(), along_z = z.ref();
     const GrainKinematics grain{.x = {0.004, y, 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}};
-    return {deposit_stencil_in(grid, PointModel::divided, false), PeriodicBox{.lx = 0, .lz = grid.lz},
-            ConstFaceRef{along_x, along_x, along_z}, grain};
+    return {deposit_stencil_in(grid, PointModel::divided, false),
+            PeriodicBox{.lx = 0, .lz = grid.lz}, ConstFaceRef{along_x, along_x, along_z}, grain};
   }
   /// Within row 4, above its middle.
   Real off_centre() const { return grid.y_centre(4) + 5e-5; }
