@@ -37,13 +37,16 @@ struct TangentialOfPairs {
     if (!(overlap > 0)) return;
     const EffectivePair effective = effective_pair(a.r, b.r, a.m, b.m);
     const ContactStiffness k = law(effective.r, effective.m, overlap);
-    for (const int g : {i, j}) {
-      if (g >= list.chunks.n) continue;
-      Kokkos::atomic_add(&sums(g, 0), k.k_t);
-      Kokkos::atomic_add(&sums(g, 1), k.gamma_t);
-    }
+    add(i, k);
+    add(j, k);
     const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
     shortest = step < shortest ? step : shortest;
+  }
+  /// To a grain of this rank.
+  KOKKOS_FUNCTION void add(int g, const ContactStiffness& k) const {
+    if (g >= list.chunks.n) return;
+    Kokkos::atomic_add(&sums(g, 0), k.k_t);
+    Kokkos::atomic_add(&sums(g, 1), k.gamma_t);
   }
 };
 
