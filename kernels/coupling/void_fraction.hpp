@@ -183,7 +183,8 @@ struct DepositStencil {
     }
     PointSet to_own = 0;
     const PointsAlong rows = rows_of_points(x.y, g.r, row, to_own);
-    const PointsAlong along_x = columns_x(x.x, g.r, own.i), along_z = columns_z(x.z, g.r, own.k);
+    const PointsAlong along_x = columns_of_points<false>(x.x, g.r, own.i);
+    const PointsAlong along_z = columns_of_points<true>(x.z, g.r, own.k);
     for (int b = 0; b < rows.n; ++b) {
       for (int a = 0; a < along_x.n; ++a) {
         const PointSet set = rows.points[b] & along_x.points[a];
@@ -213,27 +214,20 @@ struct DepositStencil {
     }
     return rows;
   }
-  /// Likewise along x; all of them in the column `own` if the outermost ones are.
-  KOKKOS_INLINE_FUNCTION PointsAlong columns_x(Real x, Real r, int own) const {
+  /// Likewise along x, or along z; all of them in the column `own` if the outermost ones are.
+  template <bool along_z>
+  KOKKOS_INLINE_FUNCTION PointsAlong columns_of_points(Real centre, Real r, int own) const {
     constexpr DividedSets sets = divided_sets();
+    const auto column = [&](Real at) { return along_z ? column_z(at) : column_x(at); };
     PointsAlong columns;
-    if (column_x(x - kOuterShell * r) == column_x(x + kOuterShell * r)) {
+    if (column(centre - kOuterShell * r) == column(centre + kOuterShell * r)) {
       columns.add(own, kAllPoints);
       return columns;
     }
-    for (int q = 0; q < kDividedOffsets; ++q)
-      columns.add(cell_x(x + r * divided_offset(q, false)), sets.x[q]);
-    return columns;
-  }
-  KOKKOS_INLINE_FUNCTION PointsAlong columns_z(Real z, Real r, int own) const {
-    constexpr DividedSets sets = divided_sets();
-    PointsAlong columns;
-    if (column_z(z - kOuterShell * r) == column_z(z + kOuterShell * r)) {
-      columns.add(own, kAllPoints);
-      return columns;
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const Real at = centre + r * divided_offset(q, along_z);
+      columns.add(along_z ? cell_z(at) : cell_x(at), along_z ? sets.z[q] : sets.x[q]);
     }
-    for (int q = 0; q < kDividedOffsets; ++q)
-      columns.add(cell_z(z + r * divided_offset(q, true)), sets.z[q]);
     return columns;
   }
 };

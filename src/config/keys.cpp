@@ -157,8 +157,7 @@ void add_grains(Sections& all) {
   key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
   key("skin", &G::skin, between(0, 1e3), "m",
       "margin of the neighbour lists between grains at rest: these last until one has moved half "
-      "of "
-      "it, a fast one more");
+      "of it, a fast one more");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");
 }

@@ -35,10 +35,10 @@ int main(int, char** argv) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   for (const Level& level : levels()) {
-    if (wanted != nullptr ? std::strcmp(wanted, level.name) != 0 : !level.supported) continue;
-    if (!level.supported) break;
     const std::string program = self.string() + "." + level.name;
-    if (wanted == nullptr && !std::filesystem::exists(program, error)) continue;
+    const bool chosen = wanted != nullptr ? std::strcmp(wanted, level.name) == 0
+                                          : std::filesystem::exists(program, error);
+    if (!chosen || !level.supported) continue;
     execv(program.c_str(), argv);
     std::fprintf(stderr, "error: cannot start %s: %s\n", program.c_str(), std::strerror(errno));
     return 1;

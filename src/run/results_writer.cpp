@@ -139,9 +139,9 @@ void ResultsWriter::write_due() {
   if (history) write_summary("running", "");
 }
 
-/// Over the longest step for which contacts are stable; warns of the first time it is longer by
-/// more than that is uncertain.
-double ResultsWriter::grain_step_over_stable() {
+/// Returns the grain step over the longest for which contacts are stable. Keeps the largest ratio,
+/// and warns of the first one above what the limit is uncertain by.
+double ResultsWriter::check_grain_step() {
   if (run_.config.grains->frozen) return 0;
   const double stable = run_.coupled_step.stable_grain_step(run_.state);
   const double ratio = run_.clock.fluid_step / run_.coupled_step.substeps() / stable;
@@ -180,7 +180,7 @@ void ResultsWriter::write_history() {
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);
-    row.grain_step_over_stable = grain_step_over_stable();
+    row.grain_step_over_stable = check_grain_step();
     const double area = run_.config.size[0] * run_.config.size[2];
     const double seconds = static_cast<double>(interval.steps) * run_.clock.fluid_step;
     row.grain_flux = volume_flow(grains) / area;

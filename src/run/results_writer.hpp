@@ -64,7 +64,7 @@ class ResultsWriter {
   std::string write_failure(const StateError& problem) const;
 
  private:
-  double grain_step_over_stable();
+  double check_grain_step();
   void write_history();
   void write_frames();
   bool restart_due() const;

@@ -217,8 +217,10 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["pressure_iterations_max"] = all.most_iterations;
   json["max_cfl"] = all.courant;
   json["max_overlap"] = max_overlap;
-  if (run.state.grains) json["grain_step_over_stable"] = grain_step_over_stable;
-  if (run.state.grains) json["list_rebuilds"] = rebuilds_per_step(run);
+  if (run.state.grains) {
+    json["grain_step_over_stable"] = grain_step_over_stable;
+    json["list_rebuilds"] = rebuilds_per_step(run);
+  }
   json["max_continuity_residual"] = all.continuity_residual;
   if (ranks > 1) json["communication"] = communication(run, messages_at_start);
   json["ledger"] = run.coupled_step.ledger().entries();
