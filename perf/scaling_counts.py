@@ -14,7 +14,7 @@ BYTES = 8                    # of a number
 GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain step
 GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
 DEPOSIT = 19                 # to the fluid ranks after them
-SWEEPS = 2                   # src/fluid/pressure_solver.cpp
+SWEEPS = 3                   # src/fluid/pressure_solver.cpp
 SMOOTHINGS, EXCHANGE_FILLS = 4, 21
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
@@ -159,7 +159,7 @@ def deposit_halo(p):
 def exchange(p):
     """Coupling::gather(), deposit(), with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=15))
+            + Counts(reductions=14))
 
 
 # --- the grains --------------------------------------------------------------------------------------

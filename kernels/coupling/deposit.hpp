@@ -36,12 +36,18 @@ struct ExchangeOfGrain {
   KOKKOS_INLINE_FUNCTION Real drag(int g) const { return dt * on_grains.beta(g); }
 };
 
+/// Bounds of the grains' centres, without a lower one for the height [m].
+struct GrainExtent {
+  Real left = 0, right = -1, top = 0, front = 0, back = 0;  // no grains
+};
+
 /// What all grains together give: volume [m^3], drag coefficient times dt [kg], sum of |impulse|
-/// components and the impulse itself [N s].
+/// components and the impulse itself [N s]; and their extent.
 struct SumExchange {
   ExchangeOfGrain of_grain;
   KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& drag, Real& size, Real& x, Real& y,
-                                  Real& z) const {
+                                  Real& z, Real& left, Real& right, Real& top, Real& front,
+                                  Real& back) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
     drag += of_grain.drag(g);
@@ -49,32 +55,62 @@ struct SumExchange {
     x += e.impulse.x;
     y += e.impulse.y;
     z += e.impulse.z;
+    const Vec3 at = of_grain.grains(g).x;
+    left = Kokkos::fmin(left, at.x), right = Kokkos::fmax(right, at.x);
+    top = Kokkos::fmax(top, at.y);
+    front = Kokkos::fmin(front, at.z), back = Kokkos::fmax(back, at.z);
   }
 };
 
-/// Deposits the volume and the exchange of each grain in the cells of its points.
-struct DepositGrain {
+/// What grains give to cells, on its way to the sums of all. A few cells are kept until others take
+/// their places: grains that follow one another in memory share cells, and an atomic addition takes
+/// longer than all else.
+template <int places>
+class RecentCells {
+ public:
+  KOKKOS_INLINE_FUNCTION explicit RecentCells(const Deposits& deposits) : deposits_(deposits) {}
+  KOKKOS_INLINE_FUNCTION ~RecentCells() {
+    for (int place = 0; place < places; ++place) give_back(place);
+  }
+  RecentCells(const RecentCells&) = delete;
+
+  KOKKOS_INLINE_FUNCTION void add(std::int64_t cell,
+                                  const std::int64_t (&given)[Deposits::kQuantities]) {
+    const auto place = static_cast<int>(cell % places);
+    if (cell_[place] != cell) {
+      give_back(place);
+      cell_[place] = cell;
+    }
+    for (int q = 0; q < Deposits::kQuantities; ++q) sum_[place][q] += given[q];
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION void give_back(int place) {
+    for (int q = 0; q < Deposits::kQuantities; ++q) {
+      if (sum_[place][q] != 0) Kokkos::atomic_add(&deposits_.sum(cell_[place], q), sum_[place][q]);
+      sum_[place][q] = 0;
+    }
+  }
+
+  const Deposits& deposits_;
+  std::int64_t cell_[places]{}, sum_[places][Deposits::kQuantities]{};
+};
+
+/// Deposits the volume and the exchange of `together` grains that follow one another in the cells
+/// of their points.
+template <int together>
+struct DepositGrains {
   ExchangeOfGrain of_grain;
   ExchangeByRow rows;
   Deposits deposits;
+  int n = 0;  // all grains
 
-  KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics grain = of_grain.grains(g);
-    const GrainCells cells = rows.stencil(grain);
-    const GrainRows in_rows = rows.rows_of(grain);
-    if (rows.on && in_rows.n > 1) {
-      const VelocityByRow v = rows.velocity(in_rows, grain);
-      const Real drag = of_grain.drag(g);
-      // A row that flows faster than the grain sees on average drags it more: the difference adds
-      // up to nothing over the grain.
-      add(g, cells, [&](int j) {
-        const int r = in_rows.find(j);
-        return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
-                     .conductance = drag * in_rows.conductance_below(j) / in_rows.weight(r)};
-      });
-    } else {
-      add(g, cells, [](int) { return InRow{}; });
-    }
+  using Recent = RecentCells<(together > 1 ? 16 : 1)>;
+  static constexpr int items_for(int n) { return (n + together - 1) / together; }
+  KOKKOS_FUNCTION void operator()(int item) const {
+    Recent cells(deposits);
+    const int end = Kokkos::min((item + 1) * together, n);
+    for (int g = item * together; g < end; ++g) add(g, cells);
   }
 
  private:
@@ -83,22 +119,37 @@ struct DepositGrain {
     Vec3 impulse{};        // beyond that of the whole grain [N s]
     Real conductance = 0;  // between this row and the one below [kg]
   };
+  KOKKOS_INLINE_FUNCTION void add(int g, Recent& to) const {
+    const GrainKinematics grain = of_grain.grains(g);
+    const GrainRows in_rows = rows.stencil.rows_of(grain);
+    const GrainCells cells = rows.stencil(grain, in_rows);
+    if (rows.on && in_rows.n > 1) {
+      const VelocityByRow v = rows.velocity(in_rows, grain);
+      const Real drag = of_grain.drag(g);
+      // A row that flows faster than the grain sees on average drags it more: the difference adds
+      // up to nothing over the grain.
+      add(g, cells, to, [&](int j) {
+        const int r = in_rows.find(j);
+        return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
+                     .conductance = drag * conductance_below(in_rows, j) / in_rows.weight(r)};
+      });
+    } else {
+      add(g, cells, to, [](int) { return InRow{}; });
+    }
+  }
   template <class OfRow>
-  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, const OfRow& of_row) const {
+  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, Recent& to,
+                                  const OfRow& of_row) const {
     const GrainExchange e = of_grain(g);
     for (int q = 0; q < cells.n; ++q) {
       const InRow in_row = of_row(cells.cell[q].j);
       const Vec3 impulse = e.impulse + in_row.impulse;
       const Real w = cells.weight(q);
-      const std::int64_t cell = cells.cell[q].linear(rows.stencil.grid);
-      const auto put = [&](int quantity, const FixedPoint& point, Real value) {
-        Kokkos::atomic_add(&deposits.sum(cell, quantity), point.encode(w * value));
-      };
-      put(0, deposits.volume, e.volume);
-      if (in_row.conductance > 0) put(1, deposits.conductance, in_row.conductance);
-      put(2, deposits.impulse, impulse.x);
-      put(3, deposits.impulse, impulse.y);
-      put(4, deposits.impulse, impulse.z);
+      to.add(cells.cell[q].linear(rows.stencil.grid),
+             {deposits.volume.encode(w * e.volume),
+              deposits.conductance.encode(w * in_row.conductance),
+              deposits.impulse.encode(w * impulse.x), deposits.impulse.encode(w * impulse.y),
+              deposits.impulse.encode(w * impulse.z)});
     }
   }
 };

@@ -172,33 +172,6 @@ struct FlowFromCells {
   }
 };
 
-/// Velocity and its rate of change in the rows that a grain lies in; upwards, convection and the
-/// fraction, at its centre.
-struct FlowOfRows {
-  DepositStencil stencil;
-  PeriodicBox box;
-  ConstFaceRef u, du_dt, u_grad_u;
-  ConstFieldRef alpha_f;
-  Kokkos::View<const GrainKinematics*> grains;
-  FlowAtGrains flow;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics grain = grains(g);
-    const GrainRows rows(stencil, grain);
-    const PointStencil at(stencil.grid, box, grain.x);
-    flow.u(g) = of_rows(u, rows, at);
-    flow.du_dt(g) = of_rows(du_dt, rows, at);
-    flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
-    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
-                                      const PointStencil& at) const {
-    const VelocityByRow v(stencil.grid, rows, at, f);
-    return {v.mean_x, interpolate(f.y, at.x_centre, at.y_face, at.z_centre), v.mean_z};
-  }
-};
-
 /// A vector on cells.
 struct CellVectorRef {
   ConstFieldRef x, y, z;
@@ -217,8 +190,8 @@ struct FlowOverCells {
   CellVectorRef pressure, stress;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainCells cells = stencil(grains(g));
+  KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
+  KOKKOS_INLINE_FUNCTION void operator()(int g, const GrainCells& cells) const {
     Real most = 0, mean = 0;
     Vec3 of_pressure, of_stress;
     for (int q = 0; q < cells.n; ++q) {
@@ -236,12 +209,38 @@ struct FlowOverCells {
   }
 };
 
-/// Sum over the grains of a force per volume [N].
+/// Velocity and its rate of change in the rows that a grain lies in; upwards, convection and the
+/// fraction, at its centre; and what its cells hold.
+struct FlowOfRows {
+  FlowOverCells over_cells;
+  PeriodicBox box;
+  ConstFaceRef u, du_dt, u_grad_u;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const FlowAtGrains& flow = over_cells.flow;
+    const GrainKinematics grain = over_cells.grains(g);
+    const GrainRows rows = over_cells.stencil.rows_of(grain);
+    over_cells(g, over_cells.stencil(grain, rows));
+    const PointStencil at(over_cells.stencil.grid, box, grain.x, rows.row[0]);
+    flow.u(g) = of_rows(u, rows, at);
+    flow.du_dt(g) = of_rows(du_dt, rows, at);
+    flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
+    flow.alpha_f(g) = interpolate_cell(over_cells.alpha_f, at);
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
+                                      const PointStencil& at) const {
+    const VelocityByRow v(rows, at, f);
+    return {v.mean_x, interpolate(f.y, at.centres, at.y_face), v.mean_z};
+  }
+};
+
+/// Sum over the grains of the forces of the flow's pressure gradient and stress [N].
 struct SumOfForces {
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<const Vec3*> density;
+  FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g, Real& x, Real& y, Real& z) const {
-    const Vec3 force = sphere_volume(grains(g).r) * density(g);
+    const Vec3 force = sphere_volume(grains(g).r) * (flow.pressure(g) + flow.stress(g));
     x += force.x;
     y += force.y;
     z += force.z;

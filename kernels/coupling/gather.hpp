@@ -16,18 +16,6 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_added_mass(Real rho_f, Real vo
   return kAddedMassCoefficient * rho_f * volume;
 }
 
-/// Bounds of the grains' centres, without a lower one for the height [m].
-struct ExtentOfGrains {
-  Kokkos::View<const GrainKinematics*> grains;
-  KOKKOS_FUNCTION void operator()(int g, Real& left, Real& right, Real& top, Real& front,
-                                  Real& back) const {
-    const Vec3& x = grains(g).x;
-    left = Kokkos::fmin(left, x.x), right = Kokkos::fmax(right, x.x);
-    top = Kokkos::fmax(top, x.y);
-    front = Kokkos::fmin(front, x.z), back = Kokkos::fmax(back, x.z);
-  }
-};
-
 /// Weight less buoyancy [N].
 struct SubmergedWeight {
   Vec3 gravity;        // [m/s^2]

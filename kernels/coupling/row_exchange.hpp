@@ -13,51 +13,19 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
   return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
 }
 
-/// Rows of cells that share a grain: how many of its points each holds, at which mean height [m].
-struct GrainRows {
-  int n = 0;
-  int row[kDividedOffsets];
-  int points[kDividedOffsets];
-  Real height[kDividedOffsets];
-
-  KOKKOS_INLINE_FUNCTION GrainRows(const DepositStencil& stencil, const GrainKinematics& grain) {
-    constexpr DividedSets sets = divided_sets();
-    const int own = stencil.grid.row_of(grain.x.y);
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real y = stencil.inside(grain.x.y + grain.r * divided_offset(q, false));
-      add(stencil.grid.row_near(y, own), Kokkos::popcount(sets.y[q]), y);
-    }
-    for (int r = 0; r < n; ++r) height[r] /= points[r];
+/// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
+/// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
+/// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4. For rows
+/// higher than a sixth of the grain: then each between its ends holds a point.
+KOKKOS_INLINE_FUNCTION Real conductance_below(const GrainRows& rows, int j) {
+  Real sum = 0;
+  for (int a = 0; a < rows.n; ++a) {
+    for (int b = 0; b < rows.n; ++b)
+      if (rows.row[a] < j && j <= rows.row[b])
+        sum += rows.weight(a) * rows.weight(b) * (rows.row[b] - rows.row[a]);
   }
-  /// Share of the grain in its r-th row; the shares add up to one.
-  KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(points[r]) / kDividedPoints; }
-  KOKKOS_INLINE_FUNCTION int find(int j) const {
-    int r = 0;
-    while (r + 1 < n && row[r] != j) ++r;
-    return r;
-  }
-  /// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
-  /// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
-  /// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4. For rows
-  /// higher than a sixth of the grain: then each between its ends holds a point.
-  KOKKOS_INLINE_FUNCTION Real conductance_below(int j) const {
-    Real sum = 0;
-    for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b)
-        if (row[a] < j && j <= row[b]) sum += weight(a) * weight(b) * (row[b] - row[a]);
-    }
-    return sum;
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION void add(int j, int count, Real y) {
-    int r = 0;
-    while (r < n && row[r] != j) ++r;
-    if (r == n) row[n] = j, points[n] = 0, height[n++] = 0;
-    points[r] += count;
-    height[r] += count * y;
-  }
-};
+  return sum;
+}
 
 /// Velocity along the floor in each row of a grain, x and z [m/s]: bilinear at its centre, and
 /// within a row along a slope that makes no new extremum. A grain that lies in one row of a linear
@@ -68,28 +36,33 @@ struct VelocityByRow {
   Real x[kDividedOffsets], z[kDividedOffsets];
   Real mean_x = 0, mean_z = 0;  // over the grain
 
-  KOKKOS_INLINE_FUNCTION VelocityByRow(const GridRef& grid, const GrainRows& of_grain,
-                                       const PointStencil& at, const ConstFaceRef& u)
+  KOKKOS_INLINE_FUNCTION VelocityByRow(const GrainRows& of_grain, const PointStencil& at,
+                                       const ConstFaceRef& u)
       : rows(of_grain) {
-    for (int r = 0; r < rows.n; ++r) {
-      x[r] = in_row(grid, u.x, at.x_face, at.z_centre, r);
-      z[r] = in_row(grid, u.z, at.x_centre, at.z_face, r);
-      mean_x += rows.weight(r) * x[r];
-      mean_z += rows.weight(r) * z[r];
-    }
+    mean_x = in_rows(u.x, at.x_faces, x);
+    mean_z = in_rows(u.z, at.z_faces, z);
   }
 
  private:
-  KOKKOS_INLINE_FUNCTION Real in_row(const GridRef& grid, const ConstFieldRef& f,
-                                     const LinearStencil& along_x, const LinearStencil& along_z,
-                                     int r) const {
-    const int j = rows.row[r];
-    const Real here = interpolate_in_row(f, along_x, j, along_z);
-    const Real below = interpolate_in_row(f, along_x, j - 1, along_z);
-    const Real above = interpolate_in_row(f, along_x, j + 1, along_z);
-    const Real slope =
-        limited_slope((here - below) / grid.dy_centre(j), (above - here) / grid.dy_centre(j + 1));
-    return here + slope * (rows.height[r] - grid.y_centre(j));
+  /// Returns the mean over the grain.
+  KOKKOS_INLINE_FUNCTION Real in_rows(const ConstFieldRef& f, const PlaneStencil& at,
+                                      Real (&v)[kDividedOffsets]) const {
+    const auto in_row = [&](int j) { return interpolate_in_row(f, at, j); };
+    Real below = 0, here = 0, above = 0, mean = 0;
+    for (int r = 0; r < rows.n; ++r) {
+      const int j = rows.row[r], from_last = r > 0 ? j - rows.row[r - 1] : 0;
+      if (from_last == 1) {
+        below = here, here = above, above = in_row(j + 1);
+      } else if (from_last == -1) {
+        above = here, here = below, below = in_row(j - 1);
+      } else {
+        below = in_row(j - 1), here = in_row(j), above = in_row(j + 1);
+      }
+      v[r] = here + limited_slope((here - below) * rows.over_lower[r],
+                                  (above - here) * rows.over_upper[r]);
+      mean += rows.weight(r) * v[r];
+    }
+    return mean;
   }
 };
 
@@ -100,12 +73,9 @@ struct ExchangeByRow {
   PeriodicBox box;
   ConstFaceRef u;
 
-  KOKKOS_INLINE_FUNCTION GrainRows rows_of(const GrainKinematics& grain) const {
-    return {stencil, grain};
-  }
   KOKKOS_INLINE_FUNCTION VelocityByRow velocity(const GrainRows& rows,
                                                 const GrainKinematics& grain) const {
-    return {stencil.grid, rows, PointStencil(stencil.grid, box, grain.x), u};
+    return {rows, PointStencil(stencil.grid, box, grain.x, rows.row[0]), u};
   }
 };
 

@@ -2,71 +2,12 @@
 // the same bits in any order.
 #pragma once
 
-#include <cstdint>
-
-#include "kernels/fluid/grid.hpp"
+#include "kernels/coupling/grain_rows.hpp"
 #include "kernels/grains/grain.hpp"
 
 namespace barchan {
 
-/// 29 points of equal volume: the centre and two shells of 14 (6 on the axes, 8 at polar angles of
-/// 45 and 135 degrees), at the volume-weighted mean radii of the shells bounded by cbrt(1/29),
-/// cbrt(15/29) and 1 of the grain radius: r = (3/4)(b^4 - a^4)/(b^3 - a^3). The points of CFDEM's
-/// "divided" model (Lima et al. 2022, Sec. IV).
-inline constexpr int kDividedPoints = 29;
-inline constexpr Real kInnerShell = 0.6276;  // fractions of the radius
-inline constexpr Real kOuterShell = 0.9085;
-
-/// The coordinates that the points have along x, y and z in units of the grain radius, nine of
-/// each: zero; of either shell, its end and what its corners have, up and down. The corners lie at
-/// a polar angle from z with sin = cos = 1/sqrt 2 and at azimuths of 45 + 90 n degrees.
-inline constexpr int kDividedOffsets = 9;
-KOKKOS_INLINE_FUNCTION constexpr Real divided_offset(int q, bool along_z) {
-  if (q == 0) return 0;
-  const Real shell = q <= 4 ? kInnerShell : kOuterShell;
-  const Real of_corner = along_z ? Real(0.70710678118654752) : Real(0.5);
-  const Real size = (q - 1) % 4 < 2 ? shell : of_corner * shell;
-  return q % 2 == 1 ? size : -size;
-}
-/// Which of them point p has.
-struct DividedAxes {
-  int x = 0, y = 0, z = 0;
-};
-KOKKOS_INLINE_FUNCTION constexpr DividedAxes divided_axes(int p) {
-  if (p == 0) return {};
-  const int shell = p <= 14 ? 1 : 5, q = (p - 1) % 14;
-  if (q < 6) {
-    const int end = shell + q % 2;
-    return {q / 2 == 0 ? end : 0, q / 2 == 1 ? end : 0, q / 2 == 2 ? end : 0};
-  }
-  const int corner = q - 6;
-  return {shell + 2 + (corner & 1), shell + 2 + (corner >> 1 & 1), shell + 2 + (corner >> 2 & 1)};
-}
-/// Offset of point p from the centre in units of the grain radius.
-KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
-  const DividedAxes at = divided_axes(p);
-  return {divided_offset(at.x, false), divided_offset(at.y, false), divided_offset(at.z, true)};
-}
-
-/// A set of points, a bit each.
-using PointSet = std::uint32_t;
-inline constexpr PointSet kAllPoints = (PointSet{1} << kDividedPoints) - 1;
-
-/// The points with the q-th coordinate along each axis.
-struct DividedSets {
-  PointSet x[kDividedOffsets]{}, y[kDividedOffsets]{}, z[kDividedOffsets]{};
-};
-KOKKOS_INLINE_FUNCTION constexpr DividedSets divided_sets() {
-  DividedSets sets;
-  for (int p = 0; p < kDividedPoints; ++p) {
-    const DividedAxes at = divided_axes(p);
-    const PointSet point = PointSet{1} << p;
-    sets.x[at.x] |= point, sets.y[at.y] |= point, sets.z[at.z] |= point;
-  }
-  return sets;
-}
-
-/// Columns or rows of cells along one direction that share a grain, and which points each holds.
+/// Columns of cells along x or z that share a grain, and which points each holds.
 struct PointsAlong {
   int n = 0;
   int cell[kDividedOffsets];
@@ -149,47 +90,45 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
     return grid.cell_along(z, grid.dz) - grid.k_begin;
   }
-  /// A height; what is beyond a wall is mirrored back.
-  KOKKOS_INLINE_FUNCTION Real inside(Real y) const {
-    y = y < 0 ? -y : y;
-    return y > grid.ly ? 2 * grid.ly - y : y;
-  }
-  /// Row of a height near a row.
+  /// Row of a height near a row; what is beyond a wall is mirrored back.
   KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
-    return grid.row_near(inside(y), row_nearby);
+    return grid.row_near(mirrored_inside(grid, y), row_nearby);
   }
-  KOKKOS_INLINE_FUNCTION int cell_x(Real x) const {
-    const int i = column_x(x);
-    return Kokkos::clamp(box.lx > 0 ? wrap(i, grid.nx) : i, i_low, i_high);
+  /// The owned or ghost cell of a column.
+  KOKKOS_INLINE_FUNCTION int place_x(int column) const {
+    return Kokkos::clamp(box.lx > 0 ? wrap(column, grid.nx) : column, i_low, i_high);
   }
-  KOKKOS_INLINE_FUNCTION int cell_z(Real z) const {
-    const int k = column_z(z);
-    return Kokkos::clamp(box.lz > 0 ? wrap(k, grid.nz) : k, k_low, k_high);
+  KOKKOS_INLINE_FUNCTION int place_z(int column) const {
+    return Kokkos::clamp(box.lz > 0 ? wrap(column, grid.nz) : column, k_low, k_high);
   }
   /// The cell that holds a point not far from a row.
   KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
-    return {cell_x(p.x), row_of(p.y, row_nearby), cell_z(p.z)};
+    return {place_x(column_x(p.x)), row_of(p.y, row_nearby), place_z(column_z(p.z))};
   }
-  KOKKOS_INLINE_FUNCTION bool is_outside(Real y) const { return y < 0 || y > grid.ly; }
+  KOKKOS_INLINE_FUNCTION GrainRows rows_of(const GrainKinematics& g) const {
+    return {grid, g.x.y, g.r};
+  }
 
   KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g) const {
+    return (*this)(g, rows_of(g));
+  }
+  KOKKOS_INLINE_FUNCTION GrainCells operator()(const GrainKinematics& g,
+                                               const GrainRows& rows) const {
     GrainCells cells;
     const Vec3 x = box.wrap(g.x);
-    const int row = grid.row_of(x.y);
-    const CellIndex own = cell_of(x, row);
+    const CellIndex own{place_x(column_x(x.x)), rows.row[0], place_z(column_z(x.z))};
     if (points == PointModel::centre) {
       cells.put(own, 1);
       return cells;
     }
-    PointSet to_own = 0;
-    const PointsAlong rows = rows_of_points(x.y, g.r, row, to_own);
-    const PointsAlong along_x = columns_of_points<false>(x.x, g.r, own.i);
-    const PointsAlong along_z = columns_of_points<true>(x.z, g.r, own.k);
+    const PointsAlong along_x = columns_of_points<false>(x.x, g.r);
+    const PointsAlong along_z = columns_of_points<true>(x.z, g.r);
+    const PointSet to_own = points == PointModel::cfdem ? rows.outside : 0;
     for (int b = 0; b < rows.n; ++b) {
       for (int a = 0; a < along_x.n; ++a) {
-        const PointSet set = rows.points[b] & along_x.points[a];
+        const PointSet set = rows.points[b] & along_x.points[a] & ~to_own;
         for (int c = 0; c < along_z.n; ++c)
-          cells.put({along_x.cell[a], rows.cell[b], along_z.cell[c]},
+          cells.put({along_x.cell[a], rows.row[b], along_z.cell[c]},
                     Kokkos::popcount(set & along_z.points[c]));
       }
     }
@@ -198,35 +137,26 @@ struct DepositStencil {
   }
 
  private:
-  /// Rows that hold the points of a grain around the height y; `to_own`: the points that are not in
-  /// them but in the grain's own cell.
-  KOKKOS_INLINE_FUNCTION PointsAlong rows_of_points(Real y, Real r, int row,
-                                                    PointSet& to_own) const {
-    constexpr DividedSets sets = divided_sets();
-    PointsAlong rows;
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real at = y + r * divided_offset(q, false);
-      if (points == PointModel::cfdem && is_outside(at)) {
-        to_own |= sets.y[q];
-      } else {
-        rows.add(row_of(at, row), sets.y[q]);
-      }
-    }
-    return rows;
-  }
-  /// Likewise along x, or along z; all of them in the column `own` if the outermost ones are.
+  /// Columns along x, or along z, that hold the points of a grain: the first is that of its centre.
   template <bool along_z>
-  KOKKOS_INLINE_FUNCTION PointsAlong columns_of_points(Real centre, Real r, int own) const {
+  KOKKOS_INLINE_FUNCTION PointsAlong columns_of_points(Real centre, Real r) const {
     constexpr DividedSets sets = divided_sets();
     const auto column = [&](Real at) { return along_z ? column_z(at) : column_x(at); };
+    const auto place = [&](int c) { return along_z ? place_z(c) : place_x(c); };
+    const auto column_of = [&](int q) { return column(centre + r * divided_offset(q, along_z)); };
+    const auto& set = along_z ? sets.z : sets.x;
+    const int first = column(centre - kOuterShell * r), last = column(centre + kOuterShell * r);
     PointsAlong columns;
-    if (column(centre - kOuterShell * r) == column(centre + kOuterShell * r)) {
-      columns.add(own, kAllPoints);
-      return columns;
-    }
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real at = centre + r * divided_offset(q, along_z);
-      columns.add(along_z ? cell_z(at) : cell_x(at), along_z ? sets.z[q] : sets.x[q]);
+    if (first == last) {
+      columns.add(place(first), kAllPoints);
+    } else if (last == first + 1) {
+      PointSet beyond = 0;
+      for (int q = 0; q < kDividedOffsets; ++q) beyond |= column_of(q) == last ? set[q] : 0;
+      const bool own_is_last = column(centre) == last;
+      columns.add(place(own_is_last ? last : first), own_is_last ? beyond : kAllPoints & ~beyond);
+      columns.add(place(own_is_last ? first : last), own_is_last ? kAllPoints & ~beyond : beyond);
+    } else {
+      for (int q = 0; q < kDividedOffsets; ++q) columns.add(place(column_of(q)), set[q]);
     }
     return columns;
   }

@@ -26,6 +26,8 @@ template <class Rows>
 struct BasicGrid : GridExtents {
   Rows y_face_{};    // [ny + 3], faces -1 .. ny + 1
   Rows y_centre_{};  // [ny + 2], cells -1 .. ny
+  Rows row_at_{};    // [kParts ny] row at the lower end of each of equal parts of the height
+  static constexpr int kParts = 8;
 
   KOKKOS_FORCEINLINE_FUNCTION Real y_face(int j) const { return y_face_[j + 1]; }
   KOKKOS_FORCEINLINE_FUNCTION Real y_centre(int j) const { return y_centre_[j + 1]; }
@@ -60,16 +62,8 @@ struct BasicGrid : GridExtents {
 
   /// Row whose interval [y_face(j), y_face(j+1)) holds y; clamped to 0..ny-1.
   KOKKOS_INLINE_FUNCTION int row_of(Real y) const {
-    int low = 0, high = ny;
-    while (high - low > 1) {
-      const int middle = (low + high) / 2;
-      if (y_face(middle) <= y) {
-        low = middle;
-      } else {
-        high = middle;
-      }
-    }
-    return low;
+    const Real part = y > 0 ? Kokkos::fmin(y * (kParts * ny / ly), Real(kParts * ny - 1)) : 0;
+    return row_near(y, static_cast<int>(row_at_[static_cast<int>(part)]));
   }
 };
 

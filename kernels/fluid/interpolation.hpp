@@ -11,13 +11,51 @@ struct LinearStencil {
   Real t = 0;
 };
 
+/// Four neighbouring nodes (i or i + 1, k or k + 1) in the plane of a row of cells, and the weight
+/// of each.
+struct PlaneStencil {
+  int i = 0, k = 0;
+  Real first[2]{}, second[2]{};  // of i and i + 1 at k, at k + 1
+
+  PlaneStencil() = default;
+  KOKKOS_INLINE_FUNCTION PlaneStencil(const LinearStencil& x, const LinearStencil& z)
+      : i(x.i),
+        k(z.i),
+        first{(1 - x.t) * (1 - z.t), x.t * (1 - z.t)},
+        second{(1 - x.t) * z.t, x.t * z.t} {}
+};
+
+/// Value of `f` in the plane of row j, from its four nodes there; exact for linear fields.
+KOKKOS_FORCEINLINE_FUNCTION Real interpolate_in_row(const ConstFieldRef& f, const PlaneStencil& at,
+                                                    int j) {
+  const Real* const front = &f(at.i, j, at.k);
+  const Real* const back = front + f.stride_z;
+  return fused(at.second[1], back[1],
+               fused(at.second[0], back[0], fused(at.first[1], front[1], at.first[0] * front[0])));
+}
+/// Value of `f` from its eight surrounding nodes; exact for linear fields.
+KOKKOS_FORCEINLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const PlaneStencil& at,
+                                             const LinearStencil& y) {
+  const Real below = interpolate_in_row(f, at, y.i), above = interpolate_in_row(f, at, y.i + 1);
+  return (1 - y.t) * below + y.t * above;
+}
+KOKKOS_INLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const LinearStencil& x,
+                                        const LinearStencil& y, const LinearStencil& z) {
+  return interpolate(f, {x, z}, y);
+}
+
 /// Interpolation weights of one point in a column of this rank for each staggering. The point is
 /// brought into the domain first, wrapped or held at the ends. Near a wall the ghost row takes
 /// part, so the boundary condition decides the value (a no-slip velocity vanishes there).
 struct PointStencil {
   LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
+  PlaneStencil x_faces, centres, z_faces;
 
-  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point) {
+  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point)
+      : PointStencil(g, box, point, g.row_of(point.y)) {}
+  /// Of a point in or near a row.
+  KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point,
+                                      int row_nearby) {
     const Vec3 inside = box.wrap(point);
     const Real x = Kokkos::clamp(inside.x, Real(0), g.lx), z = inside.z;
     const Real y = Kokkos::clamp(inside.y, Real(0), g.ly);
@@ -25,10 +63,13 @@ struct PointStencil {
     x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
     z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
     z_centre = uniform(z / g.dz - Real(0.5), g.k_begin, -1, g.nz - 1);
-    const int row = g.row_of(y);
+    const int row = g.row_near(y, row_nearby);
     y_face = {row, (y - g.y_face(row)) / g.dy(row)};
     const int below = y < g.y_centre(row) ? row - 1 : row;
     y_centre = {below, (y - g.y_centre(below)) / g.dy_centre(below + 1)};
+    x_faces = {x_face, z_centre};
+    centres = {x_centre, z_centre};
+    z_faces = {x_centre, z_face};
   }
 
  private:
@@ -39,32 +80,12 @@ struct PointStencil {
   }
 };
 
-/// Value of `f` from its eight surrounding nodes; exact for linear fields.
-KOKKOS_INLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const LinearStencil& x,
-                                        const LinearStencil& y, const LinearStencil& z) {
-  const auto along_x = [&](int j, int k) {
-    return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k);
-  };
-  const auto in_plane = [&](int k) {
-    return (1 - y.t) * along_x(y.i, k) + y.t * along_x(y.i + 1, k);
-  };
-  return (1 - z.t) * in_plane(z.i) + z.t * in_plane(z.i + 1);
-}
-
-/// The same in the plane of row j, from its four nodes there.
-KOKKOS_INLINE_FUNCTION Real interpolate_in_row(const ConstFieldRef& f, const LinearStencil& x,
-                                               int j, const LinearStencil& z) {
-  const auto along_x = [&](int k) { return (1 - x.t) * f(x.i, j, k) + x.t * f(x.i + 1, j, k); };
-  return (1 - z.t) * along_x(z.i) + z.t * along_x(z.i + 1);
-}
-
 KOKKOS_INLINE_FUNCTION Real interpolate_cell(const ConstFieldRef& f, const PointStencil& s) {
-  return interpolate(f, s.x_centre, s.y_centre, s.z_centre);
+  return interpolate(f, s.centres, s.y_centre);
 }
 KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const ConstFaceRef& f, const PointStencil& s) {
-  return {interpolate(f.x, s.x_face, s.y_centre, s.z_centre),
-          interpolate(f.y, s.x_centre, s.y_face, s.z_centre),
-          interpolate(f.z, s.x_centre, s.y_centre, s.z_face)};
+  return {interpolate(f.x, s.x_faces, s.y_centre), interpolate(f.y, s.centres, s.y_face),
+          interpolate(f.z, s.z_faces, s.y_centre)};
 }
 
 /// Curl of the interpolated field at the point; exact for linear fields, and at a wall that of the

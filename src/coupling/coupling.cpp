@@ -84,8 +84,18 @@ void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, 
   // Bounds of what one cell can receive: everything.
   std::vector<Real> sum(6);
   Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
-                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
+                          sum[0], sum[1], sum[2], sum[3], sum[4], sum[5],
+                          Kokkos::Min<Real>(extent_.left), Kokkos::Max<Real>(extent_.right),
+                          Kokkos::Max<Real>(extent_.top), Kokkos::Min<Real>(extent_.front),
+                          Kokkos::Max<Real>(extent_.back));
   sum_over(ranks_of(grid_), sum);
+  // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
+  const MPI_Comm ranks = ranks_of(grid_);
+  extent_ = {.left = -max_over(ranks, -extent_.left),
+             .right = max_over(ranks, extent_.right),
+             .top = max_over(ranks, extent_.top),
+             .front = -max_over(ranks, -extent_.front),
+             .back = max_over(ranks, extent_.back)};
   deposits_.conductance = fixed_point_for(sum[1] * (kDividedOffsets * kDividedOffsets / 4));
   // Rows exchange no more than by twice the fastest velocity along x and z.
   const Real fastest =
@@ -112,9 +122,12 @@ void Coupling::decode(int quantity, const FixedPoint& point, Field& density) con
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   choose_scales(grains, fluid, dt);
   Kokkos::deep_copy(deposits_.sum, 0);
-  Kokkos::parallel_for(
-      "coupling: deposit", items(grains.n),
-      DepositGrain{.of_grain = of_grain(grains, dt), .rows = rows(fluid.u), .deposits = deposits_});
+  using Deposit = DepositGrains<runs_on_host ? 128 : 1>;
+  Kokkos::parallel_for("coupling: deposit", items(Deposit::items_for(grains.n)),
+                       Deposit{.of_grain = of_grain(grains, dt),
+                               .rows = rows(fluid.u),
+                               .deposits = deposits_,
+                               .n = grains.n});
   halo_.scatter_add(deposits_.sum);
   update_fraction(fluid);
   spread_exchange();

@@ -68,16 +68,15 @@ class Coupling {
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
-  CellRange cells_around(const GrainState& grains) const;
+  CellRange cells_around(const GrainExtent& grains) const;
   void pressure_at(const FluidState& fluid, const GrainState& grains, const CellRange& around,
                    Real dt);
   void stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
                  Real dt);
   void gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
                       FaceVector& on_cells, bool smoothed, Real dt, const Kokkos::View<Vec3*>& at);
-  void velocity_at(const FluidState& fluid, const GrainState& grains);
+  void flow_at(const FluidState& fluid, const GrainState& grains, Real dt);
   void unsmooth(const FluidState& fluid);
-  void over_cells(const FluidState& fluid, const GrainState& grains, Real dt);
   WallFaces wall_faces(bool wall, bool along_x) const;
   void reserve_flow_at(int n);
   void gather_shear(const FluidState& fluid, GrainState& grains) const;
@@ -120,6 +119,7 @@ class Coupling {
   Field unsmoothed_;  // fraction; empty without smoothing
   Deposits deposits_;
   ExchangeOnFaces on_faces_;
+  GrainExtent extent_;  // of all grains, at the last deposit: they have not moved since
   ExchangeLedger ledger_;
 };
 

@@ -11,31 +11,10 @@
 
 namespace barchan {
 
-namespace {
-
-/// Sum over all ranks of a force per volume on the grains [N].
-Vec3 sum_of(const GrainState& grains, const Kokkos::View<Vec3*>& density, MPI_Comm ranks) {
-  std::vector<Real> sum(3);
-  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
-                          SumOfForces{grains.kin, density}, sum[0], sum[1], sum[2]);
-  sum_over(ranks, sum);
-  return {sum[0], sum[1], sum[2]};
-}
-
-}  // namespace
-
 /// The cells whose faces the grains read.
-CellRange Coupling::cells_around(const GrainState& grains) const {
-  Real x0 = 0, x1 = 0, y1 = 0, z0 = 0, z1 = 0;
-  Kokkos::parallel_reduce("coupling: extent of the grains", items(grains.n),
-                          ExtentOfGrains{grains.kin}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
-                          Kokkos::Max<Real>(y1), Kokkos::Min<Real>(z0), Kokkos::Max<Real>(z1));
-  // Those of all ranks: a neighbour's grains read from the outermost cells of this one.
-  x0 = -max_over(ranks_of(grid_), -x0), x1 = max_over(ranks_of(grid_), x1);
-  z0 = -max_over(ranks_of(grid_), -z0), z1 = max_over(ranks_of(grid_), z1);
-  y1 = max_over(ranks_of(grid_), y1);
+CellRange Coupling::cells_around(const GrainExtent& grains) const {
   CellRange cells = owned_cells(grid_);
-  if (!(x0 <= x1)) return cells;  // no grains
+  if (!(grains.left <= grains.right)) return cells;  // no grains
   // One more on either side, and above one for faces; everything where that reaches a periodic
   // side.
   const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
@@ -46,9 +25,9 @@ CellRange Coupling::cells_around(const GrainState& grains) const {
     first = std::clamp(static_cast<int>(begin) - mine, 0, n);
     last = std::clamp(static_cast<int>(end) - mine, first, n);
   };
-  shrink(x0, x1, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
-  shrink(z0, z1, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
-  cells.j1 = std::min(grid_.ny, rows_.row_of(y1) + 3);
+  shrink(grains.left, grains.right, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
+  shrink(grains.front, grains.back, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
+  cells.j1 = std::min(grid_.ny, rows_.row_of(grains.top) + 3);
   return cells;
 }
 
@@ -108,15 +87,26 @@ void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, cons
   }
 }
 
-void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
+void Coupling::flow_at(const FluidState& fluid, const GrainState& grains, Real dt) {
   const auto read = [&](const auto& reading) {
-    Kokkos::parallel_for("coupling: velocity at grains", items(grains.n), reading);
+    Kokkos::parallel_for("coupling: flow at grains", items(grains.n), reading);
   };
   const auto& kin = grains.kin;
+  const auto& [px, py, pz] = cells_;
+  const auto& [sx, sy, sz] = on_faces_.impulse;
+  const FlowOverCells over_cells{.stencil = stencil_,
+                                 .alpha_f = fluid.alpha_f,
+                                 .unsmoothed = local_fraction(fluid),
+                                 .with_pressure = by_row_ && forces_.pressure_gradient,
+                                 .with_stress = by_row_ && forces_.stress,
+                                 .pressure = {px, py, pz},
+                                 .stress = {sx, sy, sz},
+                                 .grains = kin,
+                                 .flow = flow_at_};
   if (by_row_) {
-    read(FlowOfRows{stencil_, box_, fluid.u, fluid.du_dt, convective_, fluid.alpha_f, kin,
-                    flow_at_});
+    read(FlowOfRows{over_cells, box_, fluid.u, fluid.du_dt, convective_});
   } else {
+    read(over_cells);
     read(FlowAtCentres{grid_, box_, fluid.u, fluid.du_dt, convective_, fluid.alpha_f, kin,
                        flow_at_});
   }
@@ -127,6 +117,11 @@ void Coupling::velocity_at(const FluidState& fluid, const GrainState& grains) {
     for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
     read(FlowFromCells{grid_, box_, x, y, z, fluid.alpha_f, kin, flow_at_});
   }
+  std::vector<Real> sum(3);
+  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n), SumOfForces{kin, flow_at_},
+                          sum[0], sum[1], sum[2]);
+  sum_over(ranks_of(grid_), sum);
+  ledger_.flow_on_grains = dt * Vec3{sum[0], sum[1], sum[2]};
 }
 
 WallFaces Coupling::wall_faces(bool wall, bool along_x) const {
@@ -151,24 +146,6 @@ void Coupling::unsmooth(const FluidState& fluid) {
                                    .walls_z = wall_faces(walls_.z, false),
                                    .unsmoothed = unsmoothed_});
   boundary_.fill(unsmoothed_, FieldKind::scalar);
-}
-
-/// What the cells of each grain hold.
-void Coupling::over_cells(const FluidState& fluid, const GrainState& grains, Real dt) {
-  const auto& [px, py, pz] = cells_;
-  const auto& [sx, sy, sz] = on_faces_.impulse;
-  Kokkos::parallel_for("coupling: flow over cells of grains", items(grains.n),
-                       FlowOverCells{.stencil = stencil_,
-                                     .alpha_f = fluid.alpha_f,
-                                     .unsmoothed = local_fraction(fluid),
-                                     .with_pressure = by_row_ && forces_.pressure_gradient,
-                                     .with_stress = by_row_ && forces_.stress,
-                                     .pressure = {px, py, pz},
-                                     .stress = {sx, sy, sz},
-                                     .grains = grains.kin,
-                                     .flow = flow_at_});
-  for (const auto& density : {flow_at_.pressure, flow_at_.stress})
-    ledger_.flow_on_grains += dt * sum_of(grains, density, ranks_of(grid_));
 }
 
 void Coupling::reserve_flow_at(int n) {
@@ -198,11 +175,10 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
   reserve_flow_at(grains.n);
   unsmooth(fluid);
-  const CellRange around = cells_around(grains);
+  const CellRange around = cells_around(extent_);
   pressure_at(fluid, grains, around, dt);
   stress_at(fluid, grains, around, dt);
-  over_cells(fluid, grains, dt);
-  velocity_at(fluid, grains);
+  flow_at(fluid, grains, dt);
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),

@@ -7,6 +7,24 @@
 
 namespace barchan {
 
+namespace {
+
+/// The row at the lower end of each of equal parts of the height.
+void set_rows_at(Grid& grid, const std::vector<double>& y_faces) {
+  const int parts = Grid::kParts * grid.ny;
+  grid.row_at_ = Kokkos::View<Real*>("grid: rows", parts);
+  const auto row = Kokkos::create_mirror_view(grid.row_at_);
+  int j = 0;
+  for (int part = 0; part < parts; ++part) {
+    const double y = part * grid.ly / parts;
+    while (j + 1 < grid.ny && y >= y_faces[static_cast<std::size_t>(j + 1)]) ++j;
+    row(part) = j;
+  }
+  Kokkos::deep_copy(grid.row_at_, row);
+}
+
+}  // namespace
+
 Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_faces,
                const Decomposition* ranks) {
   Grid grid;
@@ -37,6 +55,7 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   for (std::size_t j = 0; j < last + 2; ++j) centre(j) = 0.5 * (face(j) + face(j + 1));
   Kokkos::deep_copy(grid.y_face_, face);
   Kokkos::deep_copy(grid.y_centre_, centre);
+  set_rows_at(grid, y_faces);
   return grid;
 }
 

@@ -24,7 +24,8 @@ View view_of(const char* label, const std::array<int, 3>& extents) {
 /// Lines of x where they are: in a field, or one after the other.
 RealLines lines_in_field(const Grid& grid) {
   const Field like("fft: field", grid);
-  return {grid.nx, grid.ny, grid.nz, like.stride_y, like.stride_z};
+  return {grid.nx,       grid.ny,       grid.nz,
+          like.stride_y, like.stride_z, like.origin - like.storage.data()};
 }
 RealLines lines_in_a_row(const std::array<int, 3>& e) {
   return {e[0], e[1], e[2], e[0], static_cast<std::ptrdiff_t>(e[0]) * e[1]};

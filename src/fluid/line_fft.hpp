@@ -13,6 +13,7 @@ namespace barchan {
 struct RealLines {
   int n = 0, rows = 0, planes = 0;
   std::ptrdiff_t row_stride = 0, plane_stride = 0;
+  std::ptrdiff_t first = 0;  // where the first starts in its array
 
   std::ptrdiff_t modes_per_plane() const { return std::ptrdiff_t{rows} * (n / 2 + 1); }
 };

@@ -42,30 +42,46 @@ Plan checked(fftw_plan plan) {
 /// One-dimensional plans, applied to one z plane (x) or one row (z) at a time: FFTW's own threads
 /// would plan the strided z direction badly without measuring.
 struct LineFft::Library {
-  Plan x_forward, x_backward, z_forward, z_backward;
+  /// Those of x for a plane that starts as those of a field do, in which FFTW may use vectors; and
+  /// for one that starts anywhere.
+  struct AlongX {
+    Plan forward, backward;
+  };
+  AlongX x_as_planned, x_anywhere;
+  int alignment = 0;  // FFTW's, of the planes of x_as_planned
+  Plan z_forward, z_backward;
+
+  const AlongX& along_x(const double* plane) const {
+    return fftw_alignment_of(read_only(plane)) == alignment ? x_as_planned : x_anywhere;
+  }
 };
 
 LineFft::LineFft(const RealLines& x, const ComplexLines& z)
     : x_(x), z_(z), library_(std::make_unique<Library>()) {
-  // Rows of a field start anywhere, hence unaligned; estimating keeps the plan reproducible and
-  // leaves the arrays alone, which therefore need not be those of the transforms.
-  const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+  // Estimating keeps the plan reproducible and leaves the arrays alone, which therefore need not be
+  // those of the transforms.
   const int modes = x.n / 2 + 1, stride = z.lines * z.rows;
   const int row_stride = static_cast<int>(x.row_stride);
-  std::vector<Real> real(static_cast<std::size_t>(x.rows * x.row_stride + x.n));
+  std::vector<Real> real(static_cast<std::size_t>(x.first + x.rows * x.row_stride + x.n));
   std::vector<Kokkos::complex<Real>> complex(
       static_cast<std::size_t>(std::max(modes * x.rows, stride * z.n)));
-  fftw_complex* c = as_fftw(complex.data());
+  double* const r = real.data() + x.first;
+  fftw_complex* const c = as_fftw(complex.data());
+  const auto along_x = [&](unsigned flags) -> Library::AlongX {
+    return {checked(fftw_plan_many_dft_r2c(1, &x.n, x.rows, r, nullptr, 1, row_stride, c, nullptr,
+                                           1, modes, flags)),
+            checked(fftw_plan_many_dft_c2r(1, &x.n, x.rows, c, nullptr, 1, modes, r, nullptr, 1,
+                                           row_stride, flags))};
+  };
   if (x.rows > 0) {
-    library_->x_forward = checked(fftw_plan_many_dft_r2c(1, &x.n, x.rows, real.data(), nullptr, 1,
-                                                         row_stride, c, nullptr, 1, modes, flags));
-    library_->x_backward = checked(fftw_plan_many_dft_c2r(
-        1, &x.n, x.rows, c, nullptr, 1, modes, real.data(), nullptr, 1, row_stride, flags));
+    library_->alignment = fftw_alignment_of(r);
+    library_->x_as_planned = along_x(FFTW_ESTIMATE);
+    library_->x_anywhere = along_x(FFTW_ESTIMATE | FFTW_UNALIGNED);
   }
   if (z.lines == 0) return;
   const auto along_z = [&](int sign) {
     return checked(fftw_plan_many_dft(1, &z.n, z.lines, c, nullptr, stride, 1, c, nullptr, stride,
-                                      1, sign, flags));
+                                      1, sign, FFTW_ESTIMATE));
   };
   library_->z_forward = along_z(FFTW_FORWARD);
   library_->z_backward = along_z(FFTW_BACKWARD);
@@ -74,20 +90,24 @@ LineFft::LineFft(const RealLines& x, const ComplexLines& z)
 LineFft::~LineFft() = default;
 
 void LineFft::forward_x(const Real* real, Kokkos::complex<Real>* modes) const {
-  const fftw_plan plan = library_->x_forward.get();
+  const Library& plans = *library_;
   const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
-  if (plan == nullptr) return;
-  Kokkos::parallel_for("fft: forward x", x_.planes, [=](int k) {
-    fftw_execute_dft_r2c(plan, read_only(real + k * plane), as_fftw(modes + k * modes_plane));
+  if (x_.rows == 0) return;
+  Kokkos::parallel_for("fft: forward x", x_.planes, [=, &plans](int k) {
+    const Real* first = real + k * plane;
+    fftw_execute_dft_r2c(plans.along_x(first).forward.get(), read_only(first),
+                         as_fftw(modes + k * modes_plane));
   });
 }
 
 void LineFft::backward_x(Kokkos::complex<Real>* modes, Real* real) const {
-  const fftw_plan plan = library_->x_backward.get();
+  const Library& plans = *library_;
   const std::ptrdiff_t plane = x_.plane_stride, modes_plane = x_.modes_per_plane();
-  if (plan == nullptr) return;
-  Kokkos::parallel_for("fft: backward x", x_.planes, [=](int k) {
-    fftw_execute_dft_c2r(plan, as_fftw(modes + k * modes_plane), real + k * plane);
+  if (x_.rows == 0) return;
+  Kokkos::parallel_for("fft: backward x", x_.planes, [=, &plans](int k) {
+    Real* first = real + k * plane;
+    fftw_execute_dft_c2r(plans.along_x(first).backward.get(), as_fftw(modes + k * modes_plane),
+                         first);
   });
 }
 

@@ -19,11 +19,13 @@ struct Grid : BasicGrid<Kokkos::View<Real*>> {
   HostGrid on_host() const {
     const Kokkos::HostSpace host;
     return {*this, Kokkos::create_mirror_view_and_copy(host, y_face_),
-            Kokkos::create_mirror_view_and_copy(host, y_centre_)};
+            Kokkos::create_mirror_view_and_copy(host, y_centre_),
+            Kokkos::create_mirror_view_and_copy(host, row_at_)};
   }
   // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {
-    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data()};
+    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data(),
+            row_at_.data()};
   }
 };
 

@@ -84,11 +84,11 @@ MessageCounts flow_step(const Grid& grid) {
   return 8 * fill(grid) + fft_solve(grid) + reductions(3);
 }
 
-/// An iteration: the direction, the local part before the FFT solve, a fill for each colour in two
-/// sweeps there and back; three inner products.
+/// An iteration: the direction, the local part before the FFT solve, a fill for each colour in
+/// three sweeps there and back; three inner products.
 MessageCounts pressure_iteration(const Grid& grid) {
   const int colours = grid.nx_all % 2 == 0 && grid.nz_all % 2 == 0 ? 2 : 3;
-  return (2 + 2 * 2 * colours) * fill(grid) + fft_solve(grid) + reductions(3);
+  return (2 + 2 * 3 * colours) * fill(grid) + fft_solve(grid) + reductions(3);
 }
 /// Around the iterations: p before and after, heights of columns twice; two means, two norms.
 MessageCounts pressure_solve(const Grid& grid) {
@@ -109,12 +109,12 @@ MessageCounts scatter_add(const Grid& grid) {
                       5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Unsmoothed fraction; extent of the grains; pressure and stress on faces, on cells, three of
-/// these smoothed, and what either side gets of them; convective acceleration. Fraction, smoothed;
-/// impulse, conductance; totals, fastest velocity, volume, three sums over faces.
+/// Unsmoothed fraction; pressure and stress on faces, on cells, three of these smoothed, what the
+/// flow gets of each and the grains of both; convective acceleration. Fraction, smoothed; impulse,
+/// conductance; totals, extent of the grains, fastest velocity, volume, three sums over faces.
 MessageCounts exchange(const Grid& grid) {
-  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(5 + 2 * 2) +
-         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(2 + 1 + 3);
+  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(2 + 1) +
+         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(1 + 5 + 1 + 1 + 3);
 }
 
 /// Grains of this rank in the pencil of each rank.

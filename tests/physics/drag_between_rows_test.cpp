@@ -22,10 +22,7 @@ struct GrainInThinRows {
   test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 80, 5e-5))};
   GridRef grid = host.ref();
 
-  GrainRows rows(Real y) const {
-    return {deposit_stencil_in(grid, PointModel::divided, false),
-            GrainKinematics{.x = {0.004, y, 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}}};
-  }
+  GrainRows rows(Real y) const { return {grid, y, 1e-4}; }
 };
 
 // What rows exchange through a grain is D u, D = diag(w) - w w^T. The chain of conductances is at
@@ -42,7 +39,7 @@ TEST(DragBetweenRows, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
     Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n, n);
     double sum = 0;
     for (int j = 1; j < n; ++j) {
-      const double c = rows.conductance_below(j);
+      const double c = conductance_below(rows, j);
       chain(j, j) += c, chain(j - 1, j - 1) += c, chain(j, j - 1) -= c, chain(j - 1, j) -= c;
       sum += c;
     }
@@ -57,11 +54,9 @@ TEST(DragBetweenRows, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   EXPECT_LT(stiffest, 4);
   const test::HostGrid host = thick_rows();
   const GridRef grid = host.ref();
-  const GrainRows two{
-      deposit_stencil_in(grid, PointModel::divided, false),
-      {.x = {0.004, grid.y_face(4), 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}}};
-  EXPECT_NEAR(two.conductance_below(4), 19.0 / 29 * 10 / 29, 1e-15);
-  EXPECT_EQ(two.conductance_below(3) + two.conductance_below(5), 0);
+  const GrainRows two(grid, grid.y_face(4), 1e-4);
+  EXPECT_NEAR(conductance_below(two, 4), 19.0 / 29 * 10 / 29, 1e-15);
+  EXPECT_EQ(conductance_below(two, 3) + conductance_below(two, 5), 0);
 }
 
 /// Random numbers on cells, the same for the same seed.

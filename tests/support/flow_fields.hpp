@@ -67,7 +67,8 @@ struct HostGrid : barchan::HostGrid {
   explicit HostGrid(const Grid& grid) : barchan::HostGrid(grid.on_host()) {}
   /// As kernels see a grid, for those of their functions that a test calls on the host.
   GridRef ref() const {
-    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data()};
+    return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data(),
+            row_at_.data()};
   }
   double x(int i) const { return x_centre(i); }
   double y(int j) const { return y_centre(j); }

@@ -18,7 +18,7 @@ struct Seen {
 
   Seen(const DepositStencil& stencil, const PeriodicBox& box, const ConstFaceRef& u,
        const GrainKinematics& grain)
-      : rows(stencil, grain), velocity(stencil.grid, rows, {stencil.grid, box, grain.x}, u) {}
+      : rows(stencil.rows_of(grain)), velocity(rows, {stencil.grid, box, grain.x}, u) {}
   Seen(const Seen&) = delete;
 };
 
