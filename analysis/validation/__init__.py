@@ -3,8 +3,8 @@
     ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep NAME=DIR]
 
 Writes <figure>.png and .pdf, and channel_summary.csv. The results are tables that the tests write
-when BARCHAN_RESULTS names a folder, and statistics of channel runs and of the bed-load study taken
-over with --keep. Each says in its first lines which command, commit and machine made it, and when.
+when BARCHAN_RESULTS names a folder, and statistics of channel runs and of the studies of bed load
+taken over with --keep. Each says in its first lines which command, commit and machine made it, and when.
 Without names every figure is drawn whose results are saved. Exit status as of plot.py.
 """
 
@@ -19,6 +19,7 @@ from validation import cfdem
 from validation import channel
 from validation import contacts
 from validation import flow
+from validation import threshold
 from validation import water
 from messages import fail
 from run_folder import NotInRun, PlotError
@@ -34,7 +35,9 @@ FIGURES = {
     "convergence": flow.draw_convergence,
     "beside_cfdem": cfdem.draw,
     bed_load.NAME: bed_load.draw,
+    threshold.NAME: threshold.draw,
 }
+STUDIES = {module.NAME: module for module in (bed_load, threshold)}
 
 
 def parse(arguments):
@@ -46,8 +49,8 @@ def parse(arguments):
     parser.add_argument("--out", type=Path, default=SAVED, metavar="DIR",
                         help="folder for the pictures (docs/validation)")
     parser.add_argument("--keep", action="append", default=[], metavar="NAME=DIR",
-                        help=f"first save the statistics of a channel run ({', '.join(channel.SAVED)}) or of the "
-                             f"study {bed_load.NAME}")
+                        help=f"first save the statistics of a channel run ({', '.join(channel.SAVED)}) or of a "
+                             f"study ({', '.join(STUDIES)})")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     return parser.parse_args(arguments)
 
@@ -58,6 +61,8 @@ def draw(name, options):
                        largest=LARGEST_PNG)
     if name == "channel":
         paths.append(channel.write_summary(options.source, options.out))
+    if name == threshold.NAME:
+        print("\n".join(threshold.summary(options.source)))
     for path in paths:
         print(path)
 
@@ -72,7 +77,7 @@ def main(arguments):
     try:
         options.out.mkdir(parents=True, exist_ok=True)
         for name, _, kept in (text.partition("=") for text in options.keep):
-            print(bed_load.save(kept, options.source) if name == bed_load.NAME
+            print(STUDIES[name].save(kept, options.source) if name in STUDIES
                   else channel.save(name, kept, options.source))
     except (OSError, PlotError) as error:
         return fail(error)

@@ -8,6 +8,7 @@ s = 0.12 +- 0.03: Ouriemi et al., Phys. Fluids 19, 061706 (2007).
 
 import datetime
 import json
+from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -38,40 +39,59 @@ def van_rijn(shields, size=4.90):
     return 0.053 * np.maximum(0, shields / threshold - 1)**2.1 / size**0.3
 
 
+@dataclass
+class Scales:
+    """Of the grains of a run, by their median diameter: what makes stress and flux dimensionless."""
+
+    size: float  # [m]
+    stress: float  # [Pa]
+    flux: float  # [m2/s]
+
+    @classmethod
+    def of(cls, run):
+        size = np.median(run.grains(0)["d"].astype(float))
+        excess = run.config["grains"]["density"] / WATER - 1
+        return cls(size, excess * WATER * GRAVITY * size, np.sqrt(excess * GRAVITY * size**3))
+
+
 def measure(run):
     """The row of a run; its flux in blocks of one second gives the deviation."""
-    config, history = run.config, run.history
-    diameter = run.grains(0)["d"].astype(float)
+    config, history, scales = run.config, run.history, Scales.of(run)
     area = config["domain"]["size"][0] * config["domain"]["size"][2]
-    volume = np.sum(np.pi / 6 * diameter**3)
+    volume = np.sum(np.pi / 6 * run.grains(0)["d"].astype(float)**3)
     water_above = config["domain"]["size"][1] - volume / (PACKED * area)
-    size = np.median(diameter)
-    excess = config["grains"]["density"] / WATER - 1
     late = history["t"] > SMOOTHING_ITSELF
     t, flux = history["t"][late], history["grain_flux"][late]
     stress = np.mean(history["pressure_gradient"][late]) * water_above
-    scale = np.sqrt(excess * GRAVITY * size**3)
-    blocks = [np.mean(block) / scale for block in np.array_split(flux, max(1, round(t[-1] - SMOOTHING_ITSELF)))]
+    blocks = [np.mean(block) / scales.flux for block in np.array_split(flux, max(1, round(t[-1] - SMOOTHING_ITSELF)))]
     return (config["grains"]["rolling_friction"], config["coupling"]["smoothing_length"],
             config["fluid"]["mean_velocity"], config["initial"]["realisation"], t[-1] - SMOOTHING_ITSELF, stress,
-            stress / (excess * WATER * GRAVITY * size), np.sqrt(stress / WATER) * size / VISCOSITY,
-            np.mean(flux), np.mean(flux) / scale, np.std(blocks))
+            stress / scales.stress, np.sqrt(stress / WATER) * scales.size / VISCOSITY,
+            np.mean(flux), np.mean(flux) / scales.flux, np.std(blocks))
+
+
+def finished(study_path):
+    """A study, and each of its cases with each of its finished runs."""
+    study = StudyFolder(study_path)
+    runs = [(case, run) for case in study.cases for run in case.runs if gap_of(run.path) is None]
+    if not runs:
+        raise NotInRun(f"needs a finished run in {study_path}")
+    return study, runs
+
+
+def notes(study, config, run):
+    """What a table of the runs of a study says of itself."""
+    identity = json.loads((run.path / "run.json").read_text())
+    return {"title": study.title, "command": f"./barchan sweep {config}", "commit": identity["git_hash"],
+            "machine": f'{tables.machine()}; {identity["device"]}', "date": datetime.date.today().isoformat()}
 
 
 def save(study_path, folder):
     """Keeps one row for each finished run of the study as bed_load.csv; returns the path."""
-    study = StudyFolder(study_path)
-    runs = [run for case in study.cases for run in case.runs if gap_of(run.path) is None]
-    if not runs:
-        raise NotInRun(f"needs a finished run in {study_path}")
-    identity = json.loads((runs[0].path / "run.json").read_text())
-    notes = {"title": study.title,
-             "command": "./barchan sweep configs/validation/flat-bed-study.toml",
-             "commit": identity["git_hash"],
-             "machine": f'{tables.machine()}; {identity["device"]}',
-             "date": datetime.date.today().isoformat()}
+    study, runs = finished(study_path)
     path = folder / f"{NAME}.csv"
-    tables.write(path, notes, [COLUMNS] + [",".join(f"{value:.6g}" for value in measure(run)) for run in runs])
+    tables.write(path, notes(study, "configs/validation/flat-bed-study.toml", runs[0][1]),
+                 [COLUMNS] + [",".join(f"{value:.6g}" for value in measure(run)) for _, run in runs])
     return path
 
 
