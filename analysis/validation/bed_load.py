@@ -49,7 +49,7 @@ class Scales:
 
     @classmethod
     def of(cls, run):
-        size = np.median(run.grains(0)["d"].astype(float))
+        size = np.median(run.grains(0).d.astype(float))
         excess = run.config["grains"]["density"] / WATER - 1
         return cls(size, excess * WATER * GRAVITY * size, np.sqrt(excess * GRAVITY * size**3))
 
@@ -58,7 +58,7 @@ def measure(run):
     """The row of a run; its flux in blocks of one second gives the deviation."""
     config, history, scales = run.config, run.history, Scales.of(run)
     area = config["domain"]["size"][0] * config["domain"]["size"][2]
-    volume = np.sum(np.pi / 6 * run.grains(0)["d"].astype(float)**3)
+    volume = np.sum(np.pi / 6 * run.grains(0).d.astype(float)**3)
     water_above = config["domain"]["size"][1] - volume / (PACKED * area)
     late = history["t"] > SMOOTHING_ITSELF
     t, flux = history["t"][late], history["grain_flux"][late]

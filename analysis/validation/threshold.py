@@ -1,7 +1,8 @@
 """threshold: where grains begin to move, force by force, from the runs of configs/validation/threshold.toml.
 
-The velocity rises slowly. In windows of a quarter of a second the flux is set against the stress on the bed. Grains
-begin to move at the Shields number at which q* first passes a level (names as in bed_load).
+The velocity rises slowly. In windows of a quarter of a second the flux is set against the stress on the bed. The first
+half second counts as the start. Grains begin to move at the Shields number at which q* first passes a level (names as
+in bed_load).
 """
 
 import matplotlib.pyplot as plt
@@ -13,20 +14,20 @@ from spread import spread
 from validation import bed_load
 
 NAME = "threshold"
-WINDOW = 0.25  # [s]
+WINDOW, START = 0.25, 0.5  # [s]
 LEVELS = {"creep": 1e-3, "transport": 1e-2}  # q*
 COLUMNS = "forces,realisation,shields,q_star"
 BASE, SHOWN = "as_in_the_paper", ("as_in_the_paper", "lift", "all", "smoothed_exchange")
 
 
 def measure(run):
-    """Shields number and q* in each window."""
+    """Shields number and q* in each window after the start."""
     history = run.history
     scales = bed_load.Scales.of(run)
     window = np.ceil(history["t"] / WINDOW - 1e-9)  # the one that ends next
     return [(np.mean(history["stress_on_grains"][window == n]) / scales.stress,
              np.mean(history["grain_flux"][window == n]) / scales.flux)
-            for n in range(1, int(window[-1]) + 1)]
+            for n in range(round(START / WINDOW) + 1, int(window[-1]) + 1)]
 
 
 def passing(shields, q_star, level):
