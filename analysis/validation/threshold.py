@@ -1,7 +1,8 @@
 """threshold: where grains begin to move, force by force, from the runs of configs/validation/threshold.toml.
 
 The velocity rises slowly. In windows of a quarter of a second the flux is set against the stress on the bed. The first
-half second counts as the start. Grains begin to move at the Shields number at which q* first passes a level (names as
+half second counts as the start. The flux grows exponentially with the stress, so a line through log q* of all windows
+gives the Shields number at which q* passes a level; leaving out each realisation in turn, its standard error (names as
 in bed_load).
 """
 
@@ -10,14 +11,14 @@ import numpy as np
 
 import style
 import tables
-from spread import spread
 from validation import bed_load
 
 NAME = "threshold"
 WINDOW, START = 0.25, 0.5  # [s]
 LEVELS = {"creep": 1e-3, "transport": 1e-2}  # q*
+FITTED = 1e-4, 1e-1  # q* of the windows that the line goes through: above the noise, below the law's bend
 COLUMNS = "forces,realisation,shields,q_star"
-BASE, SHOWN = "as_in_the_paper", ("as_in_the_paper", "lift", "all", "smoothed_exchange")
+SHOWN = ("as_in_the_paper", "lift", "all", "smoothed_exchange")
 
 
 def measure(run):
@@ -31,14 +32,21 @@ def measure(run):
 
 
 def passing(shields, q_star, level):
-    """Shields number between the two windows where q* first passes the level, by the logarithm of q*."""
-    above = np.flatnonzero(q_star >= level)
-    if above.size == 0 or above[0] == 0:
+    """Shields number at which a line through log q* passes the level."""
+    fitted = (q_star >= FITTED[0]) & (q_star <= FITTED[1])
+    if np.unique(shields[fitted]).size < 2:
         return np.nan
-    n = above[0]
-    below = max(q_star[n - 1], 1e-6)
-    share = np.log(level / below) / np.log(q_star[n] / below)
-    return shields[n - 1] + share * (shields[n] - shields[n - 1])
+    slope, offset = np.polyfit(shields[fitted], np.log(q_star[fitted]), 1)
+    return (np.log(level) - offset) / slope
+
+
+def passing_with_error(table, level):
+    """Of the rows of one case; without a second realisation there is no error."""
+    whole = passing(table["shields"], table["q_star"], level)
+    rest = [passing(table["shields"][kept], table["q_star"][kept], level)
+            for kept in (table["realisation"] != number for number in table.values("realisation")) if kept.any()]
+    count = len(rest)
+    return whole, np.sqrt((count - 1) / count * np.sum((rest - np.mean(rest))**2)) if count > 1 else np.nan
 
 
 def save(study_path, folder):
@@ -49,13 +57,6 @@ def save(study_path, folder):
     path = folder / f"{NAME}.csv"
     tables.write(path, bed_load.notes(study, "configs/validation/threshold.toml", cases[0][1]), [COLUMNS, *rows])
     return path
-
-
-def thresholds(table, level):
-    """Of each realisation of the rows of one case."""
-    found = [passing(one["shields"], one["q_star"], level)
-             for one in (table.where("realisation", number) for number in table.values("realisation"))]
-    return [value for value in found if np.isfinite(value)]
 
 
 def draw(folder):
@@ -73,24 +74,20 @@ def draw(folder):
     left.legend(loc="lower right", fontsize=6)
     names = table.values("forces")
     for (kind, level), marker in zip(LEVELS.items(), ("o", "s")):
-        found = [thresholds(table.where("forces", name), level) for name in names]
-        for place, values in enumerate(found):
-            right.plot(values, [place] * len(values), ls="", marker=".", ms=3, color="0.6")
-        means = [spread(values).mean if values else np.nan for values in found]
-        right.plot(means, range(len(names)), ls="", marker=marker, ms=4, color=style.BLUE,
-                   label=f"{kind}: $q^*$ = {level:g}")
+        found = np.array([passing_with_error(table.where("forces", name), level) for name in names])
+        right.errorbar(found[:, 0], range(len(names)), xerr=np.nan_to_num(found[:, 1]), ls="", marker=marker, ms=4,
+                       capsize=2, color=style.BLUE, label=f"{kind}: $q^*$ = {level:g}")
     right.set(yticks=range(len(names)), yticklabels=[name.replace("_", " ") for name in names], xlabel="Shields number")
-    right.invert_yaxis()
-    right.legend(loc="lower left", fontsize=6)
+    right.set_ylim(len(names) + 0.7, -0.6)
+    right.legend(loc="lower right", ncols=2, fontsize=6)
     for index, axes in enumerate((left, right)):
         style.panel_label(axes, index)
     return figure
 
 
 def summary(folder):
-    """Lines `forces, creep, transport`: mean +- standard deviation of the realisations."""
+    """Lines `forces | creep | transport`: Shields number +- standard error."""
     table = tables.read_saved(folder, NAME)
     for name in table.values("forces"):
-        found = [thresholds(table.where("forces", name), level) for level in LEVELS.values()]
-        yield ", ".join([name] + [f"{spread(v).mean:.3f} +- {spread(v).deviation:.3f} ({len(v)})" if v else "none"
-                                  for v in found])
+        found = [passing_with_error(table.where("forces", name), level) for level in LEVELS.values()]
+        yield " | ".join([name] + [f"{value:.3f} +- {error:.3f}" for value, error in found])
