@@ -43,7 +43,7 @@ struct GrainExtent {
 
 /// What all grains together give: volume [m^3], drag coefficient times dt [kg], sum of |impulse|
 /// components and the impulse itself [N s]; and their extent.
-struct SumExchange {
+struct GrainTotals {
   ExchangeOfGrain of_grain;
   KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& drag, Real& size, Real& x, Real& y,
                                   Real& z, Real& left, Real& right, Real& top, Real& front,
@@ -96,8 +96,8 @@ class RecentCells {
   std::int64_t cell_[places]{}, sum_[places][Deposits::kQuantities]{};
 };
 
-/// Deposits the volume and the exchange of `together` grains that follow one another in the cells
-/// of their points.
+/// Deposits the volume and the exchange of grains in the cells of their points: a work item is
+/// `together` grains that follow one another, one on a device.
 template <int together>
 struct DepositGrains {
   ExchangeOfGrain of_grain;

@@ -15,23 +15,23 @@ struct LinearStencil {
 /// of each.
 struct PlaneStencil {
   int i = 0, k = 0;
-  Real first[2]{}, second[2]{};  // of i and i + 1 at k, at k + 1
+  Real front[2]{}, back[2]{};  // of i and i + 1 at k, at k + 1
 
   PlaneStencil() = default;
   KOKKOS_INLINE_FUNCTION PlaneStencil(const LinearStencil& x, const LinearStencil& z)
       : i(x.i),
         k(z.i),
-        first{(1 - x.t) * (1 - z.t), x.t * (1 - z.t)},
-        second{(1 - x.t) * z.t, x.t * z.t} {}
+        front{(1 - x.t) * (1 - z.t), x.t * (1 - z.t)},
+        back{(1 - x.t) * z.t, x.t * z.t} {}
 };
 
 /// Value of `f` in the plane of row j, from its four nodes there; exact for linear fields.
 KOKKOS_FORCEINLINE_FUNCTION Real interpolate_in_row(const ConstFieldRef& f, const PlaneStencil& at,
                                                     int j) {
-  const Real* const front = &f(at.i, j, at.k);
-  const Real* const back = front + f.stride_z;
-  return fused(at.second[1], back[1],
-               fused(at.second[0], back[0], fused(at.first[1], front[1], at.first[0] * front[0])));
+  const Real* const near = &f(at.i, j, at.k);
+  const Real* const far = near + f.stride_z;
+  return fused(at.back[1], far[1],
+               fused(at.back[0], far[0], fused(at.front[1], near[1], at.front[0] * near[0])));
 }
 /// Value of `f` from its eight surrounding nodes; exact for linear fields.
 KOKKOS_FORCEINLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const PlaneStencil& at,

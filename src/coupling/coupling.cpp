@@ -80,10 +80,10 @@ ExchangeByRow Coupling::rows(const FaceVector& u) const {
   return {.on = by_row_, .stencil = stencil_, .box = box_, .u = u};
 }
 
-void Coupling::choose_scales(const GrainState& grains, const FluidState& fluid, Real dt) {
+void Coupling::add_up_grains(const GrainState& grains, const FluidState& fluid, Real dt) {
   // Bounds of what one cell can receive: everything.
   std::vector<Real> sum(6);
-  Kokkos::parallel_reduce("coupling: totals", items(grains.n), SumExchange{of_grain(grains, dt)},
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n), GrainTotals{of_grain(grains, dt)},
                           sum[0], sum[1], sum[2], sum[3], sum[4], sum[5],
                           Kokkos::Min<Real>(extent_.left), Kokkos::Max<Real>(extent_.right),
                           Kokkos::Max<Real>(extent_.top), Kokkos::Min<Real>(extent_.front),
@@ -120,7 +120,7 @@ void Coupling::decode(int quantity, const FixedPoint& point, Field& density) con
 }
 
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
-  choose_scales(grains, fluid, dt);
+  add_up_grains(grains, fluid, dt);
   Kokkos::deep_copy(deposits_.sum, 0);
   using Deposit = DepositGrains<runs_on_host ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Deposit::items_for(grains.n)),

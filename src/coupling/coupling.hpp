@@ -89,7 +89,7 @@ class Coupling {
     return config_.smoothing_length > 0 &&
            (quantity == 0 || config_.exchange == Exchange::smoothed);
   }
-  void choose_scales(const GrainState& grains, const FluidState& fluid, Real dt);
+  void add_up_grains(const GrainState& grains, const FluidState& fluid, Real dt);
   void decode(int quantity, const FixedPoint& point, Field& density) const;
   void update_fraction(FluidState& fluid);
   void spread_exchange();

@@ -77,7 +77,6 @@ with tempfile.TemporaryDirectory() as folder:
         failures.append(f"the legend has no threshold: {labels}")
 
 
-
 # Threshold of motion: windows of a run, the stress at which the flux passes a level, and a table with both.
 class RisingRun(MadeUpRun):
     """The stress rises by 0.1 Pa a window, the flux tenfold from the fourth window on."""
