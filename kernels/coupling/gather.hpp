@@ -121,11 +121,16 @@ struct DragOnFrozenGrains {
   Real dt = 0;
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
-    GrainForces f{.force = {}, .torque = {}};
-    f.add_fluid(on_grains, 0, g);
-    f.mass = f.inertia_moment = Kokkos::Experimental::infinity_v<Real>;
-    Quad u{}, spin{};
-    on_grains.impulse(g) = HalfKick(dt, f)(f, u, spin).vec();
+    const Real infinity = Kokkos::Experimental::infinity_v<Real>;
+    const HalfKick half_kick(dt, {.mass = infinity,
+                                  .inertia_moment = infinity,
+                                  .per_fluid_mass = on_grains.per_fluid_mass(g),
+                                  .beta = on_grains.beta(g),
+                                  .added_mass = on_grains.added_mass(g)});
+    GrainForces f;
+    f.u_f = on_grains.u_f_after(0, g), f.acceleration = on_grains.acceleration(g);
+    Vec3 u, spin;
+    on_grains.impulse(g) = half_kick(f, u, spin);
   }
 };
 
@@ -138,7 +143,7 @@ struct DragAndAddedMass {
   Kokkos::View<Vec3*> drag, added_mass;
   KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 slip_before = on_grains.u_f(g) - on_grains.u_start(g);
-    const Vec3 slip = on_grains.u_f_after(dt, g).vec() - grains(g).u;
+    const Vec3 slip = on_grains.u_f_after(dt, g) - grains(g).u;
     const Vec3 of_change = (on_grains.added_mass(g) / dt) * (slip - slip_before);
     drag(g) = (1 / dt) * on_grains.impulse(g) - of_change;
     added_mass(g) = of_change;

@@ -179,13 +179,12 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
 ///   else                   F_t = -mu F_c xi_t/|xi_t|, xi_t shortened to the limit (re-sticks)
 /// F_c = |F_n|, or k_n delta_n in the Coulomb limit of Chung & Ooi (2011).
 /// `history` is the result of the previous sub-step (zero at first touch); dt [s].
-template <class Stiffness, class Rolling>
-KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const Stiffness& law,
+template <class Rolling>
+KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& k,
                                                         const Rolling& rolling,
                                                         const Friction& friction,
                                                         const ContactPair& pair,
                                                         const ContactResult& history, Real dt) {
-  const ContactStiffness k = law(pair.r_eff, pair.m_eff, pair.delta_n);
   const Real v_n = dot(pair.slip, pair.normal);
   const Vec3 v_t = fused(-v_n, pair.normal, pair.slip);
   const Real elastic = k.k_n * pair.delta_n, dashpot = -k.gamma_n * v_n;

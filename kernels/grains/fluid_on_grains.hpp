@@ -22,8 +22,8 @@ struct FluidOnGrains {
   bool turns = false;                  // the fluid exerts a torque: spin_f and beta_r are there
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
-  KOKKOS_FORCEINLINE_FUNCTION Quad u_f_after(Real elapsed, int g) const {
-    return quad(u_f(g)) + elapsed * quad(acceleration(g)) - per_fluid_mass(g) * quad(impulse(g));
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
+    return u_f(g) + elapsed * acceleration(g) - per_fluid_mass(g) * impulse(g);
   }
 };
 

@@ -2,65 +2,30 @@
 // the whole block (vectorised on a CPU), hand the results on.
 #pragma once
 
-#include <type_traits>
-
+#include "kernels/grains/contact_block.hpp"
 #include "kernels/grains/contact_geometry.hpp"
-#include "kernels/grains/contact_law.hpp"
 
 namespace barchan {
 
-/// Pairs laid side by side in one block: enough to fill vectors, small enough for the L1 cache.
-inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
-
-/// A Quad of each pair of a block, as numbers that a loop over the pairs can read.
-struct BlockOfQuads {
-  alignas(64) Real row[kBlock][Quad::kSize];
-
-  KOKKOS_FORCEINLINE_FUNCTION Quad operator[](int q) const { return Quad(row[q]); }
-  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const Quad& a) { a.store(row[q]); }
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 vec(int q) const { return {row[q][0], row[q][1], row[q][2]}; }
-};
-
-/// Vectors of the pairs of a block, component by component: the law writes these in full vectors,
-/// in a pass of its own they become one Quad a pair.
-struct BlockOfVectors {
-  alignas(64) Real x[kBlock], y[kBlock], z[kBlock], w[kBlock];
-
-  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const Vec3& a, Real a_w) {
-    x[q] = a.x, y[q] = a.y, z[q] = a.z, w[q] = a_w;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void to_quads(int n, BlockOfQuads& to) const {
-#pragma GCC ivdep
-    for (int q = 0; q < n; ++q)
-      to.row[q][0] = x[q], to.row[q][1] = y[q], to.row[q][2] = z[q], to.row[q][3] = w[q];
-  }
-};
-
-/// As a kernel: the crossing pairs, kBlock of them per index. Every pair goes through the same full
-/// vectors, so its result does not depend on its position in the block.
-template <class Stiffness, class Rolling>
+/// As a kernel: the crossing pairs, kBlock of them per index.
+template <class Law>
 struct PairForces {
-  static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
-  static constexpr int kVector = kBlock < 8 ? kBlock : 8;  // pairs in the widest vectors
+  using Contacts = ContactBlock<Law>;
+  static constexpr bool kRolls = Law::kRolls;
   static constexpr int kAhead = 16;  // pairs that are fetched before their turn
 
-  Stiffness law;
-  Rolling rolling;
-  Friction friction;
+  Law law;
   PeriodicBox box;
-  Real dt = 0;  // [s]
   ListValidity validity;
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
   bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
 
-  /// A block of pairs (a, b), a row each: inputs, history, results.
+  /// A block of pairs (a, b), a row each.
   struct Stage {
     BlockOfQuads separation, slip, spin_a, spin_b;
-    Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
-    BlockOfQuads xi, rolling;
-    BlockOfQuads force, n_cross_f_t;  // the fourth of force: overlap
-    BlockOfVectors new_xi, new_rolling, new_force, new_n_cross_f_t;
+    alignas(64) Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
+    Contacts contacts;
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
@@ -69,10 +34,10 @@ struct PairForces {
       if (!is_near(block, 0)) return;
       Stage s;
       load(s, 0, block);
-      apply_law(s, 0);
-      collect(s, 1);
-      store_history(s, 0, block);
-      store_pair_force(s, 0, block);
+      find_contact(s, 0);
+      s.contacts.evaluate(law, 1);
+      store_history(s.contacts, 0, block);
+      store_pair_force(s.contacts, 0, block);
       return;
     }
     const int begin = block * kBlock;
@@ -87,7 +52,7 @@ struct PairForces {
     if (n == 0) return;
     Stage s;
     evaluate(s, slots, n, n);
-    for (int q = 0; q < n; ++q) store_pair_force(s, q, slots[q]);
+    for (int q = 0; q < n; ++q) store_pair_force(s.contacts, q, slots[q]);
   }
 
   /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its rows.
@@ -102,15 +67,16 @@ struct PairForces {
       evaluate(s, slots, n, n_active - begin);
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
-        const Real half_overlap = s.force[q].w() / 2;
+        const Quad force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
+        const Real half_overlap = force.w() / 2;
         ContactSum& a = sums[list.i(p) - first_row];
-        a.force = a.force + s.force[q];
-        a.torque = fused(half_overlap - s.r_a[q], s.n_cross_f_t[q], a.torque);
-        if constexpr (kRolls) a.torque = a.torque + s.rolling[q];
+        a.force = a.force + force;
+        a.torque = fused(half_overlap - s.r_a[q], n_cross_f_t, a.torque);
+        if constexpr (kRolls) a.torque = a.torque + s.contacts.rolling[q];
         ContactSum& b = sums[list.j(p) - first_row];
-        b.force = b.force - s.force[q];
-        b.torque = fused(half_overlap - s.r_b[q], s.n_cross_f_t[q], b.torque);
-        if constexpr (kRolls) b.torque = b.torque - s.rolling[q];
+        b.force = b.force - force;
+        b.torque = fused(half_overlap - s.r_b[q], n_cross_f_t, b.torque);
+        if constexpr (kRolls) b.torque = b.torque - s.contacts.rolling[q];
       }
     }
   }
@@ -136,7 +102,7 @@ struct PairForces {
     const Vec3 s = box.nearest_image(a.x - b.x);
     const Real reach = a.r + b.r + margin;
     const bool near = dot(s, s) < reach * reach;
-    if (!near && list.touching(p)) clear(p);
+    if (static_cast<int>(!near) & list.touching(p)) clear(p);
     return near;
   }
 
@@ -162,12 +128,12 @@ struct PairForces {
       prefetch(list.xi_t(ahead));
       load(s, q, slots[q]);
     }
-    const int n_full = (n + kVector - 1) / kVector * kVector;
+    const int n_full = Contacts::whole_vectors(n);
     for (int q = n; q < n_full; ++q) load(s, q, slots[0]);
 #pragma GCC ivdep
-    for (int q = 0; q < n_full; ++q) apply_law(s, q);
-    collect(s, n_full);
-    for (int q = 0; q < n; ++q) store_history(s, q, slots[q]);
+    for (int q = 0; q < n_full; ++q) find_contact(s, q);
+    s.contacts.evaluate(law, n_full);
+    for (int q = 0; q < n; ++q) store_history(s.contacts, q, slots[q]);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int p) const {
@@ -177,11 +143,11 @@ struct PairForces {
     s.slip.put(q, a.u_m() - b.u_m());
     s.spin_a.put(q, a.spin()), s.spin_b.put(q, b.spin());
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
-    s.xi.put(q, quad(list.xi_t(p)));
-    if constexpr (Rolling::has_history) s.rolling.put(q, quad(list.rolling(p)));
+    s.contacts.xi_t.put(q, quad(list.xi_t(p)));
+    if constexpr (Law::Rolling::has_history) s.contacts.rolling.put(q, quad(list.rolling(p)));
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void apply_law(Stage& s, int q) const {
+  KOKKOS_FORCEINLINE_FUNCTION void find_contact(Stage& s, int q) const {
     const Vec3 separation = box.nearest_image(s.separation.vec(q));
     const Real distance = norm(separation);
     const Vec3 normal = (1 / distance) * separation;
@@ -192,40 +158,23 @@ struct PairForces {
     const Real delta_n = touches ? overlap : 0;
     const Vec3 spin_a = s.spin_a.vec(q), spin_b = s.spin_b.vec(q);
     const Vec3 arm_spin = fused(r_a - delta_n / 2, spin_a, (r_b - delta_n / 2) * spin_b);
-    ContactResult history;
-    history.xi_t = s.xi.vec(q);
-    if constexpr (Rolling::has_history) history.rolling = s.rolling.vec(q);
-    const ContactResult result =
-        contact_force(law, rolling, friction,
-                      ContactPair{.normal = normal,
-                                  .delta_n = delta_n,
-                                  .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
-                                  .spin_difference = spin_a - spin_b,
-                                  .r_eff = effective.r,
-                                  .m_eff = effective.m},
-                      history, dt);
-    const Real on = touches ? 1 : 0;
-    s.new_force.put(q, on * result.force, delta_n);
-    s.new_n_cross_f_t.put(q, on * result.n_cross_f_t, 0);
-    s.new_xi.put(q, on * result.xi_t, 0);
-    if constexpr (kRolls) s.new_rolling.put(q, on * result.rolling, 0);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static void collect(Stage& s, int n) {
-    s.new_force.to_quads(n, s.force);
-    s.new_n_cross_f_t.to_quads(n, s.n_cross_f_t);
-    s.new_xi.to_quads(n, s.xi);
-    if constexpr (kRolls) s.new_rolling.to_quads(n, s.rolling);
+    s.contacts.put(q, {.normal = normal,
+                       .delta_n = delta_n,
+                       .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
+                       .spin_difference = spin_a - spin_b,
+                       .r_eff = effective.r,
+                       .m_eff = effective.m});
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void store_history(const Stage& s, int q, int p) const {
-    list.xi_t(p) = s.xi.vec(q);
-    list.touching(p) = s.force[q].w() > 0 ? 1 : 0;
-    if constexpr (kRolls) list.rolling(p) = s.rolling.vec(q);
-    if (keep_force) list.force(p) = s.force.vec(q);
+  KOKKOS_FORCEINLINE_FUNCTION void store_history(const Contacts& c, int q, int p) const {
+    list.xi_t(p) = c.xi_t.vec(q);
+    list.touching(p) = c.force[q].w() > 0 ? 1 : 0;
+    if constexpr (kRolls) list.rolling(p) = c.rolling.vec(q);
+    if (keep_force) list.force(p) = c.force.vec(q);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void store_pair_force(const Stage& s, int q, int p) const {
-    list.pair_force(p) = {s.force[q], s.n_cross_f_t[q]};
+  KOKKOS_FORCEINLINE_FUNCTION void store_pair_force(const Contacts& c, int q, int p) const {
+    list.pair_force(p) = {c.force[q], c.n_cross_f_t[q]};
   }
 };
 

@@ -3,67 +3,93 @@
 
 #include <cstdint>
 
+#include "kernels/grains/contact_block.hpp"
 #include "kernels/grains/contact_geometry.hpp"
-#include "kernels/grains/contact_law.hpp"
 
 namespace barchan {
 
 /// The walls, their material and every grain's history with them. Walls 2s and 2s + 1, which a
 /// grain cannot touch together, share the history s.
-template <class Stiffness, class Rolling>
+template <class Law>
 struct Walls {
   WallPlanes planes;
-  Stiffness law;
-  Rolling rolling;
-  Friction friction;
+  Law law;
+  Kokkos::View<const GrainKinematics*> grains;
   // (grain, wall / 2): [m], [N m]; torque of rolling springs alone
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;
   Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
-  KOKKOS_FORCEINLINE_FUNCTION ContactResult remembered(int g, int w) const {
-    ContactResult history;
-    history.xi_t = xi_t(g, w / 2);
-    if constexpr (Rolling::has_history) history.rolling = torque(g, w / 2);
-    return history;
-  }
+  /// Contacts side by side: of which grain, with which wall, at which arm [m].
+  struct Stage {
+    int n = 0;
+    int grain[kBlock], wall[kBlock];
+    Real arm[kBlock];
+    ContactBlock<Law> contacts;
+  };
+
   /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
-  KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, const GrainKinematics& grain,
-                                                   Real margin) const {
+  KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, Real margin) const {
     for (int w = 0; w < planes.n; ++w) {
-      if (planes[w].overlap(grain) > -margin) return 1;
+      if (planes[w].overlap(grains(g)) > -margin) return 1;
     }
     touching(g) = 0;
     return 0;
   }
-  /// Adds the force and torque of all walls on grain g; advances the history by dt.
-  KOKKOS_FORCEINLINE_FUNCTION void add(int g, const GrainKinematics& grain, Real dt,
-                                       ContactSum& sum) const {
-    const std::uint8_t before = touching(g);
-    std::uint8_t now = 0;
-    for (int w = 0; w < planes.n; ++w) {
-      const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
-      const Vec3& normal = planes[w].normal;
-      const Real delta_n = planes[w].overlap(grain);
-      if (delta_n <= 0) continue;
-      ContactResult history;
-      if (before & bit) history = remembered(g, w);
-      const Real arm = grain.r - delta_n / 2;
-      const ContactResult result =
-          contact_force(law, rolling, friction,
-                        ContactPair{.normal = normal,
-                                    .delta_n = delta_n,
-                                    .slip = contact_slip(grain.u, arm * grain.omega, normal),
-                                    .spin_difference = grain.omega,
-                                    .r_eff = grain.r,
-                                    .m_eff = grain.m},
-                        history, dt);
-      sum.force = sum.force + quad(result.force);
-      sum.torque = sum.torque + quad(fused(-arm, result.n_cross_f_t, result.rolling));
-      xi_t(g, w / 2) = result.xi_t;
-      if constexpr (Rolling::has_history) torque(g, w / 2) = result.rolling;
-      now = static_cast<std::uint8_t>(now | bit);
+
+  /// Adds the forces and torques of all walls on the grains of rows [begin, end) that are near one
+  /// to sums[0..], and takes their history a sub-step on.
+  template <class Near>
+  KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
+                                       ContactSum* sums) const {
+    Stage s;
+    for (int g = begin; g < end; ++g) {
+      if (!near(g)) continue;
+      const std::uint8_t before = touching(g);
+      std::uint8_t now = 0;
+      for (int w = 0; w < planes.n; ++w) {
+        if (planes[w].overlap(grains(g)) <= 0) continue;
+        const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
+        now = static_cast<std::uint8_t>(now | bit);
+        load(s, s.n, g, w, (before & bit) != 0);
+        if (++s.n == kBlock) evaluate(s, begin, sums);
+      }
+      if (now != before) touching(g) = now;
     }
-    if (now != before) touching(g) = now;
+    evaluate(s, begin, sums);
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int g, int w, bool touched) const {
+    const GrainKinematics& grain = grains(g);
+    const Vec3& normal = planes[w].normal;
+    const Real delta_n = planes[w].overlap(grain), arm = grain.r - delta_n / 2;
+    s.grain[q] = g, s.wall[q] = w, s.arm[q] = arm;
+    s.contacts.put(q, {.normal = normal,
+                       .delta_n = delta_n,
+                       .slip = contact_slip(grain.u, arm * grain.omega, normal),
+                       .spin_difference = grain.omega,
+                       .r_eff = grain.r,
+                       .m_eff = grain.m});
+    s.contacts.xi_t.put(q, quad(touched ? xi_t(g, w / 2) : Vec3{}));
+    if constexpr (Law::Rolling::has_history) {
+      s.contacts.rolling.put(q, quad(touched ? torque(g, w / 2) : Vec3{}));
+    }
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int begin, ContactSum* sums) const {
+    if (s.n == 0) return;
+    const int n_full = ContactBlock<Law>::whole_vectors(s.n);
+    for (int q = s.n; q < n_full; ++q) load(s, q, s.grain[0], s.wall[0], true);
+    s.contacts.evaluate(law, n_full);
+    for (int q = 0; q < s.n; ++q) {
+      const int g = s.grain[q], w = s.wall[q];
+      ContactSum& sum = sums[g - begin];
+      sum.force = sum.force + quad(s.contacts.force.vec(q));
+      sum.torque = fused(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
+      if constexpr (Law::kRolls) sum.torque = sum.torque + s.contacts.rolling[q];
+      xi_t(g, w / 2) = s.contacts.xi_t.vec(q);
+      if constexpr (Law::Rolling::has_history) torque(g, w / 2) = s.contacts.rolling.vec(q);
+    }
+    s.n = 0;
   }
 };
 

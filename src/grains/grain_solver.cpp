@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/stable_step.hpp"
+#include "kernels/grains/sub_step.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -49,14 +49,15 @@ Friction friction_of(const Material& m, CoulombLimit limit) {
           .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
-KickAndDrift motion(const GrainState& grains, Real dt, Real elapsed) {
+int blocks_of(int n) { return (n + kBlock - 1) / kBlock; }
+
+GrainMotion motion(const GrainState& grains, Real dt, Real elapsed) {
   return {.dt = dt,
           .elapsed = elapsed,
           .grains = grains.kin,
-          .contact_force = grains.contact_force,
-          .contact_torque = grains.contact_torque,
           .x_reference = grains.x_reference,
-          .fluid = grains.fluid};
+          .fluid = grains.fluid,
+          .slack = grains.list.slack};
 }
 
 }  // namespace
@@ -95,7 +96,11 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
     host_excess_ = Kokkos::create_mirror_view(excess_);
   }
   Kokkos::deep_copy(grains.list.worn, 1);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(grains.n), motion(grains, dt, 0),
+  Kokkos::parallel_reduce("grains: first kick and drift", items(blocks_of(grains.n)),
+                          KickAndDrift{.motion = motion(grains, dt, 0),
+                                       .n = grains.n,
+                                       .contact_force = grains.contact_force,
+                                       .contact_torque = grains.contact_torque},
                           max_excess(0));
 }
 
@@ -104,31 +109,31 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
 void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) {
   const auto launch = [&](const auto& law, const auto& rolling) {
     using Stiffness = std::decay_t<decltype(law)>;
-    using Rolling = std::decay_t<decltype(rolling)>;
-    const PairForces<Stiffness, Rolling> pairs{
-        .law = law,
-        .rolling = rolling,
-        .friction = pair_friction_,
+    using Law = ContactLaw<Stiffness, std::decay_t<decltype(rolling)>>;
+    const PairForces<Law> pairs{
+        .law = {.stiffness = law, .rolling = rolling, .friction = pair_friction_, .dt = dt},
         .box = list_.box(),
-        .dt = dt,
         .validity = {.excess = excess_, .before = element(s)},
         .grains = grains.kin,
         .list = grains.list,
         .keep_force = list_.with_force && last};
-    const int n_blocks = (grains.list.n_crossing + kBlock - 1) / kBlock;
-    Kokkos::parallel_for("grains: crossing pairs", items(n_blocks), pairs);
-    const SumKickDrift<Stiffness, Rolling> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
-                                               .pairs = pairs,
-                                               .walls = {.planes = walls_,
-                                                         .law = std::get<Stiffness>(wall_law_),
-                                                         .rolling = rolling,
-                                                         .friction = wall_friction_,
-                                                         .xi_t = grains.wall_xi_t,
-                                                         .torque = grains.wall_torque,
-                                                         .touching = grains.wall_touching},
-                                               .has_rolling = list_.with_rolling,
-                                               .last = last,
-                                               .least_slack = list_.least_slack()};
+    Kokkos::parallel_for("grains: crossing pairs", items(blocks_of(grains.list.n_crossing)), pairs);
+    const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
+                                .pairs = pairs,
+                                .walls = {.planes = walls_,
+                                          .law = {.stiffness = std::get<Stiffness>(wall_law_),
+                                                  .rolling = rolling,
+                                                  .friction = wall_friction_,
+                                                  .dt = dt},
+                                          .grains = grains.kin,
+                                          .xi_t = grains.wall_xi_t,
+                                          .torque = grains.wall_torque,
+                                          .touching = grains.wall_touching},
+                                .contact_force = grains.contact_force,
+                                .contact_torque = grains.contact_torque,
+                                .has_rolling = list_.with_rolling,
+                                .last = last,
+                                .least_slack = list_.least_slack()};
     Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
                             items(grains.list.chunks.count()), sum, max_excess(s + 1));
   };

@@ -20,6 +20,14 @@ HertzMindlin law(Real restitution) {
           .damping = restitution < 1 ? damping_ratio(restitution) : 0};
 }
 
+/// contact_force with the stiffness that the law has for this pair.
+template <class Rolling>
+ContactResult force_by(const HertzMindlin& hertz, const Rolling& rolling, const Friction& friction,
+                       const ContactPair& pair, const ContactResult& history, Real dt) {
+  const ContactStiffness k = hertz(pair.r_eff, pair.m_eff, pair.delta_n);
+  return contact_force(k, rolling, friction, pair, history, dt);
+}
+
 /// A head-on impact of a grain with reduced mass m_eff at speed v [m/s].
 struct Impact {
   Real restitution = 0, max_overlap = 0, max_force = 0, duration = 0;
@@ -38,7 +46,7 @@ Impact head_on(const HertzMindlin& hertz, Real v, Real dt) {
                      .spin_difference = {},
                      .r_eff = r_eff,
                      .m_eff = m_eff};
-    history = contact_force(hertz, NoRolling{}, Friction{}, pair, history, dt);
+    history = force_by(hertz, NoRolling{}, Friction{}, pair, history, dt);
     const Real force = history.force.x;
     approach -= dt * force / m_eff;
     delta += dt * approach;
@@ -139,12 +147,12 @@ TEST(ContactForce, SlidesAtTheCoulombLimitAndSticksAgain) {
   const Friction friction{.sliding = 0.6, .rolling = 0};
   const ContactPair slides = sliding_pair(1);
   ContactResult c;
-  for (int n = 0; n < 200; ++n) c = contact_force(law(1), NoRolling{}, friction, slides, c, 1e-7);
+  for (int n = 0; n < 200; ++n) c = force_by(law(1), NoRolling{}, friction, slides, c, 1e-7);
   EXPECT_NEAR(-c.force.x, 0.6 * c.force.y, 1e-12 * c.force.y);
   EXPECT_NEAR(norm(c.xi_t), 0.6 * c.force.y / law(1)(kRadius / 2, 1e-8, 1e-6).k_t, 1e-15);
   // Back by half the stored displacement: the spring pulls with half the limit.
   const ContactPair back = sliding_pair(-norm(c.xi_t) / 2 / 1e-7);
-  c = contact_force(law(1), NoRolling{}, friction, back, c, 1e-7);
+  c = force_by(law(1), NoRolling{}, friction, back, c, 1e-7);
   EXPECT_NEAR(-c.force.x, 0.3 * c.force.y, 1e-9 * c.force.y);
 }
 
@@ -155,7 +163,7 @@ TEST(ContactForce, NeverLeavesTheCoulombConeWhenElastic) {
     ContactPair pair = sliding_pair(std::sin(0.1 * n));
     pair.slip.z = std::cos(0.037 * n);
     pair.delta_n = 1e-6 * (1.2 + std::sin(0.01 * n));
-    c = contact_force(law(1), NoRolling{}, friction, pair, c, 1e-7);
+    c = force_by(law(1), NoRolling{}, friction, pair, c, 1e-7);
     const Vec3 tangential = c.force - c.force.y * Vec3{0, 1, 0};
     EXPECT_LE(norm(tangential), 0.4 * c.force.y * (1 + 1e-12));
     EXPECT_NEAR(dot(c.xi_t, pair.normal), 0, 1e-20);
@@ -168,7 +176,7 @@ TEST(ContactForce, TangentialDisplacementLiesInTheTangentPlane) {
   ContactResult history;
   history.xi_t = {1e-9, 2e-9, 3e-9};  // of a contact whose normal was another
   const ContactResult c =
-      contact_force(law(1), NoRolling{}, Friction{.sliding = 0.6}, sliding_pair(0), history, 1e-7);
+      force_by(law(1), NoRolling{}, Friction{.sliding = 0.6}, sliding_pair(0), history, 1e-7);
   EXPECT_EQ(c.xi_t.y, 0);
   EXPECT_EQ(c.xi_t.x, 1e-9);
   EXPECT_NEAR(c.force.z / c.force.x, 3, 1e-14);
@@ -182,7 +190,7 @@ TEST(ContactForce, SlidingFrictionIsAlongTheSpring) {
   ContactPair pair = sliding_pair(0);
   pair.slip.z = 0.1;
   const Friction friction{.sliding = 0.6};
-  const ContactResult c = contact_force(law(0.1), NoRolling{}, friction, pair, history, 1e-7);
+  const ContactResult c = force_by(law(0.1), NoRolling{}, friction, pair, history, 1e-7);
   EXPECT_NEAR(std::hypot(c.force.x, c.force.z), 0.6 * c.force.y, 1e-12 * c.force.y);
   EXPECT_NEAR(c.force.z / c.force.x, 0.1 * 1e-7 / 1e-6, 1e-12);
   EXPECT_LT(c.force.x, 0);
@@ -199,8 +207,8 @@ TEST(ContactForce, OppositeRolesGiveOppositeForces) {
                       .m_eff = 1e-8};
   ContactPair b = a;
   b.normal = -a.normal, b.slip = -a.slip, b.spin_difference = -a.spin_difference;
-  const ContactResult ra = contact_force(law(0.5), Epsd2{}, friction, a, {}, 1e-7);
-  const ContactResult rb = contact_force(law(0.5), Epsd2{}, friction, b, {}, 1e-7);
+  const ContactResult ra = force_by(law(0.5), Epsd2{}, friction, a, {}, 1e-7);
+  const ContactResult rb = force_by(law(0.5), Epsd2{}, friction, b, {}, 1e-7);
   EXPECT_NEAR(norm(ra.force + rb.force), 0, 1e-12 * norm(ra.force));
   EXPECT_NEAR(norm(ra.n_cross_f_t - rb.n_cross_f_t), 0, 1e-12 * norm(ra.n_cross_f_t));
 }
@@ -213,7 +221,7 @@ Real rolled(const Law& rolling, Real mu_r, Real angle, int n) {
   for (int s = 0; s < n; ++s) {
     ContactPair pair = sliding_pair(0);
     pair.spin_difference = {0, 100, angle / n / dt};  // the part along the normal is torsion
-    c = contact_force(law(1), rolling, Friction{.sliding = 0.6, .rolling = mu_r}, pair, c, dt);
+    c = force_by(law(1), rolling, Friction{.sliding = 0.6, .rolling = mu_r}, pair, c, dt);
     EXPECT_EQ(c.rolling.y, 0);
   }
   return c.rolling.z;

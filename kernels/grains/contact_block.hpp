@@ -1,0 +1,97 @@
+// The contact law on a block of contacts at once, between grains or of grains with walls.
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/grains/block.hpp"
+#include "kernels/grains/contact_law.hpp"
+
+namespace barchan {
+
+/// The law of one kind of contact and its sub-step.
+template <class StiffnessLaw, class RollingLaw>
+struct ContactLaw {
+  using Stiffness = StiffnessLaw;
+  using Rolling = RollingLaw;
+  static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
+
+  Stiffness stiffness;
+  Rolling rolling;
+  Friction friction;
+  Real dt = 0;  // [s]
+};
+
+/// Geometry, relative motion and history of contacts in, forces and history out. Each contact goes
+/// through the same full vectors, so its result does not depend on its place in the block. The
+/// passes are short, so that a CPU has several vectors of contacts under way in each of them: roots
+/// and divisions take long, one after another.
+template <class Law>
+struct ContactBlock {
+  static constexpr bool kRolls = Law::kRolls;
+  static constexpr int kVector = kBlock < 8 ? kBlock : 8;  // contacts in the widest vectors
+
+  BlockOfVectors normal;     // and the overlap [m], 0 where the two do not touch
+  BlockOfVectors slip;       // [m/s]
+  BlockOfVectors turn;       // difference of the spins [rad/s]
+  BlockOfQuads xi_t;         // [m], before and after
+  BlockOfQuads rolling;      // [N m], before and after
+  BlockOfQuads force;        // result [N], and the overlap [m]
+  BlockOfQuads n_cross_f_t;  // result [N]
+  alignas(64) Real r_eff[kBlock], m_eff[kBlock];                                // [m], [kg]
+  alignas(64) Real k_n[kBlock], k_t[kBlock], gamma_n[kBlock], gamma_t[kBlock];  // [N/m], [kg/s]
+  BlockOfVectors new_force, new_n_cross_f_t, new_xi_t, new_rolling;
+
+  /// n contacts in whole vectors; the block has room for so many.
+  KOKKOS_FORCEINLINE_FUNCTION static int whole_vectors(int n) {
+    return (n + kVector - 1) / kVector * kVector;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const ContactPair& pair) {
+    normal.put(q, pair.normal, pair.delta_n);
+    slip.put(q, pair.slip, 0);
+    if constexpr (kRolls) turn.put(q, pair.spin_difference, 0);
+    r_eff[q] = pair.r_eff, m_eff[q] = pair.m_eff;
+  }
+
+  /// n is a multiple of kVector.
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(const Law& law, int n) {
+#pragma GCC ivdep
+    for (int q = 0; q < n; ++q) find_stiffness(law, q);
+#pragma GCC ivdep
+    for (int q = 0; q < n; ++q) find_force(law, q);
+    new_force.to_quads(n, force);
+    new_n_cross_f_t.to_quads(n, n_cross_f_t);
+    new_xi_t.to_quads(n, xi_t);
+    if constexpr (kRolls) new_rolling.to_quads(n, rolling);
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void find_stiffness(const Law& law, int q) {
+    const ContactStiffness k = law.stiffness(r_eff[q], m_eff[q], normal.w[q]);
+    k_n[q] = k.k_n, k_t[q] = k.k_t, gamma_n[q] = k.gamma_n, gamma_t[q] = k.gamma_t;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void find_force(const Law& law, int q) {
+    const Real delta_n = normal.w[q];
+    ContactPair pair{.normal = normal.vec(q),
+                     .delta_n = delta_n,
+                     .slip = slip.vec(q),
+                     .spin_difference = {},
+                     .r_eff = r_eff[q],
+                     .m_eff = m_eff[q]};
+    if constexpr (kRolls) pair.spin_difference = turn.vec(q);
+    ContactResult history;
+    history.xi_t = xi_t.vec(q);
+    if constexpr (Law::Rolling::has_history) history.rolling = rolling.vec(q);
+    const ContactResult result = contact_force(
+        ContactStiffness{
+            .k_n = k_n[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
+        law.rolling, law.friction, pair, history, law.dt);
+    const Real on = delta_n > 0 ? 1 : 0;
+    new_force.put(q, on * result.force, delta_n);
+    new_n_cross_f_t.put(q, on * result.n_cross_f_t, 0);
+    new_xi_t.put(q, on * result.xi_t, 0);
+    if constexpr (kRolls) new_rolling.put(q, on * result.rolling, 0);
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,114 @@
+// One pass over the chunks of grains per sub-step: forces of their inner pairs and of the walls,
+// sum of all contacts, kick, and drift into the next sub-step.
+#pragma once
+
+#include "kernels/grains/grain_motion.hpp"
+#include "kernels/grains/pair_forces.hpp"
+#include "kernels/grains/wall_contact.hpp"
+
+namespace barchan {
+
+/// Adds what a crossing pair does to its first grain (sign 1) or second grain (-1).
+KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
+                                                Real radius, bool has_rolling, ContactSum& sum) {
+  const PairForce& pair = list.pair_force(slot);
+  sum.force = fused(sign, pair.force, sum.force);
+  sum.torque = fused(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
+  if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
+}
+
+KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
+  if (s >= list.n_crossing) return;
+  prefetch(list.pair_force(list.other_slot(s)));
+  prefetch(list.j(list.other_slot(s)));
+}
+
+/// Sums of the crossing contacts of the rows [begin, end), of each row its own slots first, then
+/// the others.
+KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
+                                              const Kokkos::View<GrainKinematics*>& grains,
+                                              int begin, int end, bool has_rolling,
+                                              ContactSum* sums) {
+  for (int g = begin; g < end; ++g) sums[g - begin] = ContactSum{};
+  for (int p = list.first(begin); p < list.first(end); ++p) {
+    const int g = list.i(p);
+    add_pair_force(list, p, 1, grains(g).r, has_rolling, sums[g - begin]);
+  }
+  for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
+    if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
+    const int slot = list.other_slot(s), g = list.j(slot);
+    add_pair_force(list, slot, -1, grains(g).r, has_rolling, sums[g - begin]);
+  }
+}
+
+/// The end of a sub-step, a chunk of grains per index: new contact forces, second half kick, and
+/// unless it is the last sub-step the first half kick and drift of the next one. No grain of
+/// another chunk is read, so chunks may go ahead of each other.
+template <class Law>
+struct SumKickDrift {
+  GrainMotion motion;
+  PairForces<Law> pairs;
+  Walls<Law> walls;
+  Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last sub-step: [N], [N m]
+  bool has_rolling = false;
+  bool last = false;
+  Real least_slack = 0;  // of a grain at rest [m]
+
+  KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
+    if (!pairs.validity.holds()) {  // so that the next one is closed, too
+      largest = Kokkos::Experimental::infinity_v<Real>;
+      return;
+    }
+    const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
+    ContactSum sums[kLargestChunk];
+    sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
+    if constexpr (kLargestChunk > 1) {
+      if (pairs.list.worn(chunk)) find_active(chunk, begin, end);
+      pairs.add_inner(chunk, sums);
+    }
+    const auto is_near = [&](int g) { return kLargestChunk == 1 || pairs.list.near_wall(g) != 0; };
+    walls.add(begin, end, is_near, sums);
+    if (last) keep(begin, end, sums);
+    bool worn = false;
+    for (int g = begin; g < end; g += kBlock) {
+      const int n = g + kBlock < end ? kBlock : end - g;
+      const ContactSum* of_block = sums + (g - begin);
+      const bool is_worn = last ? motion.advance<Moves::out_of_last>(g, n, of_block, largest)
+                                : motion.advance<Moves::between>(g, n, of_block, largest);
+      worn = worn || is_worn;
+    }
+    pairs.list.worn(chunk) = worn;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void keep(int begin, int end, const ContactSum* sums) const {
+    for (int g = begin; g < end; ++g) {
+      contact_force(g) = sums[g - begin].force.vec();
+      contact_torque(g) = sums[g - begin].torque.vec();
+    }
+  }
+
+  /// The pairs, and the grains beside walls, that can come into contact before a grain has used up
+  /// its slack. That is as far as each comes in the same time at the speed that it has, and a
+  /// little more.
+  KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
+    Real way = 0;  // of all grains in a sub-step [m]
+    for (int g = begin; g < end; ++g) way += motion.dt * norm(motion.grains(g).u);
+    const Real n_steps = steps_of_slack(way / (end - begin));
+    for (int g = begin; g < end; ++g) {
+      const Real slack = least_slack + n_steps * motion.dt * norm(motion.grains(g).u);
+      pairs.list.slack(g) = slack;
+      pairs.list.near_wall(g) = walls.is_near(g, slack);
+    }
+    pairs.find_active(chunk);
+  }
+
+  /// For how many sub-steps slack is best given. To look for active pairs costs once, more of them
+  /// cost in every sub-step, and how many more grows with `way`, the mean one of a grain in a
+  /// sub-step [m]. Measured (docs/performance.md); hardly anything changes from 20 to 200.
+  KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real way) const {
+    const Real n_steps = Kokkos::sqrt(100 * least_slack / way);
+    return n_steps < 100 ? n_steps : 100;
+  }
+};
+
+}  // namespace barchan
