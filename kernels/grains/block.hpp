@@ -9,6 +9,12 @@ namespace barchan {
 /// Of a block: enough to fill vectors, small enough for the L1 cache; on a GPU one.
 inline constexpr int kBlock = kLargestChunk > 1 ? 32 : 1;
 
+/// How many of a block there are from `begin` on: a constant on a GPU, so that it keeps the block
+/// in registers.
+KOKKOS_FORCEINLINE_FUNCTION constexpr int size_of_block(int begin, int end) {
+  return kBlock == 1 || begin + kBlock <= end ? kBlock : end - begin;
+}
+
 /// A Quad of each, as numbers that a loop over the block can read.
 struct alignas(64) BlockOfQuads {
   Real row[kBlock][Quad::kSize];

@@ -85,6 +85,11 @@ struct Chunks {
     return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
   }
 };
+/// Place of a row in its chunk: a constant where every row is one, so that a device keeps what lies
+/// there in registers.
+KOKKOS_FORCEINLINE_FUNCTION constexpr int place_in_chunk(int row, int begin) {
+  return kLargestChunk > 1 ? row - begin : 0;
+}
 /// Large chunks have few pairs that cross; a multiple of eight of them shares well among threads,
 /// unless that makes them tiny.
 inline Chunks make_chunks(int n) {

@@ -30,10 +30,12 @@ struct GrainMotion {
     Real excess[kBlock];  // over the skin [m^2]
   };
 
-  /// Moves n grains from row `begin` on. Returns whether one of them has used up its slack; raises
-  /// `largest` to their largest excess over the skin [m^2].
+  /// Moves the grains [begin, end), a block of them at most, with the sums of their contacts.
+  /// Returns whether one has used up its slack; raises `largest` to their largest excess over the
+  /// skin [m^2].
   template <Moves moves>
-  KOKKOS_FUNCTION bool advance(int begin, int n, const ContactSum* sums, Real& largest) const {
+  KOKKOS_FUNCTION bool advance(int begin, int end, const ContactSum* sums, Real& largest) const {
+    const int n = size_of_block(begin, end);
     Stage s;
     for (int q = 0; q < n; ++q) {
       const GrainKinematics& grain = grains(begin + q);
@@ -110,12 +112,12 @@ struct KickAndDrift {
   Kokkos::View<const Vec3*> contact_force, contact_torque;
 
   KOKKOS_FUNCTION void operator()(int block, Real& largest) const {
-    const int begin = block * kBlock, end = begin + kBlock < n ? begin + kBlock : n;
+    const int begin = block * kBlock;
     ContactSum sums[kBlock];
-    for (int g = begin; g < end; ++g) {
-      sums[g - begin] = {quad(contact_force(g)), quad(contact_torque(g))};
+    for (int q = 0; q < size_of_block(begin, n); ++q) {
+      sums[q] = {quad(contact_force(begin + q)), quad(contact_torque(begin + q))};
     }
-    motion.advance<Moves::into_first>(begin, end - begin, sums, largest);
+    motion.advance<Moves::into_first>(begin, n, sums, largest);
   }
 };
 

@@ -29,15 +29,15 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
                                               const Kokkos::View<GrainKinematics*>& grains,
                                               int begin, int end, bool has_rolling,
                                               ContactSum* sums) {
-  for (int g = begin; g < end; ++g) sums[g - begin] = ContactSum{};
+  for (int g = begin; g < end; ++g) sums[place_in_chunk(g, begin)] = ContactSum{};
   for (int p = list.first(begin); p < list.first(end); ++p) {
     const int g = list.i(p);
-    add_pair_force(list, p, 1, grains(g).r, has_rolling, sums[g - begin]);
+    add_pair_force(list, p, 1, grains(g).r, has_rolling, sums[place_in_chunk(g, begin)]);
   }
   for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
     if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
     const int slot = list.other_slot(s), g = list.j(slot);
-    add_pair_force(list, slot, -1, grains(g).r, has_rolling, sums[g - begin]);
+    add_pair_force(list, slot, -1, grains(g).r, has_rolling, sums[place_in_chunk(g, begin)]);
   }
 }
 
@@ -71,10 +71,9 @@ struct SumKickDrift {
     if (last) keep(begin, end, sums);
     bool worn = false;
     for (int g = begin; g < end; g += kBlock) {
-      const int n = g + kBlock < end ? kBlock : end - g;
-      const ContactSum* of_block = sums + (g - begin);
-      const bool is_worn = last ? motion.advance<Moves::out_of_last>(g, n, of_block, largest)
-                                : motion.advance<Moves::between>(g, n, of_block, largest);
+      const ContactSum* of_block = sums + place_in_chunk(g, begin);
+      const bool is_worn = last ? motion.advance<Moves::out_of_last>(g, end, of_block, largest)
+                                : motion.advance<Moves::between>(g, end, of_block, largest);
       worn = worn || is_worn;
     }
     pairs.list.worn(chunk) = worn;
@@ -82,8 +81,8 @@ struct SumKickDrift {
 
   KOKKOS_FORCEINLINE_FUNCTION void keep(int begin, int end, const ContactSum* sums) const {
     for (int g = begin; g < end; ++g) {
-      contact_force(g) = sums[g - begin].force.vec();
-      contact_torque(g) = sums[g - begin].torque.vec();
+      contact_force(g) = sums[place_in_chunk(g, begin)].force.vec();
+      contact_torque(g) = sums[place_in_chunk(g, begin)].torque.vec();
     }
   }
 

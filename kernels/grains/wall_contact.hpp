@@ -21,7 +21,6 @@ struct Walls {
 
   /// Contacts side by side: of which grain, with which wall, at which arm [m].
   struct Stage {
-    int n = 0;
     int grain[kBlock], wall[kBlock];
     Real arm[kBlock];
     ContactBlock<Law> contacts;
@@ -42,6 +41,7 @@ struct Walls {
   KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
                                        ContactSum* sums) const {
     Stage s;
+    int n = 0;
     for (int g = begin; g < end; ++g) {
       if (!near(g)) continue;
       const std::uint8_t before = touching(g);
@@ -50,12 +50,15 @@ struct Walls {
         if (planes[w].overlap(grains(g)) <= 0) continue;
         const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
         now = static_cast<std::uint8_t>(now | bit);
-        load(s, s.n, g, w, (before & bit) != 0);
-        if (++s.n == kBlock) evaluate(s, begin, sums);
+        load(s, n, g, w, (before & bit) != 0);
+        if (++n == kBlock) {
+          evaluate(s, kBlock, begin, sums);
+          n = 0;
+        }
       }
       if (now != before) touching(g) = now;
     }
-    evaluate(s, begin, sums);
+    if (kBlock > 1 && n > 0) evaluate(s, n, begin, sums);
   }
 
  private:
@@ -75,21 +78,19 @@ struct Walls {
       s.contacts.rolling.put(q, quad(touched ? torque(g, w / 2) : Vec3{}));
     }
   }
-  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int begin, ContactSum* sums) const {
-    if (s.n == 0) return;
-    const int n_full = ContactBlock<Law>::whole_vectors(s.n);
-    for (int q = s.n; q < n_full; ++q) load(s, q, s.grain[0], s.wall[0], true);
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int n, int begin, ContactSum* sums) const {
+    const int n_full = ContactBlock<Law>::whole_vectors(n);
+    for (int q = n; q < n_full; ++q) load(s, q, s.grain[0], s.wall[0], true);
     s.contacts.evaluate(law, n_full);
-    for (int q = 0; q < s.n; ++q) {
+    for (int q = 0; q < n; ++q) {
       const int g = s.grain[q], w = s.wall[q];
-      ContactSum& sum = sums[g - begin];
+      ContactSum& sum = sums[place_in_chunk(g, begin)];
       sum.force = sum.force + quad(s.contacts.force.vec(q));
       sum.torque = fused(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
       if constexpr (Law::kRolls) sum.torque = sum.torque + s.contacts.rolling[q];
       xi_t(g, w / 2) = s.contacts.xi_t.vec(q);
       if constexpr (Law::Rolling::has_history) torque(g, w / 2) = s.contacts.rolling.vec(q);
     }
-    s.n = 0;
   }
 };
 
