@@ -30,13 +30,13 @@ struct ContactBlock {
   static constexpr bool kRolls = Law::kRolls;
   static constexpr int kVector = kBlock < 8 ? kBlock : 8;  // contacts in the widest vectors
 
-  BlockOfVectors normal;     // and the overlap [m], 0 where the two do not touch
-  BlockOfVectors slip;       // [m/s]
-  BlockOfVectors turn;       // difference of the spins [rad/s]
-  BlockOfQuads xi_t;         // [m], before and after
-  BlockOfQuads rolling;      // [N m], before and after
-  BlockOfQuads force;        // result [N], and the overlap [m]
-  BlockOfQuads n_cross_f_t;  // result [N]
+  BlockOfVectors normal;           // and the overlap [m], 0 where the two do not touch
+  BlockOfVectors slip;             // [m/s]
+  BlockOfVectors spin_difference;  // [rad/s]
+  BlockOfQuads xi_t;               // [m], before and after
+  BlockOfQuads rolling;            // [N m], before and after
+  BlockOfQuads force;              // result [N], and the overlap [m]
+  BlockOfQuads n_cross_f_t;        // result [N]
   alignas(64) Real r_eff[kBlock], m_eff[kBlock];                                // [m], [kg]
   alignas(64) Real k_n[kBlock], k_t[kBlock], gamma_n[kBlock], gamma_t[kBlock];  // [N/m], [kg/s]
   BlockOfVectors new_force, new_n_cross_f_t, new_xi_t, new_rolling;
@@ -49,11 +49,11 @@ struct ContactBlock {
   KOKKOS_FORCEINLINE_FUNCTION void put(int q, const ContactPair& pair) {
     normal.put(q, pair.normal, pair.delta_n);
     slip.put(q, pair.slip, 0);
-    if constexpr (kRolls) turn.put(q, pair.spin_difference, 0);
+    if constexpr (kRolls) spin_difference.put(q, pair.spin_difference, 0);
     r_eff[q] = pair.r_eff, m_eff[q] = pair.m_eff;
   }
 
-  /// n is a multiple of kVector.
+  /// Evaluates the first n; n is a multiple of kVector.
   KOKKOS_FORCEINLINE_FUNCTION void evaluate(const Law& law, int n) {
 #pragma GCC ivdep
     for (int q = 0; q < n; ++q) find_stiffness(law, q);
@@ -78,7 +78,7 @@ struct ContactBlock {
                      .spin_difference = {},
                      .r_eff = r_eff[q],
                      .m_eff = m_eff[q]};
-    if constexpr (kRolls) pair.spin_difference = turn.vec(q);
+    if constexpr (kRolls) pair.spin_difference = spin_difference.vec(q);
     ContactResult history;
     history.xi_t = xi_t.vec(q);
     if constexpr (Law::Rolling::has_history) history.rolling = rolling.vec(q);

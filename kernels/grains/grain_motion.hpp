@@ -68,7 +68,7 @@ struct GrainMotion {
     Vec3 x = s.x_r.vec(q), u = s.u_m.vec(q), omega = s.spin.vec(q);
     const Real radius = s.x_r.w(q), mass = s.u_m.w(q), skin = s.spin.w(q);
     GrainForces f = forces<effect>(s, q, g);
-    const HalfKick half_kick(dt / 2, inertia<effect>(g, mass, radius));
+    const HalfKick half_kick(dt / 2, coefficients<effect>(g, mass, radius));
     Vec3 impulse = half_kick(f, u, omega);
     if constexpr (moves == Moves::between) impulse += half_kick(f, u, omega);
     if constexpr (moves != Moves::out_of_last) x = fused(dt, u, x);
@@ -80,15 +80,15 @@ struct GrainMotion {
     return slack(g) >= 0 ? 0 : 1;
   }
   template <FluidEffect effect>
-  KOKKOS_FORCEINLINE_FUNCTION GrainInertia inertia(int g, Real mass, Real radius) const {
-    GrainInertia i{.mass = mass, .inertia_moment = sphere_inertia(mass, radius)};
+  KOKKOS_FORCEINLINE_FUNCTION MotionCoefficients coefficients(int g, Real mass, Real radius) const {
+    MotionCoefficients c{.mass = mass, .inertia_moment = sphere_inertia(mass, radius)};
     if constexpr (effect != FluidEffect::none) {
-      i.per_fluid_mass = fluid.per_fluid_mass(g);
-      i.beta = fluid.beta(g);
-      i.added_mass = fluid.added_mass(g);
+      c.per_fluid_mass = fluid.per_fluid_mass(g);
+      c.beta = fluid.beta(g);
+      c.added_mass = fluid.added_mass(g);
     }
-    if constexpr (effect == FluidEffect::force_and_torque) i.beta_r = fluid.beta_r(g);
-    return i;
+    if constexpr (effect == FluidEffect::force_and_torque) c.beta_r = fluid.beta_r(g);
+    return c;
   }
   template <FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(const Stage& s, int q, int g) const {

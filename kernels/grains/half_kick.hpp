@@ -6,8 +6,8 @@
 
 namespace barchan {
 
-/// What resists the motion of a grain: constant over a fluid step.
-struct GrainInertia {
+/// Coefficients of the motion of a grain and its fluid, constant over a fluid step.
+struct MotionCoefficients {
   Real mass = 0;            // of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
   Real per_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
@@ -34,27 +34,28 @@ struct GrainForces {
 /// a flow that does not change.
 struct HalfKick {
   Real h;
-  GrainInertia of;
+  MotionCoefficients of_grain;
   Real per_mass, per_moment, with_drag, kept, gained;
 
-  KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const GrainInertia& inertia)
+  KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const MotionCoefficients& coefficients)
       : h(half_step),
-        of(inertia),
-        per_mass(1 / of.mass),
-        per_moment(h / (of.inertia_moment + h * of.beta_r)),
-        with_drag(of.added_mass + h * of.beta) {
-    const Real k = per_mass + of.per_fluid_mass, share = 1 / (1 + k * with_drag);
-    kept = (1 + k * of.added_mass) * share;
+        of_grain(coefficients),
+        per_mass(1 / of_grain.mass),
+        per_moment(h / (of_grain.inertia_moment + h * of_grain.beta_r)),
+        with_drag(of_grain.added_mass + h * of_grain.beta) {
+    const Real k = per_mass + of_grain.per_fluid_mass, share = 1 / (1 + k * with_drag);
+    kept = (1 + k * of_grain.added_mass) * share;
     gained = h * share;
   }
 
   /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(GrainForces& f, Vec3& u, Vec3& omega) const {
     const Vec3 slip = f.u_f - u, pull = fused(-per_mass, f.force, f.acceleration);
-    const Vec3 impulse = fused(with_drag, fused(kept, slip, gained * pull), -of.added_mass * slip);
-    f.u_f = fused(-of.per_fluid_mass, impulse, fused(h, f.acceleration, f.u_f));
+    const Vec3 impulse =
+        fused(with_drag, fused(kept, slip, gained * pull), -of_grain.added_mass * slip);
+    f.u_f = fused(-of_grain.per_fluid_mass, impulse, fused(h, f.acceleration, f.u_f));
     u = fused(per_mass, fused(h, f.force, impulse), u);
-    omega = fused(per_moment, fused(of.beta_r, f.spin_f - omega, f.torque), omega);
+    omega = fused(per_moment, fused(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
     return impulse;
   }
 };

@@ -25,6 +25,7 @@ struct PairForces {
   struct Stage {
     BlockOfQuads separation, slip, spin_a, spin_b;
     alignas(64) Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
+    alignas(64) Real arm_a[kBlock], arm_b[kBlock];  // from the centres to the contact [m]
     Contacts contacts;
   };
 
@@ -41,7 +42,7 @@ struct PairForces {
       return;
     }
     const int begin = block * kBlock;
-    const int end = begin + kBlock < list.n_crossing ? begin + kBlock : list.n_crossing;
+    const int end = begin + size_of_block(begin, list.n_crossing);
     int slots[kBlock];
     int n = 0;
     for (int p = begin; p < end; ++p) {
@@ -62,20 +63,19 @@ struct PairForces {
     const int n_active = list.n_active(chunk);
     Stage s;
     for (int begin = 0; begin < n_active; begin += kBlock) {
-      const int n = begin + kBlock < n_active ? kBlock : n_active - begin;
+      const int n = size_of_block(begin, n_active);
       const int* slots = active + begin;
       evaluate(s, slots, n, n_active - begin);
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
         const Quad force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
-        const Real half_overlap = force.w() / 2;
         ContactSum& a = sums[list.i(p) - first_row];
         a.force = a.force + force;
-        a.torque = fused(half_overlap - s.r_a[q], n_cross_f_t, a.torque);
+        a.torque = fused(-s.arm_a[q], n_cross_f_t, a.torque);
         if constexpr (kRolls) a.torque = a.torque + s.contacts.rolling[q];
         ContactSum& b = sums[list.j(p) - first_row];
         b.force = b.force - force;
-        b.torque = fused(half_overlap - s.r_b[q], n_cross_f_t, b.torque);
+        b.torque = fused(-s.arm_b[q], n_cross_f_t, b.torque);
         if constexpr (kRolls) b.torque = b.torque - s.contacts.rolling[q];
       }
     }
@@ -102,6 +102,7 @@ struct PairForces {
     const Vec3 s = box.nearest_image(a.x - b.x);
     const Real reach = a.r + b.r + margin;
     const bool near = dot(s, s) < reach * reach;
+    // One condition: a branch on `near` alone would go either way, often against the guess.
     if (static_cast<int>(!near) & list.touching(p)) clear(p);
     return near;
   }
@@ -157,7 +158,9 @@ struct PairForces {
     const bool touches = overlap > 0;
     const Real delta_n = touches ? overlap : 0;
     const Vec3 spin_a = s.spin_a.vec(q), spin_b = s.spin_b.vec(q);
-    const Vec3 arm_spin = fused(r_a - delta_n / 2, spin_a, (r_b - delta_n / 2) * spin_b);
+    const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
+    s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
+    const Vec3 arm_spin = fused(arm_a, spin_a, arm_b * spin_b);
     s.contacts.put(q, {.normal = normal,
                        .delta_n = delta_n,
                        .slip = contact_slip(s.slip.vec(q), arm_spin, normal),

@@ -9,12 +9,13 @@
 namespace barchan {
 
 /// Adds what a crossing pair does to its first grain (sign 1) or second grain (-1).
+template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
-                                                Real radius, bool has_rolling, ContactSum& sum) {
+                                                Real radius, ContactSum& sum) {
   const PairForce& pair = list.pair_force(slot);
   sum.force = fused(sign, pair.force, sum.force);
   sum.torque = fused(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
-  if (has_rolling) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
+  if constexpr (rolls) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
@@ -25,19 +26,19 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
 
 /// Sums of the crossing contacts of the rows [begin, end), of each row its own slots first, then
 /// the others.
+template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
                                               const Kokkos::View<GrainKinematics*>& grains,
-                                              int begin, int end, bool has_rolling,
-                                              ContactSum* sums) {
+                                              int begin, int end, ContactSum* sums) {
   for (int g = begin; g < end; ++g) sums[place_in_chunk(g, begin)] = ContactSum{};
   for (int p = list.first(begin); p < list.first(end); ++p) {
     const int g = list.i(p);
-    add_pair_force(list, p, 1, grains(g).r, has_rolling, sums[place_in_chunk(g, begin)]);
+    add_pair_force<rolls>(list, p, 1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
   for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
     if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
     const int slot = list.other_slot(s), g = list.j(slot);
-    add_pair_force(list, slot, -1, grains(g).r, has_rolling, sums[place_in_chunk(g, begin)]);
+    add_pair_force<rolls>(list, slot, -1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
 }
 
@@ -50,7 +51,6 @@ struct SumKickDrift {
   PairForces<Law> pairs;
   Walls<Law> walls;
   Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last sub-step: [N], [N m]
-  bool has_rolling = false;
   bool last = false;
   Real least_slack = 0;  // of a grain at rest [m]
 
@@ -61,7 +61,7 @@ struct SumKickDrift {
     }
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kLargestChunk];
-    sum_crossing(pairs.list, motion.grains, begin, end, has_rolling, sums);
+    sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
     if constexpr (kLargestChunk > 1) {
       if (pairs.list.worn(chunk)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);

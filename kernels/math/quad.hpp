@@ -43,11 +43,6 @@ KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
   difference.v = a.v - b.v;
   return difference;
 }
-KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
-  Quad product;
-  product.v = s * a.v;
-  return product;
-}
 KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
   Quad sum;
 #if defined(__FMA__) && !defined(__clang__)  // which g++ does not find by itself
@@ -64,9 +59,6 @@ KOKKOS_FORCEINLINE_FUNCTION Quad operator+(const Quad& a, const Quad& b) {
 }
 KOKKOS_FORCEINLINE_FUNCTION Quad operator-(const Quad& a, const Quad& b) {
   return {a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]};
-}
-KOKKOS_FORCEINLINE_FUNCTION Quad operator*(Real s, const Quad& a) {
-  return {s * a.v[0], s * a.v[1], s * a.v[2], s * a.v[3]};
 }
 KOKKOS_FORCEINLINE_FUNCTION Quad fused(Real s, const Quad& a, const Quad& b) {
   return {fused(s, a.v[0], b.v[0]), fused(s, a.v[1], b.v[1]), fused(s, a.v[2], b.v[2]),

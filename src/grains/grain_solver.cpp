@@ -107,11 +107,11 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
 /// Sub-step s: forces at the new positions and second half kick, then, unless it is the last one,
 /// the first half kick and drift of the next one.
 void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) {
-  const auto launch = [&](const auto& law, const auto& rolling) {
-    using Stiffness = std::decay_t<decltype(law)>;
+  const auto launch = [&](const auto& stiffness, const auto& rolling) {
+    using Stiffness = std::decay_t<decltype(stiffness)>;
     using Law = ContactLaw<Stiffness, std::decay_t<decltype(rolling)>>;
     const PairForces<Law> pairs{
-        .law = {.stiffness = law, .rolling = rolling, .friction = pair_friction_, .dt = dt},
+        .law = {.stiffness = stiffness, .rolling = rolling, .friction = pair_friction_, .dt = dt},
         .box = list_.box(),
         .validity = {.excess = excess_, .before = element(s)},
         .grains = grains.kin,
@@ -131,7 +131,6 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
                                           .touching = grains.wall_touching},
                                 .contact_force = grains.contact_force,
                                 .contact_torque = grains.contact_torque,
-                                .has_rolling = list_.with_rolling,
                                 .last = last,
                                 .least_slack = list_.least_slack()};
     Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",

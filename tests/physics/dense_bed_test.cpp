@@ -34,16 +34,16 @@ double growth(const Mixture& m) {
     // grains and water: velocities; change of the latter in the last step, impulse that it lost and
     // that of the pressure on the grains; displacement of the grains
     double &w = s(0), &u = s(1), &change = s(2), &impulse = s(3), &push = s(4), &x = s(5);
-    const GrainInertia inertia{.mass = c * rho_p,
-                               .inertia_moment = 1,
-                               .per_fluid_mass = per_share,
-                               .beta = 150 * c * c * mu_f / (m.alpha * d * d),
-                               .added_mass = kAddedMassCoefficient * c * rho_f};
-    const double added_mass = inertia.added_mass;
-    const double lasting = change * lasting_part(per_share, added_mass, m.dt * inertia.beta);
+    const MotionCoefficients coefficients{.mass = c * rho_p,
+                                          .inertia_moment = 1,
+                                          .per_fluid_mass = per_share,
+                                          .beta = 150 * c * c * mu_f / (m.alpha * d * d),
+                                          .added_mass = kAddedMassCoefficient * c * rho_f};
+    const double added_mass = coefficients.added_mass;
+    const double lasting = change * lasting_part(per_share, added_mass, m.dt * coefficients.beta);
     const double of_added_mass = added_mass * (change - lasting);
     const double steady = (push + of_added_mass) / m.dt;
-    const HalfKick kick(m.dt / n / 2, inertia);
+    const HalfKick kick(m.dt / n / 2, coefficients);
     GrainForces f;
     f.u_f = {u, 0, 0};
     f.acceleration = {(lasting + per_share * impulse) / m.dt, 0, 0};

@@ -14,17 +14,15 @@ TEST(Quad, EachComponentGetsTheBitsThatItGetsOnItsOwn) {
   for (int n = 1; n < 200; ++n) {
     const Real s = std::sin(n), a[] = {std::cos(n), 1e-9 * n, -std::sqrt(n), 1.0 / n};
     const Real b[] = {std::tan(n), 3e-9, std::sqrt(n) / 3, -0.3 / n};
-    Real sum[4], difference[4], product[4], both[4];
+    Real sum[4], difference[4], both[4];
     (Quad(a) + Quad(b)).store(sum);
     (Quad(a) - Quad(b)).store(difference);
-    (s * Quad(a)).store(product);
     fused(s, Quad(a), Quad(b)).store(both);
     for (int q = 0; q < 4; ++q) {
       EXPECT_EQ(sum[q], a[q] + b[q]);
       EXPECT_EQ(difference[q], a[q] - b[q]);
-      EXPECT_EQ(product[q], s * a[q]);
       EXPECT_EQ(both[q], fused(s, a[q], b[q]));
-      n_rounded_once += both[q] != product[q] + b[q] ? 1 : 0;
+      n_rounded_once += both[q] != s * a[q] + b[q] ? 1 : 0;
     }
   }
   const bool rounds_once = fused(1 + 0x1p-30, 1 - 0x1p-30, -1.0) != 0;
