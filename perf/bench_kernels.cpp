@@ -171,7 +171,7 @@ void register_coupling_kernels() {
               .per_unit = [](RunningCase&) { return work::deposit(); }});
   add_kernel({.name = "gather",
               .spec = coupled,
-              .labels = {"coupling: gather"},
+              .labels = {"coupling: flow at grains", "coupling: gather"},
               .prepare = gather,
               .unit = "grains",
               .per_unit = [](RunningCase&) { return work::gather(); }});
