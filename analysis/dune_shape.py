@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from run_folder import NotInRun
+from surface import Surface
 
 BIN = 2.5          # side of a bin
 HALF_WIDTH = 3.0   # of the centreline's strip
@@ -38,6 +39,7 @@ class Dune:
 
     centroid (3), size, crest and horns as in dune.csv [m]. `lee_foot` is the downstream end of the
     centreline, +infinity when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0.
+    `surface` is that of its grains.
     """
 
     rows: np.ndarray
@@ -52,6 +54,7 @@ class Dune:
     horn_left: float
     horn_right: float
     side: np.ndarray
+    surface: Surface
 
 
 def main_rows(grains):
@@ -85,7 +88,8 @@ def measure(grains, rows, bed):
     radius = 0.5 * grains.d[rows]
     centroid = np.average([x, grains.x[rows, 1], z], axis=1, weights=radius**3)
     half_width = HALF_WIDTH * diameter
-    H, crest_x = find_crest(x, grains.x[rows, 1] + radius, z, bins, centroid, half_width)
+    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
+    H, crest_x = find_crest(surface, centroid, half_width)
     strip = abs(z - centroid[2]) < half_width
     line = centreline(x[strip], radius[strip], bins[0], crest_x)
     L = (line if line else (np.min(x - radius), np.max(x + radius)))
@@ -95,23 +99,16 @@ def measure(grains, rows, bed):
     W, L = np.max(z + radius) - np.min(z - radius), L[1] - L[0]
     W, L = (min(size, length) if periodic else size
             for size, length, periodic in zip((W, L), bed.lengths[::-1], bed.periodic[::-1]))
-    return Dune(rows, x, z, centroid, W, L, H, crest_x, foot, left, right, side)
+    return Dune(rows, x, z, centroid, W, L, H, crest_x, foot, left, right, side, surface)
 
 
-def find_crest(x, top, z, bins, centroid, half_width):
-    """H, and crest_x on the centreline [m], of the 3 x 3 median of the height over bins."""
-    column, row = (np.floor(position / size).astype(int) for position, size in zip((x, z), bins))
-    i, k = column - column.min() + 1, row - row.min() + 1  # with an edge of zeros
-    height = np.zeros((i.max() + 2, k.max() + 2))
-    np.maximum.at(height, (i, k), top)
-    held = np.argwhere(height > 0)
-    around = [height[tuple((held + (di, dk)).T)] for di in (-1, 0, 1) for dk in (-1, 0, 1)]
-    surface = np.median(around, axis=0)
-    x, z = ((held + 0.5 - 1 + (column.min(), row.min())) * bins).T
-    strip = abs(z - centroid[2]) < half_width
-    crest = np.max(surface[strip], initial=0.0)
-    weight = np.where(strip, surface - (crest - max(0.05 * crest, 0.5 * half_width / HALF_WIDTH)), 0.0).clip(0)
-    return surface.max(), float(np.average(x, weights=weight)) if weight.any() else centroid[0]
+def find_crest(surface, centroid, half_width):
+    """H, and crest_x on the centreline [m]."""
+    strip = abs(surface.z - centroid[2]) < half_width
+    crest = np.max(surface.h[strip], initial=0.0)
+    band = max(0.05 * crest, 0.5 * half_width / HALF_WIDTH)
+    weight = np.where(strip, surface.h - (crest - band), 0.0).clip(0)
+    return surface.h.max(), float(np.average(surface.x, weights=weight)) if weight.any() else centroid[0]
 
 
 def centreline(x, radius, bin_x, crest_x):

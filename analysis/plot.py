@@ -30,6 +30,7 @@ FIGURES = {
     "report": ("report", "one page about the run, with the grains as an animation: report.html"),
     "profiles_over_dune": ("profiles_over_dune", "mean flow and stresses at stations along a frozen dune"),
     "movie": ("movie", "the grains from above through the whole run"),
+    "morphodynamics": ("morphodynamics", "slopes, flux over the crest, saltation and creep, avalanches (--from, --to)"),
     "horns": ("horns", "lengths of the horns, their grains and where these came from, against time"),
     "horn_origins": ("horn_origins", "grains of the horns, their paths and origins (--time)"),
     "force_map": ("force_map", "mean resultant force on the grains about the dune (--from, --to)"),
@@ -66,7 +67,7 @@ def parse(arguments):
     parser.add_argument("--time", type=float, metavar="T",
                         help="horn_origins, sectors: at T seconds, not at the end")
     parser.add_argument("--from", type=float, metavar="T", dest="start",
-                        help="force_map, sectors: mean over the frames of grains.h5 from T seconds on")
+                        help="force_map, sectors, morphodynamics: means from T seconds on")
     parser.add_argument("--to", type=float, metavar="T", dest="end", help="... up to T seconds")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     options = parser.parse_args(arguments)

@@ -45,13 +45,17 @@ def read_table(path):
 
 @dataclass
 class Grains:
-    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m], dune (N): its label, -1: none; None: not known."""
+    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
+
+    dune and u are None where the frame has none.
+    """
 
     time: float
     id: np.ndarray
     x: np.ndarray
     d: np.ndarray
     dune: np.ndarray | None = None
+    u: np.ndarray | None = None
 
 
 @dataclass
@@ -200,10 +204,9 @@ class RunFolder:
         time, name = self.need_grains().frames[index]
         with self.grain_file.open() as file:
             group = file[name]
-            number, x, d = group["id"][:], group["x"][:], group["d"][:]
-            dune = group["dune"][:] if "dune" in group else None
-        order = np.argsort(number)
-        return Grains(time, number[order], x[order], d[order], dune if dune is None else dune[order])
+            order = np.argsort(group["id"][:])
+            columns = (group[key][:][order] if key in group else None for key in ("id", "x", "d", "dune", "u"))
+            return Grains(time, *columns)
 
     def flow_plane(self, index, z):
         """The cells nearest to the plane z = `z` [m] in frame `index`."""

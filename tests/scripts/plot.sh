@@ -6,7 +6,7 @@ set -u
 
 fake "$dir/whole"
 plot 0 "$dir/whole"
-for figure in topviews height_map morphology midplane profiles history horns horn_origins; do is_picture "$dir/whole/$figure.png"; done
+for figure in topviews height_map morphology midplane profiles history horns horn_origins morphodynamics; do is_picture "$dir/whole/$figure.png"; done
 quiet
 [ -s "$dir/whole/report.html" ] || fail "no report of a whole run"
 [ "$(wc -l < "$dir/out")" = "$(find "$dir/whole" -name '*.p[nd][gf]' -o -name report.html | wc -l)" ] || fail "each picture is named on a line of its own"
