@@ -3,6 +3,7 @@
 
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
 
@@ -36,14 +37,15 @@ struct PairOverlap {
 /// its radius [-]; infinite where its position or velocity is not finite.
 struct GrainLimits {
   Kokkos::View<const GrainKinematics*> grains;
-  WallPlanes walls;
+  WallShapes walls;
   Real dt;  // grain step [s]
 
   KOKKOS_FUNCTION void operator()(int g, WorstItem& in_wall, WorstItem& displacement) const {
     const GrainKinematics& grain = grains(g);
     Real overlap = 0;
     for (int w = 0; w < walls.n; ++w) {
-      overlap = Kokkos::max(overlap, or_infinity(walls[w].overlap(grain) / (2 * grain.r)));
+      const Real depth = walls.at(w, grain.x).overlap(grain);
+      overlap = Kokkos::max(overlap, or_infinity(depth / (2 * grain.r)));
     }
     take_worse(in_wall, overlap, g);
     const Real speed = norm(grain.u) + grain.r * norm(grain.omega);

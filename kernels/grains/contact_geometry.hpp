@@ -1,4 +1,4 @@
-// Geometry of contacts: between two grains, and between a grain and a flat wall.
+// Geometry of contacts between two grains.
 #pragma once
 
 #include "kernels/grains/grain.hpp"
@@ -23,29 +23,5 @@ KOKKOS_FORCEINLINE_FUNCTION Real relative_overlap(const PeriodicBox& box, const 
                                                   const GrainKinematics& b) {
   return 1 - norm(box.nearest_image(a.x - b.x)) / (a.r + b.r);
 }
-
-/// Wall with unit normal into the domain.
-struct Plane {
-  Vec3 normal;
-  Real offset = 0;
-
-  /// Signed distance of a position, positive inside the domain [m].
-  KOKKOS_FORCEINLINE_FUNCTION Real distance(const Vec3& x) const { return dot(normal, x) - offset; }
-  /// Overlap with a grain [m]; negative while they do not touch.
-  KOKKOS_FORCEINLINE_FUNCTION Real overlap(const GrainKinematics& grain) const {
-    return grain.r - distance(grain.x);
-  }
-};
-
-inline constexpr int kMaxWalls = 6;
-
-/// The walls of the domain. Walls 2s and 2s + 1 stand opposite each other, farther apart than a
-/// grain is wide.
-struct WallPlanes {
-  int n = 0;
-  Plane plane[kMaxWalls];
-
-  KOKKOS_FORCEINLINE_FUNCTION const Plane& operator[](int w) const { return plane[w]; }
-};
 
 }  // namespace barchan

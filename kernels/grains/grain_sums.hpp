@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
 
@@ -57,7 +58,7 @@ struct SplitContacts {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Vec3*> contact_force;
   Kokkos::View<const std::uint8_t*> wall_touching;
-  WallPlanes walls;
+  WallShapes walls;
   Kokkos::View<Vec3*> normal, tangential;  // results [N]
 
   /// Takes the force of one pair into the sums that `normal` (all of it) and `tangential` hold.
@@ -88,7 +89,9 @@ struct SplitContacts {
     const Vec3 wall = contact_force(g) - normal(g);
     Vec3 wall_normal;
     for (int w = kMaxWalls - 1; w >= 0; --w) {
-      if (wall_touching(g) >> w & 1) wall_normal = dot(wall, walls[w].normal) * walls[w].normal;
+      if (!(wall_touching(g) >> w & 1)) continue;
+      const Vec3 n = walls.at(w, grains(g).x).normal;
+      wall_normal = dot(wall, n) * n;
     }
     tangential(g) += wall - wall_normal;
     normal(g) = contact_force(g) - tangential(g);

@@ -4,6 +4,7 @@
 
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
 
@@ -54,7 +55,7 @@ struct TangentialOfPairs {
 template <class Stiffness>
 struct StableStepOfGrains {
   Stiffness law;
-  WallPlanes walls;
+  WallShapes walls;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
 
@@ -63,9 +64,9 @@ struct StableStepOfGrains {
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
     for (int w = 0; w < walls.n; ++w) {
-      const Real overlap = walls[w].overlap(grain);
+      const Real overlap = walls.at(w, grain.x).overlap(grain);
       if (!(overlap > 0)) continue;
-      const ContactStiffness k = law(grain.r, grain.m, overlap);
+      const ContactStiffness k = law(walls.effective_radius(w, grain.r), grain.m, overlap);
       stiffness += k.k_t, damping += k.gamma_t;
       take(stable_step(k.k_t, k.gamma_t, kSlipInertia * grain.m));
     }

@@ -1,21 +1,20 @@
-// Flat walls: the contact law with one side at rest and flat (r_eff = r, m_eff = m).
+// Walls: the contact law with one side at rest (m_eff = m), flat (r_eff = r) or a glued sphere.
 #pragma once
 
 #include <cstdint>
 
 #include "kernels/grains/contact_block.hpp"
-#include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
 
-/// The walls, their material and every grain's history with them. Walls 2s and 2s + 1, which a
-/// grain cannot touch together, share the history s.
+/// The walls, their material and every grain's history with them.
 template <class Law>
 struct Walls {
-  WallPlanes planes;
+  WallShapes shapes;
   Law law;
   Kokkos::View<const GrainKinematics*> grains;
-  // (grain, wall / 2): [m], [N m]; torque of rolling springs alone
+  // (grain, history of the wall): [m], [N m]; torque of rolling springs alone
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;
   Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
@@ -28,8 +27,8 @@ struct Walls {
 
   /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
   KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, Real margin) const {
-    for (int w = 0; w < planes.n; ++w) {
-      if (planes[w].overlap(grains(g)) > -margin) return 1;
+    for (int w = 0; w < shapes.n; ++w) {
+      if (shapes.at(w, grains(g).x).overlap(grains(g)) > -margin) return 1;
     }
     touching(g) = 0;
     return 0;
@@ -46,8 +45,8 @@ struct Walls {
       if (!near(g)) continue;
       const std::uint8_t before = touching(g);
       std::uint8_t now = 0;
-      for (int w = 0; w < planes.n; ++w) {
-        if (planes[w].overlap(grains(g)) <= 0) continue;
+      for (int w = 0; w < shapes.n; ++w) {
+        if (shapes.at(w, grains(g).x).overlap(grains(g)) <= 0) continue;
         const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
         now = static_cast<std::uint8_t>(now | bit);
         load(s, n, g, w, (before & bit) != 0);
@@ -64,18 +63,20 @@ struct Walls {
  private:
   KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int g, int w, bool touched) const {
     const GrainKinematics& grain = grains(g);
-    const Vec3& normal = planes[w].normal;
-    const Real delta_n = planes[w].overlap(grain), arm = grain.r - delta_n / 2;
+    const Plane plane = shapes.at(w, grain.x);
+    const Vec3& normal = plane.normal;
+    const Real delta_n = plane.overlap(grain), arm = grain.r - delta_n / 2;
+    const int h = shapes.history[w];
     s.grain[q] = g, s.wall[q] = w, s.arm[q] = arm;
     s.contacts.put(q, {.normal = normal,
                        .delta_n = delta_n,
                        .slip = contact_slip(grain.u, arm * grain.omega, normal),
                        .spin_difference = grain.omega,
-                       .r_eff = grain.r,
+                       .r_eff = shapes.effective_radius(w, grain.r),
                        .m_eff = grain.m});
-    s.contacts.xi_t.put(q, quad(touched ? xi_t(g, w / 2) : Vec3{}));
+    s.contacts.xi_t.put(q, quad(touched ? xi_t(g, h) : Vec3{}));
     if constexpr (Law::Rolling::has_history) {
-      s.contacts.rolling.put(q, quad(touched ? torque(g, w / 2) : Vec3{}));
+      s.contacts.rolling.put(q, quad(touched ? torque(g, h) : Vec3{}));
     }
   }
   KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int n, int begin, ContactSum* sums) const {
@@ -83,13 +84,13 @@ struct Walls {
     for (int q = n; q < n_full; ++q) load(s, q, s.grain[0], s.wall[0], true);
     s.contacts.evaluate(law, n_full);
     for (int q = 0; q < n; ++q) {
-      const int g = s.grain[q], w = s.wall[q];
+      const int g = s.grain[q], h = shapes.history[s.wall[q]];
       ContactSum& sum = sums[place_in_chunk(g, begin)];
       sum.force = sum.force + quad(s.contacts.force.vec(q));
       sum.torque = fused(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
       if constexpr (Law::kRolls) sum.torque = sum.torque + s.contacts.rolling[q];
-      xi_t(g, w / 2) = s.contacts.xi_t.vec(q);
-      if constexpr (Law::Rolling::has_history) torque(g, w / 2) = s.contacts.rolling.vec(q);
+      xi_t(g, h) = s.contacts.xi_t.vec(q);
+      if constexpr (Law::Rolling::has_history) torque(g, h) = s.contacts.rolling.vec(q);
     }
   }
 };

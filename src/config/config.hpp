@@ -17,6 +17,7 @@ enum class RollingModel { none, epsd2, theta_m, cdt };
 enum class ContactModel { hertz_mindlin, linear };
 enum class GrainBoundaryX { exit, periodic, wall };
 enum class GrainBoundaryZ { periodic, wall };
+enum class GrainFloor { smooth, glued };
 enum class PourShape { cone, bed };
 enum class DragLaw {
   gidaspow,
@@ -106,6 +107,8 @@ struct GrainConfig {
   bool frozen = false;
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
+  GrainFloor floor = GrainFloor::smooth;
+  Length floor_diameter{};  // [m] of the spheres of a glued floor, which needs it
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
   Length skin{4e-5};                           // [m], Verlet skin
   double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run

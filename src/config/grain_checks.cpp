@@ -90,6 +90,18 @@ void check_pour(const Config& c, Findings& found) {
                  "must be larger: the heap would reach about {:.3g} m, above the domain", top);
 }
 
+void check_floor(const GrainConfig& grains, const std::array<double, 3>& size, Findings& found) {
+  const bool glued = grains.floor == GrainFloor::glued;
+  const double d = grains.floor_diameter;
+  found.error_if(glued && d == 0, {"grains.floor_diameter", "grains.floor"},
+                 "must be above 0 with floor = \"glued\"");
+  found.error_if(!glued && d > 0, {"grains.floor_diameter", "grains.floor"},
+                 "must be absent unless floor = \"glued\"");
+  found.error_if(glued && (size[0] < 3 * d || size[2] < std::sqrt(3) * d),
+                 {"grains.floor_diameter", "domain.size"},
+                 "must be smaller: a glued floor is at least 3 spheres long and 2 rows wide");
+}
+
 }  // namespace
 
 void check_grains(const Config& c, Findings& found) {
@@ -105,6 +117,7 @@ void check_grains(const Config& c, Findings& found) {
   found.error_if(!linear && grains.linear_stiffness > 0,
                  {"grains.linear_stiffness", "grains.contact_model"},
                  "must be absent unless contact_model = \"linear\"");
+  check_floor(grains, c.size, found);
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   if (c.initial.pour) check_pour(c, found);
@@ -136,6 +149,13 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
     const bool hertz = c.grains->contact_model == ContactModel::hertz_mindlin;
     (hertz ? check_hertz_step : check_linear_step)(c, n, found);
   }
+  // The hole between three glued spheres is 0.155 of their diameter wide.
+  found.error_if(
+      c.grains->floor == GrainFloor::glued && n.d_min < c.grains->floor_diameter / 4,
+      {"grains.floor_diameter", "grains.sizes"},
+      "is more than four times the smallest diameter, {:.4g} m: grains would fall between "
+      "the glued spheres",
+      n.d_min);
   found.warning_if(c.grains->skin > n.d_min, {"grains.skin", "grains.sizes"},
                    "is above the smallest diameter: needlessly long neighbour lists");
   // The neighbour search looks at the columns on either side, which must be three different ones.

@@ -154,6 +154,10 @@ void add_grains(Sections& all) {
   key("frozen", &G::frozen, "grains hold still and the flow feels them");
   key("boundary_x", &G::boundary_x, "what happens to grains at both ends in x", fixed_by_restart);
   key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
+  key("floor", &G::floor, "what the floor is to grains: smooth, or a close layer of glued spheres",
+      fixed_by_restart);
+  key("floor_diameter", &G::floor_diameter, between(0, 1e6), "m",
+      "of the glued spheres; `floor` \"glued\" requires it", fixed_by_restart);
   key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
   key("skin", &G::skin, between(0, 1e3), "m",
       "margin of the neighbour lists between grains at rest: these last until one has moved half "

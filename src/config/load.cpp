@@ -108,7 +108,9 @@ void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeCla
     length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
   };
   resolve("coupling.smoothing_length", config.coupling.smoothing_length);
-  if (config.grains) resolve("grains.skin", config.grains->skin);
+  if (!config.grains) return;
+  resolve("grains.skin", config.grains->skin);
+  resolve("grains.floor_diameter", config.grains->floor_diameter);
 }
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,

@@ -32,6 +32,7 @@ constexpr auto names_of(RollingModel) {
 constexpr auto names_of(ContactModel) { return std::array{"hertz_mindlin"sv, "linear"sv}; }
 constexpr auto names_of(GrainBoundaryX) { return std::array{"exit"sv, "periodic"sv, "wall"sv}; }
 constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"sv}; }
+constexpr auto names_of(GrainFloor) { return std::array{"smooth"sv, "glued"sv}; }
 constexpr auto names_of(PourShape) { return std::array{"cone"sv, "bed"sv}; }
 constexpr auto names_of(DragLaw) {
   return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
@@ -49,6 +50,7 @@ inline constexpr auto choice_names = names_of(Choice{});
 // A value added at the end of an enum without its name here fails these.
 static_assert(choice_names<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
 static_assert(choice_names<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
+static_assert(choice_names<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
 static_assert(choice_names<PourShape>.size() == std::size_t(PourShape::bed) + 1);
 static_assert(choice_names<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
 static_assert(choice_names<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);

@@ -80,7 +80,7 @@ class CoupledStep {
   /// Of a state with grains.
   ContactSummary contacts(const SystemState& s) const { return grains_->contacts(*s.grains); }
   Real stable_grain_step(const SystemState& s) const { return grains_->stable_step(*s.grains); }
-  const WallPlanes& walls() const { return grains_->walls(); }
+  const WallShapes& walls() const { return grains_->walls(); }
   NeighborList& neighbor_list() { return grains_->list(); }
   const NeighborList& neighbor_list() const { return grains_->list(); }
 

@@ -89,18 +89,19 @@ const char* name_of(const Plane& wall) {
 }
 
 /// The wall that a grain is deepest in.
-const Plane& deepest_wall(const WallPlanes& walls, const Vec3& x) {
-  int deepest = 0;
+Plane deepest_wall(const WallShapes& walls, const Vec3& x) {
+  Plane deepest = walls.at(0, x);
   for (int w = 1; w < walls.n; ++w) {
-    if (walls[w].distance(x) < walls[deepest].distance(x)) deepest = w;
+    const Plane wall = walls.at(w, x);
+    if (wall.distance(x) < deepest.distance(x)) deepest = wall;
   }
-  return walls[deepest];
+  return deepest;
 }
 
 /// What to tell of the worst grain or pair of this rank.
 struct GrainProblems {
   const GrainState& grains;
-  const WallPlanes& walls;
+  const WallShapes& walls;
   Real limit;  // grains.max_overlap
   bool at_start;
 
@@ -119,7 +120,7 @@ struct GrainProblems {
   }
   std::string in_wall(const WorstItem& worst) const {
     const Vec3 x = element(grains.kin, worst.loc).x;
-    const Plane& wall = deepest_wall(walls, x);
+    const Plane wall = deepest_wall(walls, x);
     const std::string who = grain_at(grains, worst.loc);
     if (wall.distance(x) < 0) {
       return fmt::format("{} has gone through {}{}", who, name_of(wall),

@@ -69,24 +69,41 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
       rolling_(make_rolling(*config.grains)),
       pair_friction_(friction_of(config.grains->material, config.grains->coulomb_limit)),
       wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)) {
-  const auto add_walls = [&](Vec3 normal, Real distance) {
-    if (distance <= 2 * grains.r_max) {
+  add_walls(config, grains.r_max);
+  using WallHistory = decltype(grains.wall_xi_t);
+  const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
+  const auto n_histories = static_cast<std::size_t>(walls_.n_histories);
+  grains.wall_xi_t = WallHistory("wall xi_t", n, n_histories);
+  list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
+  if (list_.with_rolling) grains.wall_torque = WallHistory("wall torque", n, n_histories);
+  list_.with_force = config.output.grain_forces;
+}
+
+void GrainSolver::add_walls(const Config& config, Real r_max) {
+  const auto add = [&](Vec3 normal, Real offset, int history) {
+    walls_.plane[walls_.n] = {normal, offset};
+    walls_.history[walls_.n++] = history;
+    walls_.n_histories = std::max(walls_.n_histories, history + 1);
+  };
+  const auto add_opposite = [&](Vec3 normal, Real distance) {
+    if (distance <= 2 * r_max) {
       throw std::runtime_error("domain.size: " + std::to_string(distance) +
                                " m between two walls, less than the largest grain is wide");
     }
-    walls_.plane[walls_.n++] = {normal, 0};
-    walls_.plane[walls_.n++] = {-normal, -distance};
+    const int history = walls_.n_histories;
+    add(normal, 0, history);
+    add(-normal, -distance, history);
   };
-  add_walls({0, 1, 0}, config.size[1]);
-  if (config.grains->boundary_x == GrainBoundaryX::wall) add_walls({1, 0, 0}, config.size[0]);
-  if (config.grains->boundary_z == GrainBoundaryZ::wall) add_walls({0, 0, 1}, config.size[2]);
-  using WallHistory = decltype(grains.wall_xi_t);
-  const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
-  const auto n_opposite = static_cast<std::size_t>(walls_.n / 2);
-  grains.wall_xi_t = WallHistory("wall xi_t", n, n_opposite);
-  list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
-  if (list_.with_rolling) grains.wall_torque = WallHistory("wall torque", n, n_opposite);
-  list_.with_force = config.output.grain_forces;
+  const auto& size = config.size;
+  if (config.grains->floor == GrainFloor::glued) {
+    walls_.glued = glued_floor(config.grains->floor_diameter / 2, size[0], size[2]);
+    for (int colour = 0; colour < GluedFloor::kColours; ++colour) add({0, 1, 0}, 0, colour);
+    add({0, -1, 0}, -size[1], 0);
+  } else {
+    add_opposite({0, 1, 0}, size[1]);
+  }
+  if (config.grains->boundary_x == GrainBoundaryX::wall) add_opposite({1, 0, 0}, size[0]);
+  if (config.grains->boundary_z == GrainBoundaryZ::wall) add_opposite({0, 0, 1}, size[2]);
 }
 
 /// Before the sub-steps: first half kick and drift.
@@ -120,7 +137,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
     Kokkos::parallel_for("grains: crossing pairs", items(blocks_of(grains.list.n_crossing)), pairs);
     const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
                                 .pairs = pairs,
-                                .walls = {.planes = walls_,
+                                .walls = {.shapes = walls_,
                                           .law = {.stiffness = std::get<Stiffness>(wall_law_),
                                                   .rolling = rolling,
                                                   .friction = wall_friction_,

@@ -5,6 +5,7 @@
 
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/neighbor_list.hpp"
 
 namespace barchan {
@@ -44,7 +45,7 @@ class GrainSolver {
   NeighborList& list() { return list_; }
   const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
-  const WallPlanes& walls() const { return walls_; }
+  const WallShapes& walls() const { return walls_; }
   /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
   /// results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
@@ -58,6 +59,7 @@ class GrainSolver {
     return Kokkos::Max<Real, DeviceMemory>(
         Kokkos::View<Real, DeviceMemory>(excess_.data() + element(step)));
   }
+  void add_walls(const Config& config, Real r_max);
   void kick_and_drift(const GrainState& grains, Real dt);
   void sub_step(const GrainState& grains, int s, bool last, Real dt);
   void rebuild(GrainState& grains, int s);
@@ -68,7 +70,7 @@ class GrainSolver {
   StiffnessLaw pair_law_, wall_law_;
   RollingLaw rolling_;
   Friction pair_friction_, wall_friction_;
-  WallPlanes walls_;
+  WallShapes walls_;
   int ahead_ = kLargestChunk > 1 ? 1 : 16;
   // Largest squared displacement beyond the skin of a grain as a sub-step begins [m^2].
   Kokkos::View<Real*> excess_;

@@ -60,7 +60,7 @@ struct GrainState {
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                   // constant over one fluid step
   ExchangeOnGrains exchange;                             // kept for the deposit
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, wall / 2), see Walls [m]
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, history), see Walls [m]
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
   Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
   std::vector<ExtraGrainArray> extra;                    // see add_extra()

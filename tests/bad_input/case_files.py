@@ -69,6 +69,13 @@ CONTRADICTIONS = [
           "@sizes | 0.25 m, wider than the domain | 0.2 mm is 2e-4"),
     Entry("forces of no flow", '[coupling] forces = ["drag"]', "@forces | must be absent without a [fluid]", base=DRY),
     Entry("uniform at no speed", '[initial] fluid = "uniform" ;; -[fluid] mean_velocity', "@fluid = | must come with a mean_velocity"),
+    Entry("a glued floor of nothing", '[grains] floor = "glued"', '@floor = | floor_diameter | must be above 0 with floor = "glued"'),
+    Entry("glued spheres on a smooth floor", "[grains] floor_diameter = 2e-4", "@floor_diameter | must be absent unless"),
+    Entry("glued boulders", '[grains] floor = "glued" ;; [grains] floor_diameter = 1e-3', "@floor_diameter | fall between"),
+    Entry("one glued sphere", '[grains] floor = "glued" ;; [grains] floor_diameter = 5e-3',
+          "@floor_diameter | at least 3 spheres long | fall between", problems=2),
+    Entry("a floor that is not there", '[grains] floor = "rough"', '@floor = | "smooth"'),
+    Entry("a glued floor", '[grains] floor = "glued" ;; [grains] floor_diameter = "1 d" ;; ' + SHORT, code=0),
     Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),
     Entry("cells smaller than grains", "-[fluid] first_cell_height ;; [fluid] cells = [100, 50, 60] ;; " + FLUID_STEP +
           "1e-4", "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),

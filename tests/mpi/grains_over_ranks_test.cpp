@@ -83,7 +83,9 @@ TEST(GrainsOverRanks, PairsOfFastGrainsAreThoseOfOneRank) {
 }
 
 TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
-  const Config c = box({0.008, 0.006, 0.005});
+  Config c = box({0.008, 0.006, 0.005});
+  c.grains->floor = GrainFloor::glued;
+  c.grains->floor_diameter = 2e-4;
   SharedGrains s(c, testing::lattice_packing(6000, c.size, 0.5));
   s.advance(200, 1e-6);  // into contact, the history of which is then there
   s.advance(1, 1e-6);

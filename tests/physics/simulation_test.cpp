@@ -59,6 +59,8 @@ TEST(Simulation, TwoRunsAreBitwiseIdentical) {
 TEST(Simulation, RestartContinuesBitwise) {
   const TemporaryFolder scratch;
   Config whole = coupled_config();
+  whole.grains->floor = GrainFloor::glued;  // three histories of contact with the floor
+  whole.grains->floor_diameter = 2e-4;
   whole.statistics.emplace();
   whole.statistics->interval = 2 * whole.time.fluid_step;
   whole.statistics->fields = whole.statistics->grain_forces = true;
