@@ -2,7 +2,7 @@
 """Figures of a run, or of a study: a folder with study.json and a run folder per case.
 
     plot.py RUN_DIR [FIGURE ...] [--pdf] [--time T] [--from T] [--to T]
-    plot.py STUDY_DIR [FIGURE ...] [--pdf]
+    plot.py STUDY_DIR [FIGURE ...] [--pdf] [--from T] [--to T]
     plot.py validation [FIGURE ...]       figures of docs/validation.md: see validation
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
@@ -17,6 +17,7 @@ import importlib
 import os
 import sys
 
+import study_figures
 from messages import fail, note
 
 # figure: (module, what it shows)
@@ -50,13 +51,15 @@ ALIASES = {
 
 
 def unknown_figure(name):
-    near = difflib.get_close_matches(name, [*FIGURES, *ALIASES], n=1, cutoff=0.4)
+    near = difflib.get_close_matches(name, [*FIGURES, *study_figures.FIGURES, *ALIASES], n=1, cutoff=0.4)
     hint = f' (did you mean "{near[0]}"?)' if near else ""
     return f'no figure "{name}"{hint}; figures: {", ".join(FIGURES)}; of the paper: {", ".join(ALIASES)}'
 
 
 def parse(arguments):
     listing = "\n".join(f"  {name:<18} {about}" for name, (_, about) in FIGURES.items())
+    listing += "\nof a study, over its cases:\n" + "\n".join(
+        f"  {name:<18} {about}" for name, (_, about) in study_figures.FIGURES.items())
     listing += "\nnumbers in the paper:\n" + "\n".join(f"  {a:<18} {b}" for a, b in ALIASES.items())
     parser = argparse.ArgumentParser(
         prog="plot", description="Figures of a run, by default all that its files allow.",
@@ -133,13 +136,16 @@ def main(arguments):
         return validation.main(arguments[1:])
     options = parse(arguments)
     for name in options.figures:
-        if name not in FIGURES and name not in ALIASES:
+        if name not in FIGURES and name not in ALIASES and name not in study_figures.FIGURES:
             return fail(unknown_figure(name))
     from run_folder import PlotError, RunFolder  # after the cheap checks: h5py takes a while
 
     try:
         if is_study(options.run_dir):
             return main_of_study(options)
+        for name in options.figures:
+            if name not in FIGURES and name not in ALIASES:
+                return fail(f"{name} is a figure of a study, not of a run: name the folder of a study")
         run = RunFolder(options.run_dir)
     except PlotError as error:
         return fail(error)
@@ -152,7 +158,6 @@ def is_study(path):
 
 
 def main_of_study(options):
-    import study_figures
     from study_folder import StudyFolder
 
     for name in options.figures:

@@ -1,8 +1,9 @@
-"""Which figures a study folder has: one per varied key, and one of the channels of all cases."""
+"""Which figures a study folder has: one per varied key, and those of all cases together."""
 
 FIGURES = {
     "topviews": ("topview_study", "the grains from above, a row per time, a column per value"),
     "morphology": ("morphology_study", "width, length, centroid against time, a curve per value"),
+    "laws": ("laws", "celerity, W, H, horns, loss and formation time against L, with fits (--from, --to)"),
     "channel": ("channel_study", "turbulence statistics of all cases beside channel DNS"),
 }
 # figures of Lima et al. (2022): (figure, what it varies)
@@ -16,6 +17,8 @@ PAPER = {
     "fig9": ("morphology", "grains.rolling_friction"),
 }
 SAME = {"profiles": "channel"}
+ON_REQUEST = ("laws",)  # for studies of sizes
+OF_ALL_CASES = {"laws": "laws", "channel": "fig2"}  # and the name that the picture has by default
 
 
 def known(name):
@@ -25,11 +28,11 @@ def known(name):
 def jobs(study, names):
     """(file name, module, further arguments) of each figure; without names those of all keys."""
     result = []
-    for name in names or FIGURES:
+    for name in names or (name for name in FIGURES if name not in ON_REQUEST):
         figure, key = PAPER.get(name, (SAME.get(name, name), None))
         module = FIGURES[figure][0]
-        if figure == "channel":
-            result.append((name if names else "fig2", module, ()))
+        if figure in OF_ALL_CASES:
+            result.append((name if names else OF_ALL_CASES[figure], module, ()))
         elif key:
             result.append((name, module, (key,)))
         else:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
+ENSEMBLE_KEYS = ("realisations", "cases")
 REALISATION = "initial.realisation"
 
 
@@ -164,16 +165,24 @@ def named_cases(tables, common, path):
 
 
 def ensemble_of(cases, table, path):
-    """Every case as often as [ensemble] asks for, all first realisations first."""
+    """Every case, or those that [ensemble] names, as often as it asks for, all first realisations first."""
     for key in table:
-        if key != "realisations":
-            raise unknown(key, ("realisations",), f"{path}: [ensemble]")
+        if key not in ENSEMBLE_KEYS:
+            raise unknown(key, ENSEMBLE_KEYS, f"{path}: [ensemble]")
     count = table.get("realisations", 1)
     if not (type(count) is int and 1 <= count <= MOST_REALISATIONS):
         raise StudyError(f"{path}: [ensemble] realisations must be a number from 1 to {MOST_REALISATIONS}")
     if count > 1 and any(REALISATION in case.values for case in cases):
         raise StudyError(f"{path}: [ensemble] sets {REALISATION} itself: do not give it as well")
-    return count, [replace(case, realisation=which) for which in range(1, count + 1) for case in cases]
+    names = [case.name for case in cases]
+    repeated = table.get("cases", names)
+    if not isinstance(repeated, list) or not repeated:
+        raise StudyError(f"{path}: [ensemble] cases must be a list of names of cases")
+    for name in repeated:
+        if name not in names:
+            raise unknown(str(name), names, f"{path}: [ensemble] cases")
+    return count, [replace(case, realisation=which) for which in range(1, count + 1) for case in cases
+                   if which == 1 or case.name in repeated]
 
 
 def check_kind(value, section, path):

@@ -28,6 +28,12 @@ printf '[ensemble]\nrealisations = 3\n' >> study.toml
 sweep study.toml --list > list || fail "--list ended with $?"
 [ "$(cut -d' ' -f1 list | tr '\n' ' ')" = \
   "base sliding_friction-0.3 base-r2 sliding_friction-0.3-r2 base-r3 sliding_friction-0.3-r3 " ] || fail "$(cat list)"
+sed 's/^realisations.*/&\ncases = ["base"]/' study.toml > some.toml
+sweep some.toml --list > list || fail "--list of some cases ended with $?"
+[ "$(cut -d' ' -f1 list | tr '\n' ' ')" = "base sliding_friction-0.3 base-r2 base-r3 " ] || fail "$(cat list)"
+sed -i 's/"base"\]/"bsae"]/' some.toml
+sweep some.toml --list > list 2>&1 && fail "a case that is not there has realisations"
+grep -q 'unknown name "bsae" (did you mean "base"?)' list || fail "$(cat list)"
 sweep study.toml --out out --no-pictures > log 2>&1 || fail "the study ended with $?: $(cat log)"
 [ "$(grep -c 'done before' log)" = 2 ] || fail "the study did not keep its runs: $(cat log)"
 
