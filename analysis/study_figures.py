@@ -4,6 +4,7 @@ FIGURES = {
     "topviews": ("topview_study", "the grains from above, a row per time, a column per value"),
     "morphology": ("morphology_study", "width, length, centroid against time, a curve per value"),
     "laws": ("laws", "celerity, W, H, horns, loss and formation time against L, with fits (--from, --to)"),
+    "means": ("means_study", "in words: what each dune is and does, with its spread (--from, --to); no picture"),
     "channel": ("channel_study", "turbulence statistics of all cases beside channel DNS"),
 }
 # figures of Lima et al. (2022): (figure, what it varies)
@@ -17,8 +18,8 @@ PAPER = {
     "fig9": ("morphology", "grains.rolling_friction"),
 }
 SAME = {"profiles": "channel"}
-ON_REQUEST = ("laws",)  # for studies of sizes
-OF_ALL_CASES = {"laws": "laws", "channel": "fig2"}  # and the name that the picture has by default
+ON_REQUEST = ("laws", "means")  # of studies of sizes; draws nothing
+OF_ALL_CASES = {"laws": "laws", "means": "means", "channel": "fig2"}  # and the name that the picture has by default
 
 
 def known(name):

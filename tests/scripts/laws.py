@@ -1,4 +1,6 @@
 """Laws over the size of a dune: studies whose laws are known, exact and with scatter."""
+import contextlib
+import io
 import json
 import pathlib
 import sys
@@ -10,6 +12,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "analysis"))
 import laws  # noqa: E402
+import means_study  # noqa: E402
 import style  # noqa: E402
 from run_folder import NotInRun  # noqa: E402
 from study_folder import StudyFolder  # noqa: E402
@@ -77,6 +80,14 @@ for noise in (0, 0.1):
         lines = (study.path / "figures_data/laws.csv").read_text().splitlines()
         if len(lines) != 13 or not lines[0].startswith("case,realisation,grains,L,W,H,celerity"):
             failures.append(f"laws.csv: {lines[:1]}, {len(lines)} lines")
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            means_study.draw(study)
+        table = dict(line.strip("| ").split(" | ", 1) for line in said.getvalue().splitlines() if " | " in line)
+        if table["mean +- standard deviation"] != "3k (3) | 10k (3) | 30k (3) | 100k (3)":
+            failures.append(f"means: {table}")
+        if not noise and table["W (mm)"] != "9.2 | 12.8 | 18.2 | 26.3" or noise and table["W (mm)"].count(" +- ") != 4:
+            failures.append(f"W: {table['W (mm)']}")
         late = laws.measure(study, 11.85, None)
         if len(late["case"]) != 0:
             failures.append("a window of two times counts")
