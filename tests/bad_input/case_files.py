@@ -69,7 +69,7 @@ CONTRADICTIONS = [
           "@sizes | 0.25 m, wider than the domain | 0.2 mm is 2e-4"),
     Entry("forces of no flow", '[coupling] forces = ["drag"]', "@forces | must be absent without a [fluid]", base=DRY),
     Entry("uniform at no speed", '[initial] fluid = "uniform" ;; -[fluid] mean_velocity', "@fluid = | must come with a mean_velocity"),
-    Entry("a glued floor of nothing", '[grains] floor = "glued"', '@floor = | floor_diameter | must be above 0 with floor = "glued"'),
+    Entry("a glued floor of nothing", '[grains] floor = "glued"', '@[grains] | floor_diameter | must be above 0 with floor = "glued"'),
     Entry("glued spheres on a smooth floor", "[grains] floor_diameter = 2e-4", "@floor_diameter | must be absent unless"),
     Entry("glued boulders", '[grains] floor = "glued" ;; [grains] floor_diameter = 1e-3', "@floor_diameter | fall between"),
     Entry("one glued sphere", '[grains] floor = "glued" ;; [grains] floor_diameter = 5e-3',
