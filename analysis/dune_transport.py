@@ -126,6 +126,8 @@ def summary(table, shares, chosen):
 
     def mean(name, factor=1.0, form=".3g", source=table, rows=chosen, times=t):
         values = spread(in_seconds(times, factor * source[name][rows]))
+        if np.isnan(values.mean):
+            return "not known"
         return f"{values.mean:{form}}" + ("" if np.isnan(values.interval) else f" +- {values.interval:.2g}")
 
     yield f"mean of t = {t[0]:.3g} to {t[-1]:.3g} s with its 95 % interval, from means over a second:"
