@@ -7,12 +7,12 @@ import numpy as np
 
 import grain_fluxes
 from dune_shape import HALF_WIDTH, main_dune
+from horn_lengths import SECOND
 from run_folder import NotInRun
 from slip_face import asymmetry, slopes
 from spread import spread
 from tracks import tracks
 
-SECOND = 1.0
 DEVIATIONS = 3.0  # an interval with so much more than independent grains would give is an avalanche
 
 
@@ -77,13 +77,19 @@ def measure_shares(run):
     return dict(zip(("t", *grain_fluxes.KINDS), np.array(rows).T)) if rows else None
 
 
-def window(t, start, end):
+def in_window(t, start, end):
     """Which times are meant: the second half unless others are asked for."""
-    start = 0.5 * (t[0] + t[-1]) if start is None and end is None else start
-    chosen = (t >= (t[0] if start is None else start)) & (t <= (t[-1] if end is None else end))
+    if start is None and end is None:
+        start = 0.5 * (t[0] + t[-1])
+    return (t >= (-np.inf if start is None else start)) & (t <= (np.inf if end is None else end))
+
+
+def window(t, start, end):
+    """The same, of at least two frames."""
+    chosen = in_window(t, start, end)
     if np.count_nonzero(chosen) < 2:
-        raise NotInRun(f"needs two frames between {start if start is not None else t[0]:g} s "
-                       f"and {end if end is not None else t[-1]:g} s; it has t = {t[0]:g} to {t[-1]:g} s")
+        raise NotInRun(f"needs two frames between {t[0] if start is None else start:g} s "
+                       f"and {t[-1] if end is None else end:g} s; it has t = {t[0]:g} to {t[-1]:g} s")
     return chosen
 
 
@@ -97,10 +103,13 @@ def over_the_last_second(t, values):
     return result
 
 
+def spans_seconds(t):
+    return t[-1] - t[0] >= 2 * SECOND * (1 - 1e-9)
+
+
 def in_seconds(t, values):
-    """Means over whole seconds, of all values where they span less than two; as good as independent."""
-    second = np.floor((t - t[0]) / SECOND * (1 + 1e-9))
-    second = second if second.max() >= 2 else np.arange(len(t))
+    """Means over whole seconds, taken as independent; the values themselves where they span less than two."""
+    second = np.floor((t - t[0]) / SECOND * (1 + 1e-9)) if spans_seconds(t) else np.arange(len(t))
     means = [np.mean(values[(second == s) & np.isfinite(values)]) for s in np.unique(second)
              if np.isfinite(values[second == s]).any()]
     return means or [np.nan]
@@ -121,16 +130,17 @@ def dispersion(counts):
 
 
 def summary(table, shares, chosen):
-    """Sentences: means over the chosen times with the 95 % interval of means over a second."""
+    """Sentences: means over the chosen times with the 95 % interval of means over a second, or of single frames."""
     t = table["t"][chosen]
 
-    def mean(name, factor=1.0, form=".3g", source=table, rows=chosen, times=t):
+    def mean(name, factor=1.0, source=table, rows=chosen, times=t):
         values = spread(in_seconds(times, factor * source[name][rows]))
         if np.isnan(values.mean):
             return "not known"
-        return f"{values.mean:{form}}" + ("" if np.isnan(values.interval) else f" +- {values.interval:.2g}")
+        return f"{values.mean:.3g}" + ("" if np.isnan(values.interval) else f" +- {values.interval:.2g}")
 
-    yield f"mean of t = {t[0]:.3g} to {t[-1]:.3g} s with its 95 % interval, from means over a second:"
+    yield (f"mean of t = {t[0]:.3g} to {t[-1]:.3g} s with its 95 % interval, from "
+           f"{'means over a second' if spans_seconds(t) else 'single frames'}:")
     yield (f"stoss side {mean('stoss_angle')} degrees, slip face {mean('slip_face_angle')} degrees, "
            f"asymmetry {mean('asymmetry')}")
     yield (f"flux over the crest {mean('crest_flux')} m2/s, phi c H {mean('migration_flux')} m2/s (phi "

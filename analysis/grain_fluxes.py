@@ -5,8 +5,6 @@ Definitions: docs/conventions.md, "Slopes and transport". SI units.
 
 import numpy as np
 
-from dune_shape import BIN
-
 KINDS = ("saltation", "rolling", "creep")
 SLAB = (2.0, 4.0)  # heights between which the packing is measured, in mean diameters
 DEEP = 6.0         # ... in bins that are at least so high, and their neighbours

@@ -11,12 +11,13 @@ import numpy as np
 
 import horn_lengths
 import style
+from dune_shape import BIN
+from dune_transport import in_window
 from morphology_study import looks
 from run_folder import NotInRun
 from spread import spread
 
 OPTIONS = ("start", "end", "figures")
-BIN = 2.5     # in mean diameters: a shorter horn is none
 FEWEST = 3    # runs that make a law
 # name: (axis, factor to its unit, law): a power of L, or linear in L.
 QUANTITIES = {
@@ -70,8 +71,7 @@ def of_run(run, start, end):
     """Means and slopes of the main dune over the window; nothing where it has too few times."""
     dune = run.dunes[min(run.dunes)]
     t = dune["t"]
-    low = 0.5 * (t[0] + t[-1]) if start is None and end is None else -np.inf if start is None else start
-    rows = (t >= low) & (t <= (np.inf if end is None else end))
+    rows = in_window(t, start, end)
     if np.count_nonzero(rows) < 4:
         return {}
     grains = dune["n_grains"][rows].mean()

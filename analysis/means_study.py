@@ -43,7 +43,8 @@ def draw(study, start=None, end=None):
     cases = {name: runs for name, runs in cases.items() if runs}
     if not cases:
         raise NotInRun("needs a case with a dune in dune.csv")
-    print("| mean +- standard deviation | " + " | ".join(f"{name} ({len(runs)})" for name, runs in cases.items()) + " |")
+    heads = " | ".join(f"{name} ({len(runs)})" for name, runs in cases.items())
+    print(f"| mean +- standard deviation | {heads} |")
     print("|---|" + "---|" * len(cases))
     rows = []
     for quantity, (label, factor) in QUANTITIES.items():

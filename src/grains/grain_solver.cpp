@@ -97,6 +97,7 @@ void GrainSolver::add_walls(const Config& config, Real r_max) {
   const auto& size = config.size;
   if (config.grains->floor == GrainFloor::glued) {
     walls_.glued = glued_floor(config.grains->floor_diameter / 2, size[0], size[2]);
+    // Their planes are found where a grain is: WallShapes::at.
     for (int colour = 0; colour < GluedFloor::kColours; ++colour) add({0, 1, 0}, 0, colour);
     add({0, -1, 0}, -size[1], 0);
   } else {
