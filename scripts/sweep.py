@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs a parameter study: one run folder per case, several at a time, resumed where it was left.
 
-    sweep.py PROGRAM STUDY.toml [--out DIR] [--at-once N] [--threads N] [--list]
+    sweep.py PROGRAM STUDY.toml [--out DIR] [--only RUN ...] [--at-once N] [--threads N] [--list]
 
 The study file is described in docs/conventions.md ("Studies"). Exit status: 0 all cases done, 1 some failed,
 2 bad input, 3 stopped on request (every case that ran has written a restart file).
@@ -10,6 +10,7 @@ The study file is described in docs/conventions.md ("Studies"). Exit status: 0 a
 import argparse
 import ctypes
 import fcntl
+import fnmatch
 import json
 import os
 import signal
@@ -20,7 +21,7 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from study import StudyError, read_study  # noqa: E402
+from study import StudyError, read_study, unknown  # noqa: E402
 from study_table import write_table  # noqa: E402
 
 PLOT = Path(__file__).resolve().parents[1] / "analysis/plot.py"
@@ -37,6 +38,16 @@ def resolved(program, study, case):
     if checked.returncode != 0:
         raise StudyError(f"case {case.run_name}: {checked.stderr.strip()}")
     return tomllib.loads(checked.stdout)
+
+
+def chosen_of(study, patterns):
+    """The runs that are asked for: all, or those whose name fits one of the patterns (*, ?, [abc])."""
+    names = [case.run_name for case in study.cases]
+    for pattern in patterns or []:
+        if not fnmatch.filter(names, pattern):
+            raise unknown(pattern, names, "--only")
+    return [case for case in study.cases
+            if not patterns or any(fnmatch.fnmatchcase(case.run_name, pattern) for pattern in patterns)]
 
 
 def end_with_parent():
@@ -116,8 +127,10 @@ class Running:
 
 
 class Sweep:
-    def __init__(self, program, study, draw):
-        self.program, self.study, self.draw = program, study, draw
+    """Computes the runs `chosen` of a study; its tables list all of them."""
+
+    def __init__(self, program, study, chosen, draw):
+        self.program, self.study, self.chosen, self.draw = program, study, chosen, draw
         self.running, self.failed, self.stopping = [], {}, False
         self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
         self.said = time.monotonic()
@@ -132,7 +145,7 @@ class Sweep:
 
     def run(self):
         waiting = []
-        for case in self.study.cases:
+        for case in self.chosen:
             what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
             say(f"{case.run_name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}")
             if what != "done":
@@ -150,11 +163,13 @@ class Sweep:
 
     def verdict(self):
         if self.stopping:
-            say(f"stopped; the same command goes on: {len(self.study.cases)} cases in {self.study.out}")
+            say(f"stopped; the same command goes on: {len(self.chosen)} cases in {self.study.out}")
             return 3
         for name, why in self.failed.items():
             say(f"failed: {name}: {why}")
-        say(f"{len(self.study.cases) - len(self.failed)} of {len(self.study.cases)} cases done, "
+        left_out = len(self.study.cases) - len(self.chosen)
+        others = f"{left_out} others not asked for, " * bool(left_out)
+        say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done, {others}"
             f"{self.study.out / 'study.csv'}")
         return 1 if self.failed else 0
 
@@ -203,9 +218,10 @@ class Sweep:
 
     def remaining(self):
         """The time left, from what the cases have come forward since the start."""
-        ends = [config["time"]["end"] for config in self.configs.values()]
+        names = [case.run_name for case in self.chosen]
+        ends = [self.configs[name]["time"]["end"] for name in names]
         reached = sum(min(read_json(self.study.out / name / "run.json").get("simulated_seconds", 0.0), end)
-                      for name, end in zip(self.configs, ends))
+                      for name, end in zip(names, ends))
         if not hasattr(self, "reached_first"):
             self.reached_first, self.began = reached, time.time()
             return ""
@@ -239,6 +255,7 @@ def parse(arguments):
     parser.add_argument("program", help=argparse.SUPPRESS)
     parser.add_argument("study", metavar="STUDY.toml")
     parser.add_argument("--out", metavar="DIR", help="folder of the study (default: runs/<study name>)")
+    parser.add_argument("--only", metavar="RUN", nargs="+", help="these runs of it; patterns with * are taken")
     parser.add_argument("--at-once", type=int, metavar="N", help="cases side by side")
     parser.add_argument("--threads", type=int, metavar="N", help="threads of each (default: cores shared out)")
     parser.add_argument("--list", action="store_true", help="show the cases, run nothing")
@@ -264,9 +281,10 @@ def main(arguments):
     options = parse(arguments)
     try:
         study = read_study(Path(options.study), options)
-        sweep = Sweep(options.program, study, draw=not options.no_pictures)
+        chosen = chosen_of(study, options.only)
+        sweep = Sweep(options.program, study, chosen, draw=not options.no_pictures)
         if options.list:
-            for case in study.cases:
+            for case in chosen:
                 print(case.run_name, *case.set_options()[1::2])
             return 0
         held = lock(study.out)

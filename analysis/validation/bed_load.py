@@ -25,6 +25,7 @@ PACKED = 0.58  # solid fraction of a loose bed: gives the height of its surface
 GRAVITY, VISCOSITY, WATER = 9.81, 1e-6, 1000.0
 LAMINAR_THRESHOLD = 0.12, 0.03
 MOVES = 1e-4  # q* below it counts as rest
+KEYS = 4  # the first columns: which run a row is of
 COLUMNS = ("rolling_friction,smoothing_length,mean_velocity,realisation,seconds,stress,shields,grain_reynolds,flux,"
            "q_star,q_star_deviation")
 
@@ -86,12 +87,36 @@ def notes(study, config, run):
             "machine": f'{tables.machine()}; {identity["device"]}', "date": datetime.date.today().isoformat()}
 
 
+def as_row(values):
+    return ",".join(f"{value:.6g}" for value in values)
+
+
+def key_of(row):
+    return tuple(map(float, row.split(",")[:KEYS]))
+
+
+def with_earlier(path, said, rows):
+    """Notes and rows with those of an earlier table: a run that was done again replaces its row.
+
+    A study of many hours is so gathered from several machines; the notes name every commit, machine and day.
+    """
+    if not path.exists():
+        return said, rows
+    earlier = tables.read(path)
+    for name in ("commit", "machine", "date"):
+        before = earlier.notes.get(name, "").split(" and ")
+        said[name] = " and ".join(dict.fromkeys([*filter(None, before), said[name]]))
+    kept = {key_of(row): row for row in map(as_row, zip(*earlier.columns.values()))}
+    return said, list((kept | {key_of(row): row for row in rows}).values())
+
+
 def save(study_path, folder):
-    """Keeps one row for each finished run of the study as bed_load.csv; returns the path."""
+    """Keeps one row for each finished run of the study as bed_load.csv, beside those kept before; returns the path."""
     study, runs = finished(study_path)
     path = folder / f"{NAME}.csv"
-    tables.write(path, notes(study, "configs/validation/flat-bed-study.toml", runs[0][1]),
-                 [COLUMNS] + [",".join(f"{value:.6g}" for value in measure(run)) for _, run in runs])
+    said, rows = with_earlier(path, notes(study, "configs/validation/flat-bed-study.toml", runs[0][1]),
+                              [as_row(measure(run)) for _, run in runs])
+    tables.write(path, said, [COLUMNS, *sorted(rows, key=key_of)])
     return path
 
 

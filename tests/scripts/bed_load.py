@@ -77,6 +77,19 @@ with tempfile.TemporaryDirectory() as folder:
         failures.append(f"the legend has no threshold: {labels}")
 
 
+# A table grows from several machines: a run done again replaces its row, the others stay, the notes name all.
+with tempfile.TemporaryDirectory() as folder:
+    path = pathlib.Path(folder) / "bed_load.csv"
+    tables.write(path, {"title": "t", "commit": "aaa", "machine": "one", "date": "d"}, [bed_load.COLUMNS, *rows[:5]])
+    again = rows[4].replace(",10,", ",11,")
+    said, merged = bed_load.with_earlier(path, {"commit": "bbb", "machine": "one", "date": "e"}, [again, rows[5]])
+    if said != {"commit": "aaa and bbb", "machine": "one", "date": "d and e"}:
+        failures.append(f"notes of two tables: {said}")
+    seconds = [row.split(",")[4] for row in merged]
+    if seconds != ["10", "10", "10", "10", "11", "10"]:
+        failures.append(f"rows of two tables: {merged}")
+
+
 # Threshold of motion: windows of a run, the stress at which the flux passes a level, and a table with both.
 class RisingRun(MadeUpRun):
     """The stress rises by 0.1 Pa a window, the flux tenfold from the fourth window on."""

@@ -34,8 +34,18 @@ sweep some.toml --list > list || fail "--list of some cases ended with $?"
 sed -i 's/"base"\]/"bsae"]/' some.toml
 sweep some.toml --list > list 2>&1 && fail "a case that is not there has realisations"
 grep -q 'unknown name "bsae" (did you mean "base"?)' list || fail "$(cat list)"
+
+# --- part of a study: runs by name or pattern; the table lists the others as waiting
+sweep study.toml --only base '*-r2' --list > list || fail "--only --list ended with $?"
+[ "$(cut -d' ' -f1 list | tr '\n' ' ')" = "base base-r2 sliding_friction-0.3-r2 " ] || fail "--only: $(cat list)"
+sweep study.toml --only base-r4 > list 2>&1 && fail "a run that is not there was asked for"
+grep -q -- '--only: unknown name "base-r4" (did you mean "base-r[23]"?)' list || fail "$(cat list)"
+sweep study.toml --only base-r2 --out out --no-pictures > log 2>&1 || fail "one run ended with $?: $(cat log)"
+grep -q "1 of 1 cases done, 5 others not asked for" log || fail "$(cat log)"
+[ -e out/base-r2/run.json ] && [ ! -e out/base-r3 ] || fail "--only ran the wrong ones"
+
 sweep study.toml --out out --no-pictures > log 2>&1 || fail "the study ended with $?: $(cat log)"
-[ "$(grep -c 'done before' log)" = 2 ] || fail "the study did not keep its runs: $(cat log)"
+[ "$(grep -c 'done before' log)" = 3 ] || fail "the study did not keep its runs: $(cat log)"
 
 # --- each realisation has its own heap and a later flow; the flow goes on where it was, not anew
 for which in 2 3; do
