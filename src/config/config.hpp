@@ -55,7 +55,8 @@ struct TimeConfig {
 /// [fluid]
 struct FluidConfig {
   std::array<int, 3> cells{};                    // nx, ny, nz, required
-  double first_cell_height = 0;                  // [m]; 0: uniform in y
+  Length first_cell_height{};                    // [m]; 0: uniform in y
+  Length uniform_height{};                       // [m] up to which rows are as high as the first
   double density = 1000;                         // [kg/m^3]
   double kinematic_viscosity = 1e-6;             // [m^2/s]
   double mean_velocity = 0;                      // [m/s], held by a body force

@@ -29,8 +29,8 @@ FluidNumbers derive_fluid(const Config& config) {
   n.cells = std::int64_t{cells[0]} * cells[1] * cells[2];
   n.dx = config.size[0] / cells[0];
   n.dz = config.size[2] / cells[2];
-  n.stretching = stretching_ratio(config.size[1], cells[1], fluid.first_cell_height);
-  const auto faces = stretched_faces(config.size[1], cells[1], fluid.first_cell_height);
+  n.stretching = stretching_ratio(row_spacing(config));
+  const auto faces = row_faces(row_spacing(config));
   n.dy_first = faces[1];
   n.dy_last = faces[faces.size() - 1] - faces[faces.size() - 2];
   const int walls = (fluid.bottom == WallFlow::no_slip) + (fluid.top == WallFlow::no_slip);

@@ -135,7 +135,7 @@ void check_grains(const Config& c, Findings& found) {
 std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeClass>& sizes) {
   Findings found;
   if (!c.grains || sizes.empty()) return {};
-  if (c.fluid && !rows_fit(c.size[1], c.fluid->cells[1], c.fluid->first_cell_height)) return {};
+  if (c.fluid && !rows_fit(row_spacing(c))) return {};
   const Derived derived = derive(c, sizes);
   const GrainNumbers& n = *derived.grains;
   const double narrowest = *std::min_element(c.size.begin(), c.size.end());

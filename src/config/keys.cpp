@@ -100,8 +100,11 @@ void add_fluid(Sections& all) {
            [](auto& c) { return &c.fluid; });
   using F = FluidConfig;
   key("cells", &F::cells, between(1, 100000), "", "[nx, ny, nz]", required_and_fixed);
-  key("first_cell_height", &F::first_cell_height, at_least(0), "m",
+  key("first_cell_height", &F::first_cell_height, between(0, 1e6), "m",
       "height of the lowest row, from which rows grow by a constant ratio; 0: all are equal",
+      fixed_by_restart);
+  key("uniform_height", &F::uniform_height, between(0, 1e6), "m",
+      "height up to which rows are as high as the lowest: that of the dune; above it they grow",
       fixed_by_restart);
   key("density", &F::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",

@@ -108,6 +108,10 @@ void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeCla
     length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
   };
   resolve("coupling.smoothing_length", config.coupling.smoothing_length);
+  if (config.fluid) {
+    resolve("fluid.first_cell_height", config.fluid->first_cell_height);
+    resolve("fluid.uniform_height", config.fluid->uniform_height);
+  }
   if (!config.grains) return;
   resolve("grains.skin", config.grains->skin);
   resolve("grains.floor_diameter", config.grains->floor_diameter);

@@ -1,5 +1,6 @@
 #include "src/config/mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,39 +15,68 @@ double geometric_sum(double q, int n) {
   return growth == 0 ? n : std::expm1(n * std::log1p(growth)) / growth;
 }
 
-bool uniform(double mean, double first) {
-  return first == 0 || std::abs(first - mean) <= 1e-9 * mean;
+/// The rows that grow, with the last of the equal ones, which they grow from.
+RowSpacing growing_part(const RowSpacing& all) {
+  const int below = uniform_rows(all) - 1;
+  return {.height = all.height - below * all.first, .rows = all.rows - below, .first = all.first};
+}
+
+bool all_equal(const RowSpacing& s) {
+  const double mean = s.height / s.rows;
+  return s.first == 0 || std::abs(s.first - mean) <= 1e-9 * mean;
 }
 
 }  // namespace
 
-bool rows_fit(double ly, int ny, double first) {
-  if (!(ly > 0) || ny < 1 || !(first >= 0)) return false;
-  return uniform(ly / ny, first) || (first < ly / ny && ny > 1);
+RowSpacing row_spacing(const Config& config) {
+  const FluidConfig& fluid = config.fluid.value();
+  return {.height = config.size[1],
+          .rows = fluid.cells[1],
+          .first = fluid.first_cell_height,
+          .uniform_to = fluid.uniform_height};
 }
 
-double stretching_ratio(double ly, int ny, double first) {
-  if (!rows_fit(ly, ny, first)) {
-    throw std::invalid_argument(
-        fmt::format("no mesh of {} rows over {} m from a first row of {} m", ny, ly, first));
+int uniform_rows(const RowSpacing& spacing) {
+  if (!(spacing.first > 0)) return 1;
+  const double rows = std::ceil(spacing.uniform_to / spacing.first - 1e-9);
+  return static_cast<int>(std::clamp(rows, 1.0, std::max(1.0, 1.0 * spacing.rows)));
+}
+
+bool rows_fit(const RowSpacing& s) {
+  if (!(s.height > 0) || s.rows < 1 || !(s.first >= 0)) return false;
+  if (all_equal(s)) return true;
+  const RowSpacing part = growing_part(s);
+  return part.rows > 1 && part.first < part.height / part.rows;
+}
+
+double stretching_ratio(const RowSpacing& s) {
+  if (!rows_fit(s)) {
+    throw std::invalid_argument(fmt::format("no mesh of {} rows over {} m from a first row of {} m",
+                                            s.rows, s.height, s.first));
   }
-  if (uniform(ly / ny, first)) return 1;
-  // The sum grows with q and its last term alone exceeds ly / first at the upper end.
-  const double target = ly / first;
+  if (all_equal(s)) return 1;
+  // The sum grows with q and its last term alone exceeds height / first at the upper end.
+  const RowSpacing part = growing_part(s);
+  const double target = part.height / part.first;
   double low = 1;
-  double high = std::pow(target, 1.0 / (ny - 1));
+  double high = std::pow(target, 1.0 / (part.rows - 1));
   for (int n = 0; n < 200 && high - low > 1e-15 * high; ++n) {
     const double middle = 0.5 * (low + high);
-    (geometric_sum(middle, ny) < target ? low : high) = middle;
+    (geometric_sum(middle, part.rows) < target ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
-std::vector<double> stretched_faces(double ly, int ny, double first) {
-  const double q = stretching_ratio(ly, ny, first);
-  std::vector<double> faces(ny + 1);
-  const double whole = geometric_sum(q, ny);  // scaled by it the last face is ly to the bit
-  for (int j = 0; j <= ny; ++j) faces[j] = ly * (geometric_sum(q, j) / whole);
+std::vector<double> row_faces(const RowSpacing& s) {
+  const double q = stretching_ratio(s);
+  const RowSpacing part = all_equal(s) ? s : growing_part(s);
+  const double whole = geometric_sum(q, part.rows);  // scaled by it the last face is exact
+  std::vector<double> faces;
+  for (int j = 0; j < s.rows - part.rows; ++j) faces.push_back(j * s.first);
+  const double bottom = s.height - part.height;
+  for (int j = 0; j < part.rows; ++j)
+    faces.push_back(bottom + part.height * (geometric_sum(q, j) / whole));
+  faces.push_back(s.height);
   return faces;
 }
 

@@ -68,7 +68,7 @@ class CoupledStep {
 
   /// Of a state with a flow, see FluidSolver.
   Real friction_velocity(const SystemState& s) const { return fluid_->friction_velocity(*s.fluid); }
-  Real bulk_velocity(const SystemState& s) const { return fluid_->bulk_velocity(*s.fluid); }
+  Real bulk_velocity(const SystemState& s) const { return barchan::bulk_velocity(*s.fluid); }
   Real kinetic_energy_of_fluid(const SystemState& s) const {
     return fluid_->kinetic_energy(*s.fluid);
   }

@@ -62,7 +62,7 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
 Grid make_grid(const Config& config, const Decomposition* ranks) {
   const FluidConfig& fluid = config.fluid.value();
   return make_grid(fluid.cells[0], fluid.cells[2], config.size[0], config.size[2],
-                   stretched_faces(config.size[1], fluid.cells[1], fluid.first_cell_height), ranks);
+                   row_faces(row_spacing(config)), ranks);
 }
 
 std::unique_ptr<const Decomposition> make_decomposition(const Config& config,

@@ -31,7 +31,28 @@ AdamsBashforth weights(const FluidState& fluid, Real dt) {
   return {dt + half, -half};
 }
 
+void fill_fraction_ghosts(const Boundary& boundary, FluidState& fluid) {
+  boundary.fill(fluid.alpha_f, FieldKind::scalar);
+  boundary.fill(fluid.alpha_f_previous, FieldKind::scalar);
+}
+
 }  // namespace
+
+void fill_ghosts(const Boundary& boundary, FluidState& fluid) {
+  boundary.fill_velocity(fluid.u);
+  boundary.fill_acceleration(fluid.du_dt);
+  boundary.fill(fluid.p, FieldKind::scalar);
+  boundary.fill(fluid.p_previous, FieldKind::scalar);
+  fill_fraction_ghosts(boundary, fluid);
+  boundary.fill(fluid.nu_t, FieldKind::eddy_viscosity);
+}
+
+Real bulk_velocity(const FluidState& fluid) {
+  const Grid& grid = fluid.grid;
+  const Real flow =
+      sum_each_cell("fluid: flow rate", grid, FlowRate{grid, fluid.u.x, fluid.alpha_f});
+  return flow / sum_each_cell("fluid: volume", grid, HeightSum{grid, fluid.alpha_f});
+}
 
 FluidSolver::FluidSolver(const Config& config, const Grid& grid)
     : config_(config.fluid.value()),
@@ -51,7 +72,7 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
-  if (exchange != nullptr) fill_fraction_ghosts(fluid);
+  if (exchange != nullptr) fill_fraction_ghosts(boundary_, fluid);
   if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
   update_eddy_viscosity(fluid);                    // nu_t
   predict(fluid, exchange, dt);                    // u*
@@ -64,18 +85,18 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   return report_;
 }
 
-void FluidSolver::fill_fraction_ghosts(FluidState& fluid) const {
-  boundary_.fill(fluid.alpha_f, FieldKind::scalar);
-  boundary_.fill(fluid.alpha_f_previous, FieldKind::scalar);
-}
-
-void FluidSolver::fill_ghosts(FluidState& fluid) const {
-  boundary_.fill_velocity(fluid.u);
-  boundary_.fill_acceleration(fluid.du_dt);
-  boundary_.fill(fluid.p, FieldKind::scalar);
-  boundary_.fill(fluid.p_previous, FieldKind::scalar);
-  fill_fraction_ghosts(fluid);
-  boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
+void FluidSolver::remove_divergence(FluidState& fluid) {
+  FluidState work = make_fluid_state(grid_);  // its pressure is not that of the flow
+  work.u = fluid.u;
+  work.alpha_f = work.alpha_f_previous = fluid.alpha_f;
+  fill_ghosts(work);
+  Kokkos::deep_copy(u_star_.x.storage, fluid.u.x.storage);
+  Kokkos::deep_copy(u_star_.y.storage, fluid.u.y.storage);
+  Kokkos::deep_copy(u_star_.z.storage, fluid.u.z.storage);
+  const bool with_grains = mobility_.x.storage.size() > 0;
+  if (with_grains) update_mobility(work);
+  solve_pressure(work, with_grains, 1);
+  correct(work, with_grains, 1);
 }
 
 void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
@@ -139,13 +160,19 @@ void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFac
   }
 }
 
+/// Returns the flow rate per unit of drive times dt.
+Real FluidSolver::update_mobility(const FluidState& fluid) {
+  const Real response =
+      sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
+  boundary_.fill_periodic(mobility_);
+  return response;
+}
+
 void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  Real drive_response = grid_.height_of_all_columns();  // flow rate per unit of drive times dt
+  Real drive_response = grid_.height_of_all_columns();
   fluid_height_ = drive_response;
   if (exchange != nullptr) {
-    drive_response =
-        sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
-    boundary_.fill_periodic(mobility_);
+    drive_response = update_mobility(fluid);
     fluid_height_ = sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
   }
   if (config_.pressure_gradient) {
@@ -247,12 +274,6 @@ Real FluidSolver::friction_velocity(const FluidState& fluid) const {
   add(config_.bottom, 0, 0);
   add(config_.top, grid_.ny - 1, config_.top_velocity);
   return walls == 0 ? 0 : std::sqrt(config_.kinematic_viscosity * slope / walls);
-}
-
-Real FluidSolver::bulk_velocity(const FluidState& fluid) const {
-  const Real flow =
-      sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
-  return flow / sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
 }
 
 Real FluidSolver::kinetic_energy(const FluidState& fluid) const {

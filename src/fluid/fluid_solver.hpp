@@ -24,6 +24,12 @@ struct FluidStepReport {
   Real seconds_pressure = 0;  // wall time in the pressure equation
 };
 
+/// Makes all ghosts of a state valid.
+void fill_ghosts(const Boundary& boundary, FluidState& fluid);
+
+/// sum(alpha u V) / sum(alpha V) [m/s].
+Real bulk_velocity(const FluidState& fluid);
+
 /// Solves, with alpha the fluid fraction and u the interstitial velocity,
 ///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
 ///                                    + alpha f e_x + exchange / rho,
@@ -40,12 +46,14 @@ class FluidSolver {
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
 
   /// Makes all ghosts valid, to be called after a state was set or read.
-  void fill_ghosts(FluidState& fluid) const;
+  void fill_ghosts(FluidState& fluid) const { barchan::fill_ghosts(boundary_, fluid); }
+
+  /// Takes the divergence of alpha u away by a gradient, as the correction of a step does, with the
+  /// fluid fraction held. Pressure and history stay. Ghosts of the velocity are valid on return.
+  void remove_divergence(FluidState& fluid);
 
   /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
   Real friction_velocity(const FluidState& fluid) const;
-  /// sum(alpha u V) / sum(alpha V) [m/s].
-  Real bulk_velocity(const FluidState& fluid) const;
   /// sum(rho alpha |u|^2 V) / 2 [J].
   Real kinetic_energy(const FluidState& fluid) const;
 
@@ -66,11 +74,11 @@ class FluidSolver {
   const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }
 
  private:
-  void fill_fraction_ghosts(FluidState& fluid) const;
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
+  Real update_mobility(const FluidState& fluid);
   void choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
   void solve_pressure(FluidState& fluid, bool coupled, Real dt);
   void correct(FluidState& fluid, bool coupled, Real dt);

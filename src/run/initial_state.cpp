@@ -7,9 +7,11 @@
 
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
+#include "src/config/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/initial_flow.hpp"
+#include "src/fluid/map_flow.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/output/state_file.hpp"
 
@@ -17,13 +19,29 @@ namespace barchan {
 
 namespace {
 
-/// A flow that was computed in another domain or on other rows would be taken for one in this.
-void check_flow_file(const Config& config, const CheckpointReader& file) {
+/// The case that computed a flow. A flow in another domain is refused: it would be taken for one in
+/// this. Of a file that is not ours nothing is known: its arrays must speak for themselves.
+Config case_of_flow(const Config& config, const CheckpointReader& file) {
   const std::string resolved = file.provenance().config;
-  if (resolved.empty()) return;  // not ours: its arrays must speak for themselves
-  for (const Finding& f : check_start(config, config_as_written(resolved, file.path()), true)) {
+  if (resolved.empty()) return config;
+  Config other = config_as_written(resolved, file.path());
+  for (const Finding& f : check_start(config, other, true)) {
     throw InputError(fmt::format("{}: as initial.fluid it {}", file.path().string(), f.message));
   }
+  return other;
+}
+
+bool same_mesh(const Config& a, const Config& b) {
+  return a.fluid->cells == b.fluid->cells && row_spacing(a) == row_spacing(b);
+}
+
+/// Of the same mesh with the same bits, of another one interpolated.
+void read_flow(const Config& config, const CheckpointReader& file, FluidState& fluid) {
+  const Config other = case_of_flow(config, file);
+  if (same_mesh(config, other)) return load_flow(file, fluid);
+  FluidState whole = make_fluid_state(make_grid(other));
+  load_flow(file, whole);
+  map_flow(config, whole, fluid);
 }
 
 FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
@@ -31,8 +49,7 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
   FluidState fluid = make_fluid_state(make_grid(config, pencils));
   if (!file.empty()) {
     const CheckpointReader flow(file, pencils ? pencils->all() : MPI_COMM_SELF);
-    check_flow_file(config, flow);
-    load_flow(flow, fluid);
+    read_flow(config, flow, fluid);
     fluid.time = 0;
     // The precursor's fluid step may be another one, and grains now push the water aside.
     fluid.has_history = false;

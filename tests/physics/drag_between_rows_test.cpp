@@ -14,12 +14,12 @@ namespace {
 
 /// Nine rows that grow from 0.26 mm upwards.
 test::HostGrid thick_rows() {
-  return test::HostGrid{make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4))};
+  return test::HostGrid{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4}))};
 }
 
 /// Rows of a grain of 0.2 mm at height y in rows 50 um high, and the conductances between them.
 struct GrainInThinRows {
-  test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 80, 5e-5))};
+  test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 80, 5e-5}))};
   GridRef grid = host.ref();
 
   GrainRows rows(Real y) const { return {grid, y, 1e-4}; }

@@ -89,7 +89,7 @@ constexpr int kCells = 6;  // cubic cells of edge one in each direction
 
 struct Cells {
   test::HostGrid grid{
-      make_grid(kCells, kCells, kCells, kCells, stretched_faces(kCells, kCells, 0))};
+      make_grid(kCells, kCells, kCells, kCells, row_faces({kCells, kCells, 0}))};
   DepositStencil stencil = deposit_stencil_in(grid.ref(), PointModel::divided, true);
 
   /// Shares by the code.

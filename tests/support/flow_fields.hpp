@@ -102,7 +102,7 @@ inline void set_random(const Field& f, const Grid& grid, unsigned seed) {
 /// Stretched unless `first` is zero.
 inline Grid stretched_grid(std::array<int, 3> n, std::array<double, 3> size, double first,
                            const Decomposition* ranks = nullptr) {
-  return make_grid(n[0], n[2], size[0], size[2], stretched_faces(size[1], n[1], first), ranks);
+  return make_grid(n[0], n[2], size[0], size[2], row_faces({size[1], n[1], first}), ranks);
 }
 
 inline Config flow_config(std::array<int, 3> n, std::array<double, 3> size, double first) {

@@ -17,7 +17,7 @@ namespace {
 /// Rows of equal height; rows that grow from half a diameter of a grain of 0.2 mm; one row.
 std::array<test::HostGrid, 3> grids() {
   const auto with = [](int ny, double first) {
-    return test::HostGrid(make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, ny, first)));
+    return test::HostGrid(make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, ny, first})));
   };
   return {with(11, 0), with(17, 1e-4), with(1, 0)};
 }

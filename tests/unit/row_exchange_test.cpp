@@ -25,7 +25,7 @@ struct Seen {
 /// Velocity along x seen by a grain of 0.2 mm at height y in water whose rows j move with u(j);
 /// along z it is -2 u. Rows grow from 0.26 mm upwards.
 struct Water {
-  test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4))};
+  test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4}))};
   GridRef grid = host.ref();
 
   Seen at(Real y, const std::function<Real(int)>& u) const {

@@ -13,7 +13,7 @@ namespace barchan {
 namespace {
 
 test::HostGrid awkward_grid() {
-  return test::HostGrid(make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.004, 9, 2.6e-4)));
+  return test::HostGrid(make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4})));
 }
 
 TEST(DividedPoints, ShellsAreTheVolumeMeansAndTheCentroidIsTheCentre) {
@@ -141,7 +141,7 @@ TEST(Interpolation, IsExactForLinearFieldsAndVanishesOnANoSlipWall) {
 
 /// Value of a linear field, in cells of one size, at points that fall into all sorts of tetrahedra.
 TEST(CellPointFace, IsExactForLinearFieldsInEqualCells) {
-  const test::HostGrid host(make_grid(7, 5, 0.0112, 0.008, stretched_faces(0.0045, 9, 0)));
+  const test::HostGrid host(make_grid(7, 5, 0.0112, 0.008, row_faces({0.0045, 9, 0})));
   const GridRef g = host.ref();
   const auto value = [](Real x, Real y, Real z) { return 1 + 20 * x + 300 * y - 7 * z; };
   const test::HostField f = test::host_field(

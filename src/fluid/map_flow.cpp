@@ -1,0 +1,35 @@
+#include "src/fluid/map_flow.hpp"
+
+#include "kernels/fluid/flow_between_meshes.hpp"
+#include "src/fluid/fluid_solver.hpp"
+
+namespace barchan {
+
+void map_flow(const Config& config, FluidState& from, FluidState& to) {
+  const FluidConfig& fluid = config.fluid.value();
+  fill_ghosts(Boundary(from.grid, fluid.bottom, fluid.top, fluid.top_velocity), from);
+  for_each_cell("fluid: from another mesh", to.grid,
+                FlowFromMesh{.from = from.grid,
+                             .to = to.grid,
+                             .u_from = from.u,
+                             .du_dt_from = from.du_dt,
+                             .p_from = from.p,
+                             .nu_t_from = from.nu_t,
+                             .alpha_from = from.alpha_f,
+                             .u = to.u,
+                             .du_dt = to.du_dt,
+                             .p = to.p,
+                             .nu_t = to.nu_t,
+                             .alpha = to.alpha_f});
+  if (!config.grains) Kokkos::deep_copy(to.alpha_f.storage, Real(1));
+  Kokkos::deep_copy(to.alpha_f_previous.storage, to.alpha_f.storage);
+  to.drive = from.drive;
+  FluidSolver(config, to.grid).remove_divergence(to);
+  const Real bulk = bulk_velocity(to);
+  if (bulk != 0) {
+    for_each_cell("fluid: bulk velocity", to.grid,
+                  ScaleFaces{.factor = bulk_velocity(from) / bulk, .v = to.u});
+  }
+}
+
+}  // namespace barchan
