@@ -24,7 +24,10 @@ class Table:
 
     def where(self, name, value):
         """The rows whose `name` is `value`."""
-        rows = self.columns[name] == value
+        return self.only(self.columns[name] == value)
+
+    def only(self, rows):
+        """These rows, a boolean for each."""
         return Table(self.notes, {key: column[rows] for key, column in self.columns.items()})
 
     def values(self, name):

@@ -15,7 +15,7 @@ GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain
 GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
 DEPOSIT = 19                 # to the fluid ranks after them
 SWEEPS = 3                   # src/fluid/pressure_solver.cpp
-SMOOTHINGS, EXCHANGE_FILLS = 4, 21
+SMOOTHINGS, EXCHANGE_FILLS = 4, 17
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
 
@@ -151,9 +151,9 @@ def flow_step_around_grains(p, iterations):
 
 
 def deposit_halo(p):
-    """Sums of deposits in the ghost cells, to the cells they belong to: five integers a cell."""
+    """Sums of deposits in the ghost cells, to the cells they belong to: six integers a cell."""
     cut_x, cut_z = p.px > 1, p.pz > 1
-    return sent(2 * cut_x + 2 * cut_z, 5 * p.ny * (2 * cut_x * (p.nz + 2) + 2 * cut_z * p.nx))
+    return sent(2 * cut_x + 2 * cut_z, 6 * p.ny * (2 * cut_x * (p.nz + 2) + 2 * cut_z * p.nx))
 
 
 def exchange(p):

@@ -19,6 +19,7 @@ from validation import cfdem
 from validation import channel
 from validation import contacts
 from validation import flow
+from validation import laminar_bed
 from validation import threshold
 from validation import water
 from messages import fail
@@ -36,8 +37,9 @@ FIGURES = {
     "beside_cfdem": cfdem.draw,
     bed_load.NAME: bed_load.draw,
     threshold.NAME: threshold.draw,
+    laminar_bed.NAME: laminar_bed.draw,
 }
-STUDIES = {module.NAME: module for module in (bed_load, threshold)}
+STUDIES = {module.NAME: module for module in (bed_load, threshold, laminar_bed)}
 
 
 def parse(arguments):
@@ -61,8 +63,8 @@ def draw(name, options):
                        largest=LARGEST_PNG)
     if name == "channel":
         paths.append(channel.write_summary(options.source, options.out))
-    if name == threshold.NAME:
-        print("\n".join(threshold.summary(options.source)))
+    if hasattr(STUDIES.get(name), "summary"):
+        print("\n".join(STUDIES[name].summary(options.source)))
     for path in paths:
         print(path)
 

@@ -91,11 +91,11 @@ def as_row(values):
     return ",".join(f"{value:.6g}" for value in values)
 
 
-def key_of(row):
-    return tuple(map(float, row.split(",")[:KEYS]))
+def key_of(row, keys=KEYS):
+    return tuple(map(float, row.split(",")[:keys]))
 
 
-def with_earlier(path, said, rows):
+def with_earlier(path, said, rows, keys=KEYS):
     """Notes and rows with those of an earlier table: a run that was done again replaces its row.
 
     A study of many hours is so gathered from several machines; the notes name every commit, machine and day.
@@ -105,9 +105,9 @@ def with_earlier(path, said, rows):
     earlier = tables.read(path)
     for name in ("commit", "machine", "date"):
         before = earlier.notes.get(name, "").split(" and ")
-        said[name] = " and ".join(dict.fromkeys([*filter(None, before), said[name]]))
-    kept = {key_of(row): row for row in map(as_row, zip(*earlier.columns.values()))}
-    return said, list((kept | {key_of(row): row for row in rows}).values())
+        said[name] = " and ".join(dict.fromkeys([*filter(None, before), *said[name].split(" and ")]))
+    kept = {key_of(row, keys): row for row in map(as_row, zip(*earlier.columns.values()))}
+    return said, list((kept | {key_of(row, keys): row for row in rows}).values())
 
 
 def save(study_path, folder):

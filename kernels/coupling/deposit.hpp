@@ -8,9 +8,11 @@
 
 namespace barchan {
 
-/// Sums on owned cells in fixed point.
+/// Sums on owned cells in fixed point. By row the conductances and the impulses along the floor are
+/// those of the momentum cells around the faces.
 struct Deposits {
-  static constexpr int kQuantities = 5;  // volume, conductance between rows, impulse x, y, z
+  // Volume; conductance between rows for the flow along x, along z; impulse x, y, z.
+  static constexpr int kQuantities = 6;
   Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
   FixedPoint volume, conductance, impulse;
 };
@@ -114,43 +116,50 @@ struct DepositGrains {
   }
 
  private:
-  /// Of a point of the grain, times the number of its points.
-  struct InRow {
-    Vec3 impulse{};        // beyond that of the whole grain [N s]
-    Real conductance = 0;  // between this row and the one below [kg]
-  };
+  using Given = std::int64_t[Deposits::kQuantities];
   KOKKOS_INLINE_FUNCTION void add(int g, Recent& to) const {
     const GrainKinematics grain = of_grain.grains(g);
     const GrainRows in_rows = rows.stencil.rows_of(grain);
     const GrainCells cells = rows.stencil(grain, in_rows);
-    if (rows.on && in_rows.n > 1) {
-      const VelocityByRow v = rows.velocity(in_rows, grain);
-      const Real drag = of_grain.drag(g);
-      // A row that flows faster than the grain sees on average drags it more: the difference adds
-      // up to nothing over the grain.
-      add(g, cells, to, [&](int j) {
-        const int r = in_rows.find(j);
-        return InRow{.impulse = {drag * (v.x[r] - v.mean_x), 0, drag * (v.z[r] - v.mean_z)},
-                     .conductance = drag * conductance_below(in_rows, j) / in_rows.weight(r)};
-      });
-    } else {
-      add(g, cells, to, [](int) { return InRow{}; });
-    }
-  }
-  template <class OfRow>
-  KOKKOS_INLINE_FUNCTION void add(int g, const GrainCells& cells, Recent& to,
-                                  const OfRow& of_row) const {
     const GrainExchange e = of_grain(g);
     for (int q = 0; q < cells.n; ++q) {
-      const InRow in_row = of_row(cells.cell[q].j);
-      const Vec3 impulse = e.impulse + in_row.impulse;
       const Real w = cells.weight(q);
-      to.add(cells.cell[q].linear(rows.stencil.grid),
-             {deposits.volume.encode(w * e.volume),
-              deposits.conductance.encode(w * in_row.conductance),
-              deposits.impulse.encode(w * impulse.x), deposits.impulse.encode(w * impulse.y),
-              deposits.impulse.encode(w * impulse.z)});
+      const Vec3 impulse = rows.on ? Vec3{} : w * e.impulse;
+      give(to, cells.cell[q],
+           {deposits.volume.encode(w * e.volume), 0, 0, deposits.impulse.encode(impulse.x),
+            deposits.impulse.encode(impulse.y), deposits.impulse.encode(impulse.z)});
     }
+    if (rows.on) add_by_row(g, grain, in_rows, e.impulse, to);
+  }
+  /// Along the floor to the momentum cells that the grain belongs to. A cell that flows faster
+  /// than the grain sees on average drags it more: the difference adds up to nothing over the
+  /// grain.
+  KOKKOS_INLINE_FUNCTION void add_by_row(int g, const GrainKinematics& grain,
+                                         const GrainRows& in_rows, const Vec3& impulse,
+                                         Recent& to) const {
+    const VelocityByRow v = rows.velocity(in_rows, grain);
+    const Real drag = of_grain.drag(g);
+    for (int r = 0; r < in_rows.n; ++r) {
+      const int j = in_rows.row[r];
+      const Real w = in_rows.weight(r);
+      const Real coupling = drag * conductance_below(in_rows, j);
+      const auto encode = [&](Real part) { return deposits.impulse.encode(part); };
+      give(to, CellIndex{v.i, j, v.k}, {0, 0, 0, 0, encode(w * impulse.y), 0});
+      for (int side = 0; side < 2; ++side) {
+        const Real wx = v.x_faces.weight(side), wz = v.z_faces.weight(side);
+        if (wx > 0)
+          give(to, rows.x_face(v, side, j),
+               {0, deposits.conductance.encode(wx * coupling), 0,
+                encode(w * wx * (impulse.x + drag * (v.x[side][r] - v.mean_x))), 0, 0});
+        if (wz > 0)
+          give(to, rows.z_face(v, side, j),
+               {0, 0, deposits.conductance.encode(wz * coupling), 0, 0,
+                encode(w * wz * (impulse.z + drag * (v.z[side][r] - v.mean_z)))});
+      }
+    }
+  }
+  KOKKOS_INLINE_FUNCTION void give(Recent& to, const CellIndex& cell, const Given& given) const {
+    to.add(cell.linear(rows.stencil.grid), given);
   }
 };
 
@@ -195,9 +204,11 @@ KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
   return j == ny - 1 ? FaceShares{1, 0} : FaceShares{Real(0.5), Real(0.5)};
 }
 
-/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
+/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces. By
+/// row those along the floor are on their faces already.
 struct SpreadToFaces {
   GridRef grid;
+  bool by_row = false;
   ConstFieldRef impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
   FaceRef given;                                  // on faces
 
@@ -209,9 +220,9 @@ struct SpreadToFaces {
   }
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     // The fluid gets the opposite of what the grains got.
-    given.x(i, j, k) = -cell_to_xface(impulse_x, i, j, k);
+    given.x(i, j, k) = -(by_row ? impulse_x(i, j, k) : cell_to_xface(impulse_x, i, j, k));
     given.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
-    given.z(i, j, k) = -cell_to_zface(impulse_z, i, j, k);
+    given.z(i, j, k) = -(by_row ? impulse_z(i, j, k) : cell_to_zface(impulse_z, i, j, k));
   }
 };
 

@@ -221,16 +221,17 @@ struct FlowOfRows {
     const GrainRows rows = over_cells.stencil.rows_of(grain);
     over_cells(g, over_cells.stencil(grain, rows));
     const PointStencil at(over_cells.stencil.grid, box, grain.x, rows.row[0]);
-    flow.u(g) = of_rows(u, rows, at);
-    flow.du_dt(g) = of_rows(du_dt, rows, at);
+    const Real dense = solid_per_fluid_at(over_cells.unsmoothed, at, rows);
+    flow.u(g) = of_rows(u, rows, at, dense);
+    flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     flow.alpha_f(g) = interpolate_cell(over_cells.alpha_f, at);
   }
 
  private:
   KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
-                                      const PointStencil& at) const {
-    const VelocityByRow v(rows, at, f);
+                                      const PointStencil& at, Real solid_per_fluid) const {
+    const VelocityByRow v(rows, at, f, solid_per_fluid);
     return {v.mean_x, interpolate(f.y, at.centres, at.y_face), v.mean_z};
   }
 };

@@ -13,19 +13,16 @@ namespace barchan {
 /// lost. The drag at the old velocities is in u* already (docs/numerics.md, "Drag between rows").
 struct DragBetweenRows {
   GridRef grid;
-  ConstFieldRef conductance;  // C_j / dy_j on cells [kg/m^3], with ghosts
+  ConstFieldRef conductance;  // C_j / dy_j on these faces [kg/m^3]
   ConstFieldRef alpha;        // with ghosts
   ConstFieldRef u;            // before the step [m/s]
   Real density = 0;           // rho
   bool along_x = true;        // faces of u, or of w
   FieldRef u_star, pivot;     // predicted velocity; room of the solver
 
-  KOKKOS_FORCEINLINE_FUNCTION Real on_face(const ConstFieldRef& f, int i, int j, int k) const {
-    return along_x ? cell_to_xface(f, i, j, k) : cell_to_zface(f, i, j, k);
-  }
   /// C_j [kg/m^2]
   KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {
-    return on_face(conductance, i, j, k) * grid.dy(j);
+    return conductance(i, j, k) * grid.dy(j);
   }
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
@@ -35,7 +32,8 @@ struct DragBetweenRows {
     Real below = 0, e_below = 0, pivot_below = 0;
     for (int j = 0; j < rows; ++j) {
       const Real above = j + 1 < rows ? coupling(i, j + 1, k) : 0;
-      const Real mass = density * on_face(alpha, i, j, k) * grid.dy(j);
+      const Real on_face = along_x ? cell_to_xface(alpha, i, j, k) : cell_to_zface(alpha, i, j, k);
+      const Real mass = density * on_face * grid.dy(j);
       pivot_below = 1 / (mass + below + above - below * below * pivot_below);
       e_below = pivot_below * (mass * (u_star(i, j, k) - u(i, j, k)) + below * e_below);
       pivot(i, j, k) = pivot_below;

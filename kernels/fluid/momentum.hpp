@@ -115,8 +115,8 @@ struct StressDivergence {
 /// What the grains do to the fluid in one step, on faces. Of the impulse wall faces and ghosts are
 /// not read.
 struct ExchangeOnFaces {
-  FaceVector impulse;    // momentum per volume given to the fluid [N s/m^3]
-  Field conductance{};   // of DragBetweenRows, on cells [kg/m^3]; empty: none
+  FaceVector impulse;                      // momentum per volume given to the fluid [N s/m^3]
+  Field conductance_x{}, conductance_z{};  // of DragBetweenRows, on faces [kg/m^3]; empty: none
   Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
 };
 

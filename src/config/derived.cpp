@@ -93,8 +93,18 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
       n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);
     }
   }
-  if (flow) n.cell_ratio = std::min({flow->dx, flow->dy_first, flow->dz}) / n.d_mean;
   return n;
+}
+
+/// Cells against grains. `top`: highest point of the grains [m], 0: not known.
+void compare_cells(const Config& config, const FluidNumbers& flow, double top, GrainNumbers& n) {
+  n.cell_ratio = std::min({flow.dx, flow.dy_first, flow.dz}) / n.d_mean;
+  n.floor_ratio = flow.dy_first / n.d_mean;
+  if (top <= 0 || top >= config.size[1]) return;
+  const auto faces = row_faces(row_spacing(config));
+  const auto above = std::upper_bound(faces.begin(), faces.end(), top);
+  n.top = top;
+  n.top_ratio = (*above - *(above - 1)) / n.d_mean;
 }
 
 }  // namespace
@@ -168,8 +178,9 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
   return 0.5 * (low + high);
 }
 
-Derived derive(const Config& config, const std::vector<SizeClass>& sizes) {
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top) {
   Derived derived;
+  derived.exchange = config.coupling.exchange;
   derived.fluid_steps = fluid_steps(config.time);
   derived.grain_substeps = grain_substeps(config.time);
   derived.grain_step = true_grain_step(config.time);
@@ -180,6 +191,7 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes) {
   }
   if (config.grains && !sizes.empty()) {
     derived.grains = derive_grains(config, sizes, derived.fluid);
+    if (derived.fluid) compare_cells(config, *derived.fluid, top, *derived.grains);
     const auto count = static_cast<double>(derived.grains->count);
     derived.memory += bytes_per_grain * count;
   }
@@ -210,7 +222,18 @@ void add_fluid(std::string& text, const FluidNumbers& n) {
   line(text, "viscous number", "{:.2g} (stable below 1)", n.viscous_number);
 }
 
-void add_grains(std::string& text, const GrainNumbers& n) {
+void add_cells_against_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
+  const std::string top = n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains",
+                                                  n.top_ratio, 1e3 * n.top)
+                                    : "";
+  const char* wanted = exchange == Exchange::by_row ? "; by row a surface needs 0.7 or less" : "";
+  line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, wanted);
+  if (exchange != Exchange::by_row) {
+    line(text, "smallest cell / grain", "{:.2f}; this exchange wants 1.2 to 1.6", n.cell_ratio);
+  }
+}
+
+void add_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
   line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
        1e3 * n.d_max, 1e3 * n.d_mean);
   line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
@@ -223,9 +246,7 @@ void add_grains(std::string& text, const GrainNumbers& n) {
     line(text, "Shields number", "{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)",
          n.shields, n.shields_threshold);
   }
-  if (n.cell_ratio > 0) {
-    line(text, "smallest cell / grain", "{:.2f}", n.cell_ratio);
-  }
+  if (n.cell_ratio > 0) add_cells_against_grains(text, n, exchange);
 }
 
 }  // namespace
@@ -233,7 +254,7 @@ void add_grains(std::string& text, const GrainNumbers& n) {
 std::string to_text(const Derived& derived) {
   std::string text;
   if (derived.fluid) add_fluid(text, *derived.fluid);
-  if (derived.grains) add_grains(text, *derived.grains);
+  if (derived.grains) add_grains(text, *derived.grains, derived.exchange);
   std::string steps = fmt::format("{}", derived.fluid_steps);
   if (derived.grains) {
     steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,

@@ -65,7 +65,10 @@ struct GrainNumbers {
   double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
   double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
   double shields_threshold = 0;                // Soulsby & Whitehouse
-  double cell_ratio = 0;  // smallest cell length over the mean diameter; 0 without cells
+  double cell_ratio = 0;   // smallest cell length over the mean diameter; 0 without cells
+  double floor_ratio = 0;  // height of the lowest row over it
+  double top = 0;          // [m] highest point of the grains; 0: not known
+  double top_ratio = 0;    // height of the row there over the mean diameter
 };
 
 struct Derived {
@@ -74,11 +77,13 @@ struct Derived {
   double grain_step = 0;  // [s], the one really taken
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
-  double memory = 0;                   // [bytes], estimate
+  Exchange exchange = Exchange::by_row;
+  double memory = 0;  // [bytes], estimate
 };
 
-/// `sizes` as from known_sizes; may be empty. `config` must have passed validate.
-Derived derive(const Config& config, const std::vector<SizeClass>& sizes);
+/// `sizes` as from known_sizes; may be empty. `config` must have passed validate. `top`: highest
+/// point of the grains [m], 0: not known.
+Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top = 0);
 
 /// The numbers in lines for a terminal, each ending in a newline.
 std::string to_text(const Derived& derived);

@@ -53,6 +53,26 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
                      "is over a quarter of the height: it would smear the dune away");
 }
 
+/// By row a surface is resolved by thin rows. Where a grain's force goes to the cells around its
+/// centre, or is smeared, the rule of Lima et al. (2022) holds for the smallest cell.
+void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
+  const Keys keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
+  if (c.coupling.exchange != Exchange::by_row) {
+    found.warning_if(
+        n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
+        "makes the smallest cell {:.2f} mean grain diameters; this exchange wants 1.2 to 1.6",
+        n.cell_ratio);
+    return;
+  }
+  if (!found.warning_if(n.floor_ratio > 1, keys,
+                        "makes the lowest row {:.2f} mean grain diameters: too thick for the "
+                        "surface of a dune, which needs 0.7 or less",
+                        n.floor_ratio))
+    found.warning_if(n.floor_ratio * n.d_mean < n.d_max / 6, keys,
+                     "makes rows thinner than a sixth of the largest grain: its 29 points leave "
+                     "some of its rows empty");
+}
+
 void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Findings& found) {
   for (const int axis : {0, 1}) {
     const double extent = domain[axis == 0 ? 0 : 2];
@@ -166,11 +186,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
       {"domain.size", "grains.sizes", "grains.skin"},
       "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
   if (!c.fluid) return found.all;
-  found.warning_if(
-      n.cell_ratio < 1.2 || n.cell_ratio > 1.6,
-      {"fluid.cells", "fluid.first_cell_height", "grains.sizes", "domain.size"},
-      "makes the smallest cell {:.2f} mean grain diameters; the paper recommends 1.2 to 1.6",
-      n.cell_ratio);
+  check_cells(c, n, found);
   check_smoothing(c, *derived.fluid, n.d_mean, found);
   return found.all;
 }

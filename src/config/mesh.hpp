@@ -7,13 +7,13 @@
 
 namespace barchan {
 
-/// Rows of cells between floor and lid, from the floor up: the lowest ones equal, those above growing
-/// by a constant ratio. Lengths in m.
+/// Rows of cells between floor and lid, from the floor up: the lowest ones equal, those above
+/// growing by a constant ratio. Lengths in m.
 struct RowSpacing {
-  double height = 0;       // of the domain
+  double height = 0;  // of the domain
   int rows = 1;
-  double first = 0;        // height of the lowest row; 0: all rows are equal
-  double uniform_to = 0;   // rows that begin below this height are as high as the first
+  double first = 0;       // height of the lowest row; 0: all rows are equal
+  double uniform_to = 0;  // rows that begin below this height are as high as the first
   bool operator==(const RowSpacing&) const = default;
 };
 

@@ -65,7 +65,8 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
   if (config_.smoothing_length > 0) unsmoothed_ = Field("coupling: unsmoothed fraction", grid);
   if (by_row_) {
     on_faces_.stress_share = unsmoothed_;
-    on_faces_.conductance = Field("coupling: conductance between rows", grid);
+    on_faces_.conductance_x = Field("coupling: conductance between rows, x", grid);
+    on_faces_.conductance_z = Field("coupling: conductance between rows, z", grid);
   }
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid));
   deposits_.volume =
@@ -76,8 +77,12 @@ ExchangeOfGrain Coupling::of_grain(const GrainState& grains, Real dt) const {
   return {.dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
 }
 
-ExchangeByRow Coupling::rows(const FaceVector& u) const {
-  return {.on = by_row_, .stencil = stencil_, .box = box_, .u = u};
+ExchangeByRow Coupling::rows(const FluidState& fluid) const {
+  return {.on = by_row_,
+          .stencil = stencil_,
+          .box = box_,
+          .u = fluid.u,
+          .alpha_f = local_fraction(fluid)};
 }
 
 void Coupling::add_up_grains(const GrainState& grains, const FluidState& fluid, Real dt) {
@@ -125,7 +130,7 @@ void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   using Deposit = DepositGrains<runs_on_host ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Deposit::items_for(grains.n)),
                        Deposit{.of_grain = of_grain(grains, dt),
-                               .rows = rows(fluid.u),
+                               .rows = rows(fluid),
                                .deposits = deposits_,
                                .n = grains.n});
   halo_.scatter_add(deposits_.sum);
@@ -148,20 +153,21 @@ void Coupling::update_fraction(FluidState& fluid) {
 
 /// The exchange on faces from the deposited impulse, and what couples rows.
 void Coupling::spread_exchange() {
-  int quantity = 2;
+  int quantity = 3;
   for (Field* component : {&cells_.x, &cells_.y, &cells_.z}) {
     decode(quantity++, deposits_.impulse, *component);
-    boundary_.fill(*component, FieldKind::scalar);
+    if (!by_row_) boundary_.fill(*component, FieldKind::scalar);
   }
   for_each_cell("coupling: spread to faces", grid_,
                 SpreadToFaces{.grid = grid_,
+                              .by_row = by_row_,
                               .impulse_x = cells_.x,
                               .impulse_y = cells_.y,
                               .impulse_z = cells_.z,
                               .given = on_faces_.impulse});
   if (!by_row_) return;
-  decode(1, deposits_.conductance, on_faces_.conductance);
-  boundary_.fill(on_faces_.conductance, FieldKind::scalar);
+  decode(1, deposits_.conductance, on_faces_.conductance_x);
+  decode(2, deposits_.conductance, on_faces_.conductance_z);
 }
 
 void Coupling::start(const GrainState& grains, FluidState& fluid) {

@@ -84,7 +84,7 @@ class Coupling {
   Field local_fraction(const FluidState& fluid) const {
     return config_.smoothing_length > 0 ? unsmoothed_ : fluid.alpha_f;
   }
-  /// The void fraction (quantity 0), the impulse (2 to 4).
+  /// The void fraction (quantity 0), the impulse (3 to 5).
   bool smooths(int quantity) const {
     return config_.smoothing_length > 0 &&
            (quantity == 0 || config_.exchange == Exchange::smoothed);
@@ -95,7 +95,7 @@ class Coupling {
   void spread_exchange();
   void sum_faces();
   ExchangeOfGrain of_grain(const GrainState& grains, Real dt) const;
-  ExchangeByRow rows(const FaceVector& u) const;
+  ExchangeByRow rows(const FluidState& fluid) const;
 
   CouplingConfig config_;
   FluidForces forces_;

@@ -1,4 +1,5 @@
 // The command check.
+#include <algorithm>
 #include <ostream>
 
 #include "src/base/errors.hpp"
@@ -12,6 +13,27 @@
 
 namespace barchan {
 
+namespace {
+
+/// Highest point of the grains that a run starts with [m], before they settle where they are still
+/// to be poured; 0 without grains.
+double top_of(const GrainsAhead& ahead) {
+  if (!ahead.grains) {
+    if (ahead.sizes.empty()) return 0;
+    const PourConfig& pour = *ahead.poured_in.initial.pour;
+    double count = 0;
+    for (const SizeClass& size : ahead.sizes) count += static_cast<double>(size.count);
+    return pour.drop_height +
+           poured_height(pour, ahead.poured_in.size, count, poured_spacing(ahead.sizes));
+  }
+  double top = 0;
+  for (std::size_t g = 0; g < ahead.grains->size(); ++g)
+    top = std::max(top, ahead.grains->x[g].y + ahead.grains->diameter[g] / 2);
+  return top;
+}
+
+}  // namespace
+
 int run_check(const CommandLine& line, std::ostream& out) {
   const Config config = load_config(line.file, line.overrides);
   if (line.resolved_only) {
@@ -22,7 +44,7 @@ int run_check(const CommandLine& line, std::ostream& out) {
   const GrainsAhead ahead = grains_ahead(config, folder);
   for (const StartCase& start : missing_starts(config, folder))
     grains_ahead(start.config, start.folder);  // throws if the run of a start would
-  const Derived derived = derive(config, ahead.sizes);
+  const Derived derived = derive(config, ahead.sizes, top_of(ahead));
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
   if (derived.memory < memory_of_machine())
     cost = as_input([&] { return estimate(config, folder, ahead); });

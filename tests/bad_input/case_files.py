@@ -46,6 +46,9 @@ VALUES = [
     Entry("grains of 1e300 m", SIZES + "[[1e300, 2]]", "@sizes | at most"),
     Entry("9e18 grains", SIZES + "[[2e-4, 9000000000000000000]]", "@sizes | at most"),
     Entry("first row of 1e-300 m", "[fluid] first_cell_height = 1e-300", "@first_cell_height | must be larger | rows would grow"),
+    Entry("equal rows above the lid", "[fluid] uniform_height = 0.02", "@uniform_height | must be lower | may not shrink"),
+    Entry("equal rows of no height", "-[fluid] first_cell_height ;; [fluid] uniform_height = 0.002",
+          "@uniform_height | must come with a first_cell_height"),
     Entry("1e15 cells", "-[fluid] first_cell_height ;; [fluid] cells = [100000, 100000, 100000] ;; " + FLUID_STEP +
           '1e-12 ;; [time] grain_step = 1e-12 ;; [time] end = 1e-11 ;; [fluid] mean_velocity = 1e-9 ;; '
           '[initial] fluid = "still"', "case.toml | cells"),

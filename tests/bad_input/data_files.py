@@ -100,7 +100,6 @@ HDF5 = [
     start("positions transposed", frame(x=numpy.zeros((3, N))), "3 x 4 | 4 x 3"),
     start("a group for ids", lambda path: (frame(id=None)(path), h5py.File(path, "a").create_group("frame_000000/id")), "id"),
     start("cut", cut(0.5), "cut short", given=("good/grains.h5 as start.h5",)),
-    flow("of another mesh", "the same mesh | [10, 14, 6]", "[fluid] cells = [12, 14, 6]"),
     flow("one bit wrong", "damaged", change=flip(0.6)),
     info("a restart with a wrong bit", "start.h5 | damaged", flip(0.6), (f"good/{RESTART} as start.h5",)),
 ]

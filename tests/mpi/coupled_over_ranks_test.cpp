@@ -63,7 +63,7 @@ struct InCells {
   Deposits deposits;
   KOKKOS_FUNCTION Real operator()(int i, int j, int k) const {
     return values(i, j, k) *
-           deposits.impulse.decode(deposits.sum(CellIndex{i, j, k}.linear(grid), 2));
+           deposits.impulse.decode(deposits.sum(CellIndex{i, j, k}.linear(grid), 3));
   }
 };
 
@@ -165,11 +165,12 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.impulse = fixed_point_for(1e4);
     using Deposit = DepositGrains<7>;
-    Kokkos::parallel_for("test: scatter", Deposit::items_for(there.n),
-                         Deposit{.of_grain = of_grain,
-                                 .rows = {.on = false, .stencil = stencil, .box = {}, .u = {}},
-                                 .deposits = deposits,
-                                 .n = there.n});
+    Kokkos::parallel_for(
+        "test: scatter", Deposit::items_for(there.n),
+        Deposit{.of_grain = of_grain,
+                .rows = {.on = false, .stencil = stencil, .box = {}, .u = {}, .alpha_f = {}},
+                .deposits = deposits,
+                .n = there.n});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {

@@ -8,6 +8,8 @@
 
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/fluid/initial_flow.hpp"
+#include "src/fluid/map_flow.hpp"
 #include "src/fluid/pressure_solver.hpp"
 #include "tests/support/shared_grid.hpp"
 
@@ -202,6 +204,23 @@ TEST(FluidOverRanks, ChannelAsOnOneRank) {
   }
 }
 
+TEST(FluidOverRanks, FlowFromAnotherMeshAsOnOneRank) {
+  Config other = test::flow_config({16, 9, 10}, kSize, 8e-4);
+  other.fluid->mean_velocity = 0.25;
+  FluidState from = make_fluid_state(make_grid(other));
+  set_turbulent_flow(other, from);
+  test::set_random(from.p, from.grid, 7);
+  test::set_random(from.nu_t, from.grid, 8);
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    TwoFlows flows(along_x);
+    map_flow(flows.config, from, flows.here);
+    map_flow(flows.config, from, flows.there);
+    flows.expect_same(1e-13);
+    EXPECT_NEAR(bulk_velocity(flows.here), 0.25, 1e-14);
+  }
+}
+
 TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
   for (const int along_x : test::shapes(kCells)) {
     SCOPED_TRACE(along_x);
@@ -209,18 +228,17 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
     flows.config.grains.emplace();
     flows.config.solver.pressure_tolerance = 1e-12;
     FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
-    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine), Field("c", flows.grid.mine)};
-    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole), Field("c", flows.grid.whole)};
+    const Field c("c", flows.grid.mine), c_whole("c", flows.grid.whole);
+    ExchangeOnFaces on_here{make_faces("test", flows.grid.mine), c, c};
+    ExchangeOnFaces on_there{make_faces("test", flows.grid.whole), c_whole, c_whole};
     set_heap(flows.grid, [&](auto share) {
       flows.grid.set(flows.there.alpha_f, flows.here.alpha_f, share);
       flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);
       const auto drag = [&](int i, int j, int k) { return 2e4 * (1 - share(i, j, k)); };
       const auto brake = [&](int i, int j, int k) { return -5 * (1 - share(i, j, k)); };
-      flows.grid.set(on_there.conductance, on_here.conductance, drag);
+      flows.grid.set(on_there.conductance_x, on_here.conductance_x, drag);
       flows.grid.set(on_there.impulse.x, on_here.impulse.x, brake);
     });
-    Halo(flows.grid.mine).fill(on_here.conductance);
-    Halo(flows.grid.whole).fill(on_there.conductance);
     here.fill_ghosts(flows.here);
     there.fill_ghosts(flows.there);
     for (int step = 0; step < 5; ++step) {

@@ -102,19 +102,19 @@ MessageCounts flow_step_around_grains(const Grid& grid, int iterations) {
 
 // --- the exchange ------------------------------------------------------------------------------
 
-/// Sums of five quantities in the ghosts, those in x with the corners.
+/// Sums of six quantities in the ghosts, those in x with the corners.
 MessageCounts scatter_add(const Grid& grid) {
   const int cut_x = grid.ranks->along_x().count > 1, cut_z = grid.ranks->along_z().count > 1;
   return numbers_sent(2 * cut_x + 2 * cut_z,
-                      5 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
+                      6 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
 /// Unsmoothed fraction; pressure and stress on faces, on cells, three of these smoothed, what the
-/// flow gets of each and the grains of both; convective acceleration. Fraction, smoothed; impulse,
-/// conductance; totals, extent of the grains, fastest velocity, volume, three sums over faces.
+/// flow gets of each and the grains of both; convective acceleration. Fraction, smoothed; totals,
+/// extent of the grains, fastest velocity, volume, three sums over faces.
 MessageCounts exchange(const Grid& grid) {
   return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(2 + 1) +
-         scatter_add(grid) + (1 + 4) * fill(grid) + fft_solve(grid) + reductions(1 + 5 + 1 + 1 + 3);
+         scatter_add(grid) + fill(grid) + fft_solve(grid) + reductions(1 + 5 + 1 + 1 + 3);
 }
 
 /// Grains of this rank in the pencil of each rank.

@@ -99,7 +99,7 @@ TEST(DragBetweenRows, SolvesEachColumnOfFaces) {
       matrix(j, j) += mass;
       given(j) = mass * (predicted.ref()(i, j, k) - u.ref()(i, j, k));
       if (j == 0) continue;
-      const double of_pair = on_face(c, j) * grid.dy(j);
+      const double of_pair = c.ref()(i, j, k) * grid.dy(j);
       matrix(j, j) += of_pair, matrix(j - 1, j - 1) += of_pair;
       matrix(j, j - 1) -= of_pair, matrix(j - 1, j) -= of_pair;
     }

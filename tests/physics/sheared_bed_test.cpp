@@ -61,20 +61,27 @@ Layers reference_column(double lid) {
   return result;
 }
 
-constexpr double kWidth = 1.6e-3;  // [m]
+// The bed repeats every half cell: so each momentum cell of a row holds the same grains, and the
+// flow is that of the column. In an uneven bed it winds through the open places.
+constexpr int kRepeats = 4, kInPatch = 5;  // along x and z; grains of a layer in one
+const double kPatch = std::sqrt(kInPatch * test::volume_of(kDiameter) / (kSolid * kDiameter));
+const double kWidth = kRepeats * kPatch;  // [m]
 
-/// Grains anywhere in their layer, the lowest on the floor: they are held and may overlap.
-InitialGrains random_bed() {
+/// Grains anywhere in their layer, the lowest on the floor: they are held and may overlap. Where
+/// z is above `step` there are three layers.
+InitialGrains random_bed(int repeats_z = kRepeats, double step = 1) {
   std::mt19937_64 generator(1);
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
-  const auto in_layer =
-      static_cast<int>(kSolid * kWidth * kWidth * kDiameter / test::volume_of(kDiameter));
   InitialGrains grains;
   for (int layer = 0; layer < kLayers; ++layer) {
-    for (int g = 0; g < in_layer; ++g) {
+    for (int g = 0; g < kInPatch; ++g) {
       const double low = layer == 0 ? 0.5 : 0.0;
       const double y = kDiameter * (layer + low + (1 - low) * uniform());
-      testing::add_grain(grains, kDiameter, {kWidth * uniform(), y, kWidth * uniform()});
+      const double x = kPatch * uniform(), z = kPatch * uniform();
+      for (int a = 0; a < kRepeats * repeats_z; ++a) {
+        const Vec3 at{x + kPatch * (a % kRepeats), y, z + kPatch * (a / kRepeats)};
+        if (layer < 3 || at.z < step) testing::add_grain(grains, kDiameter, at);
+      }
     }
   }
   return grains;
@@ -149,6 +156,38 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
                                bed.force.back() / bed.stress, column.force.back() / column.stress,
                                0.2);
     }
+  }
+}
+
+/// A bed with a step: beside the flow over the lower half lie grains of the higher one. None is
+/// pushed upstream, and nowhere does water flow backwards, though it flows fast in the same row two
+/// cells away.
+TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
+  constexpr double lid = 0.26;
+  for (const double smoothing : {0.0, 6e-4}) {
+    Config c = held_bed(Exchange::by_row, 9, smoothing);
+    c.size[2] = 2 * kWidth;
+    c.fluid->cells[2] = 4;
+    c.fluid->top = WallFlow::no_slip;
+    c.fluid->top_velocity = lid;
+    test::CoupledRun run(c, random_bed(2 * kRepeats, kWidth));
+    run.advance(1500);
+    const test::HostField u = test::to_host(run.state.fluid->u.x);
+    double slowest = lid, least = 1, most = 0;
+    test::for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
+      slowest = std::min(slowest, u(i, j, k));
+      if (j == 4) most = std::max(most, u(i, j, k));
+    });
+    for (const NamedForce& force : run.step.grain_forces(run.state)) {
+      if (force.name != "force_drag") continue;
+      const auto values = testing::host_copy(force.values);
+      for (std::size_t g = 0; g < values.extent(0); ++g) least = std::min(least, values(g).x);
+    }
+    const std::string what = fmt::format(", smoothed over {:.1f} d", smoothing / kDiameter);
+    testing::expect_below("water that flows backwards over the lid" + what, -slowest / lid, 1e-8);
+    testing::expect_below("grain dragged upstream over its weight" + what,
+                          -least / (kWeight * test::volume_of(kDiameter)), 1e-4);
+    EXPECT_GT(most, 0.1 * lid) << "there is no step";
   }
 }
 

@@ -1,9 +1,11 @@
 """The tables of bed load and of the threshold of motion: what is measured of a run, and the fits, on numbers whose
 answer is known."""
+import json
 import math
 import pathlib
 import sys
 import tempfile
+import types
 import warnings
 
 import numpy as np
@@ -90,30 +92,94 @@ with tempfile.TemporaryDirectory() as folder:
         failures.append(f"rows of two tables: {merged}")
 
 
-# Threshold of motion: windows of a run, the stress at which the flux passes a level, and a table with both.
+# All versions that computed a table are named, each once.
+with tempfile.TemporaryDirectory() as folder:
+    runs = [types.SimpleNamespace(path=pathlib.Path(folder) / name) for name in ("rising", "falling", "rising-r2")]
+    for run, version in zip(runs, ("aaa", "bbb", "aaa")):
+        run.path.mkdir()
+        (run.path / "run.json").write_text(json.dumps({"git_hash": version}))
+    path = pathlib.Path(folder) / "threshold.csv"
+    tables.write(path, {"commit": "aaa", "machine": "one", "date": "d"}, ["falling,realisation", "0,1"])
+    said, _ = bed_load.with_earlier(path, {"commit": threshold.versions(runs), "machine": "one", "date": "d"}, [], 2)
+    if threshold.versions(runs) != "aaa and bbb" or said["commit"] != "aaa and bbb":
+        failures.append(f"versions of a table: {threshold.versions(runs)}, {said}")
+
+
+# Threshold of motion: windows of a run, where the load goes to zero, and a table with both.
 class RisingRun(MadeUpRun):
-    """The stress rises by 0.1 Pa a window, the flux tenfold from the fourth window on."""
+    """The stress rises by 0.1 Pa a window; of all grains a tenth move, tenfold as fast from the fourth window on.
+
+    The flow gains 0.08 m/s in a second. That pushes the grains by 80 Pa/m times their volume, not the bed's surface.
+    """
+    config = {**MadeUpRun.config, "coupling": {"forces": ["drag", "torque"]}}
     t = np.arange(1, 201) / 100
     window = np.ceil(t / 0.25 - 1e-9)
-    history = {"t": t, "stress_on_grains": 0.1 * window, "grain_flux": 1e-5 * scale * 10.0**np.maximum(0, window - 3)}
+    solid = 1000 * math.pi / 6 * 8e-12 / (0.016 * 0.006)  # [m3/m2]
+    flux = 1e-5 * scale * 10.0**np.maximum(0, window - 3)
+    history = {"t": t, "bulk_velocity": 0.3 + 0.08 * t,
+               "stress_on_grains": 0.1 * window + 80 * solid, "grain_flux": flux,
+               "grain_kinetic_energy": 0.016 * 0.006 * 2500 * flux**2 / (2 * 0.1 * solid)}
 
 
-rising = np.array(threshold.measure(RisingRun))
-expect_near("Shields number of the fifth window", rising[2, 0], 0.5 / (1500 * 9.81 * 2e-4), 1e-6)
-expect_near("q* of the fifth window", rising[2, 1], 1e-3, 1e-6)
-expect_near("half way between two windows", threshold.passing(*rising.T, 10**-2.5), 0.55 / (1500 * 9.81 * 2e-4), 1e-6)
-if not math.isnan(threshold.passing(np.array([0.1, 0.2]), np.array([0.0, 1e-5]), 1e-3)):
-    failures.append("a bed at rest has a threshold")
+rising = dict(zip(threshold.COLUMNS.split(","), np.array(threshold.measure(RisingRun)).T))
+expect_near("Shields number of the fifth window", rising["shields"][2], 0.5 / (1500 * 9.81 * 2e-4), 1e-6)
+expect_near("q* of the fifth window", rising["q_star"][2], 1e-3, 1e-6)
+for load in rising["load"]:
+    expect_near("load of a tenth of the grains", load, 0.1 * RisingRun.solid / 2e-4, 1e-6)
+if [rising[name][0] for name in threshold.CASE] != [0.1, 1, 0] or rising["realisation"][0] != 2:
+    failures.append(f"the case is not named: {rising}")
+expect_near("half way between two windows", threshold.passing(10**-2.5)(tables.Table({}, rising)),
+            0.55 / (1500 * 9.81 * 2e-4), 1e-6)
+
+
+def rows_of(begin, number, *, case="0,0,0", scatter=0.0, top=0.2):
+    """A run whose load and flux begin at a known Shields number: windows at rest, then M = (s - begin)/2."""
+    s = np.linspace(0.05, top, 16)
+    noise = 1 + scatter * np.random.default_rng(number).standard_normal(s.size)
+    excess = np.maximum(0, s - begin)
+    return [f"{case},{number},{0.5 + 0.25 * n},{s[n]},{2 * excess[n]**1.5 * noise[n]},{0.5 * excess[n] * noise[n]}"
+            for n in range(s.size)]
+
+
+def found_in(folder, *runs):
+    tables.write(pathlib.Path(folder) / "threshold.csv", {"title": "made up"}, [threshold.COLUMNS, *sum(runs, [])])
+    cases = threshold.cases_of(tables.read_saved(pathlib.Path(folder), "threshold"))
+    return [{kind: threshold.with_error(case.rows, found) for kind, found in threshold.FOUND.items()} for case in cases]
+
+
 with tempfile.TemporaryDirectory() as folder:
-    rows = [f"{forces},{n + 1},{s + shift * (n - 1)},{10**(20 * s - 6)}" for n in range(3)
-            for forces, shift in (("as_in_the_paper", 0), ("lift", 0.01)) for s in (0.1, 0.15, 0.2)]
-    for kept in rows[:3], rows:
-        tables.write(pathlib.Path(folder) / "threshold.csv", {"title": "made up"}, [threshold.COLUMNS, *kept])
-        threshold.draw(pathlib.Path(folder))
+    # Without scatter both lines give the truth, to the step of 1e-4 in which it is sought.
+    for begin in (0.0653, 0.1217):
+        single, = found_in(folder, rows_of(begin, 1))
+        for kind in ("load", "flux"):
+            expect_near(f"zero of the {kind}", single[kind][0], begin, 1.1e-4 / begin)
+            if not math.isnan(single[kind][1]):
+                failures.append("one run has an error")
+    # A threshold is no level: where the flux begins at 0.1217, q* = 0.01 comes (0.005)^(2/3) later.
+    levels = threshold.passing(1e-2)(tables.read_saved(pathlib.Path(folder), "threshold"))
+    if not 0.1217 + 0.01 < levels < 0.1217 + 0.05:
+        failures.append(f"q* = 0.01 is passed at {levels:.3g}")
+    # Windows above q* = 0.1, where the load bends upwards, do not count.
+    bent = [f"0,0,0,1,9,{s},{2 * (s - 0.1)**1.5},{4 * (s - 0.1)}" for s in (0.3, 0.35)]
+    expect_near("zero beside a bent load", found_in(folder, rows_of(0.1, 1) + bent)[0]["load"][0], 0.1, 2e-3)
+    # A fifth of scatter: the truth lies within three standard errors of four realisations, and they are not wide.
+    value, error = found_in(folder, *(rows_of(0.1, n, scatter=0.2) for n in (1, 2, 3, 4)))[0]["load"]
+    if not (0 < error < 0.01 and abs(value - 0.1) < 3 * error):
+        failures.append(f"scattered: {value:.4f} +- {error:.4f}, not 0.1")
+    # Two realisations that begin 0.02 apart: half of it is the error of their mean.
+    two, = found_in(folder, rows_of(0.09, 1), rows_of(0.11, 2))
+    expect_near("error of two realisations", two["load"][1], 0.01, 0.02)
+    # A bed at rest has no threshold; rising and falling runs are told apart, and drawn with one run and with several.
+    rest, = found_in(folder, rows_of(0.3, 1))
+    if not all(math.isnan(value) for value, _ in rest.values()):
+        failures.append(f"a bed at rest has a threshold: {rest}")
+    threshold.draw(pathlib.Path(folder))
+    found_in(folder, rows_of(0.12, 1), rows_of(0.12, 2), rows_of(0.08, 1, case="0.1,1,1"))
+    threshold.draw(pathlib.Path(folder))
     lines = list(threshold.summary(pathlib.Path(folder)))
-# Three realisations shifted by one standard deviation of 0.01: the error of their mean is 0.01/sqrt(3).
-if lines[0] != "as_in_the_paper | 0.150 +- 0.000 | 0.200 +- 0.000" or not lines[1].endswith("+- 0.006"):
-    failures.append(f"thresholds: {lines}")
+    if not (lines[0].startswith("rising, mu_r = 0 | 2 | 0.120 +- 0.000 | 0.120 +- 0.000 | ")
+            and lines[1].startswith("falling, mu_r = 0.1, torque | 1 | 0.080 | 0.080 | ")):
+        failures.append(f"thresholds: {lines}")
 
 for failure in failures:
     print(f"bed_load: {failure}", file=sys.stderr)

@@ -333,17 +333,14 @@ TEST_F(ConfigStart, ChainMustNotBeACircleAndMustFit) {
   const std::string two = write("two.toml", fluid_case("[initial]\nfluid = \"one.toml\"\n"));
   EXPECT_EQ(load(one),
             only(two + ":8: [initial] fluid = \"one.toml\": must not lead back to this case"));
-  write("two.toml", fluid_case("first_cell_height = 1e-4\n"));
-  EXPECT_EQ(load(one),
-            only(one + ":8: [initial] fluid = \"two.toml\": must have the same mesh; its cells are "
-                       "[62, 30, 25] from 0.0001 m"));
   write("two.toml",
         "[time]\nend = 1\n[domain]\nsize = [0.1, 0.025, 0.05]\n[fluid]\ncells = [62, 30, 24]\n");
   const Lines both = load(one);
-  ASSERT_EQ(both.size(), 3u);
+  ASSERT_EQ(both.size(), 2u);
   EXPECT_NE(both[0].find("must have the same domain; its size is [0.1, 0.025, 0.05] m"),
             std::string::npos);
-  EXPECT_NE(both[1].find("must have the same mesh; its cells are [62, 30, 24]"), std::string::npos);
+  write("two.toml", fluid_case("first_cell_height = 1e-4\n"));
+  EXPECT_TRUE(load(one).empty()) << "another mesh of the same box";
   write("two.toml", grain_case());
   EXPECT_EQ(load(one),
             only(one + ":8: [initial] fluid = \"two.toml\": must be a case with [fluid]"));

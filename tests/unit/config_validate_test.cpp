@@ -126,6 +126,15 @@ TEST(ConfigValidate, FirstRowFitsTheHeight) {
           "case.toml:7: [fluid] first_cell_height = 0.001: must be at most Ly / ny = 0.0008333 m: "
           "the rows grow from the floor upwards, or are all equal");
   EXPECT_TRUE(problems(fluid_case("first_cell_height = 8.3e-4\n")).empty());
+  const std::string thin = "first_cell_height = 5e-4\nuniform_height = ";
+  refused(
+      fluid_case(thin + "0.016\n"),
+      "case.toml:8: [fluid] uniform_height = 0.016: must be lower: 30 of 30 rows are as high as "
+      "the first, 0.0005 m, and those above may not shrink");
+  EXPECT_TRUE(problems(fluid_case(thin + "0.003\n")).empty());
+  refused(fluid_case("uniform_height = 0.01\n"),
+          "case.toml:7: [fluid] uniform_height = 0.01: must come with a first_cell_height, the "
+          "height of those rows");
   EXPECT_TRUE(says(warnings(fluid_case("first_cell_height = 1e-5\nkinematic_viscosity = 1e-8\n")),
                    "makes rows grow by"));
 }
@@ -155,10 +164,10 @@ TEST(ConfigValidate, PouredConeFitsUnderTheTop) {
 
 TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
   const std::pair<std::string, std::string> unwise[] = {
-      {"fluid.first_cell_height=2.3e-4", "makes the smallest cell 1.15 mean grain diameters"},
-      {"fluid.first_cell_height=3.3e-4", "makes the smallest cell 1.65 mean grain diameters"},
+      {"fluid.first_cell_height=2.1e-4", "makes the lowest row 1.05 mean grain diameters: too"},
+      {"fluid.first_cell_height=3.2e-5", "rows thinner than a sixth of the largest grain"},
       {"coupling.smoothing_length=0", "alpha_f is then noisy"},
-      {"coupling.smoothing_length=5e-5", "no effect"},
+      {"coupling.smoothing_length=3e-5", "no effect"},
       {"coupling.smoothing_length=7e-3", "smear the dune"},
       {"grains.boundary_x=wall", "boundary_x stops grains"},
       {"grains.skin=3e-4", "skin is above the smallest diameter"},

@@ -177,19 +177,21 @@ TEST(Coupling, WallsOfTheGrainsMirrorTheExchange) {
   EXPECT_GT(most, 0.05);
 }
 
-/// A grain across the face between rows 1 and 2: 19 of its 29 points above.
-TEST(Coupling, RowsThatShareAGrainAreCoupled) {
+/// A grain across the face between rows 1 and 2, 19 of its 29 points above, just before an x-face
+/// and behind a z-face.
+TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   constexpr double h = 3e-4;
   const Config c = test::water_box({6, 4, 6}, {6 * h, 4 * h, 6 * h});
   InitialGrains grains;
-  testing::add_grain(grains, 2e-4, {3.5 * h, 2 * h, 2.5 * h});
+  testing::add_grain(grains, 2e-4, {3.9 * h, 2 * h, 2.1 * h});
   test::CoupledRun run(c, grains);
-  const auto conductance = test::to_host(exchange_of(run).conductance);
+  const ExchangeOnFaces exchange = exchange_of(run);
+  const auto x = test::to_host(exchange.conductance_x), z = test::to_host(exchange.conductance_z);
   const double beta = testing::host_copy(run.state.grains->fluid.beta)(0);
   const double expected = 1e-4 * beta * 19 * 10 / 29 / 29 / (h * h * h);
   test::for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
-    const double here = i == 3 && j == 2 && k == 2 ? expected : 0;
-    EXPECT_NEAR(conductance(i, j, k), here, 1e-12 * expected);
+    EXPECT_NEAR(x(i, j, k), i == 4 && j == 2 && k == 2 ? expected : 0, 1e-12 * expected);
+    EXPECT_NEAR(z(i, j, k), i == 3 && j == 2 && k == 2 ? expected : 0, 1e-12 * expected);
   });
 }
 

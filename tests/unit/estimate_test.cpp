@@ -179,18 +179,20 @@ TEST(Check, TellsTheTimeTheStartsAndNarrowCells) {
   const TemporaryFolder folder;
   line.out = folder / "quickstart";
   std::ofstream(folder / "grains.csv") << "id,diameter,x,y,z\n1,2e-4,0.004,2e-4,0.003\n";
-  line.overrides = {"fluid.cells=[300,30,150]", "initial.fluid=\"turbulent\"",
-                    "time.fluid_step=1e-4",
+  line.overrides = {"fluid.cells=[300,46,150]", "fluid.first_cell_height=1.54e-4",
+                    "initial.fluid=\"turbulent\"", "time.fluid_step=1e-4",
                     "initial.grains=\"" + (folder / "grains.csv").string() + "\""};
   std::ostringstream out;
   EXPECT_EQ(run_check(line, out), 0);
   EXPECT_TRUE(contains(out.str(), "  grains                  1, d 0.2 to 0.2")) << out.str();
   EXPECT_TRUE(contains(out.str(), "  wall time               about "));
-  EXPECT_TRUE(contains(out.str(), "makes the smallest cell 1.00 mean grain diameters"));
+  EXPECT_TRUE(
+      contains(out.str(),
+               "row height / grain      0.77 at the floor, 0.77 at 0.3 mm, the top of the grains"));
   line.overrides.clear();
   out.str("");
   EXPECT_EQ(run_check(line, out), 0);
-  for (const char* start : {"channel-small", "heap-3k", "flow-over-heap-3k"})
+  for (const char* start : {"channel-small", "heap-3k"})
     EXPECT_TRUE(contains(out.str(), "before that: " + std::string(start))) << out.str();
 }
 

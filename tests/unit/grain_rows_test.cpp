@@ -94,7 +94,7 @@ TEST(RecentCells, SumsAreThoseOfEachGiftOnItsOwn) {
         RecentCells<16> recent(deposits);
         for (std::int64_t n = 0; n < gifts; ++n) {
           const std::int64_t cell = n / 7 * 31 % cells;
-          const std::int64_t given[Deposits::kQuantities] = {n, -n, 1, n * n, cell - 50};
+          const std::int64_t given[Deposits::kQuantities] = {n, -n, 1, n * n, cell - 50, 3 * n};
           recent.add(cell, given);
           for (int q = 0; q < Deposits::kQuantities; ++q) one_by_one.sum(cell, q) += given[q];
         }

@@ -17,24 +17,31 @@ struct Seen {
   VelocityByRow velocity;
 
   Seen(const DepositStencil& stencil, const PeriodicBox& box, const ConstFaceRef& u,
-       const GrainKinematics& grain)
-      : rows(stencil.rows_of(grain)), velocity(rows, {stencil.grid, box, grain.x}, u) {}
+       const GrainKinematics& grain, Real solid_per_fluid)
+      : rows(stencil.rows_of(grain)),
+        velocity(rows, {stencil.grid, box, grain.x}, u, solid_per_fluid) {}
   Seen(const Seen&) = delete;
 };
 
-/// Velocity along x seen by a grain of 0.2 mm at height y in water whose rows j move with u(j);
-/// along z it is -2 u. Rows grow from 0.26 mm upwards.
+/// What a grain of 0.2 mm sees at a point of water whose cells (i, j, k) move with u(i, j, k) along
+/// x; along z it is -2 u. Rows grow from 0.26 mm upwards.
 struct Water {
   test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4}))};
   GridRef grid = host.ref();
 
-  Seen at(Real y, const std::function<Real(int)>& u) const {
-    const auto x = test::host_field(grid, [&](int, int j, int) { return u(j); });
-    const auto z = test::host_field(grid, [&](int, int j, int) { return -2 * u(j); });
+  Seen at(const Vec3& point, Real solid_per_fluid,
+          const std::function<Real(int, int, int)>& u) const {
+    const auto x = test::host_field(grid, u);
+    const auto z = test::host_field(grid, [&](int i, int j, int k) { return -2 * u(i, j, k); });
     const ConstFieldRef along_x = x.ref(), along_z = z.ref();
-    const GrainKinematics grain{.x = {0.004, y, 0.003}, .r = 1e-4, .u = {}, .m = 1, .omega = {}};
+    const GrainKinematics grain{.x = point, .r = 1e-4, .u = {}, .m = 1, .omega = {}};
     return {deposit_stencil_in(grid, PointModel::divided, false),
-            PeriodicBox{.lx = 0, .lz = grid.lz}, ConstFaceRef{along_x, along_x, along_z}, grain};
+            PeriodicBox{.lx = 0, .lz = grid.lz}, ConstFaceRef{along_x, along_x, along_z}, grain,
+            solid_per_fluid};
+  }
+  /// In water whose rows j move with u(j).
+  Seen at(Real y, const std::function<Real(int)>& u) const {
+    return at({0.004, y, 0.003}, 0, [&](int, int j, int) { return u(j); });
   }
   /// Within row 4, above its middle.
   Real off_centre() const { return grid.y_centre(4) + 5e-5; }
@@ -67,8 +74,37 @@ TEST(RowExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
   ASSERT_EQ(seen.rows.n, 2);
   EXPECT_NEAR(seen.velocity.mean_x, 19.0 / 29, 1e-14);
-  EXPECT_EQ(seen.velocity.x[seen.rows.find(3)], 0);
-  EXPECT_EQ(seen.velocity.x[seen.rows.find(4)], 1);
+  for (const auto& x : seen.velocity.x) {
+    EXPECT_EQ(x[seen.rows.find(3)], 0);
+    EXPECT_EQ(x[seen.rows.find(4)], 1);
+  }
+}
+
+// A shear across the flow is seen exactly; a step beside the grain's column is not seen.
+TEST(RowExchange, AcrossTheFlowASlopeMakesNoExtremum) {
+  const Water w;
+  const Vec3 point{0.004, w.off_centre(), 2.3 * w.grid.dz};
+  const auto shear = w.at(point, 1, [&](int, int, int k) { return 7 * w.grid.z_centre(k); });
+  EXPECT_NEAR(shear.velocity.mean_x, 7 * point.z, 1e-14);
+  const auto step = w.at(point, 1, [](int, int, int k) { return k < 2 ? 100 : 1; });
+  EXPECT_EQ(step.velocity.mean_x, 1);
+}
+
+// Between an open and a dense momentum cell: alone a grain belongs to both, among others to its
+// own.
+TEST(RowExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
+  const Water w;
+  const auto seen = [&](Real part, Real solid_per_fluid) {
+    const Vec3 point{(2 + part) * w.grid.dx, w.off_centre(), 2.5 * w.grid.dz};
+    const auto at = w.at(point, solid_per_fluid, [](int i, int, int) { return i < 3 ? 1 : 0; });
+    EXPECT_NEAR(at.velocity.x_faces.weight(0) + at.velocity.x_faces.weight(1), 1, 1e-15);
+    return at.velocity.mean_x;
+  };
+  EXPECT_NEAR(seen(0.3, 0), 0.7, 1e-12);
+  EXPECT_NEAR(seen(0.8, 0), 0.2, 1e-12);
+  EXPECT_EQ(seen(0.4, 1), 1);
+  EXPECT_EQ(seen(0.6, 1), 0);
+  EXPECT_NEAR(seen(0.52, 1), 0.5 - 0.02 * 9, 1e-12);  // the width between them is a ninth
 }
 
 }  // namespace

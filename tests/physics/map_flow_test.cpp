@@ -1,0 +1,101 @@
+// A flow from another mesh of the same box.
+#include "src/fluid/map_flow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kernels/fluid/pressure.hpp"
+#include "src/fluid/initial_flow.hpp"
+#include "src/parallel/reduce.hpp"
+#include "tests/support/flow_run.hpp"
+
+namespace barchan {
+namespace {
+
+using test::FlowRun;
+
+Config mesh(std::array<int, 3> cells, double first) {
+  Config config = test::flow_config(cells, {0.1, 0.025, 0.05}, first);
+  config.fluid->mean_velocity = 0.28;
+  return config;
+}
+
+double divergence(const FlowRun& run) {
+  Field rest("rest", run.grid);
+  return max_each_cell("test", run.grid,
+                       ContinuityResidual<true>{{.grid = run.grid,
+                                                 .u = run.fluid.u,
+                                                 .alpha = run.fluid.alpha_f,
+                                                 .alpha_before = run.fluid.alpha_f,
+                                                 .c = run.fluid.u,
+                                                 .drive_dt = 0,
+                                                 .density = 1,
+                                                 .dt = 1,
+                                                 .b = rest}});
+}
+
+double largest_difference(const Field& a, const Field& b, const Grid& grid) {
+  const auto host_a = test::to_host(a), host_b = test::to_host(b);
+  double largest = 0;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    largest = std::max(largest, std::abs(host_a(i, j, k) - host_b(i, j, k)));
+  });
+  return largest;
+}
+
+TEST(MapFlow, ShearBetweenALidAndTheFloorIsExactOnEveryMesh) {
+  const auto moving_lid = [](std::array<int, 3> cells, double first) {
+    Config config = mesh(cells, first);
+    config.fluid->top = WallFlow::no_slip;
+    config.fluid->top_velocity = 0.5;
+    return config;
+  };
+  FlowRun coarse(moving_lid({9, 8, 6}, 2e-3)), fine(moving_lid({16, 21, 11}, 3e-4));
+  coarse.start([&](int, int j, int) { return 20 * coarse.h.y(j); });
+  map_flow(fine.config, coarse.fluid, fine.fluid);
+  const auto u = test::to_host(fine.fluid.u.x);
+  for (int j = 0; j < 21; ++j) EXPECT_NEAR(u(3, j, 4), 20 * fine.h.y(j), 1e-14) << "row " << j;
+}
+
+TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {
+  FlowRun from(mesh({24, 16, 18}, 5e-4));
+  set_turbulent_flow(from.config, from.fluid);
+  for (const auto& [cells, first] :
+       {std::pair{std::array{36, 30, 20}, 2e-4}, std::pair{std::array{16, 11, 24}, 1e-3}}) {
+    FlowRun to(mesh(cells, first));
+    map_flow(to.config, from.fluid, to.fluid);
+    to.solver.fill_ghosts(to.fluid);
+    EXPECT_NEAR(bulk_velocity(to.fluid), bulk_velocity(from.fluid), 1e-14);
+    EXPECT_LT(divergence(to), 1e-11);
+    // Between nodes the smallest eddies lose something, the mean flow nothing.
+    EXPECT_NEAR(to.solver.kinetic_energy(to.fluid) / from.solver.kinetic_energy(from.fluid), 1,
+                0.01);
+  }
+}
+
+TEST(MapFlow, OnTheSameMeshNothingChanges) {
+  FlowRun from(mesh({24, 16, 18}, 5e-4)), to(from.config);
+  set_turbulent_flow(from.config, from.fluid);
+  from.solver.fill_ghosts(from.fluid);
+  map_flow(to.config, from.fluid, to.fluid);
+  EXPECT_LT(largest_difference(from.fluid.u.x, to.fluid.u.x, from.grid), 1e-13);
+  EXPECT_LT(largest_difference(from.fluid.u.z, to.fluid.u.z, from.grid), 1e-13);
+}
+
+TEST(MapFlow, BetweenGrainsTheFlowOfTheMixtureHasNoDivergence) {
+  Config coarse = mesh({24, 16, 18}, 5e-4), fine = mesh({36, 30, 20}, 2e-4);
+  coarse.grains = fine.grains = GrainConfig{};
+  FlowRun from(coarse), to(fine);
+  set_turbulent_flow(coarse, from.fluid);
+  const auto heap = [&](int i, int j, int k) {
+    return i > 8 && i < 14 && j < 5 && k > 6 && k < 12 ? 0.45 : 1.0;
+  };
+  test::set_field(from.fluid.alpha_f, from.grid, heap);
+  test::set_field(from.fluid.alpha_f_previous, from.grid, heap);
+  map_flow(fine, from.fluid, to.fluid);
+  to.solver.fill_ghosts(to.fluid);
+  EXPECT_NEAR(bulk_velocity(to.fluid), bulk_velocity(from.fluid), 1e-14);
+  EXPECT_LT(divergence(to), 1e-4);  // 1/s; the heap's edges alone make 200 of it on the coarse mesh
+}
+
+}  // namespace
+}  // namespace barchan
