@@ -6,6 +6,7 @@ FIGURES = {
     "laws": ("laws", "celerity, W, H, horns, loss and formation time against L, with fits (--from, --to)"),
     "means": ("means_study", "in words: what each dune is and does, with its spread (--from, --to); no picture"),
     "channel": ("channel_study", "turbulence statistics of all cases beside channel DNS"),
+    "force_depth": ("force_depth", "force of the water on held heaps by depth below the surface (--from, --to)"),
 }
 # figures of Lima et al. (2022): (figure, what it varies)
 PAPER = {
@@ -18,8 +19,8 @@ PAPER = {
     "fig9": ("morphology", "grains.rolling_friction"),
 }
 SAME = {"profiles": "channel"}
-ON_REQUEST = ("laws", "means")  # of studies of sizes; draws nothing
-OF_ALL_CASES = {"laws": "laws", "means": "means", "channel": "fig2"}  # and the name that the picture has by default
+ON_REQUEST = ("laws", "means", "force_depth")  # of studies of sizes; draws nothing; of held heaps
+OF_ALL_CASES = {"laws": "laws", "means": "means", "channel": "fig2", "force_depth": "force_depth"}  # and the name that the picture has by default
 
 
 def known(name):

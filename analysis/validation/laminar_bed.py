@@ -147,6 +147,8 @@ def most_used(table):
     for reference in references():
         for values, _ in settings(beside(table, reference)):
             count[values] = count.get(values, 0) + 1
+    if not count:
+        raise NotInRun("needs a run at a Reynolds number of the papers")
     return max(count, key=count.get)
 
 
@@ -169,11 +171,13 @@ def draw(folder):
                   label="Aussillous et al., experiment")
     left.plot(places, [one["resolved"] for one in known], ls="", marker="D", ms=4, color=style.ORANGE,
               label="Biegert et al., resolved")
-    shown = [(place, *said_of(rows)) for place, one in zip(places, known)
-             for values, rows in settings(beside(table, one)) if values == usual]
-    place, flux, error = np.array(shown).T
-    left.errorbar(place + 0.15, flux, yerr=error, ls="", marker="o", ms=4, capsize=2, color=style.BLUE,
-                  label=f"Barchan, rows of {usual[0]:.2g} $d$")
+    for torque, shift, colour in ((0.0, 0.12, style.BLUE), (1.0, 0.24, style.VERMILLION)):
+        shown = [(place + shift, *said_of(rows)) for place, one in zip(places, known)
+                 for values, rows in settings(beside(table, one)) if values == (*usual[:-1], torque)]
+        if shown:
+            place, flux, error = np.array(shown).T
+            left.errorbar(place, flux, yerr=error, ls="", marker="o", ms=4, capsize=2, color=colour,
+                          label=f"Barchan, rows of {usual[0]:.2g} $d$" + ", torque" * bool(torque))
     left.set(xticks=places, ylim=(0, None),
              xticklabels=[f"{one['case']}\nSh {one['shields_measured']}" for one in known])
     left.legend(fontsize=6)
@@ -185,14 +189,15 @@ def draw(folder):
             right.errorbar(height, flux, yerr=error, marker="o", ms=4, capsize=2, color=colour, label=one["case"])
             right.axhline(one["resolved"], color=colour, lw=0.7, ls=":")
     right.set(xlabel="height of rows over $d$", ylim=(0, None))
-    right.legend(fontsize=6)
+    if right.has_data():
+        right.legend(fontsize=6)
     for index, axes in enumerate((left, right)):
         style.panel_label(axes, index)
     return figure
 
 
 def summary(folder):
-    """Lines `case | SETTING | runs | h_f/d | Shields | q_v/q_f | resolved | measured | flux of volume`; lengths in d."""
+    """Lines `case | SETTING | runs | h_f/d | Shields | q_v/q_f | resolved | measured | flux of volume`, in d."""
     table = tables.read_saved(folder, NAME)
     for one in references():
         for values, rows in settings(beside(table, one)):

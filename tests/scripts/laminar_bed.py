@@ -103,7 +103,7 @@ def line(case, rows, realisation, flux):
     return f"{case['reynolds']},{rows},1.5,0.6,0,{realisation},4,{case['height_resolved']},0.3,{flux},1e-4,1e-3,1e-4"
 
 
-# Table, figure and summary: two runs of A9 with d/2, one with thick rows, one run of A1; the laws of A9 stand beside.
+# Table, figure and summary: two runs of A9 with d/2, one with thick rows, one run of A1. One run draws, too.
 cases = {case["case"]: case for case in laminar_bed.references()}
 lines = [line(cases["A9"], 0.5, 1, 7e-3), line(cases["A9"], 0.5, 2, 8e-3), line(cases["A9"], 1.3, 1, 1e-3),
          line(cases["A1"], 0.5, 1, 6e-3)]
@@ -111,6 +111,9 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     tables.write(folder / "laminar_bed.csv", {"title": "built"}, [laminar_bed.COLUMNS, *lines])
     figure = laminar_bed.draw(folder)
+    tables.write(folder / "laminar_bed.csv", {"title": "one run"}, [laminar_bed.COLUMNS, lines[-1]])
+    laminar_bed.draw(folder)
+    tables.write(folder / "laminar_bed.csv", {"title": "built"}, [laminar_bed.COLUMNS, *lines])
     said = list(laminar_bed.summary(folder))
     _, merged = bed_load.with_earlier(folder / "laminar_bed.csv", {"commit": "b", "machine": "m", "date": "d"},
                                       [line(cases["A9"], 0.5, 2, 9e-3)], laminar_bed.KEYS)
