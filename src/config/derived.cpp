@@ -223,9 +223,10 @@ void add_fluid(std::string& text, const FluidNumbers& n) {
 }
 
 void add_cells_against_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
-  const std::string top = n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains",
-                                                  n.top_ratio, 1e3 * n.top)
-                                    : "";
+  const std::string top =
+      n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains{}", n.top_ratio,
+                              1e3 * n.top, n.as_poured ? " as poured" : "")
+                : "";
   const char* wanted = exchange == Exchange::by_row ? "; by row a surface needs 0.7 or less" : "";
   line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, wanted);
   if (exchange != Exchange::by_row) {

@@ -69,6 +69,7 @@ struct GrainNumbers {
   double floor_ratio = 0;  // height of the lowest row over it
   double top = 0;          // [m] highest point of the grains; 0: not known
   double top_ratio = 0;    // height of the row there over the mean diameter
+  bool as_poured = false;  // they are still to settle
 };
 
 struct Derived {

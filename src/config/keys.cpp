@@ -213,7 +213,8 @@ void add_initial(Sections& all) {
   using I = InitialConfig;
   key("fluid", &I::fluid,
       "\"still\", \"uniform\" (at `mean_velocity` everywhere), \"turbulent\" (a log law with "
-      "perturbations), a restart file `.h5`, or the end of a case `.toml`");
+      "perturbations), a restart file `.h5`, or the end of a case `.toml`; from other cells of the "
+      "same box it is interpolated");
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
   key("seed", &I::seed, "of the perturbations of \"turbulent\"");

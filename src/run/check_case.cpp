@@ -44,7 +44,8 @@ int run_check(const CommandLine& line, std::ostream& out) {
   const GrainsAhead ahead = grains_ahead(config, folder);
   for (const StartCase& start : missing_starts(config, folder))
     grains_ahead(start.config, start.folder);  // throws if the run of a start would
-  const Derived derived = derive(config, ahead.sizes, top_of(ahead));
+  Derived derived = derive(config, ahead.sizes, top_of(ahead));
+  if (derived.grains) derived.grains->as_poured = !ahead.grains;
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
   if (derived.memory < memory_of_machine())
     cost = as_input([&] { return estimate(config, folder, ahead); });
