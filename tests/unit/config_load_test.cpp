@@ -128,6 +128,10 @@ TEST(ConfigLoad, LengthsMayBeInMeanDiameters) {
   EXPECT_EQ(to_toml(c).find(" d\""), std::string::npos);
   EXPECT_EQ(config_as_written(to_toml(c), c.file), c);
   EXPECT_EQ(with({"coupling.smoothing_length=0 d"}).coupling.smoothing_length, 0);
+  const Config thin =
+      with({"fluid.first_cell_height=0.8 d", "fluid.uniform_height=2 d", "fluid.cells=[62,34,25]"});
+  EXPECT_DOUBLE_EQ(thin.fluid->first_cell_height, 0.8 * 0.25e-3);
+  EXPECT_DOUBLE_EQ(thin.fluid->uniform_height, 2 * 0.25e-3);
   for (const std::string wrong : {"3 dd", "d", "3 mm", "3  d", "inf d", " 3 d"}) {
     EXPECT_EQ(problems(text, {"grains.skin=\"" + wrong + "\""}),
               only("--set grains.skin: [grains] skin = \"" + wrong +
