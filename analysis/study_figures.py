@@ -20,7 +20,8 @@ PAPER = {
 }
 SAME = {"profiles": "channel"}
 ON_REQUEST = ("laws", "means", "force_depth")  # of studies of sizes; draws nothing; of held heaps
-OF_ALL_CASES = {"laws": "laws", "means": "means", "channel": "fig2", "force_depth": "force_depth"}  # and the name that the picture has by default
+# and the name that the picture has by default
+OF_ALL_CASES = {"laws": "laws", "means": "means", "channel": "fig2", "force_depth": "force_depth"}
 
 
 def known(name):

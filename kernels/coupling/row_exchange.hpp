@@ -52,8 +52,9 @@ struct GrainFaces {
   }
 
  private:
-  // Joining faces is explicit. 4 K width/6 must be below 2, K = dt beta over the mass of the water
-  // per grain, about 2 solid_per_fluid at 5e-4 s for the paper's grains: so up to 6e-3 s.
+  // Joining faces is explicit: 4 K width/6 must be below 2, K = dt beta over the mass of the water
+  // per grain, in a bed about 2 s^2 at 5e-4 s for the paper's grains, s = solid_per_fluid. So steps
+  // may be up to 4e-3 s at s = 1.5, and 7e-4 s at s = 9, a cell with a tenth of water.
   static constexpr Real kNearer = 8;
 };
 

@@ -109,6 +109,10 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 }  // namespace
 
+bool exchanges_by_row(const CouplingConfig& coupling) {
+  return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
+}
+
 std::int64_t fluid_steps(const TimeConfig& time) {
   return static_cast<std::int64_t>(std::min(9e18, ceil_tolerant(time.end / time.fluid_step)));
 }
@@ -180,7 +184,7 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
 
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top) {
   Derived derived;
-  derived.exchange = config.coupling.exchange;
+  derived.by_row = exchanges_by_row(config.coupling);
   derived.fluid_steps = fluid_steps(config.time);
   derived.grain_substeps = grain_substeps(config.time);
   derived.grain_step = true_grain_step(config.time);
@@ -222,19 +226,19 @@ void add_fluid(std::string& text, const FluidNumbers& n) {
   line(text, "viscous number", "{:.2g} (stable below 1)", n.viscous_number);
 }
 
-void add_cells_against_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
+void add_cells_against_grains(std::string& text, const GrainNumbers& n, bool by_row) {
   const std::string top =
       n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains{}", n.top_ratio,
                               1e3 * n.top, n.as_poured ? " as poured" : "")
                 : "";
-  const char* wanted = exchange == Exchange::by_row ? "; by row a surface needs 0.7 or less" : "";
+  const char* wanted = by_row ? "; by row a surface needs 0.7 or less" : "";
   line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, wanted);
-  if (exchange != Exchange::by_row) {
+  if (!by_row) {
     line(text, "smallest cell / grain", "{:.2f}; this exchange wants 1.2 to 1.6", n.cell_ratio);
   }
 }
 
-void add_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
+void add_grains(std::string& text, const GrainNumbers& n, bool by_row) {
   line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
        1e3 * n.d_max, 1e3 * n.d_mean);
   line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
@@ -247,7 +251,7 @@ void add_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
     line(text, "Shields number", "{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)",
          n.shields, n.shields_threshold);
   }
-  if (n.cell_ratio > 0) add_cells_against_grains(text, n, exchange);
+  if (n.cell_ratio > 0) add_cells_against_grains(text, n, by_row);
 }
 
 }  // namespace
@@ -255,7 +259,7 @@ void add_grains(std::string& text, const GrainNumbers& n, Exchange exchange) {
 std::string to_text(const Derived& derived) {
   std::string text;
   if (derived.fluid) add_fluid(text, *derived.fluid);
-  if (derived.grains) add_grains(text, *derived.grains, derived.exchange);
+  if (derived.grains) add_grains(text, *derived.grains, derived.by_row);
   std::string steps = fmt::format("{}", derived.fluid_steps);
   if (derived.grains) {
     steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,

@@ -10,6 +10,10 @@
 
 namespace barchan {
 
+/// True if momentum goes row by row: other void fractions than the divided one have no parts by
+/// row.
+bool exchanges_by_row(const CouplingConfig& coupling);
+
 /// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
 std::int64_t fluid_steps(const TimeConfig& time);
 /// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.
@@ -78,8 +82,8 @@ struct Derived {
   double grain_step = 0;  // [s], the one really taken
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
-  Exchange exchange = Exchange::by_row;
-  double memory = 0;  // [bytes], estimate
+  bool by_row = true;                  // exchanges_by_row
+  double memory = 0;                   // [bytes], estimate
 };
 
 /// `sizes` as from known_sizes; may be empty. `config` must have passed validate. `top`: highest

@@ -57,7 +57,7 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
 /// centre, or is smeared, the rule of Lima et al. (2022) holds for the smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const Keys keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
-  if (c.coupling.exchange != Exchange::by_row) {
+  if (!exchanges_by_row(c.coupling)) {
     found.warning_if(
         n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
         "makes the smallest cell {:.2f} mean grain diameters; this exchange wants 1.2 to 1.6",

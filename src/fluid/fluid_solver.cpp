@@ -148,9 +148,10 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
 void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange) {
   if (exchange.conductance_x.storage.size() == 0) return;
   for (const bool along_x : {true, false}) {
+    const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
     for_each_cell("fluid: drag between rows", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
                   DragBetweenRows{.grid = grid_,
-                                  .conductance = along_x ? exchange.conductance_x : exchange.conductance_z,
+                                  .conductance = conductance,
                                   .alpha = fluid.alpha_f,
                                   .u = along_x ? fluid.u.x : fluid.u.z,
                                   .density = config_.density,

@@ -60,33 +60,39 @@ TEST(FluidFlow, DragBetweenRowsSharesAnImpulse) {
   FlowRun run(config);
   const int n = 6;
   ExchangeOnFaces exchange = no_exchange(run.grid);
-  exchange.conductance_x = exchange.conductance_z = Field("test: conductance", run.grid);
+  exchange.conductance_x = Field("test: conductance", run.grid);
+  exchange.conductance_z = Field("test: conductance", run.grid);
   const auto alpha = [](int, int j, int) { return 0.4 + 0.1 * j; };
   const auto drag = [](int, int j, int) { return j == 0 || j == 4 ? 0 : 600. * j; };  // two blocks
   const auto impulse = [](int, int j, int) { return j == 1 ? 50. : j == 4 ? -30. : 0; };
   test::set_field(run.fluid.alpha_f, run.grid, alpha);
   test::set_field(run.fluid.alpha_f_previous, run.grid, alpha);
   test::set_field(exchange.conductance_x, run.grid, drag);
+  test::set_field(exchange.conductance_z, run.grid,
+                  [&](int i, int j, int k) { return 2 * drag(i, j, k); });
   for (Field* f : {&exchange.impulse.x, &exchange.impulse.z})
     test::set_field(*f, run.grid, impulse);
   run.start_uniform(0);
   run.advance(1e-3, &exchange);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd given(n);
-  for (int j = 0; j < n; ++j) {
-    matrix(j, j) += 1000 * alpha(0, j, 0) * run.h.dy(j);
-    given(j) = impulse(0, j, 0) * run.h.dy(j);
-    if (j == 0) continue;
-    const double c = drag(0, j, 0) * run.h.dy(j);
-    matrix(j, j) += c, matrix(j - 1, j - 1) += c, matrix(j, j - 1) -= c, matrix(j - 1, j) -= c;
-  }
-  const Eigen::VectorXd expected = matrix.ldlt().solve(given);
+  const auto expected = [&](double times) {  // with so many times the drag
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd given(n);
+    for (int j = 0; j < n; ++j) {
+      matrix(j, j) += 1000 * alpha(0, j, 0) * run.h.dy(j);
+      given(j) = impulse(0, j, 0) * run.h.dy(j);
+      if (j == 0) continue;
+      const double c = times * drag(0, j, 0) * run.h.dy(j);
+      matrix(j, j) += c, matrix(j - 1, j - 1) += c, matrix(j, j - 1) -= c, matrix(j - 1, j) -= c;
+    }
+    return Eigen::VectorXd(matrix.ldlt().solve(given));
+  };
+  const Eigen::VectorXd of_u = expected(1), of_w = expected(2);
   const auto u = test::to_host(run.fluid.u.x), w = test::to_host(run.fluid.u.z);
   for (int j = 0; j < n; ++j) {
-    EXPECT_NEAR(u(1, j, 1), expected(j), 1e-14);
-    EXPECT_NEAR(w(1, j, 1), expected(j), 1e-14);
+    EXPECT_NEAR(u(1, j, 1), of_u(j), 1e-14);
+    EXPECT_NEAR(w(1, j, 1), of_w(j), 1e-14);
   }
-  EXPECT_GT(std::abs(expected(3)), 1e-4) << "the drag reaches rows that got nothing";
+  EXPECT_GT(std::abs(of_u(3)), 1e-4) << "the drag reaches rows that got nothing";
 }
 
 TEST(FluidFlow, MovingSolidFractionConservesMass) {

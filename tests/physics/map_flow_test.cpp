@@ -50,10 +50,33 @@ TEST(MapFlow, ShearBetweenALidAndTheFloorIsExactOnEveryMesh) {
     return config;
   };
   FlowRun coarse(moving_lid({9, 8, 6}, 2e-3)), fine(moving_lid({16, 21, 11}, 3e-4));
+  coarse.config.grains = fine.config.grains = GrainConfig{};
+  const auto rising = [&](double factor) {
+    return [&, factor](int, int j, int) { return 0.4 + factor * coarse.h.y(j); };
+  };
+  test::set_field(coarse.fluid.p, coarse.grid, rising(3));
+  test::set_field(coarse.fluid.nu_t, coarse.grid, rising(5));
+  test::set_field(coarse.fluid.du_dt.z, coarse.grid, rising(7));
+  test::set_field(coarse.fluid.alpha_f, coarse.grid, rising(9));
   coarse.start([&](int, int j, int) { return 20 * coarse.h.y(j); });
   map_flow(fine.config, coarse.fluid, fine.fluid);
-  const auto u = test::to_host(fine.fluid.u.x);
-  for (int j = 0; j < 21; ++j) EXPECT_NEAR(u(3, j, 4), 20 * fine.h.y(j), 1e-14) << "row " << j;
+  const auto u = test::to_host(fine.fluid.u.x), p = test::to_host(fine.fluid.p),
+             nu_t = test::to_host(fine.fluid.nu_t), rate = test::to_host(fine.fluid.du_dt.z),
+             alpha = test::to_host(fine.fluid.alpha_f);
+  // The bulk velocity of a sheared mixture is a sum over its rows, and kept: the shear is not
+  // quite.
+  const double scale = u(3, 10, 4) / (20 * fine.h.y(10));
+  EXPECT_NEAR(scale, 1, 0.02);
+  EXPECT_NEAR(bulk_velocity(fine.fluid), bulk_velocity(coarse.fluid), 1e-14);
+  for (int j = 0; j < 21; ++j) {
+    const double y = fine.h.y(j);
+    EXPECT_NEAR(u(3, j, 4), scale * 20 * y, 1e-12) << "row " << j;
+    if (y < coarse.h.y(0) || y > coarse.h.y(7)) continue;  // walls without a gradient
+    EXPECT_NEAR(p(3, j, 4), 0.4 + 3 * y, 1e-14) << "row " << j;
+    EXPECT_NEAR(rate(3, j, 4), 0.4 + 7 * y, 1e-14) << "row " << j;
+    EXPECT_NEAR(nu_t(3, j, 4), 0.4 + 5 * y, 1e-14) << "row " << j;
+    EXPECT_NEAR(alpha(3, j, 4), 0.4 + 9 * y, 1e-14) << "row " << j;
+  }
 }
 
 TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {

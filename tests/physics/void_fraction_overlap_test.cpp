@@ -88,8 +88,7 @@ double sphere_box_overlap(const std::array<double, 3>& centre, double radius, co
 constexpr int kCells = 6;  // cubic cells of edge one in each direction
 
 struct Cells {
-  test::HostGrid grid{
-      make_grid(kCells, kCells, kCells, kCells, row_faces({kCells, kCells, 0}))};
+  test::HostGrid grid{make_grid(kCells, kCells, kCells, kCells, row_faces({kCells, kCells, 0}))};
   DepositStencil stencil = deposit_stencil_in(grid.ref(), PointModel::divided, true);
 
   /// Shares by the code.

@@ -19,7 +19,7 @@ SAME_PLACE = 1e-6  # [m]
 SAME_FLOW = 1e-3  # of the fastest
 # name: (case, lower ends of the classes of height [mm])
 HELD = {"bed": (CASES / "cfdem-bed.toml", (0, 0.15, 0.25, 0.35, 0.45)),
-        "heap": (ROOT / "configs/barchan-10k.toml", (0, 0.15, 0.35, 0.55, 0.75, 0.95, 1.15))}
+        "heap": (CASES / "cfdem-held-heap.toml", (0, 0.15, 0.35, 0.55, 0.75, 0.95, 1.15))}
 
 
 def run(case, folder, **keys):
