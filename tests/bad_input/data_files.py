@@ -101,6 +101,8 @@ HDF5 = [
     start("a group for ids", lambda path: (frame(id=None)(path), h5py.File(path, "a").create_group("frame_000000/id")), "id"),
     start("cut", cut(0.5), "cut short", given=("good/grains.h5 as start.h5",)),
     flow("one bit wrong", "damaged", change=flip(0.6)),
+    Entry("flow: on other cells of the same box", '[initial] fluid = "start.h5" ;; [fluid] cells = [12, 14, 6]',
+          given=(f"good/{RESTART} as start.h5",), code=0),
     info("a restart with a wrong bit", "start.h5 | damaged", flip(0.6), (f"good/{RESTART} as start.h5",)),
 ]
 
