@@ -1,7 +1,7 @@
 """force_depth of a study of held heaps: the force of the water along the stream on their grains, by depth.
 
 The force is drag, pressure gradient and stress over the grain's weight in water, each grain's mean from --from to --to
-(default: the second third of the run and the last). The depth of a grain counts from the top of the highest grain
+(default: the last two thirds of the run). The depth of a grain counts from the top of the highest grain
 within one mean diameter along the floor to its own top. Parts of the heap: upstream of its centroid by more than a
 fifth of its radius, downstream by as much, and the crest between.
 """
@@ -17,7 +17,6 @@ OPTIONS = ("start", "end")
 FORCES = ("force_drag", "force_pressure_gradient", "force_stress")
 PARTS = ("upstream", "crest", "downstream")
 EDGES = np.array([0, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5])  # of depth, in mean diameters
-WATER, GRAVITY = 1000.0, 9.81
 
 
 def draw(study, start=None, end=None):
@@ -60,8 +59,9 @@ def of_run(run, start, end):
         samples = [read_frame(content[name]) for name in inside]
     x, d, _ = samples[-1]
     force = np.array([sample[2] for sample in samples])
-    density = run.config.get("grains", {}).get("density", 2500.0)
-    weight = (density - WATER) * GRAVITY * np.pi / 6 * d**3
+    grains, water = run.config.get("grains", {}), run.config.get("fluid", {}).get("density", 1000.0)
+    gravity = np.linalg.norm(grains.get("gravity", [0, -9.81, 0]))
+    weight = (grains.get("density", 2500.0) - water) * gravity * np.pi / 6 * d**3
     return by_depth(x, d, force.mean(axis=0) / weight, np.sqrt((force**2).mean(axis=0)) / weight, weight)
 
 

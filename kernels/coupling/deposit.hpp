@@ -143,18 +143,18 @@ struct DepositGrains {
       const int j = in_rows.row[r];
       const Real w = in_rows.weight(r);
       const Real coupling = drag * conductance_below(in_rows, j);
-      const auto encode = [&](Real part) { return deposits.impulse.encode(part); };
-      give(to, CellIndex{v.i, j, v.k}, {0, 0, 0, 0, encode(w * impulse.y), 0});
+      give(to, CellIndex{v.i, j, v.k}, {0, 0, 0, 0, deposits.impulse.encode(w * impulse.y), 0});
       for (int side = 0; side < 2; ++side) {
         const Real wx = v.x_faces.weight(side), wz = v.z_faces.weight(side);
         if (wx > 0)
           give(to, rows.x_face(v, side, j),
                {0, deposits.conductance.encode(wx * coupling), 0,
-                encode(w * wx * (impulse.x + drag * (v.x[side][r] - v.mean_x))), 0, 0});
+                deposits.impulse.encode(w * wx * (impulse.x + drag * (v.x[side][r] - v.mean_x))), 0,
+                0});
         if (wz > 0)
           give(to, rows.z_face(v, side, j),
                {0, 0, deposits.conductance.encode(wz * coupling), 0, 0,
-                encode(w * wz * (impulse.z + drag * (v.z[side][r] - v.mean_z)))});
+                deposits.impulse.encode(w * wz * (impulse.z + drag * (v.z[side][r] - v.mean_z)))});
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/config/derived.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -50,7 +51,7 @@ Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainS
                 square(std::max<Real>(config_.smoothing_length, 1e-9))),
       box_(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil_(make_deposit_stencil(config, grid, grains.r_max)),
-      by_row_(config_.exchange == Exchange::by_row && stencil_.points == PointModel::divided),
+      by_row_(exchanges_by_row(config_)),
       halo_(grid, Deposits::kQuantities),
       rho_f_(config.fluid->density),
       nu_(config.fluid->kinematic_viscosity),

@@ -11,19 +11,13 @@ import warnings
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "analysis"))
+sys.path[:0] = [str(ROOT / "analysis"), str(ROOT / "tests/support")]
 import tables  # noqa: E402
+from checks import end, expect_near, failures  # noqa: E402
 from run_folder import Grains  # noqa: E402
 from validation import bed_load, threshold  # noqa: E402
 
 warnings.simplefilter("error")
-
-failures = []
-
-
-def expect_near(what, value, expected, tolerance):
-    if not abs(value - expected) <= tolerance * abs(expected):
-        failures.append(f"{what}: {value:.6g}, not {expected:.6g}")
 
 
 class MadeUpRun:
@@ -181,7 +175,4 @@ with tempfile.TemporaryDirectory() as folder:
             and lines[1].startswith("falling, mu_r = 0.1, torque | 1 | 0.080 | 0.080 | ")):
         failures.append(f"thresholds: {lines}")
 
-for failure in failures:
-    print(f"bed_load: {failure}", file=sys.stderr)
-print("bed_load: a run measured, the law fitted, the threshold found")
-sys.exit(bool(failures))
+end("bed_load", "a run measured, the law fitted, the threshold found")

@@ -9,19 +9,13 @@ import warnings
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "analysis"))
+sys.path[:0] = [str(ROOT / "analysis"), str(ROOT / "tests/support")]
 import tables  # noqa: E402
+from checks import end, expect_near, failures  # noqa: E402
 from run_folder import Grains, NotInRun  # noqa: E402
 from validation import bed_load, laminar_bed  # noqa: E402
 
 warnings.simplefilter("error")
-
-failures = []
-
-
-def expect_near(what, value, expected, tolerance):
-    if not abs(value - expected) <= tolerance * abs(expected):
-        failures.append(f"{what}: {value:.6g}, not {expected:.6g}")
 
 
 class BuiltRun:
@@ -133,7 +127,4 @@ for case in cases.values():
     shields = 6 * case["reynolds"] / 0.397**2 / case["height_resolved"]**2
     expect_near(f"Shields number of {case['case']}", shields, case["shields_resolved"], 1e-2)  # three figures
 
-for failure in failures:
-    print(f"laminar_bed: {failure}", file=sys.stderr)
-print("laminar_bed: surface, fluxes and Shields number of a built run; table and figure")
-sys.exit(bool(failures))
+end("laminar_bed", "surface, fluxes and Shields number of a built run; table and figure")
