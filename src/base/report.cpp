@@ -28,12 +28,17 @@ State& state() {
 
 constexpr const char* clear_line = "\r\033[K";
 
+/// Whoever reads may go away (`| head`); that must not cost the run.
+void put(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
+}
+
 void print(std::FILE* stream, std::string_view text) {
   if (state().live) std::fputs(clear_line, stdout);
   state().live = false;
   std::fflush(stdout);  // keeps the two streams in order
-  fmt::print(stream, "{}\n", text);
-  std::fflush(stream);
+  put(stream, fmt::format("{}\n", text));
 }
 
 /// One line of log.txt. A full disk is reported by the results themselves; the log must not stop or
@@ -50,8 +55,7 @@ void show_live(std::string_view text) {
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1) {
     text = text.substr(0, window.ws_col - 1U);
   }
-  fmt::print(stdout, "{}{}", clear_line, text);
-  std::fflush(stdout);
+  put(stdout, fmt::format("{}{}", clear_line, text));
   state().live = true;
 }
 
@@ -152,8 +156,7 @@ void ProgressLine::update(const Progress& progress) {
 
 void ProgressLine::finish() {
   if (!state().live) return;
-  fmt::print(stdout, "\n");
-  std::fflush(stdout);
+  put(stdout, "\n");
   state().live = false;
 }
 

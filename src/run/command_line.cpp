@@ -80,6 +80,8 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
                   "0: never)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0, 1'000'000));
+  run->add_flag("--overwrite", line.overwrite,
+                "remove the results of an earlier run in the folder and begin again");
   run->add_flag("--dry-run", line.dry_run,
                 "check the case and show its numbers; nothing is run or written");
   run->add_flag("--starts-only", line.starts_only,

@@ -22,6 +22,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> restart{};  // --restart, a restart file to go on from
   int threads = 0;                                 // --threads, 0: all that are there
   int patience = 600;                              // --patience of the watchdog [s], 0: for ever
+  bool overwrite = false;                          // --overwrite: an earlier run in the folder
   bool dry_run = false;                            // --dry-run: check and show, write nothing
   bool starts_only = false;                        // --starts-only: run what the case starts from
   bool quiet = false;                              // --quiet: no live line

@@ -1,5 +1,7 @@
 // barchan run | check | keys | info: from the command line to an exit code.
+#include <fcntl.h>
 #include <mpi.h>
+#include <unistd.h>
 
 #include <Kokkos_Core.hpp>
 #include <charconv>
@@ -50,6 +52,15 @@ void check_environment() {
         fmt::format("the environment variable {} = \"{}\" must be a whole number of at least {}; "
                     "unset it, or use --threads",
                     name, set, least));
+  }
+}
+
+/// A standard stream that is closed leads to nowhere. Else the next file that is opened would take
+/// its number, and what is said would go into the results.
+void keep_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
   }
 }
 
@@ -112,6 +123,8 @@ int refuse(const MpiScope& mpi, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace barchan;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away must not cost the results
+  keep_standard_streams();
   const MpiScope mpi(&argc, &argv);
   try {
     const auto line =

@@ -1,9 +1,12 @@
 // The command run.
 #include <unistd.h>
 
+#include <thread>
+
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/validate.hpp"
+#include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/commands.hpp"
 #include "src/run/simulation.hpp"
@@ -27,25 +30,91 @@ void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
   }
 }
 
-void run_one(const Config& config, const RunOptions& options);
+fs::path start_file(const fs::path& source, const fs::path& beside, int realisation);
+void run_locked(const Config& config, const RunOptions& options);
+
+/// Throws InputError on all ranks if `check` does so on rank 0, which looks at the disk for all.
+template <class Check>
+void check_on_root(const Check& check) {
+  std::string problem;
+  try {
+    if (rank_of(MPI_COMM_WORLD) == 0) check();
+  } catch (const InputError& found) {
+    problem = found.what();
+  }
+  if (broadcast(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
+}
+
+/// The lock of a folder, on rank 0; empty if another process has it.
+std::optional<FolderLock> try_to_lock(const fs::path& folder) {
+  std::optional<FolderLock> lock;
+  check_on_root([&] {
+    if (auto taken = FolderLock::take(folder)) lock.emplace(std::move(*taken));
+    if (lock && !lock->enforced()) {
+      report::warn("{}: this file system has no locks: a second run in it would not be noticed",
+                   folder.string());
+    }
+  });
+  return lock;
+}
+
+/// Waits for whoever computes there.
+std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
+  using namespace std::chrono_literals;
+  for (bool told = false;; told = true) {
+    auto lock = try_to_lock(folder);
+    if (broadcast(lock.has_value(), MPI_COMM_WORLD)) return lock;
+    if (!told)
+      report::info("{} is being computed by {}; waiting", folder.string(),
+                   FolderLock::holder_of(folder));
+    Watchdog::beat("waiting for a case that another process runs");
+    std::this_thread::sleep_for(500ms);
+  }
+}
+
+/// Results of another configuration, or of somebody else, in the folder of a start: nobody asked
+/// for their end, so they stay under another name.
+void set_aside(const fs::path& folder) {
+  check_on_root([&] {
+    fs::path kept = folder;
+    for (int n = 1; fs::exists(kept); ++n) kept = fmt::format("{}.old{}", folder.string(), n);
+    fs::rename(folder, kept);
+    fs::remove(FolderLock::file_in(kept));  // ours, which would find it no more
+    report::info("{} has results of another configuration: they are now in {}", folder.string(),
+                 kept.string());
+  });
+}
+
+/// Runs a start, or goes on with it, unless somebody else has done so while we waited.
+void make_start(const fs::path& source, const fs::path& beside, int realisation) {
+  for (;;) {
+    const auto lock = wait_for_lock(start_case(source, beside, realisation).folder);
+    const auto& [first, config, folder, earlier] = start_case(source, beside, realisation);
+    // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
+    if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
+    if (broadcast(!earlier.same && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
+      set_aside(folder);
+      continue;
+    }
+    report::info("first the case it starts from: {} -> {}", config.title, folder.string());
+    auto restart = earlier.same ? earlier.restart : std::nullopt;
+    if (!restart && config.time.end > first.time.end)  // the same flow some time later
+      restart = start_file(source, beside, realisation - 1);
+    run_locked(config, {.folder = folder, .restart = restart});
+    return;
+  }
+}
 
 /// The file a case starts from. Where that is the last state of another case, in a .toml, that case
 /// is run in the same realisation, or run to its end, if the state is missing.
 fs::path start_file(const fs::path& source, const fs::path& beside, int realisation) {
   if (source.extension() != ".toml") return source.extension().empty() ? fs::path() : source;
+  const bool done = start_case(source, beside, realisation).earlier.done();
+  if (!broadcast(done, MPI_COMM_WORLD)) make_start(source, beside, realisation);
   const StartCase start = start_case(source, beside, realisation);
-  const auto& [first, config, folder, begun, done] = start;
-  // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
-  if (!broadcast(done, MPI_COMM_WORLD)) {
-    report::info("first the case it starts from: {} -> {}", config.title, folder.string());
-    auto restart = begun ? latest_checkpoint(folder) : std::nullopt;
-    if (!restart && config.time.end > first.time.end)  // the same flow some time later
-      restart = start_file(source, beside, realisation - 1);
-    run_one(config, {.folder = folder, .restart = restart});
-  }
-  const auto state = latest_checkpoint(folder);
-  if (!state) throw std::runtime_error(folder.string() + " holds no restart file to start from");
-  return *state;
+  if (!start.earlier.done())
+    throw std::runtime_error(start.folder.string() + " holds no restart file to start from");
+  return *start.earlier.restart;
 }
 
 /// The files a case starts from; what is missing of them is run.
@@ -69,29 +138,19 @@ void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
       config.file.string(), need / 1e9, have / 1e9));
 }
 
-/// Before hours go into what a case starts from. Rank 0 looks, all end if it finds something.
-void check_folder(const Config& config, const RunOptions& options) {
-  std::string problem;
-  try {
-    if (rank_of(MPI_COMM_WORLD) == 0) {
-      check_out_folder(options.folder);
-      if (options.restart) {
-        check_results_go_on(options.folder);
-      } else {
-        check_nothing_is_lost(config, options.folder);
-      }
-    }
-  } catch (const InputError& found) {
-    problem = found.what();
-  }
-  if (broadcast(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
-}
-
-void run_one(const Config& config, const RunOptions& options) {
+/// In a folder that is ours, which all checks have passed.
+void run_locked(const Config& config, const RunOptions& options) {
   const auto sizes =
       options.restart ? known_sizes(config) : grains_ahead(config, options.folder).sizes;
   check_memory(config, sizes);
-  check_folder(config, options);
+  check_on_root([&] {
+    check_is_ours(config, options.folder);
+    if (options.restart) {
+      check_results_go_on(options.folder);
+    } else {
+      check_nothing_is_lost(config, options.folder);
+    }
+  });
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);
@@ -107,6 +166,27 @@ void run_one(const Config& config, const RunOptions& options) {
     throw std::runtime_error(std::string(problem.what()) +
                              (last ? "; the last good restart is " + last->string() : ""));
   }
+}
+
+/// The case that was asked for, unless its results are there. Nothing that took time is removed
+/// unless the user said so.
+void run_one(const Config& config, const RunOptions& options, bool overwrite) {
+  const fs::path& folder = options.folder;
+  check_on_root([&] { check_out_folder(folder); });
+  const auto lock = try_to_lock(folder);
+  if (!broadcast(lock.has_value(), MPI_COMM_WORLD)) {
+    throw InputError(fmt::format("{} is in use by {}: wait for it, or take another --out",
+                                 folder.string(), FolderLock::holder_of(folder)));
+  }
+  if (!options.restart && !overwrite) {
+    const EarlierRun earlier = earlier_run(config, folder);
+    if (broadcast(earlier.done(), MPI_COMM_WORLD)) {
+      report::info("done before; --overwrite computes it again");
+      return;
+    }
+    check_on_root([&] { check_overwrites_nothing(earlier, folder); });
+  }
+  run_locked(config, options);
 }
 
 }  // namespace
@@ -134,7 +214,7 @@ int run_command(const CommandLine& line) {
     if (line.starts_only) {
       start_files(config, options.folder);
     } else {
-      run_one(config, options);
+      run_one(config, options, line.overwrite);
       report::info("results in {}", options.folder.string());
     }
     return 0;

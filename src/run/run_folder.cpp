@@ -1,7 +1,6 @@
 #include "src/run/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <Kokkos_Core.hpp>
 #include <charconv>
@@ -46,13 +45,6 @@ constexpr const char* result_names[] = {"config.toml",       "run.json",
                                         "failure_grains.h5", "failure_grains.xdmf",
                                         "failure_fields.h5", "failure_fields.xdmf"};
 
-/// True for names of files that a new run removes from its folder; pictures and everything that is
-/// not ours stay.
-bool is_result(const fs::path& name) {
-  return std::ranges::count(result_names, name) > 0 || name.extension() == ".tmp" ||
-         is_checkpoint_name(name);
-}
-
 /// The text of a table to go on with; empty if there is none yet.
 std::string text_of_table(const fs::path& file, const std::string& header) {
   const std::string first_line = header + "\n";
@@ -62,46 +54,6 @@ std::string text_of_table(const fs::path& file, const std::string& header) {
                              header + "\"");
   }
   return text;
-}
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-  throw InputError(
-      fmt::format("cannot write results to {}: {}; take another --out", folder.string(), why));
-}
-
-/// The nearest folder on the way up that is there.
-fs::path existing_part(const fs::path& folder) {
-  fs::path at = fs::absolute(folder).lexically_normal();
-  for (;; at = at.parent_path()) {
-    std::error_code error;
-    const auto status = fs::symlink_status(at, error);
-    if (error && status.type() != fs::file_type::not_found && error.value() != ENOTDIR) {
-      refuse(folder, error.message());
-    }
-    if (fs::exists(status) || at == at.parent_path()) return at;
-  }
-}
-
-bool same_folder(const fs::path& a, const fs::path& b) {
-  // What is not there yet is compared by name, which must not depend on where we are.
-  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
-}
-
-void check_start(const std::string& key, const std::string& source, const fs::path& folder) {
-  const fs::path start = source;
-  const auto lost = [&](const std::string& what) {
-    throw InputError(
-        fmt::format("{} = {}: {} {}, whose results a new run removes; take another --out", key,
-                    source, what, folder.string()));
-  };
-  if (start.extension() == ".toml") {
-    const fs::path results = fs::absolute(folder).parent_path() / start.stem();
-    if (same_folder(results, folder))
-      lost("the results of that case go to the folder of this one,");
-  } else if (!start.extension().empty() && is_result(start.filename()) &&
-             same_folder(start.parent_path(), folder)) {
-    lost("it is in the run folder");
-  }
 }
 
 }  // namespace
@@ -119,49 +71,15 @@ Provenance make_provenance(const Config& config) {
           .backend = device_name()};
 }
 
-void check_out_folder(const fs::path& folder) {
-  if (folder.empty()) throw InputError("--out: must name a folder, and the name is empty");
-  const fs::path there = existing_part(folder);
-  std::error_code error;
-  if (!fs::is_directory(there, error)) {
-    const bool link = fs::is_symlink(there, error);
-    refuse(folder, fmt::format("{} is {}", there.string(),
-                               link ? "a link that leads nowhere" : "a file, not a folder"));
-  }
-  if (::access(there.c_str(), W_OK | X_OK) != 0) {
-    refuse(folder, fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
-  }
-  if (!same_folder(there, folder)) return;
-  for (const auto& entry : fs::directory_iterator(there)) {
-    if (is_result(entry.path().filename()) && entry.is_directory()) {
-      refuse(folder, entry.path().filename().string() + " in it is a folder");
-    }
-  }
+bool is_result_name(const fs::path& name) {
+  const auto known = [](const fs::path& file) {
+    return std::ranges::count(result_names, file) > 0 || is_checkpoint_name(file);
+  };
+  return known(name) || (name.extension() == ".tmp" && known(name.stem()));
 }
 
-void check_nothing_is_lost(const Config& config, const fs::path& folder) {
-  if (config.fluid) check_start("initial.fluid", config.initial.fluid, folder);
-  if (config.grains) check_start("initial.grains", config.initial.grains, folder);
-  const fs::path own = fs::path(folder) / "config.toml";
-  std::error_code error;
-  if (fs::equivalent(own, config.file, error) && read_text(own) != to_toml(config)) {
-    throw InputError(
-        fmt::format("{}: the run would write its own config.toml over this case; take another "
-                    "--out, or rename it",
-                    config.file.string()));
-  }
-}
-
-void check_results_go_on(const fs::path& folder) {
-  try {
-    for (const auto& [name, columns] : {history, dune}) text_of_table(folder / name, columns);
-    for (const char* name : {"grains.h5", "fields.h5", "tracks.h5"}) {
-      if (fs::exists(folder / name)) list_frames(Hdf5File(folder / name, Hdf5File::Mode::read));
-    }
-  } catch (const std::runtime_error& problem) {
-    throw InputError(
-        fmt::format("{}; move it away, or go on in another folder with --out", problem.what()));
-  }
+void check_tables(const fs::path& folder) {
+  for (const auto& [name, columns] : {history, dune}) text_of_table(folder / name, columns);
 }
 
 std::string status_in(const fs::path& run_json) {
@@ -196,12 +114,13 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
       throw InputError(fmt::format("cannot make the folder {}: {}; take another --out",
                                    folder.string(), error.message()));
     }
+    if (!restart_time || status_in(folder / "run.json").empty())
+      write_summary(folder, {{"status", "running"}, {"message", ""}});
     // Of a run that failed, a restart removes what it left to look at.
     for (const auto& entry : fs::directory_iterator(folder)) {
       const fs::path name = entry.path().filename();
-      if (is_result(name) && (!restart_time || name.string().starts_with("failure_"))) {
-        fs::remove(entry.path());
-      }
+      const bool goes = !restart_time || name.string().starts_with("failure_");
+      if (goes && is_result_name(name) && name != "run.json") fs::remove(entry.path());
     }
     for (const auto& [name, columns] : {history, dune})
       cut_table(folder / name, columns, restart_time.value_or(0));

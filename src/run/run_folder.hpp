@@ -1,5 +1,5 @@
-// The folder of one run: whether results can go there, asked before anything is computed; its
-// configuration, summary and two CSV tables (formats: docs/conventions.md).
+// The folder of one run: its configuration, summary and two CSV tables (formats:
+// docs/conventions.md).
 #pragma once
 
 #include <mpi.h>
@@ -19,14 +19,9 @@ std::string device_name();
 /// Title and resolved text of the case, version of the program, backend.
 Provenance make_provenance(const Config& config);
 
-/// Throws InputError if `folder` cannot be made or written, or holds folders where results go.
-/// Makes nothing.
-void check_out_folder(const std::filesystem::path& folder);
-/// Throws InputError if a new run in `folder` would remove what it starts from, the case itself
-/// included.
-void check_nothing_is_lost(const Config& config, const std::filesystem::path& folder);
-/// Throws InputError if the tables and frames in `folder` are not such as a restart goes on with.
-void check_results_go_on(const std::filesystem::path& folder);
+/// True for names of files that a new run removes from its folder; pictures and everything that is
+/// not ours stay.
+bool is_result_name(const std::filesystem::path& name);
 
 /// One line of history.csv.
 struct HistoryRow {
@@ -49,7 +44,8 @@ struct HistoryRow {
 // The next four throw std::runtime_error naming the file and the reason.
 
 /// A new run (`restart_time` empty): makes the folder, and removes the results and restart files of
-/// an earlier run in it, so read what the run starts from before.
+/// an earlier run in it, so read what the run starts from before. A run.json is there from the
+/// first moment on: it says that the folder is ours.
 /// Going on from a restart: keeps them, and cuts the tables after the lines with t <= restart_time.
 /// All ranks together; the folder is ready when the call returns it.
 std::filesystem::path prepare_folder(const std::filesystem::path& folder,
@@ -63,6 +59,10 @@ void write_summary(const std::filesystem::path& folder, const nlohmann::ordered_
 
 /// The "status" in a run.json; empty if the file is missing or damaged.
 std::string status_in(const std::filesystem::path& run_json);
+
+/// Throws std::runtime_error if history.csv or dune.csv has other columns than a restart goes on
+/// with.
+void check_tables(const std::filesystem::path& folder);
 
 /// Keeps the lines of a CSV table whose first column is at most `t`; a last line that was not
 /// written to its end goes too. A missing or empty file becomes one with the header only.

@@ -8,9 +8,7 @@
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
 #include "src/config/realisation.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/run/initial_state.hpp"
-#include "src/run/run_folder.hpp"
 
 namespace barchan {
 
@@ -34,8 +32,8 @@ void add_missing(const Config& config, const fs::path& folder, std::vector<Start
     StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
     const bool known = std::ranges::any_of(
         missing, [&](const StartCase& other) { return other.folder == start.folder; });
-    if (known || start.done) return;
-    if (!start.begun) add_missing(start.config, start.folder, missing);
+    if (known || start.earlier.done()) return;
+    if (!start.earlier.same) add_missing(start.config, start.folder, missing);
     missing.push_back(std::move(start));
   };
   if (config.fluid) add(config.initial.fluid);
@@ -58,8 +56,7 @@ StartCase start_case(const fs::path& source, const fs::path& beside, int realisa
   start.config = realisation_of(start.first, realisation);
   const std::string other = start.config == start.first ? "" : fmt::format("-r{}", realisation);
   start.folder = beside / (source.stem().string() + other);
-  start.begun = is_written_in(start.folder / "config.toml", start.config);
-  start.done = start.begun && status_in(start.folder / "run.json") == "done";
+  start.earlier = earlier_run(start.config, start.folder);
   return start;
 }
 
@@ -81,9 +78,7 @@ GrainsAhead grains_ahead(const Config& config, const fs::path& folder) {
   const fs::path& source = config.initial.grains;
   if (source.extension() != ".toml") return grains_in(source, config);
   const StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
-  if (start.done) {
-    if (const auto state = latest_checkpoint(start.folder)) return grains_in(*state, config);
-  }
+  if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
   GrainsAhead ahead = grains_ahead(start.config, start.folder);
   check_sizes(ahead.sizes, config, source);
   return ahead;

@@ -8,6 +8,7 @@
 
 #include "src/config/config.hpp"
 #include "src/grains/initial_grains.hpp"
+#include "src/run/folder_checks.hpp"
 
 namespace barchan {
 
@@ -16,8 +17,7 @@ struct StartCase {
   Config first;   // as it stands in its file
   Config config;  // in the realisation that is asked for
   std::filesystem::path folder;
-  bool begun = false;  // the folder has results of exactly this configuration
-  bool done = false;   // and they are complete
+  EarlierRun earlier;  // what is in the folder
 };
 
 /// The start `source`, a .toml, in a realisation. Its folder is in `beside`, that of the run.

@@ -21,6 +21,8 @@ def command(folder, settings, restart=None):
     words = [PROGRAM, "run", str(CASE), "--quiet", "--out", str(folder)]
     for key, value in settings.items():
         words += ["--set", f"{key}={value}"]
+    if restart == "--overwrite":
+        return [*words, restart]
     return words + (["--restart", str(restart)] if restart else [])
 
 

@@ -1,0 +1,36 @@
+// Whether results can go to a folder, asked before anything is computed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "src/config/config.hpp"
+
+namespace barchan {
+
+/// Throws InputError if `folder` cannot be made or written, or holds folders where results go.
+/// Makes nothing.
+void check_out_folder(const std::filesystem::path& folder);
+/// Throws InputError if `folder` holds files with names of results, but no run.json of a run: they
+/// are somebody's own. The case itself does not count, nor do restart files.
+void check_is_ours(const Config& config, const std::filesystem::path& folder);
+/// Throws InputError if a new run in `folder` would remove what it starts from, the case itself
+/// included.
+void check_nothing_is_lost(const Config& config, const std::filesystem::path& folder);
+/// Throws InputError if the tables and frames in `folder` are not such as a restart goes on with.
+void check_results_go_on(const std::filesystem::path& folder);
+
+/// A run whose results are in a folder.
+struct EarlierRun {
+  std::string status;                            // as in run.json, empty: there is none
+  bool same = false;                             // of exactly this configuration
+  std::optional<std::filesystem::path> restart;  // its last restart file
+  bool done() const { return status == "done" && same && restart; }
+  bool is_worth_keeping() const { return status == "done" || restart; }
+};
+EarlierRun earlier_run(const Config& config, const std::filesystem::path& folder);
+/// Throws InputError if a new run in `folder` would remove an earlier one that is worth keeping.
+void check_overwrites_nothing(const EarlierRun& earlier, const std::filesystem::path& folder);
+
+}  // namespace barchan

@@ -1,0 +1,202 @@
+#!/usr/bin/python3
+"""Nothing is lost by a habit: a second run in a folder, the same command again, a folder of somebody else's files, two
+cases that share a start. And two runs that fight for one folder while BARCHAN_KILLS (4) of them are killed."""
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+import faults
+
+LONG = {**faults.OFTEN, "time.end": 0.25}
+SHARED = """
+[time]
+end = {end}
+fluid_step = 2.5e-4
+grain_step = 5e-6
+[domain]
+size = [0.012, 0.006, 0.006]
+"""
+FLUID = """[fluid]
+cells = [10, 14, 6]
+first_cell_height = 2.6e-4
+mean_velocity = 0.2
+"""
+GRAINS = """[grains]
+youngs_modulus = 1.25e6
+"""
+POURED = """sizes = [[2e-4, 200]]
+[initial.grains.pour]
+centre = [0.008, 0.003]
+radius = 0.0018
+"""
+
+
+def content(folder):
+    """Every file of a folder; its bytes and when it was last written."""
+    return {path.name: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir() if path.is_file()}
+
+
+def wait_for_restart(folder, process):
+    for _ in range(2000):
+        if faults.last_restart(folder):
+            return
+        if process.poll() is not None:
+            break
+        time.sleep(0.005)
+    process.kill()
+    faults.fail(f"{folder}: no restart file: {process.stderr.read()}")
+
+
+def refuses_a_second_run(work):
+    faults.expect(faults.run(work / "whole", LONG), 0)
+    folder = work / "one"
+    first = faults.start(folder, LONG)
+    wait_for_restart(folder, first)
+    holder = f"is in use by process {first.pid} on "
+    for settings in (LONG, {**LONG, "initial.seed": 7}):
+        faults.expect(faults.run(folder, settings), 2, holder, "take another --out")
+    faults.expect(faults.run(folder, LONG, faults.last_restart(folder)), 2, holder)
+    said = first.communicate(timeout=120)[1]
+    if first.returncode != 0:
+        faults.fail(f"the first run ended with {first.returncode}: {said}")
+    faults.same_run(work / "whole", folder)
+    if (folder / ".barchan.lock").exists():
+        faults.fail("the lock is still there")
+
+
+def keeps_what_the_same_command_would_remove(work):
+    folder = work / "again"
+    limited = {**LONG, "time.wall_clock_limit": 0.1}
+    faults.expect(faults.run(folder, limited), 3)
+    before = content(folder)
+    said = ("holds an unfinished run:", f"--restart {faults.last_restart(folder)}", "--overwrite")
+    faults.expect(faults.run(folder, limited), 2, *said)
+    faults.expect(faults.run(folder, faults.OFTEN), 2, "an unfinished run of another configuration")
+    if content(folder) != before:
+        faults.fail("a refused run changed the folder")
+    faults.expect(faults.run(folder, LONG, faults.last_restart(folder)), 0)
+    before = content(folder)
+    done = faults.run(folder, LONG)
+    faults.expect(done, 0)
+    if content(folder) != before:
+        faults.fail("a finished run was not left as it is")
+    faults.expect(faults.run(folder, {**LONG, "initial.seed": 7}), 2, "holds a finished run of another configuration")
+    faults.expect(faults.run(folder, faults.OFTEN, "--overwrite"), 0)
+    faults.expect(faults.run(work / "fresh", faults.OFTEN), 0)
+    faults.same_run(work / "fresh", folder)
+
+
+def leaves_files_of_others(work):
+    folder = work / "desk"
+    folder.mkdir()
+    for name in ("log.txt", "notes.tmp", "statistics.csv", "tracks.h5", "thesis.txt"):
+        (folder / name).write_text("mine\n")
+    before = content(folder)
+    faults.expect(faults.run(folder, {}), 2, "in it is not of a run", "take another --out")
+    if content(folder) != before:
+        faults.fail("a refused run touched files of others")
+    for name in ("log.txt", "statistics.csv", "tracks.h5"):
+        (folder / name).unlink()
+    faults.expect(faults.run(folder, {}), 0)
+    if any((folder / name).read_text() != "mine\n" for name in ("notes.tmp", "thesis.txt")):
+        faults.fail("a run removed files of others")
+
+
+def write_cases(work, names):
+    """Cases that start from one flow and one heap."""
+    work.mkdir()
+    (work / "chan.toml").write_text(SHARED.format(end=0.05) + FLUID + '[initial]\nfluid = "turbulent"\n')
+    (work / "heap.toml").write_text(SHARED.format(end=0.01) + GRAINS + POURED)
+    for name in names:
+        starts = '[initial]\nfluid = "chan.toml"\ngrains = "heap.toml"\n'
+        (work / f"{name}.toml").write_text(SHARED.format(end=0.002) + FLUID + GRAINS + starts)
+
+
+def start_case(work, name):
+    return subprocess.Popen([faults.PROGRAM, "run", work / f"{name}.toml", "--out", work / "runs" / name],
+                            env=faults.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def ended(process):
+    said = process.communicate(timeout=120)[0]
+    if process.returncode != 0:
+        faults.fail(f"a case ended with {process.returncode}: {said}")
+    return said
+
+
+def shares_starts(work):
+    """Cases begun together: whoever comes second waits, then uses what the first has made."""
+    names = ("x", "y", "z")
+    write_cases(work / "shared", names)
+    said = [ended(process) for process in [start_case(work / "shared", name) for name in names]]
+    if not any("is being computed by process" in words for words in said):
+        faults.fail("no case waited: " + "\n".join(said))
+    made = [words.count("first the case it starts from") for words in said]
+    if sum(made) != 2:
+        faults.fail(f"two starts were made {made} times")
+    for name in names[1:]:
+        same = [faults.last_restart(work / "shared/runs" / one) for one in (names[0], name)]
+        faults.same_bits.compare(*same)
+
+
+def keeps_the_older_start(work):
+    """A start whose case has changed is made again beside the old one; a damaged one in its place."""
+    folder = work / "changed"
+    write_cases(folder, ("x",))
+    ended(start_case(folder, "x"))
+    old = content(folder / "runs/heap")
+    heap = folder / "heap.toml"
+    heap.write_text(heap.read_text().replace("1.25e6", "1.3e6"))
+    shutil.rmtree(folder / "runs/x")
+    said = ended(start_case(folder, "x"))
+    if "they are now in" not in said or content(folder / "runs/heap.old1") != old:
+        faults.fail(f"the older start is gone: {said}")
+    faults.last_restart(folder / "runs/heap").unlink()  # "done", but nothing to start from
+    shutil.rmtree(folder / "runs/x")
+    if "first the case it starts from" not in ended(start_case(folder, "x")):
+        faults.fail("a start without its last state was taken for one that is done")
+
+
+def survives_a_fight(work):
+    """Two at once want a folder, one of them is killed, and again, until one says that it is done."""
+    n, killed, refused = int(os.environ.get("BARCHAN_KILLS", "4")), 0, 0
+    random.seed(2)
+    faults.expect(faults.run(work / "unbroken", faults.OFTEN), 0)
+    for fight in range(1000):
+        folder = work / f"fight_{fight}"
+        while True:
+            pair = [faults.start(folder, faults.OFTEN, faults.last_restart(folder)) for _ in range(2)]
+            time.sleep(random.uniform(0, 1.2))
+            for process in pair:
+                if killed < n and random.random() < 0.7:
+                    process.send_signal(signal.SIGKILL)
+            codes = [process.wait() for process in pair]
+            for process in pair:
+                said = process.stderr.read()
+                process.stderr.close()
+                if process.returncode not in (0, 2, -signal.SIGKILL):
+                    faults.fail(f"a run ended with {process.returncode}: {said}")
+            killed += codes.count(-signal.SIGKILL)
+            refused += codes.count(2)
+            if 0 in codes:
+                break
+        faults.same_run(work / "unbroken", folder)
+        if killed >= n:
+            break
+    print(f"{killed} kills in {fight + 1} fights, {refused} refused, results equal to the bit")
+
+
+def main(work):
+    refuses_a_second_run(work)
+    keeps_what_the_same_command_would_remove(work)
+    leaves_files_of_others(work)
+    shares_starts(work)
+    keeps_the_older_start(work)
+    survives_a_fight(work)
+
+
+if __name__ == "__main__":
+    faults.in_a_new_folder(main)
