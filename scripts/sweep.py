@@ -102,12 +102,14 @@ def state_of(folder, config):
 class Running:
     """One case that computes; its output goes to the run folder's sweep.txt."""
 
-    def __init__(self, program, study, case, restart, threads):
+    def __init__(self, program, study, case, restart, threads, overwrite):
         self.case, self.folder = case, study.out / case.run_name
         command = [program, "run", str(study.base), *case.set_options(), "--out", str(self.folder),
                    "--quiet", "--threads", str(threads)]
         if restart:
             command += ["--restart", str(restart)]
+        elif overwrite:
+            command.append("--overwrite")
         environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false"}
         self.folder.mkdir(parents=True, exist_ok=True)
         with open(self.folder / "sweep.txt", "a") as log:
@@ -129,8 +131,9 @@ class Running:
 class Sweep:
     """Computes the runs `chosen` of a study; its tables list all of them."""
 
-    def __init__(self, program, study, chosen, draw):
+    def __init__(self, program, study, chosen, draw, overwrite):
         self.program, self.study, self.chosen, self.draw = program, study, chosen, draw
+        self.overwrite = overwrite
         self.running, self.failed, self.stopping = [], {}, False
         self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
         self.said = time.monotonic()
@@ -196,7 +199,7 @@ class Sweep:
             if starts.returncode != 0:
                 self.failed[case.run_name] = f"what it starts from, see {folder / 'sweep.txt'}"
                 return
-        self.running.append(Running(self.program, self.study, case, restart, self.study.threads))
+        self.running.append(Running(self.program, self.study, case, restart, self.study.threads, self.overwrite))
         say(f"{case.run_name}: {'goes on from ' + restart.name if restart else 'started'}")
 
     def watch(self):
@@ -258,6 +261,8 @@ def parse(arguments):
     parser.add_argument("--only", metavar="RUN", nargs="+", help="these runs of it; patterns with * are taken")
     parser.add_argument("--at-once", type=int, metavar="N", help="cases side by side")
     parser.add_argument("--threads", type=int, metavar="N", help="threads of each (default: cores shared out)")
+    parser.add_argument("--overwrite", action="store_true",
+                        help="begin cases again whose folder has results of another configuration")
     parser.add_argument("--list", action="store_true", help="show the cases, run nothing")
     parser.add_argument("--no-pictures", action="store_true")
     return parser.parse_args(arguments)
@@ -277,17 +282,33 @@ def lock(folder):
     return handle
 
 
+def check_nobody_runs(folders):
+    """A case that somebody runs by hand must not be run beside it: StudyError with who does."""
+    for folder in folders:
+        try:
+            with open(folder / ".barchan.lock") as handle:
+                holder = handle.readline().strip() or "another process"
+                fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            continue
+        except BlockingIOError as error:
+            raise StudyError(f"{folder} is in use by {holder}: wait for it, or take another --out") from error
+        except OSError:
+            continue  # a file system without locks: the program says so
+
+
 def main(arguments):
     options = parse(arguments)
     try:
         study = read_study(Path(options.study), options)
         chosen = chosen_of(study, options.only)
-        sweep = Sweep(options.program, study, chosen, draw=not options.no_pictures)
+        sweep = Sweep(options.program, study, chosen, not options.no_pictures, options.overwrite)
         if options.list:
             for case in chosen:
                 print(case.run_name, *case.set_options()[1::2])
             return 0
         held = lock(study.out)
+        check_nobody_runs(study.out / case.run_name for case in chosen)
     except StudyError as error:
         print(error, file=sys.stderr)
         return 2

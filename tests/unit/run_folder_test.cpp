@@ -1,6 +1,7 @@
 // Where results cannot go is told before anything is computed, and nothing that is needed is
 // removed; the tables, the summary and what a restart makes of them.
 #include "src/run/run_folder.hpp"
+#include "src/run/folder_checks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -114,18 +115,20 @@ TEST(RunFolder, ANewRunRemovesOnlyResultsAndARestartOnlyAFailure) {
   const TemporaryFolder folder;
   for (const char* name : {"fields.h5", "failure_grains.h5", "fields.xdmf", "restart_0000000100.h5",
                            "restart_0000000200.h5.tmp", "run.json", "log.txt", "notes.md",
-                           "picture.png", "restart_mine.h5"}) {
+                           "notes.tmp", "picture.png", "restart_mine.h5"}) {
     std::ofstream(folder / name) << "x";
   }
   prepare_folder(folder.path(), 1.0);
-  EXPECT_EQ(files_in(folder.path()),
-            (std::vector<std::string>{"dune.csv", "fields.h5", "fields.xdmf", "history.csv",
-                                      "log.txt", "notes.md", "picture.png", "restart_0000000100.h5",
-                                      "restart_0000000200.h5.tmp", "restart_mine.h5", "run.json"}));
+  EXPECT_EQ(
+      files_in(folder.path()),
+      (std::vector<std::string>{"dune.csv", "fields.h5", "fields.xdmf", "history.csv", "log.txt",
+                                "notes.md", "notes.tmp", "picture.png", "restart_0000000100.h5",
+                                "restart_0000000200.h5.tmp", "restart_mine.h5", "run.json"}));
   prepare_folder(folder.path(), {});
   EXPECT_EQ(files_in(folder.path()),
-            (std::vector<std::string>{"dune.csv", "history.csv", "notes.md", "picture.png",
-                                      "restart_mine.h5"}));
+            (std::vector<std::string>{"dune.csv", "history.csv", "notes.md", "notes.tmp",
+                                      "picture.png", "restart_mine.h5", "run.json"}));
+  EXPECT_EQ(status_in(folder / "run.json"), "running");
 }
 
 TEST(RunFolder, ProblemsNameTheFile) {
@@ -208,6 +211,37 @@ TEST_F(OutFolder, DoesNotHoldTheCaseItself) {
   EXPECT_EQ(lost(config, "other"), "");
   write("out/config.toml", to_toml(config));  // the same again: a run repeated from its own words
   EXPECT_EQ(lost(config, "out"), "");
+}
+
+TEST_F(OutFolder, IsOfARunIfItHoldsResults) {
+  const Config config = load_config_text(test::grain_case(), folder_ / "out/config.toml");
+  const auto foreign = [&] { return message_of([&] { check_is_ours(config, folder_ / "out"); }); };
+  EXPECT_EQ(foreign(), "");
+  for (const char* name : {"notes.tmp", "thesis.txt", "config.toml", "restart_0000000100.h5"})
+    write(std::string("out/") + name);
+  EXPECT_EQ(foreign(), "");
+  write("out/log.txt");
+  EXPECT_NE(foreign().find("log.txt in it is not of a run; take another --out"), std::string::npos);
+  write_summary(folder_ / "out", {{"status", "stopped"}});
+  EXPECT_EQ(foreign(), "");
+}
+
+TEST_F(OutFolder, KeepsARunThatTookTime) {
+  const Config config = load_config_text(test::grain_case(), folder_ / "case.toml");
+  const auto kept = [&] {
+    return message_of(
+        [&] { check_overwrites_nothing(earlier_run(config, folder_ / "out"), folder_ / "out"); });
+  };
+  write("out/config.toml", to_toml(config));
+  write_summary(folder_ / "out", {{"status", "failed"}});
+  EXPECT_EQ(kept(), "");  // it had not come far enough for a restart file
+  write("out/restart_0000000100.h5");
+  EXPECT_NE(kept().find("holds an unfinished run: go on with --restart"), std::string::npos);
+  write_summary(folder_ / "out", {{"status", "done"}});
+  EXPECT_TRUE(earlier_run(config, folder_ / "out").done());
+  write("out/config.toml", "[case]\n");
+  EXPECT_NE(kept().find("holds a finished run of another configuration"), std::string::npos);
+  EXPECT_FALSE(earlier_run(config, folder_ / "out").done());
 }
 
 TEST_F(OutFolder, HoldsTablesAndFramesThatARestartGoesOnWith) {
