@@ -52,7 +52,11 @@ void write_holder(int descriptor) {
 
 std::optional<FolderLock> FolderLock::take(const fs::path& folder) {
   std::error_code error;
-  const bool made = fs::create_directories(folder, error);
+  std::vector<fs::path> made;
+  for (fs::path at = fs::absolute(folder).lexically_normal(); !fs::exists(at, error);
+       at = at.parent_path())
+    if (at.has_filename()) made.push_back(at);
+  fs::create_directories(folder, error);
   if (error) refuse(folder, error.value());
   const fs::path file = file_in(folder);
   for (;;) {
@@ -68,7 +72,7 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder) {
       continue;
     }
     write_holder(descriptor);
-    return FolderLock(file, descriptor, locked, made);
+    return FolderLock(file, descriptor, locked, std::move(made));
   }
 }
 
@@ -81,22 +85,22 @@ std::string FolderLock::holder_of(const fs::path& folder) {
   return words.empty() ? "another process" : words;
 }
 
-FolderLock::FolderLock(fs::path file, int descriptor, bool enforced, bool made_folder)
+FolderLock::FolderLock(fs::path file, int descriptor, bool enforced, std::vector<fs::path> made)
     : file_(std::move(file)),
       descriptor_(descriptor),
       enforced_(enforced),
-      made_folder_(made_folder) {}
+      made_(std::move(made)) {}
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : file_(std::move(other.file_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       enforced_(other.enforced_),
-      made_folder_(other.made_folder_) {}
+      made_(std::move(other.made_)) {}
 
 FolderLock::~FolderLock() {
   if (descriptor_ < 0) return;
   if (names_open_file(file_, descriptor_)) ::unlink(file_.c_str());
-  if (made_folder_) ::rmdir(file_.parent_path().c_str());  // fails if anything is in it
+  for (const fs::path& folder : made_) ::rmdir(folder.c_str());  // fails if anything is in it
   ::close(descriptor_);
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace barchan {
 
@@ -20,7 +21,7 @@ class FolderLock {
   /// Who has it, in words: "process 123 on host since 2026-11-25 10:00:00".
   static std::string holder_of(const std::filesystem::path& folder);
 
-  /// Removes the file, and the folder if this made it and nothing was put there.
+  /// Removes the file, and folders that this made if nothing was put there.
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock(const FolderLock&) = delete;
@@ -31,12 +32,13 @@ class FolderLock {
   bool enforced() const { return enforced_; }
 
  private:
-  FolderLock(std::filesystem::path file, int descriptor, bool enforced, bool made_folder);
+  FolderLock(std::filesystem::path file, int descriptor, bool enforced,
+             std::vector<std::filesystem::path> made);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
   bool enforced_ = false;
-  bool made_folder_ = false;
+  std::vector<std::filesystem::path> made_;  // folders, the deepest first
 };
 
 }  // namespace barchan

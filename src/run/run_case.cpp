@@ -172,7 +172,10 @@ void run_locked(const Config& config, const RunOptions& options) {
 /// unless the user said so.
 void run_one(const Config& config, const RunOptions& options, bool overwrite) {
   const fs::path& folder = options.folder;
-  check_on_root([&] { check_out_folder(folder); });
+  check_on_root([&] {
+    check_out_folder(folder);
+    if (!options.restart) check_nothing_is_lost(config, folder);
+  });
   const auto lock = try_to_lock(folder);
   if (!broadcast(lock.has_value(), MPI_COMM_WORLD)) {
     throw InputError(fmt::format("{} is in use by {}: wait for it, or take another --out",

@@ -31,7 +31,7 @@ TEST(FolderLock, IsForOneAtATimeAndSaysWho) {
 TEST(FolderLock, RemovesOnlyAFolderThatItMadeAndNobodyUsed) {
   const TemporaryFolder folder;
   ASSERT_TRUE(FolderLock::take(folder / "new/deep"));
-  EXPECT_FALSE(fs::exists(folder / "new/deep"));
+  EXPECT_FALSE(fs::exists(folder / "new"));
   {
     const auto lock = FolderLock::take(folder / "used");
     std::ofstream(folder / "used/result") << "x";
