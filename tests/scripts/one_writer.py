@@ -6,10 +6,13 @@ import random
 import shutil
 import signal
 import subprocess
+import sys
 import time
+from pathlib import Path
 
 import faults
 
+ROOT = Path(__file__).parents[2]
 LONG = {**faults.OFTEN, "time.end": 0.25}
 SHARED = """
 [time]
@@ -65,6 +68,34 @@ def refuses_a_second_run(work):
     faults.same_run(work / "whole", folder)
     if (folder / ".barchan.lock").exists():
         faults.fail("the lock is still there")
+
+
+def refuses_a_sweep(work):
+    """A case of a study that somebody runs by hand; and one whose folder has results of another configuration."""
+    (work / "study.toml").write_text(f"""[study]
+base = "{faults.CASE}"
+[[case]]
+name = "one"
+""")
+    command = [sys.executable, ROOT / "scripts/sweep.py", faults.PROGRAM, work / "study.toml", "--out", work / "study",
+               "--no-pictures", "--threads", "1"]
+    by_hand = faults.start(work / "study/one", LONG)
+    wait_for_restart(work / "study/one", by_hand)
+    faults.expect(sweep(command), 2, f"is in use by process {by_hand.pid}")
+    if by_hand.wait() != 0:
+        faults.fail(f"the run beside a sweep ended with {by_hand.returncode}: {by_hand.stderr.read()}")
+    faults.same_run(work / "whole", work / "study/one")
+    before = faults.last_restart(work / "study/one").read_bytes()
+    changed = sweep(command)
+    if changed.returncode != 1 or "of another configuration" not in changed.stdout:
+        faults.fail(f"a sweep over another configuration: {changed.returncode}, {changed.stdout}")
+    if faults.last_restart(work / "study/one").read_bytes() != before:
+        faults.fail("the sweep removed it")
+    faults.expect(sweep([*command, "--overwrite"]), 0)
+
+
+def sweep(command):
+    return subprocess.run(command, env=faults.ENVIRONMENT, capture_output=True, text=True)
 
 
 def keeps_what_the_same_command_would_remove(work):
@@ -191,6 +222,7 @@ def survives_a_fight(work):
 
 def main(work):
     refuses_a_second_run(work)
+    refuses_a_sweep(work)
     keeps_what_the_same_command_would_remove(work)
     leaves_files_of_others(work)
     shares_starts(work)
