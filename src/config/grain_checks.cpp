@@ -73,6 +73,23 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
                      "some of its rows empty");
 }
 
+/// What rises, and what the flow will not move.
+void check_motion(const Config& c, const Derived& derived, Findings& found) {
+  const GrainConfig& grains = *c.grains;
+  if (grains.frozen) return;
+  const double around = c.fluid ? c.fluid->density : grains.ambient ? grains.ambient->density : 0;
+  found.warning_if(grains.density <= around, {"grains.density", "fluid.density"},
+                   "is not above that of the fluid, {:.6g} kg/m3: the grains float", around);
+  const GrainNumbers& n = *derived.grains;
+  // In a laminar flow a bed is as a rule so deep that u* of the whole height says little.
+  const bool turbulent = derived.fluid && derived.fluid->reynolds > 2000;
+  found.warning_if(
+      turbulent && n.shields < n.shields_threshold, {"fluid.mean_velocity", "grains.sizes"},
+      "gives a Shields number of {:.3f}, below the {:.3f} at which sand begins to move: "
+      "expect no bed load",
+      n.shields, n.shields_threshold);
+}
+
 void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Findings& found) {
   for (const int axis : {0, 1}) {
     const double extent = domain[axis == 0 ? 0 : 2];
@@ -150,6 +167,8 @@ void check_grains(const Config& c, Findings& found) {
                    "stops grains where the fluid, periodic, passes");
   found.warning_if(grains.boundary_z == GrainBoundaryZ::wall, {"grains.boundary_z"},
                    "stops grains where the fluid, periodic, passes");
+  found.warning_if(c.coupling.forces == ForceSwitches{false, false, false, false, false},
+                   {"coupling.forces"}, "is empty: the flow does not move the grains");
 }
 
 std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeClass>& sizes) {
@@ -185,6 +204,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
           (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach),
       {"domain.size", "grains.sizes", "grains.skin"},
       "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
+  check_motion(c, derived, found);
   if (!c.fluid) return found.all;
   check_cells(c, n, found);
   check_smoothing(c, *derived.fluid, n.d_mean, found);

@@ -4,7 +4,6 @@
 
 #include <fmt/ranges.h>
 
-#include "src/config/keys.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {
@@ -101,6 +100,13 @@ void check_fluid(const Config& c, Findings& found) {
   found.error_if(fluid.uniform_height > 0 && fluid.first_cell_height == 0,
                  {"fluid.uniform_height", "fluid.first_cell_height"},
                  "must come with a first_cell_height, the height of those rows");
+  constexpr int least_rows = 8;
+  found.warning_if(
+      driven && fluid.bottom == WallFlow::no_slip && fluid.cells[1] < least_rows,
+      {"fluid.cells", "fluid.bottom"},
+      "has {} rows over a no-slip floor; with fewer than {} the shear at the floor, and "
+      "u* with it, is far off",
+      fluid.cells[1], least_rows);
   if (!check_rows(c, found)) check_flow_step(c, *derive(c, {}).fluid, found);
 }
 
@@ -112,19 +118,6 @@ void check_initial(const Config& c, Findings& found) {
                  "must be absent without a [grains] section");
   found.error_if(c.grains && !given, {"initial.grains", "initial.grains.pour"},
                  "must say where the [grains] start: a file or {{ pour = {{...}} }}");
-}
-
-/// Keys of [coupling] that were changed and can do nothing.
-void check_coupling(const Config& c, Findings& found) {
-  if (c.fluid && c.grains) return;
-  const char* missing = c.fluid ? "grains" : "fluid";
-  for (const Section& section : sections()) {
-    if (section.name != "coupling") continue;
-    for (const Key& key : section.keys) {
-      found.error_if(key.text(c) != key.text(Config{}), {key.dotted(), missing},
-                     "must be absent without a [{}] section", missing);
-    }
-  }
 }
 
 void check_output(const Config& c, Findings& found) {
@@ -142,6 +135,13 @@ void check_output(const Config& c, Findings& found) {
   check("output.grains_interval", &O::grains_interval);
   check("output.fields_interval", &O::fields_interval);
   check("output.tracks_interval", &O::tracks_interval);
+  const O& o = c.output;
+  const bool grains =
+      c.grains && (o.dune_interval > 0 || o.grains_interval > 0 || o.tracks_interval > 0);
+  found.warning_if(
+      o.history_interval == 0 && !grains && !(c.fluid && o.fields_interval > 0) && !c.statistics,
+      {"output.history_interval"},
+      "is 0 as all other intervals: the run leaves nothing but its last state");
 }
 
 void check_statistics(const Config& c, Findings& found) {
@@ -176,7 +176,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   if (c.fluid) check_fluid(c, found);
   if (c.grains) check_grains(c, found);
   check_initial(c, found);
-  check_coupling(c, found);
+  check_effects(c, found);
   check_output(c, found);
   check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);

@@ -64,6 +64,9 @@ struct Findings {
   }
 };
 
+/// Keys that were changed and can do nothing.
+void check_effects(const Config& config, Findings& found);
+
 /// [grains] and its cone against each other and against the fluid. `config` has the section.
 void check_grains(const Config& config, Findings& found);
 

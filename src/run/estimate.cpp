@@ -138,6 +138,11 @@ std::string estimate(const Config& config, const std::filesystem::path& folder,
     text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
                         start.folder.filename().string());
   }
+  const RestartConfig& restart = config.restart;
+  constexpr double long_run = 3600;
+  if (here.all() > long_run && restart.interval == 0 && restart.wall_interval == 0)
+    text +=
+        "\nwarning: [restart] interval and wall_interval are 0: a crash would lose the whole run\n";
   return text;
 }
 

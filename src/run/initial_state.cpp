@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
@@ -89,6 +91,21 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
   }
 }
 
+/// Refuses two grains at one place: what they would do to each other has no direction.
+void check_apart(const InitialGrains& grains, const std::string& source) {
+  std::vector<std::size_t> order(grains.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t g) {
+    return std::array{grains.x[g].x, grains.x[g].y, grains.x[g].z};
+  };
+  std::ranges::sort(order, {}, place);
+  const auto same = std::ranges::adjacent_find(order, {}, place);
+  if (same == order.end()) return;
+  const Vec3& x = grains.x[*same];
+  throw InputError(fmt::format("{}: grains {} and {} are at one place, ({:.6g}, {:.6g}, {:.6g}) m",
+                               source, grains.id[*same], grains.id[*(same + 1)], x.x, x.y, x.z));
+}
+
 }  // namespace
 
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
@@ -111,6 +128,7 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   check_sizes({{*least, 1}, {*most, 1}}, config, source);
   wrap(grains, config);
   check_inside(grains, config, source);
+  check_apart(grains, source);
   return grains;
 }
 

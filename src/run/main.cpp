@@ -130,7 +130,10 @@ int main(int argc, char** argv) {
     const auto line =
         parse_command_line(argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
     report::start(line.quiet, rank_of(MPI_COMM_WORLD));
-    return execute(line);
+    const int code = execute(line);
+    if (!std::cout.flush())
+      throw std::runtime_error("cannot write to the terminal or where it leads");
+    return code;
   } catch (const InputError& problem) {
     return refuse(mpi, problem.what());
   } catch (const std::exception& problem) {

@@ -37,6 +37,8 @@ TABLES = [
           b"\xef\xbb\xbf" + GOOD.replace(",", " , ").replace("\n", "\r\n\r\n# x\r\n").encode()),
     grain("diameter of 1e-300", "2,1e-300,0.0043,4e-4,0.003", "grains.csv | time.grain_step must be at most"),
     grain("the largest id", "9223372036854775807,2e-4,0.0043,4e-4,0.003"),
+    table("two at one place", GOOD + GOOD.splitlines()[-1].replace(GOOD.splitlines()[-1].split(",")[0], "77", 1) + "\n",
+          "grains.csv | and 77 are at one place"),
     grain("outside", "2,2e-4,0.0043,4e-4,-0.009", "grains.csv | grain 2 | outside the domain | domain.size"),
     grain("inside the floor", "2,2e-4,0.0043,0,0.003", "grains.csv | grain 2 | the floor"),
 ]

@@ -10,11 +10,18 @@ POUR = '''[initial.grains.pour]
 centre = [0.008, 0.003]
 radius = 0.0018
 '''
+
+
+def without(text, *keys):
+    """`text` without the lines of these keys."""
+    return re.sub(rf"^({'|'.join(keys)}) = .*\n", "", text, flags=re.M)
+
+
 # The same with grains from a table beside it.
-TABLE = DUNE.replace(POUR, "").replace('fluid = "turbulent"', 'fluid = "turbulent"\ngrains = "grains.csv"')
+TABLE = without(DUNE.replace(POUR, ""), "sizes").replace('fluid = "turbulent"', 'fluid = "turbulent"\ngrains = "grains.csv"')
 # The same without water, and without grains.
-DRY = re.sub(r"\[fluid\].*?(?=\[grains\])", "", DUNE, flags=re.S).replace('fluid = "turbulent"\n', "")
-WET = DUNE[: DUNE.index("[grains]")] + '[initial]\nfluid = "turbulent"\n'
+DRY = without(re.sub(r"\[fluid\].*?(?=\[grains\])", "", DUNE, flags=re.S), "fluid", "fields_interval")
+WET = without(DUNE[: DUNE.index("[grains]")], "grain_step") + '[initial]\nfluid = "turbulent"\n'
 SHORT = "[time] end = 5e-4"  # for what is good and must run
 
 

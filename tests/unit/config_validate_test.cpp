@@ -121,6 +121,55 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
   EXPECT_TRUE(problems(still, {"time.fluid_step=1e-3", "time.end=9999999.999"}).empty());
 }
 
+TEST(ConfigValidate, KeysThatCanDoNothingAreErrors) {
+  const std::string fluid = fluid_case("mean_velocity = 0.2\n"), grains = grain_case();
+  const struct {
+    std::string text;
+    std::vector<std::string> assignments;
+    std::string words;
+  } idle[] = {
+      {grains, {"solver.max_iterations=10"}, "without a [fluid] section"},
+      {grains, {"output.fields_interval=1"}, "without a [fluid] section"},
+      {fluid, {"time.grain_step=1e-6"}, "without a [grains] section"},
+      {fluid, {"output.dune_interval=1"}, "without a [grains] section"},
+      {fluid, {"output.grains_interval=0.02"}, "without a [grains] section"},
+      {fluid, {"output.tracks_interval=1"}, "without a [grains] section"},
+      {fluid, {"output.grain_forces=true"}, "without grains.h5"},
+      {grains, {"output.grain_forces=true", "output.grains_interval=0"}, "without grains.h5"},
+      {fluid, {"fluid.turbulence=none", "fluid.wale_constant=0.5"}, "unless turbulence = \"wale\""},
+      {grains, {"grains.rolling_theta_m=0.2"}, "unless rolling_model = \"theta_m\""},
+      {grains,
+       {"grains.contact_model=linear", "grains.linear_stiffness=10", "grains.youngs_modulus=1e6"},
+       "with contact_model = \"linear\""},
+      {grains,
+       {"initial.grains.pour.shape=bed", "initial.grains.pour.radius=0",
+        "initial.grains.pour.centre=[0.01, 0.02]"},
+       "with shape = \"bed\""},
+      {coupled_case(),
+       {"coupling.forces=[\"buoyancy\"]", "coupling.drag=di_felice"},
+       "without \"drag\" in coupling.forces"},
+      {grains, {"restart.wall_interval=0", "restart.keep=5"}, "both intervals are 0"},
+  };
+  for (const auto& [text, assignments, words] : idle)
+    EXPECT_TRUE(says(problems(text, assignments), words)) << assignments.back();
+  // What is as it would be without the key, as in a resolved case, and what has its effect.
+  EXPECT_TRUE(
+      problems(grains, {"solver.max_iterations=200", "output.fields_interval=0.5"}).empty());
+  EXPECT_TRUE(
+      problems(grains, {"grains.rolling_model=theta_m", "grains.rolling_theta_m=0.2"}).empty());
+  EXPECT_TRUE(problems(grains, {"restart.interval=1e-3", "restart.keep=5"}).empty());
+}
+
+TEST(ConfigValidate, WarnsOfWhatWillDisappoint) {
+  const std::string fluid = fluid_case("mean_velocity = 0.2\n"), both = coupled_case();
+  EXPECT_TRUE(says(warnings(fluid, {"fluid.cells=[30, 4, 8]"}), "has 4 rows over a no-slip floor"));
+  EXPECT_TRUE(says(warnings(both, {"coupling.forces=[]"}), "the flow does not move the grains"));
+  EXPECT_TRUE(says(warnings(both, {"grains.density=900", "time.grain_step=1e-6"}), "the grains float"));
+  EXPECT_TRUE(says(warnings(both, {"fluid.mean_velocity=0.15"}), "expect no bed load"));
+  EXPECT_TRUE(says(warnings(fluid, {"output.history_interval=0", "output.fields_interval=0"}),
+                   "leaves nothing but its last state"));
+}
+
 TEST(ConfigValidate, FirstRowFitsTheHeight) {
   refused(fluid_case("first_cell_height = 1e-3\n"),
           "case.toml:7: [fluid] first_cell_height = 0.001: must be at most Ly / ny = 0.0008333 m: "

@@ -1,0 +1,84 @@
+// Keys that were changed and can do nothing in the case at hand.
+#include <string_view>
+
+#include "src/config/keys.hpp"
+#include "src/config/validate.hpp"
+
+namespace barchan {
+namespace {
+
+bool has_fluid(const Config& c) { return c.fluid.has_value(); }
+bool has_grains(const Config& c) { return c.grains.has_value(); }
+bool is_hertzian(const Config& c) {
+  return !c.grains || c.grains->contact_model == ContactModel::hertz_mindlin;
+}
+
+constexpr const char* without_fluid = "must be absent without a [fluid] section";
+constexpr const char* without_grains = "must be absent without a [grains] section";
+constexpr const char* with_springs =
+    "must be absent with contact_model = \"linear\", which has a linear_stiffness";
+
+/// What a key, or all keys of a section, must have to be of any effect.
+struct Need {
+  std::string_view key, rests_on;
+  bool (*met)(const Config&);
+  const char* message;
+};
+
+// Not here: what a switch turns off that studies turn on and off (grains.frozen, a friction of 0).
+constexpr Need needs[] = {
+    {"coupling", "fluid", has_fluid, without_fluid},
+    {"coupling", "grains", has_grains, without_grains},
+    {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
+     "must be absent without \"drag\" in coupling.forces"},
+    {"solver", "fluid", has_fluid, without_fluid},
+    {"time.grain_step", "grains", has_grains, without_grains},
+    {"fluid.wale_constant", "fluid.turbulence",
+     [](const Config& c) { return c.fluid->turbulence == Turbulence::wale; },
+     "must be absent unless turbulence = \"wale\""},
+    {"grains.rolling_theta_m", "grains.rolling_model",
+     [](const Config& c) { return c.grains->rolling_model == RollingModel::theta_m; },
+     "must be absent unless rolling_model = \"theta_m\""},
+    {"grains.youngs_modulus", "grains.contact_model", is_hertzian, with_springs},
+    {"grains.poisson_ratio", "grains.contact_model", is_hertzian, with_springs},
+    {"grains.sizes", "initial.grains",
+     [](const Config& c) { return c.initial.pour.has_value() || c.initial.grains.empty(); },
+     "must be absent unless grains are poured: initial.grains decides"},
+    {"initial.grains.pour.centre", "initial.grains.pour.shape",
+     [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },
+     "must be absent with shape = \"bed\", which covers the floor"},
+    {"output.fields_interval", "fluid", has_fluid, without_fluid},
+    {"output.dune_interval", "grains", has_grains, without_grains},
+    {"output.grains_interval", "grains", has_grains, without_grains},
+    {"output.tracks_interval", "grains", has_grains, without_grains},
+    {"output.grain_forces", "output.grains_interval",
+     [](const Config& c) { return c.grains && c.output.grains_interval > 0; },
+     "must be absent without grains.h5, which needs [grains] and a grains_interval above 0"},
+    {"restart.keep", "restart.interval",
+     [](const Config& c) { return c.restart.interval > 0 || c.restart.wall_interval > 0; },
+     "must be absent without restart files on the way: both intervals are 0"},
+};
+
+}  // namespace
+
+void check_effects(const Config& c, Findings& found) {
+  const Config unchanged = [&] {
+    Config defaults;
+    if (c.fluid) defaults.fluid.emplace();
+    if (c.grains) defaults.grains.emplace();
+    if (c.initial.pour) defaults.initial.pour.emplace();
+    return defaults;
+  }();
+  for (const Section& section : sections()) {
+    for (const Key& key : section.keys) {
+      for (const Need& need : needs) {
+        if (need.key != section.name && need.key != key.dotted()) continue;
+        const auto text = key.text(c);
+        found.error_if(text && text != key.text(unchanged) && !need.met(c),
+                       {key.dotted(), std::string(need.rests_on)}, "{}", need.message);
+      }
+    }
+  }
+}
+
+}  // namespace barchan
