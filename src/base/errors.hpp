@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace barchan {
 
@@ -11,6 +12,13 @@ namespace barchan {
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// True for what Kokkos and the language throw when there is no memory left: nobody's input, and
+/// nothing that another input of the same size would mend.
+inline bool is_out_of_memory(const std::exception& problem) {
+  const std::string_view what = problem.what();
+  return what.find("failed to allocate") != what.npos || what.find("bad_alloc") != what.npos;
+}
 
 /// What read() returns. What the user gave is wrong if it fails, whatever the layer that met it
 /// says.
@@ -21,6 +29,7 @@ auto as_input(const Read& read) {
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& problem) {
+    if (is_out_of_memory(problem)) throw;
     throw InputError(problem.what());
   }
 }

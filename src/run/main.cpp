@@ -137,6 +137,10 @@ int main(int argc, char** argv) {
   } catch (const InputError& problem) {
     return refuse(mpi, problem.what());
   } catch (const std::exception& problem) {
-    return fail(problem.what(), 1);
+    if (!is_out_of_memory(problem)) return fail(problem.what(), 1);
+    return fail(
+        "there is not enough memory on this machine (./barchan check says what a case needs): "
+        "take fewer fluid.cells or grains, or more ranks on more machines",
+        1);
   }
 }
