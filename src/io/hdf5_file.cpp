@@ -92,7 +92,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
   Id opened = -1;
   if (mode == Mode::create || mode == Mode::create_sealable) {
     const Handle creation = creation_list(mode == Mode::create_sealable);
-    opened = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
+    if (is_root_) remove_name(path);
+    if (parallel_) synchronise(communicator);
+    opened = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.get(), access.get());
   } else {
     const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
     opened = H5Fopen(path.c_str(), flags, access.get());
