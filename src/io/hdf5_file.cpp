@@ -81,6 +81,7 @@ template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
     : path_(path),
       mode_(mode),
+      communicator_(communicator),
       parallel_(rank_count(communicator) > 1),
       is_root_(rank_of(communicator) == 0),
       failure_(std::make_unique<std::string>()) {
