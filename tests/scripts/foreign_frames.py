@@ -84,7 +84,8 @@ def files_of_others(good, work):
             other["x"] = np.zeros((200, 3))
         expect(change.__name__, refusal(folder), "cannot read", "grains.h5: ", "is a link, perhaps to another file")
     for number, change in enumerate((values_of_another_file, values_of_another_array)):
-        expect(change.__name__, refusal(changed(good, work / f"values_{number}", change)), "grains.h5: ", "lie elsewhere")
+        folder = changed(good, work / f"values_{number}", change)
+        expect(change.__name__, refusal(folder), "cannot read", "grains.h5: ", "lie elsewhere")
 
 
 def damaged_files(good, work):
