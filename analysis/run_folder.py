@@ -3,21 +3,14 @@
 Formats: history.csv, dune.csv, grains.h5, fields.h5, config.toml as written by `barchan run`.
 """
 
-import os
 import tomllib
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+from hdf5_files import PlotError, open_file, patiently
 from horn_lengths import medians
-
-os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # the run may still hold the file
-import h5py  # noqa: E402
-
-
-class PlotError(Exception):
-    """A sentence for the user."""
 
 
 class NotInRun(PlotError):
@@ -80,22 +73,20 @@ class FrameFile:
 
     def __init__(self, path, needed):
         self.path = path
-        self.frames = []
+        patiently(path, lambda: self.look(needed))
+
+    def look(self, needed):
         with self.open() as file:
             self.config_text = file.attrs.get("config", "")
             self.title = file.attrs.get("title", "")
-            for name in sorted(file):
+            self.frames = []
+            for name in sorted(name for name in file if name.startswith("frame_")):
                 group = file[name]
-                if not name.startswith("frame_") or "time" not in group.attrs:
-                    continue
-                if all(key in group for key in needed):
+                if "time" in group.attrs and all(key in group for key in needed):
                     self.frames.append((float(group.attrs["time"]), name))
 
     def open(self):
-        try:
-            return h5py.File(self.path, "r")
-        except OSError as error:
-            raise PlotError(f"cannot read {self.path}: {error}") from error
+        return open_file(self.path)
 
     @property
     def times(self):

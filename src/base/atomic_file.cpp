@@ -44,10 +44,13 @@ void cannot(const char* verb, const std::filesystem::path& path, int error) {
                            std::generic_category().message(error));
 }
 
+void remove_name(const std::filesystem::path& path) { ::unlink(path.c_str()); }
+
 void write_atomically(const std::filesystem::path& path, std::string_view text) {
   const auto beside = std::filesystem::path(path).concat(".tmp");
+  remove_name(beside);
   try {
-    Descriptor(beside, O_WRONLY | O_CREAT | O_TRUNC).write(text, path);
+    Descriptor(beside, O_WRONLY | O_CREAT | O_EXCL).write(text, path);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);

@@ -11,6 +11,10 @@ namespace barchan {
 /// Throws std::runtime_error: "cannot <verb> <path>: <what the system says of `error`>".
 [[noreturn]] void cannot(const char* verb, const std::filesystem::path& path, int error = errno);
 
+/// Removes the name of a file or of a link, if it is there, so that a new file can be made under it
+/// (with O_EXCL or the like): a link that somebody put there is then not written through.
+void remove_name(const std::filesystem::path& path);
+
 /// Writes `text` beside `path` and renames it into place: a reader, or a kill at any moment, sees
 /// the old content or the new one. Throws std::runtime_error naming the file and the reason.
 void write_atomically(const std::filesystem::path& path, std::string_view text);

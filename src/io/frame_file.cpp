@@ -26,6 +26,22 @@ int frame_number(const std::string& name) {
   return error == std::errc() && stop == end ? number : -1;
 }
 
+/// True for a name that one wrong bit may have made of a frame's: the frame must not be missed.
+bool is_nearly_a_frame(const std::string& name) {
+  constexpr std::string_view sample = "frame_000000";
+  if (name.size() != sample.size()) return false;
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool digit = name[i] >= '0' && name[i] <= '9';
+    if (i < prefix.size() ? name[i] == sample[i] : digit) ++right;
+  }
+  return right == name.size() - 1;
+}
+
+[[noreturn]] void refuse(const Hdf5File& file, const std::string& why) {
+  throw Hdf5Error("cannot read " + file.path().string() + ": it is damaged: " + why);
+}
+
 FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
   FrameInfo frame{.name = name,
                   .t = file.attribute<double>(name, "time"),
@@ -43,10 +59,14 @@ std::vector<FrameInfo> list_frames(const Hdf5File& file) {
   std::vector<std::pair<int, std::string>> names;
   for (const auto& name : file.children()) {
     if (const int number = frame_number(name); number >= 0) names.emplace_back(number, name);
+    if (is_nearly_a_frame(name)) refuse(file, "\"" + name + "\" is not the name of a frame");
   }
   std::sort(names.begin(), names.end());  // by number, also beyond 999999
   std::vector<FrameInfo> frames;
   for (const auto& [number, name] : names) frames.push_back(read_frame(file, name));
+  if (!std::ranges::is_sorted(frames, {}, &FrameInfo::step)) {
+    refuse(file, "its frames are not in the order of their steps");
+  }
   return frames;
 }
 

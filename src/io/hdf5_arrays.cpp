@@ -1,9 +1,9 @@
-// Arrays and attributes of an Hdf5File.
+// Arrays of an Hdf5File.
 #include <algorithm>
-#include <array>
 #include <type_traits>
 #include <utility>
 
+#include "src/io/checksum.hpp"
 #include "src/io/hdf5_file.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/parallel/communicator.hpp"
@@ -11,24 +11,11 @@
 namespace barchan {
 
 using hdf5::Handle;
+using hdf5::memory_type;
 
 namespace {
 
-template <class T>
-hid_t memory_type() {
-  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
-}
-
-/// Text of variable length, which Python reads as str.
-Handle text_type() {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  return type;
-}
+constexpr const char* checksum_name = "checksum";
 
 ElementType element_type(hid_t type) {
   const auto size = H5Tget_size(type);
@@ -71,6 +58,19 @@ Handle array_creation_list() {
 }  // namespace
 
 template <class T>
+void Hdf5File::put_checksum(const std::string& name, std::span<const T> values,
+                            const Extents& extents, const Share& share) {
+  std::uint64_t sum = 0;  // of this rank's share
+  if (!share.whole.empty()) {
+    sum = checksum(values, extents, share.whole, share.first);
+  } else if (is_root_) {
+    sum = checksum(values, extents, extents, Extents(extents.size(), 0));
+  }
+  if (parallel_) MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, communicator_);
+  set_attribute(name, checksum_name, static_cast<std::int64_t>(sum));
+}
+
+template <class T>
 void Hdf5File::write(const std::string& name, std::span<const T> values, const Extents& extents,
                      std::string_view units, const Share& share) {
   const Extents& whole = share.whole.empty() ? extents : share.whole;
@@ -103,6 +103,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
           name);
   }
   set_attribute(name, "units", units);
+  if (mode_ != Mode::create_sealable) put_checksum(name, values, extents, share);
   check_writes();  // no need to go on with a full disk
 }
 
@@ -138,11 +139,38 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
 }
 
 template <class T>
+std::vector<T> Hdf5File::read_as(const std::string& name, const ArrayInfo& found,
+                                 const Extents& first, const Extents& size) const {
+  const auto [base, path] = locate(name);
+  const Handle array(check(H5Dopen2(base, path.c_str(), H5P_DEFAULT), name), H5Dclose);
+  const Extents& part = first.empty() ? found.extents : size;
+  std::uint64_t n = 0;
+  count_elements(part, n);
+  std::vector<T> values(n);
+  if (n == 0) return values;
+  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose), memory = dataspace(part);
+  if (part != found.extents) check(select_block(file, first, part), name);
+  check(
+      H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
+      name);
+  const bool comparable = part == found.extents && found.type == element_type(memory_type<T>());
+  if (!comparable || !has_attribute(name, checksum_name)) return values;
+  const auto sum = checksum<T>(values, part, part, Extents(part.size(), 0));
+  if (attribute<std::int64_t>(name, checksum_name) != static_cast<std::int64_t>(sum)) {
+    fail(
+        "it is damaged: its checksum is not that of what was written (whoever changes values on "
+        "purpose deletes the attribute \"checksum\")",
+        name);
+  }
+  return values;
+}
+
+template <class T>
 std::vector<T> Hdf5File::read(const std::string& name, const Extents& whole, const Extents& first,
                               const Extents& size) const {
-  const Extents found = info(name).extents;
-  if (!whole.empty() && found != whole) {
-    fail("it is " + to_string(found) + ", expected was " + to_string(whole), name);
+  const ArrayInfo found = info(name);
+  if (!whole.empty() && found.extents != whole) {
+    fail("it is " + to_string(found.extents) + ", expected was " + to_string(whole), name);
   }
   const auto [base, path] = locate(name);
   const Handle array(check(H5Dopen2(base, path.c_str(), H5P_DEFAULT), name), H5Dclose);
@@ -150,17 +178,12 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& whole, con
   if (H5Tget_class(type.get()) != (std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT)) {
     fail(std::is_integral_v<T> ? "it should hold integers" : "it should hold real numbers", name);
   }
-  const Extents& part = first.empty() ? found : size;
-  std::uint64_t n = 0;
-  count_elements(part, n);
-  std::vector<T> values(n);
-  if (n == 0) return values;
-  const Handle file(check(H5Dget_space(array.get()), name), H5Sclose), memory = dataspace(part);
-  if (part != found) check(select_block(file, first, part), name);
-  check(
-      H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
-      name);
-  return values;
+  // Narrower numbers are widened only after their checksum was looked at.
+  using Narrow = std::conditional_t<std::is_integral_v<T>, std::int32_t, float>;
+  if (found.type != element_type(memory_type<Narrow>()))
+    return read_as<T>(name, found, first, size);
+  const auto narrow = read_as<Narrow>(name, found, first, size);
+  return {narrow.begin(), narrow.end()};
 }
 
 #define BARCHAN_HDF5_ARRAYS(T)                                                               \
@@ -173,79 +196,6 @@ BARCHAN_HDF5_ARRAYS(double)
 BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
-
-void Hdf5File::put_attribute(const std::string& object, const std::string& name, Id type,
-                             const void* value) {
-  const std::string label = object + "@" + name;
-  const auto [base, path] = locate(object);
-  if (has_attribute(object, name)) {
-    check(H5Adelete_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT), label);
-  }
-  const Handle space(check(H5Screate(H5S_SCALAR), label), H5Sclose);
-  const Handle attribute(
-      check(H5Acreate_by_name(base, path.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
-                              H5P_DEFAULT, H5P_DEFAULT),
-            label),
-      H5Aclose);
-  check(H5Awrite(attribute.get(), type, value), label);
-}
-
-void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
-  put_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
-}
-
-void Hdf5File::set_attribute(const std::string& object, const std::string& name,
-                             std::int64_t value) {
-  put_attribute(object, name, H5T_NATIVE_INT64, &value);
-}
-
-void Hdf5File::set_attribute(const std::string& object, const std::string& name,
-                             std::string_view value) {
-  const std::string terminated(value);
-  const char* text = terminated.c_str();
-  put_attribute(object, name, text_type().get(), static_cast<const void*>(&text));
-}
-
-bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
-  const auto [base, path] = locate(object);
-  return check(H5Aexists_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT),
-               object + "@" + name) > 0;
-}
-
-template <class T>
-T Hdf5File::attribute(const std::string& object, const std::string& name) const {
-  constexpr bool is_text = std::is_same_v<T, std::string>;
-  constexpr auto kind = is_text ? H5T_STRING : std::is_integral_v<T> ? H5T_INTEGER : H5T_FLOAT;
-  const std::string label = object + "@" + name;
-  if (!exists(object) || !has_attribute(object, name)) {
-    fail("it has no attribute \"" + name + "\" at \"" + object + "\"", {});
-  }
-  const auto [base, path] = locate(object);
-  const Handle attribute(
-      check(H5Aopen_by_name(base, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), label),
-      H5Aclose);
-  const Handle stored(check(H5Aget_type(attribute.get()), label), H5Tclose);
-  const Handle space(check(H5Aget_space(attribute.get()), label), H5Sclose);
-  if (H5Tget_class(stored.get()) != kind || H5Sget_simple_extent_npoints(space.get()) != 1) {
-    fail("the attribute \"" + name + "\" is of another type", object);
-  }
-  if constexpr (is_text) {
-    if (H5Tis_variable_str(stored.get()) <= 0)
-      fail("the attribute \"" + name + "\" is a text of fixed length", object);
-    char* text = nullptr;
-    check(H5Aread(attribute.get(), text_type().get(), static_cast<void*>(&text)), label);
-    std::string result(text == nullptr ? "" : text);
-    H5free_memory(text);
-    return result;
-  } else {
-    T value = 0;
-    check(H5Aread(attribute.get(), memory_type<T>(), &value), label);
-    return value;
-  }
-}
-template double Hdf5File::attribute(const std::string&, const std::string&) const;
-template std::int64_t Hdf5File::attribute(const std::string&, const std::string&) const;
-template std::string Hdf5File::attribute(const std::string&, const std::string&) const;
 
 Share share_of_rows(std::uint64_t n, MPI_Comm ranks) {
   if (rank_count(ranks) == 1) return {};
@@ -261,29 +211,6 @@ Share share_of(const Share& rows, const Extents& extents, std::size_t row_dimens
   share.whole[row_dimension] = rows.whole[0];
   share.first[row_dimension] = rows.first[0];
   return share;
-}
-
-namespace {
-
-using Member = std::string Provenance::*;
-constexpr std::array<std::pair<const char*, Member>, 5> origin{{{"title", &Provenance::title},
-                                                                {"config", &Provenance::config},
-                                                                {"version", &Provenance::version},
-                                                                {"git_hash", &Provenance::git_hash},
-                                                                {"backend", &Provenance::backend}}};
-
-}  // namespace
-
-void write_provenance(Hdf5File& file, const Provenance& provenance) {
-  for (const auto& [name, member] : origin) file.set_attribute("/", name, provenance.*member);
-}
-
-Provenance read_provenance(const Hdf5File& file) {
-  Provenance provenance;
-  for (const auto& [name, member] : origin) {
-    if (file.has_attribute("/", name)) provenance.*member = file.attribute<std::string>("/", name);
-  }
-  return provenance;
 }
 
 }  // namespace barchan

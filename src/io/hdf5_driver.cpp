@@ -146,7 +146,8 @@ std::string last_reason() {
   }
   static constexpr std::array<std::array<const char*, 2>, 3> plain{
       {{"file signature not found", "it is not an HDF5 file"},
-       {"truncated file", "it is cut short (an incomplete copy, or a run that was killed)"},
+       {"truncated file",
+        "it is cut short (an incomplete copy, or a run that was killed or is writing it)"},
        {"object doesn't exist", "it has no such entry"}}};
   for (const auto& [theirs, ours] : plain) {
     if (text.find(theirs) != std::string::npos) return ours;

@@ -81,6 +81,7 @@ template std::int64_t Hdf5File::check(std::int64_t, const std::string&) const;
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm communicator)
     : path_(path),
       mode_(mode),
+      communicator_(communicator),
       parallel_(rank_count(communicator) > 1),
       is_root_(rank_of(communicator) == 0),
       failure_(std::make_unique<std::string>()) {
@@ -92,7 +93,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
   Id opened = -1;
   if (mode == Mode::create || mode == Mode::create_sealable) {
     const Handle creation = creation_list(mode == Mode::create_sealable);
-    opened = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
+    if (is_root_) remove_name(path);
+    if (parallel_) synchronise(communicator);
+    opened = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.get(), access.get());
   } else {
     const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
     opened = H5Fopen(path.c_str(), flags, access.get());

@@ -80,7 +80,8 @@ class Hdf5File {
   void publish_group();
 
   /// T is float, double, std::int32_t or std::int64_t. `extents` are those of `values`. Without a
-  /// share, what rank 0 has is written.
+  /// share, what rank 0 has is written. The attribute "checksum" tells a reader that the values are
+  /// those that were written; a file that is sealed needs none.
   template <class T>
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
              std::string_view units, const Share& share = {});
@@ -89,7 +90,8 @@ class Hdf5File {
   /// believed.
   ArrayInfo info(const std::string& name) const;
   /// An array of the extents `whole`, empty: any; or the block of it that begins at `first`, which
-  /// may be another one on each rank. Converted to T where the file holds another number type.
+  /// may be another one on each rank. Converted to T where the file holds another number type. Of a
+  /// whole array the checksum is looked at, if it has one.
   template <class T>
   std::vector<T> read(const std::string& name, const Extents& whole = {}, const Extents& first = {},
                       const Extents& size = {}) const;
@@ -120,11 +122,19 @@ class Hdf5File {
   Code check(Code code, const std::string& object = {}) const;
   /// Throws if the serial driver noted a failure.
   void check_writes() const;
+  template <class T>
+  void put_checksum(const std::string& name, std::span<const T> values, const Extents& extents,
+                    const Share& share);
+  /// As read(), of an array that is known.
+  template <class T>
+  std::vector<T> read_as(const std::string& name, const ArrayInfo& found, const Extents& first,
+                         const Extents& size) const;
   void put_attribute(const std::string& object, const std::string& name, Id type,
                      const void* value);
 
   std::filesystem::path path_;
   Mode mode_;
+  MPI_Comm communicator_;
   bool parallel_ = false, is_root_ = true;
   std::unique_ptr<std::string> failure_;  // noted by the serial driver; empty: none
   Id file_ = -1;

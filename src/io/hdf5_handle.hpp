@@ -4,7 +4,9 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace barchan::hdf5 {
@@ -28,6 +30,15 @@ class Handle {
   hid_t id_;
   Close close_;
 };
+
+/// HDF5's name of a number type of ours.
+template <class T>
+hid_t memory_type() {
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+}
 
 /// Starts the library once, without its printing of error stacks.
 void start_library();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <thread>
+
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/seal.hpp"
@@ -65,9 +67,15 @@ std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& 
   return text;
 }
 
-}  // namespace
+/// A run may be at work on it.
+bool has_just_changed(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto changed = std::filesystem::last_write_time(path, error);
+  return !error &&
+         std::filesystem::file_time_type::clock::now() - changed < std::chrono::seconds{2};
+}
 
-std::string describe_file(const std::filesystem::path& path) {
+std::string describe(const std::filesystem::path& path) {
   std::optional<CheckpointReader> restart;
   if (has_seal(path)) restart.emplace(path);  // the seal is checked before anything else is opened
   const Hdf5File file(path, Hdf5File::Mode::read);
@@ -87,6 +95,20 @@ std::string describe_file(const std::filesystem::path& path) {
     text += describe_origin(origin) + describe_frames(file, list_frames(file));
   }
   return text + "The configuration is in the attribute \"config\" of the file.\n";
+}
+
+}  // namespace
+
+std::string describe_file(const std::filesystem::path& path, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds pause{20};
+  for (const auto end = std::chrono::steady_clock::now() + patience;;) {
+    try {
+      return describe(path);
+    } catch (const Hdf5Error&) {
+      if (std::chrono::steady_clock::now() > end || !has_just_changed(path)) throw;
+    }
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 }  // namespace barchan

@@ -78,6 +78,17 @@ def flip(at):
     return change
 
 
+def flip_last(name):
+    """One bit wrong in an array of the last frame."""
+    def change(path):
+        with h5py.File(path, "r+") as file:
+            array = file[max(file)][name]
+            raw = array[...].view("u1")
+            raw.flat[raw.size // 2] ^= 1
+            array[...] = raw.view(array.dtype).reshape(array.shape)
+    return change
+
+
 def start(name, make, says, **more):
     return Entry("grains.h5: " + name, '[initial] grains = "start.h5"', "start.h5 | " + says, base=TABLE,
                  files={"start.h5": make} if make else {}, **more)
@@ -102,6 +113,8 @@ HDF5 = [
     start("positions transposed", frame(x=numpy.zeros((3, N))), "3 x 4 | 4 x 3"),
     start("a group for ids", lambda path: (frame(id=None)(path), h5py.File(path, "a").create_group("frame_000000/id")), "id"),
     start("cut", cut(0.5), "cut short", given=("good/grains.h5 as start.h5",)),
+    *(start(f"one bit wrong in {name}", flip_last(name), f"damaged | checksum | /{name}",
+            given=("good/grains.h5 as start.h5",)) for name in ("id", "x", "d", "u", "omega")),
     flow("one bit wrong", "damaged", change=flip(0.6)),
     Entry("flow: on other cells of the same box", '[initial] fluid = "start.h5" ;; [fluid] cells = [12, 14, 6]',
           given=(f"good/{RESTART} as start.h5",), code=0),

@@ -111,7 +111,7 @@ void write_input(const fs::path& file, const void* data, std::size_t size) {
 
 void read_as_everything(const fs::path& file) {
   accepts([&] { demand_sound(read_grains(file)); });
-  accepts([&] { describe_file(file); });
+  accepts([&] { describe_file(file, {}); });
   accepts([&] { read_results(file); });
   accepts([&] { read_restart(file); });
 }

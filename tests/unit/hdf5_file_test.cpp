@@ -90,6 +90,16 @@ TEST(Hdf5File, AttributesComeBackAndAreReplaced) {
   EXPECT_THROW(file.attribute<std::string>("/", "other"), Hdf5Error);
 }
 
+TEST(Hdf5File, ALinkInTheWayOfANewFileIsNotFollowed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "victim") << "of others";
+  std::filesystem::create_symlink("victim", folder / "a.h5");
+  Hdf5File(folder / "a.h5", Mode::create).close();
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.h5"));
+  EXPECT_EQ(std::filesystem::file_size(folder / "victim"), 9u);
+  EXPECT_NO_THROW(Hdf5File(folder / "a.h5", Mode::create).close());  // nor is a file of ours
+}
+
 TEST(Hdf5File, ProblemsAreSentences) {
   const TemporaryFolder folder;
   const auto open = [](const std::filesystem::path& path) {

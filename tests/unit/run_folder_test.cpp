@@ -51,6 +51,16 @@ TEST(AtomicFile, AFailedWriteKeepsTheOldContent) {
   EXPECT_EQ(files_in(folder.path()), std::vector<std::string>{"a.txt"});
 }
 
+TEST(AtomicFile, ALinkInItsWayIsNotFollowed) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "victim", "of others");
+  std::filesystem::create_symlink("victim", folder / "a.txt.tmp");
+  write_atomically(folder / "a.txt", "ours");
+  EXPECT_EQ(read_text(folder / "victim"), "of others");
+  EXPECT_EQ(read_text(folder / "a.txt"), "ours");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.txt"));
+}
+
 TEST(AtomicFile, SaysWhatItCannotReach) {
   const TemporaryFolder folder;
   const auto path = (folder / "no/a.txt").string();
