@@ -17,7 +17,7 @@ namespace barchan {
 /// Which entries of a row are packed together: those of some arrays, one after the other. A message
 /// consists of numbers of eight bytes.
 struct PackLayout {
-  // All arrays of a grain fit (tests/mpi/grain_arrays_test.cpp); more would not fit a kernel's
+  // All arrays of a grain fit, as a test of CoupledOverRanks shows; more would not fit a kernel's
   // arguments. However many columns an array has, it is one.
   static constexpr int kMost = 28;
   struct Array {
