@@ -51,8 +51,13 @@ env -i OMP_NUM_THREADS=1 BARCHAN_PYTHON=/bin/false "$root/barchan" run "${quick[
 "$root/barchan" run "${quick[@]}" --out closed ./-dash.toml <&- >&- 2>&- || fail "closed streams: exit code $?"
 grep -q '"status": "done"' bare/run.json closed/run.json || fail "without an environment or streams: not done"
 
-# A name that no test has. (What there is to build for them is not the question: cmake does nothing.)
-mkdir bin && ln -s /bin/true bin/cmake
+# A name that no test has. What there is to build for them is not the question: cmake does nothing.
+# And ctest looks into a folder with one test, or it would write over the results of the tests that run now.
+mkdir bin one && ln -s /bin/true bin/cmake
+echo 'add_test(Contact true)' > one/CTestTestfile.cmake
+printf '#!/bin/sh\nshift 2\nexec "%s" --test-dir "%s" "$@"\n' "$(command -v ctest)" "$PWD/one" > bin/ctest
+chmod +x bin/ctest
+PATH="$PWD/bin:$PATH" "$root/barchan" test -R Contact > said 2>&1 || fail "a test that is there: $(cat said)"
 said="$(PATH="$PWD/bin:$PATH" "$root/barchan" test -R Hertz-of-nobody 2>&1)" && fail "no such test: exit code 0"
 [[ $said == *"No tests were found"* ]] || fail "no such test: $said"
 
