@@ -36,7 +36,6 @@ else()
   target_link_libraries(barchan_fft INTERFACE "${FFTW3_LIBRARY}")
 endif()
 
-find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
@@ -51,5 +50,5 @@ if(TOMLPLUSPLUS_LIBRARY)
   target_link_libraries(barchan_toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
 endif()
 
-set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft Eigen3::Eigen CLI11::CLI11
-    fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft CLI11::CLI11 fmt::fmt
+    nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)

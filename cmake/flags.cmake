@@ -2,16 +2,24 @@
 add_library(barchan_flags INTERFACE)
 target_include_directories(barchan_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 
+# In place of what CMake takes by itself (with NDEBUG, which would drop checks of Kokkos); what a user gives stays.
+macro(barchan_flags_of config cmakes_own ours)
+  if(CMAKE_CXX_FLAGS_${config} STREQUAL "${cmakes_own}")
+    set(CMAKE_CXX_FLAGS_${config} "${ours}")
+  endif()
+endmacro()
+barchan_flags_of(RELEASE "-O3 -DNDEBUG" "-O3")
+barchan_flags_of(RELWITHDEBINFO "-O2 -g -DNDEBUG" "-O2 -g")
+barchan_flags_of(DEBUG "-g" "-O1 -g")
+# Which lines the tests reach (tests/hygiene/coverage.sh).
+barchan_flags_of(COVERAGE "" "-O1 --coverage -fprofile-abs-path")
+set(CMAKE_EXE_LINKER_FLAGS_COVERAGE "--coverage")
+
 # errno and trapping arithmetic would keep loops from being vectorised. Not -ffast-math: results must
 # be reproducible, and not-a-number must stay visible to the checks that stop a run.
 # No fused multiply-add on the compiler's own account: it would choose differently wherever a formula is
 # inlined, and N steps in one call would no longer equal N calls of one step bit for bit.
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -fno-math-errno -fno-trapping-math -ffp-contract=off")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -ffp-contract=off")
-# Which lines the tests reach (tests/hygiene/coverage.sh).
-set(CMAKE_CXX_FLAGS_COVERAGE "-O1 -ffp-contract=off --coverage -fprofile-abs-path")
-set(CMAKE_EXE_LINKER_FLAGS_COVERAGE "--coverage")
-
+target_compile_options(barchan_flags INTERFACE -fno-math-errno -fno-trapping-math -ffp-contract=off)
 target_compile_options(barchan_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wconversion)
 if(NOT Kokkos_ENABLE_CUDA)
@@ -21,8 +29,8 @@ else()
   # not pedantic and has parentheses of its own. No fused multiply-add, as above.
   target_compile_options(barchan_flags INTERFACE --Werror=all-warnings --fmad=false
     -Wno-parentheses)
-  # fmt 9 halves it for nvcc; Eigen serves the host alone.
-  target_compile_definitions(barchan_flags INTERFACE FMT_USE_CONSTEXPR=1 EIGEN_NO_CUDA)
+  # fmt 9 halves it for nvcc.
+  target_compile_definitions(barchan_flags INTERFACE FMT_USE_CONSTEXPR=1)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # False alarms of g++ 12 inside the headers of fmt and the standard library at -O3.

@@ -57,7 +57,7 @@ def fits(n, parts):
 
 
 def cost(nx, nz, px, pz):
-    """Cost::of() in src/parallel/decomposition.cpp."""
+    """cost_of() in src/parallel/decomposition.cpp."""
     cells = nx * nz / (px * pz)
     transposes = sum(0 if parts == 1 else 6 * numbers * cells + 400 * times * (parts - 1)
                      for parts, numbers, times in ((px, 3, 4), (pz, 2, 2)))
@@ -96,7 +96,7 @@ class Pencil:
 
     @property
     def colours(self):
-        """ColumnPlaces::colours() in kernels/fluid/column_relaxation.hpp."""
+        """ColumnNeighbors::colours() in kernels/fluid/column_relaxation.hpp."""
         return 2 if self.nx_all % 2 == 0 and self.nz_all % 2 == 0 else 3
 
 
@@ -226,7 +226,7 @@ def spread_bits(a):
 
 
 def place_of(ix, iz):
-    """Columns::code_of()."""
+    """SearchColumns::code_of()."""
     return (spread_bits(ix) << np.uint64(1)) | spread_bits(iz)
 
 

@@ -248,7 +248,7 @@ class Sweep:
 
 def draw_figures(folder):
     """Pictures are no reason to fail."""
-    drawn = subprocess.run([sys.executable, str(PLOT), str(folder)], capture_output=True, text=True)
+    drawn = subprocess.run([sys.executable, str(PLOT), "--", str(folder)], capture_output=True, text=True)
     if drawn.returncode != 0:
         say(f"some pictures of {folder} could not be drawn: {drawn.stderr.strip().splitlines()[-1:]}")
 

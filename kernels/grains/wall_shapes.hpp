@@ -64,7 +64,10 @@ inline GluedFloor glued_floor(Real r, Real lx, Real lz) {
           .b = lz / (2 * Kokkos::floor(lz / (2 * b) * (1 + Real(1e-12))))};
 }
 
-inline constexpr int kMaxWalls = 8;
+/// The floor, the top, and two walls each in x and z. A bit each in GrainState::wall_touching, also
+/// of restart files.
+inline constexpr int kMaxWalls = GluedFloor::kColours + 5;
+static_assert(kMaxWalls <= 8);
 
 /// The walls of the domain. Each has a history of contact of its own, but two that stand opposite
 /// each other, farther apart than a grain is wide, share one. A floor of glued spheres is the first

@@ -62,6 +62,13 @@ GrainMotion motion(const GrainState& grains, Real dt, Real elapsed) {
 
 }  // namespace
 
+void add_wall(WallShapes& walls, const Plane& plane, int history) {
+  if (walls.n == kMaxWalls) throw std::length_error("more walls than kMaxWalls");
+  walls.plane[walls.n] = plane;
+  walls.history[walls.n++] = history;
+  walls.n_histories = std::max(walls.n_histories, history + 1);
+}
+
 GrainSolver::GrainSolver(const Config& config, GrainState& grains)
     : list_(config, grains.r_max, grains.ranks),
       pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
@@ -81,9 +88,7 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
 
 void GrainSolver::add_walls(const Config& config, Real r_max) {
   const auto add = [&](Vec3 normal, Real offset, int history) {
-    walls_.plane[walls_.n] = {normal, offset};
-    walls_.history[walls_.n++] = history;
-    walls_.n_histories = std::max(walls_.n_histories, history + 1);
+    add_wall(walls_, {normal, offset}, history);
   };
   const auto add_opposite = [&](Vec3 normal, Real distance) {
     if (distance <= 2 * r_max) {

@@ -19,6 +19,9 @@ struct ContactSummary {
   Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
 };
 
+/// A wall with its history among the others. Throws std::length_error beyond kMaxWalls.
+void add_wall(WallShapes& walls, const Plane& plane, int history);
+
 /// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
 /// that share the grains every member is called together, and what is counted is that of all.
 class GrainSolver {

@@ -17,23 +17,35 @@ namespace barchan {
 /// Which entries of a row are packed together: those of some arrays, one after the other. A message
 /// consists of numbers of eight bytes.
 struct PackLayout {
-  static constexpr int kMost = 28;  // more would not fit a kernel's arguments
+  // All arrays of a grain fit, as a test of CoupledOverRanks shows; more would not fit a kernel's
+  // arguments. However many columns an array has, it is one.
+  static constexpr int kMost = 28;
   struct Array {
     char* data;
-    std::int16_t stride;   // from row to row [bytes]
-    std::int16_t numbers;  // 0: a single byte, a number in the message
+    std::int32_t column_stride;  // from column to column [numbers of eight bytes]
+    std::int16_t stride;         // from row to row [bytes]
+    std::int8_t numbers;         // of a row and column; 0: a single byte, a number in the message
+    std::int8_t columns;
+
+    KOKKOS_FUNCTION int width() const { return columns * (numbers > 0 ? numbers : 1); }
+    /// The entry of a row in a column.
+    KOKKOS_FUNCTION char* entry(std::ptrdiff_t row, int column) const {
+      return data + row * stride +
+             static_cast<std::ptrdiff_t>(sizeof(Real)) * column_stride * column;
+    }
   };
   Array array[kMost];
   int n = 0, width = 0;  // arrays; numbers of a row
 
-  /// An entry of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on.
-  /// Throws std::length_error beyond kMost.
-  void add(void* data, std::size_t stride, std::size_t bytes) {
+  /// Entries of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on; in
+  /// each of some columns. Throws std::length_error beyond kMost.
+  void add(void* data, std::size_t stride, std::size_t bytes, std::size_t columns = 1,
+           std::size_t column_stride = 0) {
     if (n == kMost) throw std::length_error("PackLayout: too many arrays");
-    const std::size_t numbers = bytes / sizeof(Real);
-    array[n++] = {static_cast<char*>(data), static_cast<std::int16_t>(stride),
-                  static_cast<std::int16_t>(numbers)};
-    width += numbers > 0 ? static_cast<int>(numbers) : 1;
+    array[n] = {static_cast<char*>(data), static_cast<std::int32_t>(column_stride),
+                static_cast<std::int16_t>(stride), static_cast<std::int8_t>(bytes / sizeof(Real)),
+                static_cast<std::int8_t>(columns)};
+    width += array[n++].width();
   }
   template <class T>
   void add(const Kokkos::View<T*>& rows) {
@@ -42,8 +54,9 @@ struct PackLayout {
   }
   template <class T>
   void add(const Kokkos::View<T**, Kokkos::LayoutLeft>& columns) {
-    for (std::size_t c = 0; c < columns.extent(1); ++c)
-      add(columns.data() + c * columns.stride(1), sizeof(T), sizeof(T));
+    static_assert(sizeof(T) % sizeof(Real) == 0);
+    add(columns.data(), sizeof(T), sizeof(T), columns.extent(1),
+        columns.stride(1) * (sizeof(T) / sizeof(Real)));
   }
   /// One member of each row.
   template <class T, class Member>
@@ -54,8 +67,7 @@ struct PackLayout {
   /// Where in a packed row the entry of an array begins.
   int offset_of(const void* data) const {
     int offset = 0;
-    for (int a = 0; a < n && array[a].data != data; ++a)
-      offset += array[a].numbers > 0 ? array[a].numbers : 1;
+    for (int a = 0; a < n && array[a].data != data; ++a) offset += array[a].width();
     return offset;
   }
 };
@@ -71,10 +83,12 @@ struct PackRows {
     Real* to = message + std::ptrdiff_t{layout.width} * p;
     for (int a = 0; a < layout.n; ++a) {
       const PackLayout::Array& array = layout.array[a];
-      const char* from = array.data + r * array.stride;
-      if (array.numbers == 0) *to++ = *reinterpret_cast<const std::uint8_t*>(from);
-      for (int q = 0; q < array.numbers; ++q, from += sizeof(Real))
-        std::memcpy(to++, from, sizeof(Real));
+      for (int c = 0; c < array.columns; ++c) {
+        const char* from = array.entry(r, c);
+        if (array.numbers == 0) *to++ = *reinterpret_cast<const std::uint8_t*>(from);
+        for (int q = 0; q < array.numbers; ++q, from += sizeof(Real))
+          std::memcpy(to++, from, sizeof(Real));
+      }
     }
   }
 };
@@ -90,11 +104,13 @@ struct UnpackRows {
     const Real* from = message + std::ptrdiff_t{width} * p;
     for (int a = 0; a < layout.n; ++a) {
       const PackLayout::Array& array = layout.array[a];
-      char* to = array.data + r * array.stride;
-      if (array.numbers == 0)
-        *reinterpret_cast<std::uint8_t*>(to) = static_cast<std::uint8_t>(*from++);
-      for (int q = 0; q < array.numbers; ++q, to += sizeof(Real))
-        std::memcpy(to, from++, sizeof(Real));
+      for (int c = 0; c < array.columns; ++c) {
+        char* to = array.entry(r, c);
+        if (array.numbers == 0)
+          *reinterpret_cast<std::uint8_t*>(to) = static_cast<std::uint8_t>(*from++);
+        for (int q = 0; q < array.numbers; ++q, to += sizeof(Real))
+          std::memcpy(to, from++, sizeof(Real));
+      }
     }
   }
   KOKKOS_FUNCTION void operator()(int p) const {

@@ -6,6 +6,7 @@
 #include "src/coupling/coupling.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
@@ -260,6 +261,30 @@ TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
       std::printf("[ measured ] %d ranks, step %d: x %.1e; one grain moved by a bit: %.1e\n",
                   rank_count(MPI_COMM_WORLD), s, off, chaos);
   }
+}
+
+/// All arrays that a grain can have, and all walls: 200 grains in a box of 6 x 3 x 4 mm.
+Config fullest_case() {
+  Config c = testing::coupled_config();
+  c.size = {0.006, 0.003, 0.004};
+  c.fluid->cells = {10, 9, 6};
+  c.grains->floor = GrainFloor::glued;
+  c.grains->floor_diameter = 2e-4;
+  c.grains->boundary_x = GrainBoundaryX::wall;
+  c.grains->boundary_z = GrainBoundaryZ::wall;
+  c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+  c.initial.pour->centre = {0.003, 0.002};
+  return c;
+}
+
+TEST(CoupledOverRanks, TwentyStepsWithAllArraysOfAGrainAsOnOneRank) {
+  const Config c = fullest_case();
+  const Coupled shared(c, MPI_COMM_WORLD);
+  EXPECT_EQ(layout_of(*shared.state.grains).n, 22) << "not all of for_each_grain_array";
+  EXPECT_EQ(shared.step.walls().n, kMaxWalls);
+  const auto migrated = sum_over(MPI_COMM_WORLD, shared.step.neighbor_list().n_migrated());
+  EXPECT_TRUE(rank_count(MPI_COMM_WORLD) == 1 || migrated > 0);
+  twenty_steps(c);
 }
 
 }  // namespace

@@ -79,6 +79,46 @@ TEST(GrainArrays, AnExtraOneIsSortedAndMigratesAndGhostsHaveIt) {
   EXPECT_GE(wrong_marks(m.grains), n_grains);
 }
 
+/// The history with wall h is h + 1 times the velocity, which no other grain has, the torque the
+/// opposite. Writes them, or counts the grains with those of another grain or wall; of all ranks.
+std::int64_t wrong_walls(const GrainState& s, bool write) {
+  const auto xi_t = s.wall_xi_t, torque = s.wall_torque;
+  const auto touching = s.wall_touching;
+  const auto kin = s.kin;
+  const auto id = s.id;
+  int wrong = 0;
+  Kokkos::parallel_reduce(
+      "test: walls", s.n,
+      KOKKOS_LAMBDA(int g, int& sum) {
+        const auto bits = static_cast<std::uint8_t>(id(g) % 256);
+        bool differs = touching(g) != bits;
+        if (write) touching(g) = bits;
+        for (int h = 0; h < xi_t.extent_int(1); ++h) {
+          const Vec3 mark = Real(h + 1) * kin(g).u;
+          differs = differs || norm(xi_t(g, h) - mark) > 0 || norm(torque(g, h) + mark) > 0;
+          if (write) xi_t(g, h) = mark, torque(g, h) = -mark;
+        }
+        sum += differs;
+      },
+      wrong);
+  return sum_over(MPI_COMM_WORLD, wrong);
+}
+
+/// As many histories as walls can have.
+TEST(GrainArrays, HistoriesOfAllWallsMigrate) {
+  GrainState grains = make_grain_state(Marked::still_along_y(), 2500, MPI_COMM_WORLD);
+  grains.wall_xi_t = decltype(grains.wall_xi_t)("wall xi_t", grains.kin.extent(0), 5);
+  grains.wall_torque = decltype(grains.wall_torque)("wall torque", grains.kin.extent(0), 5);
+  EXPECT_GE(wrong_walls(grains, true), n_grains - n_grains / 256);
+  NeighborList list(box(), grains.r_max, MPI_COMM_WORLD);
+  for (int round = 0; round < 10; ++round) {
+    list.rebuild(grains, false);
+    ASSERT_EQ(wrong_walls(grains, false), 0) << "round " << round;
+    testing::drift(grains, 6e-5);
+  }
+  EXPECT_TRUE(rank_count(MPI_COMM_WORLD) == 1 || sum_over(MPI_COMM_WORLD, list.n_migrated()) > 100);
+}
+
 TEST(GrainArrays, AnExtraOneGoesToTheFluidRanksAndBack) {
   Marked m;
   add_fluid(m.grains);

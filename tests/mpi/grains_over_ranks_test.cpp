@@ -166,6 +166,43 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
                 chaos[1]);
 }
 
+/// Walls that any grain touches now, a bit each.
+unsigned walls_touched(const GrainState& grains) {
+  const auto touching = host_copy(grains.wall_touching);
+  unsigned all = 0;
+  for (int g = 0; g < grains.n; ++g) all |= touching(g);
+  return all;
+}
+
+/// Grains that fly about between a glued floor and five walls. Each collision makes a difference
+/// larger: ranks differ from one rank by no more, and no sooner, than that one from itself after
+/// all grains were moved by the last bit of their position.
+TEST(GrainsOverRanks, EightWallsAsOnOneRankUntilChaos) {
+  Config c = box({0.003, 0.0027, 0.003});
+  c.grains->boundary_x = GrainBoundaryX::wall;
+  c.grains->boundary_z = GrainBoundaryZ::wall;
+  c.grains->floor = GrainFloor::glued;
+  c.grains->floor_diameter = 2e-4;
+  const InitialGrains grains = testing::lattice_packing(500, c.size, 1.0);
+  SharedGrains s(c, grains);
+  GrainBench moved(c, grains);
+  testing::move_by_the_last_bit(moved.state, 0, moved.state.n);
+  unsigned touched = 0;
+  for (int round = 1; round <= 20; ++round) {
+    s.advance(100, 4e-6);
+    moved.advance(100, 4e-6);
+    touched |= walls_touched(s.whole.state);
+    const double off = s.off()[0];
+    const double chaos =
+        testing::differences(by_id(numbers_of(s.whole.state)), by_id(numbers_of(moved.state)))[0];
+    EXPECT_LT(off, chaos) << "round " << round;
+    if (round % 5 == 0 && is_first())
+      std::printf("[ measured ] %d ranks, %.1f ms: x %.1e; all moved by a bit: %.1e\n", n_ranks(),
+                  0.4 * round, off, chaos);
+  }
+  EXPECT_EQ(touched, 0xffu) << "a wall that no grain touches";
+}
+
 void move_the_left_ones(const GrainState& grains) {
   const auto kin = grains.kin;
   Kokkos::parallel_for(

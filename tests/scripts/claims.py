@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every test that docs/validation.md names exists: `Suite.Name` (or `Suite.Begin*`) and `script.name`."""
+"""What texts name is there: the tests of docs/validation.md (`Suite.Name`, `Suite.Begin*`, `script.name`); in all
+documents, Python files and comments the files (src/base/words.cpp); but in comments of C++ members (Halo::fill)."""
 import pathlib
 import re
 import sys
@@ -7,21 +8,67 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
 NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script(?:\.nightly)?\.\w+)`")
+FOLDERS = "analysis", "cmake", "configs", "docs", "kernels", "perf", "scripts", "src", "tests"
+FILE = re.compile(rf"(?<![\w/.$}}-])((?:{'|'.join(FOLDERS)})/[\w./-]+\.(?:cpp|hpp|py|sh|cmake|md|toml|csv|js))\b")
+MEMBER = re.compile(r"\b([A-Z]\w+)::(\w+)")
+FOREIGN = {"Kokkos", "Eigen", "MPI"}  # namespaces
+WRITTEN = {"kernels/math/mutant.hpp"}  # by tests/hygiene/mutants.py
 
 
-def main():
-    tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")} | {"script.parallel_files", "script.bad_input"}
+def gone_tests():
+    """Names of tests in docs/validation.md, and those of them that are not there."""
+    tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")}
+    tests |= {"script.parallel_files", "script.bad_input"}
     tests |= {f"script.nightly.{path.stem}" for path in ROOT.glob("tests/scripts/nightly/*")}
     for source in ROOT.glob("tests/*/*.cpp"):
         tests |= {".".join(found) for found in DECLARED.findall(source.read_text())}
     text = (ROOT / "docs/validation.md").read_text()
     named = {name for name in NAMED.findall(text) if not name.endswith((".md", ".csv", ".toml"))}
-    gone = [name for name in sorted(named)
-            if not any(test == name or (name[-1] in "*." and test.startswith(name.rstrip("*."))) for test in tests)]
-    for name in gone:
-        print(f"docs/validation.md names {name}, and there is no such test")
-    print(f"claims: {len(named)} names of tests in docs/validation.md")
-    return 1 if gone or len(named) < 50 else 0
+
+    def is_there(name):
+        return any(test == name or (name[-1] in "*." and test.startswith(name.rstrip("*."))) for test in tests)
+
+    return named, [name for name in sorted(named) if not is_there(name)]
+
+
+def sources(*ends):
+    return [path for folder in FOLDERS for end in ends for path in sorted((ROOT / folder).rglob("*" + end))]
+
+
+def comments(path):
+    """What a file says in words."""
+    text = path.read_text()
+    if path.suffix in (".hpp", ".cpp"):
+        return "\n".join(re.findall(r"//.*", text))
+    return text if path.suffix in (".py", ".md") else "\n".join(re.findall(r"#.*", text))
+
+
+def gone_names():
+    """Number of names of files and members, and "file names it" for each that is not there."""
+    cpp = sources(".hpp", ".cpp")
+    code = "\n".join(re.sub(r"//.*", "", path.read_text()) for path in cpp)
+    words = set(re.findall(r"\w+", code))
+    types = set(re.findall(r"\b(?:struct|class|namespace|using|union)\s+(?:alignas\(\w+\)\s+)?(\w+)", code))
+    texts = [*sources(".py", ".sh", ".md", ".cmake", "CMakeLists.txt"), *ROOT.glob("*.md"), ROOT / "CMakeLists.txt",
+             ROOT / "barchan"]
+    n, gone = 0, []
+    for path in [*texts, *cpp]:
+        said = comments(path)
+        there = {name: (ROOT / name).exists() for name in set(FILE.findall(said)) - WRITTEN}
+        if path in texts:
+            there |= {f"{a}::{b}": a in types and b in words for a, b in MEMBER.findall(said) if a not in FOREIGN}
+        n += len(there)
+        gone += [f"{path.relative_to(ROOT)} names {name}" for name, is_there in there.items() if not is_there]
+    return n, gone
+
+
+def main():
+    named, gone = gone_tests()
+    n, names = gone_names()
+    for what in [*(f"docs/validation.md names {name}" for name in gone), *names]:
+        print(f"{what}, and there is no such thing")
+    print(f"claims: {len(named)} names of tests in docs/validation.md, {n} of files and members")
+    return 1 if gone or names or len(named) < 50 or n < 100 else 0
 
 
 sys.exit(main())

@@ -30,6 +30,54 @@ expect 2 "end" check "bad case.toml"
 expect 2 "no such case.toml" run "no such case.toml"
 [ "$(ls)" = "bad case.toml" ] || fail "a bad case left something behind: $(ls)"
 
+# Names that begin with a dash: of a case, and of a run folder, also when its pictures are drawn.
+export OMP_NUM_THREADS=1
+quick=(--quiet --set time.end=5e-4)
+cp "$root/tests/support/small_dune.toml" -- -dash.toml
+said="$("$root/barchan" run "${quick[@]}" --out -o2 -dash.toml 2>&1)" || fail "run -dash.toml --out -o2: $said"
+[[ $said != *error* && $said != *"some pictures"* && -f -o2/run.json && -f -o2/report.html ]] ||
+  fail "run -dash.toml --out -o2: no pictures: $said"
+"$root/barchan" check -dash.toml > said 2>&1 || fail "check -dash.toml: $(cat said)"
+"$root/barchan" run "${quick[@]}" --dry-run -- -dash.toml > said 2>&1 || fail "run -- -dash.toml: $(cat said)"
+
+printf '[study]\nbase = "-dash.toml"\n[set]\n"time.end" = 5e-4\n[vary]\n"fluid.mean_velocity" = [0.2]\n' > -study.toml
+"$root/barchan" sweep -study.toml --out=-s > said 2>&1 || fail "sweep -study.toml --out=-s: $(cat said)"
+! grep -i "error\|could not" said || fail "sweep -study.toml --out=-s: no pictures"
+
+# Without an environment, and with nothing to read from or to write to.
+export BARCHAN_PYTHON=/bin/false  # no more pictures
+env -i OMP_NUM_THREADS=1 BARCHAN_PYTHON=/bin/false "$root/barchan" run "${quick[@]}" --out bare ./-dash.toml > said 2>&1 ||
+  fail "without an environment: $(cat said)"
+"$root/barchan" run "${quick[@]}" --out closed ./-dash.toml <&- >&- 2>&- || fail "closed streams: exit code $?"
+grep -q '"status": "done"' bare/run.json closed/run.json || fail "without an environment or streams: not done"
+
+# A name that no test has. What there is to build for them is not the question: cmake does nothing.
+# And ctest looks into a folder with one test, or it would write over the results of the tests that run now.
+mkdir bin one && ln -s /bin/true bin/cmake
+echo 'add_test(Contact true)' > one/CTestTestfile.cmake
+printf '#!/bin/sh\nshift 2\nexec "%s" --test-dir "%s" "$@"\n' "$(command -v ctest)" "$PWD/one" > bin/ctest
+chmod +x bin/ctest
+PATH="$PWD/bin:$PATH" "$root/barchan" test -R Contact > said 2>&1 || fail "a test that is there: $(cat said)"
+said="$(PATH="$PWD/bin:$PATH" "$root/barchan" test -R Hertz-of-nobody 2>&1)" && fail "no such test: exit code 0"
+[[ $said == *"No tests were found"* ]] || fail "no such test: $said"
+
+# The checkout of another user: its program runs; what is not built there cannot be.
+as_other=()
+if [ "$(id -u)" -eq 0 ]; then as_other=(setpriv --reuid=65534 --regid=65534 --clear-groups); fi
+mkdir -p other/build/release && cp -r "$root"/{barchan,scripts,analysis} other &&
+  cp "$BARCHAN_PROGRAM"* other/build/release && chmod -R a-w,a+rX other && chmod 755 "$dir" || fail "no copy"
+if "${as_other[@]}" other/build/release/barchan --version > said 2>&1; then
+  mkdir -m 777 theirs
+  (cd theirs && BARCHAN_PRESET=release "${as_other[@]}" ../other/barchan run "${quick[@]}" "$PWD/../-dash.toml") \
+    > said 2>&1 || fail "the checkout of another user: $(cat said)"
+  [ -f theirs/runs/-dash/run.json ] || fail "the checkout of another user: nothing run: $(cat said)"
+  status=0
+  BARCHAN_PRESET=release "${as_other[@]}" other/barchan build unit_tests > said 2>&1 || status=$?
+  [ "$status" -eq 1 ] && [ "$(wc -l < said)" -eq 1 ] && grep -q "cannot write to .*/build" said ||
+    fail "a build in the checkout of another user: exit code $status: $(cat said)"
+fi
+chmod -R u+w other
+
 expect 0 "nothing to do" setup
 start="$(date +%s%N)"
 "$root/barchan" setup > /dev/null

@@ -6,6 +6,9 @@ python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 python="${BARCHAN_PYTHON:-$python}"
 export PYTHONDONTWRITEBYTECODE=1
+# The launcher takes the build that is tested, if that is one of its own.
+preset="$(basename "$(dirname "$BARCHAN_PROGRAM")")"
+[ "$root/build/$preset/barchan" != "$BARCHAN_PROGRAM" ] || export BARCHAN_PRESET="$preset"
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 failures=0

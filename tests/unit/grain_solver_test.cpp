@@ -323,5 +323,22 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   }
 }
 
+// A glued floor, a top and four sides are all walls that a case can ask for.
+TEST(GrainSolver, ANinthWallIsRefused) {
+  Config config = grain_config();
+  config.grains->floor = GrainFloor::glued;
+  config.grains->floor_diameter = 2e-4;
+  config.grains->boundary_x = GrainBoundaryX::wall;
+  config.grains->boundary_z = GrainBoundaryZ::wall;
+  InitialGrains g;
+  add_grain(g, 2e-4, {0.005, 0.005, 0.005});
+  const GrainBench c(config, g);
+  WallShapes walls = c.solver.walls();
+  EXPECT_EQ(walls.n, 8);
+  EXPECT_EQ(walls.n_histories, 5);  // opposite sides share one
+  EXPECT_THROW(add_wall(walls, Plane{.normal = {1, 0, 0}}, 0), std::length_error);
+  EXPECT_EQ(walls.n, 8);
+}
+
 }  // namespace
 }  // namespace barchan

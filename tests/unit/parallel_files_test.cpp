@@ -1,5 +1,5 @@
-// Result and restart files written by all ranks together; tests/scripts/parallel_files.sh runs
-// these on several ranks, the unit tests on one.
+// Result and restart files written by all ranks together; script.parallel_files runs these on two
+// ranks, the unit tests on one.
 #include <gtest/gtest.h>
 
 #include <array>
