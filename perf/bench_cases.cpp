@@ -33,7 +33,7 @@ Work grain_step_work(const RunningCase& c, const benchmark::State& run) {
   const bool rolling = c.spec.config.grains->material.rolling_friction > 0;
   const double n = c.grains();
   const double pairs = run.counters.at("pairs") / n, contacts = run.counters.at("contacts") / n;
-  return n * (work::integrate(!c.state.grains->fluid.none) +
+  return n * (work::integrate(c.state.grains->fluid.has_fluid) +
               work::pair_forces(pairs, contacts, rolling));
 }
 

@@ -1,6 +1,7 @@
 #include "src/coupling/coupled_step.hpp"
 
-#include "kernels/coupling/gather.hpp"
+#include "kernels/coupling/force_output.hpp"
+#include "kernels/coupling/frozen_grains.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/launch.hpp"
 
@@ -91,7 +92,7 @@ void CoupledStep::gather(SystemState& state) {
     still_.on_grains = grains.fluid;
     Kokkos::parallel_for("grains: still fluid", items(grains.n), still_);
   }
-  if (grains.fluid.none) return;
+  if (!grains.fluid.has_fluid) return;
   Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
                        BeginFluidStep{grains.kin, grains.fluid});
 }
@@ -103,7 +104,7 @@ void CoupledStep::move_grains(SystemState& state, int n) {
   const PhaseTimer timer(phases_, "grains");
   if (!frozen_) {
     grains_->advance(grains, n, dt_ / n_substeps_);
-  } else if (!grains.fluid.none) {
+  } else if (grains.fluid.has_fluid) {
     Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
                          DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
   }
@@ -144,7 +145,7 @@ std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) cons
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
-  if (!grains.fluid.none) {
+  if (grains.fluid.has_fluid) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
     Kokkos::parallel_for("output: forces on grains", n,
                          DragAndAddedMass{.grains = grains.kin,
@@ -180,7 +181,7 @@ Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const
 }
 
 Kokkos::View<Vec3*> CoupledStep::mean_resultant_force(const GrainState& grains) const {
-  if (grains.fluid.none) return resultant_force(grains);
+  if (!grains.fluid.has_fluid) return resultant_force(grains);
   const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
   Kokkos::parallel_for(
       "output: mean resultant force", grains.n,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/coupling/still_fluid.hpp"
 #include "src/base/stopwatch.hpp"
 #include "src/config/config.hpp"
 #include "src/coupling/coupling.hpp"

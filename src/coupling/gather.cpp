@@ -152,7 +152,7 @@ void Coupling::reserve_flow_at(int n) {
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_rows(*array, n);
-  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_cells, &flow_at_.solid_per_fluid})
+  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_l, &flow_at_.solid_per_fluid})
     reserve_rows(*array, n);
 }
 
@@ -182,20 +182,27 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),
-                             GatherFluid{.drag = law,
+                             GatherFluid{.law = law,
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,
                                          .weight = weight_,
                                          .forces = forces_,
-                                         .by_row = by_row_,
-                                         .first = first_,
                                          .grains = grains.kin,
                                          .flow_at = flow_at_,
                                          .on_grains = grains.fluid,
                                          .exchange = grains.exchange});
       },
       drag_);
+  if (first_) {
+    Kokkos::parallel_for("coupling: gather in the first step", items(grains.n),
+                         GatherFirstStep{.rho_f = rho_f_,
+                                         .weight = weight_,
+                                         .grains = grains.kin,
+                                         .flow_at = flow_at_,
+                                         .on_grains = grains.fluid,
+                                         .exchange = grains.exchange});
+  }
   if (forces_.lift || forces_.torque) gather_shear(fluid, grains);
   first_ = false;
 }

@@ -185,7 +185,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
                              .pressure = {"test: found", n},
                              .stress = {},
                              .alpha_f = {},
-                             .alpha_cells = {"test: mean", n},
+                             .alpha_l = {"test: mean", n},
                              .solid_per_fluid = {"test: largest", n}};
     Kokkos::parallel_for("test: gather", there.n,
                          FlowOverCells{.stencil = stencil,
