@@ -22,7 +22,8 @@ CaseFacts describe(const RunningCase& c) {
 }
 
 void count_contacts(benchmark::State& run, RunningCase& c) {
-  run.counters["contacts"] = static_cast<double>(c.step->contacts(c.state).n_contacts);
+  run.counters["contacts"] =
+      static_cast<double>(c.step->grain_solver()->contacts(*c.state.grains).n_contacts);
   run.counters["pairs"] = c.state.grains->list.n_pairs;
 }
 
@@ -33,7 +34,7 @@ Work grain_step_work(const RunningCase& c, const benchmark::State& run) {
   const bool rolling = c.spec.config.grains->material.rolling_friction > 0;
   const double n = c.grains();
   const double pairs = run.counters.at("pairs") / n, contacts = run.counters.at("contacts") / n;
-  return n * (work::integrate(!c.state.grains->fluid.none) +
+  return n * (work::integrate(c.state.grains->fluid.has_fluid) +
               work::pair_forces(pairs, contacts, rolling));
 }
 
@@ -72,7 +73,7 @@ void count_events(benchmark::State& run, CaseFacts& f, const EventCounts& events
 void run_case(benchmark::State& run, const CaseSpec& spec) {
   RunningCase& c = running_case(spec);
   const auto rebuilds_so_far = [&c]() -> std::int64_t {
-    return c.state.grains ? c.step->neighbor_list().rebuilds() : 0;
+    return c.state.grains ? c.step->neighbor_list()->rebuilds() : 0;
   };
   // The peers' unit, where there is no flow: one step of the grains.
   const int steps_at_once = c.state.fluid ? 1 : c.step->substeps();

@@ -71,10 +71,12 @@ Action move_grains(RunningCase& c) {
 }
 
 Action build_list(RunningCase& c) {
-  return [&c] { c.step->neighbor_list().rebuild(*c.state.grains, true); };
+  return [&c] { c.step->neighbor_list()->rebuild(*c.state.grains, true); };
 }
 
-double contacts_of(RunningCase& c) { return c.per_grain(c.step->contacts(c.state).n_contacts); }
+double contacts_of(RunningCase& c) {
+  return c.per_grain(c.step->grain_solver()->contacts(*c.state.grains).n_contacts);
+}
 
 Work pair_force_work(RunningCase& c) {
   return work::integrate(false) + work::pair_forces(pairs_of(c), contacts_of(c), false);

@@ -136,7 +136,7 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
     state.fluid = make_fluid_state(make_grid(config));
     state.grains = grains_in_file(file, MPI_COMM_SELF);
     step = std::make_unique<CoupledStep>(config, state);
-    load_state(file, state, *step);
+    load_state(file, state, step->neighbor_list());
   } else {
     Config flow_alone = config;
     flow_alone.grains.reset();
@@ -147,7 +147,7 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
     step->start(state);
   }
   // The list and the rows have two sets of memory, taken in the first two rebuilds.
-  if (state.grains) step->neighbor_list().rebuild(*state.grains, true);
+  if (state.grains) step->neighbor_list()->rebuild(*state.grains, true);
   for (int n = 0; n < spec.untimed_steps; ++n) advance();
   bytes_ = array_bytes();
 }
@@ -166,7 +166,7 @@ void RunningCase::put_grains() {
 
 void RunningCase::advance() {
   // A rebuild that keeps the contact history, as after the loss of a grain.
-  if (spec.rebuild_each_step) step->neighbor_list().rebuild(*state.grains, true);
+  if (spec.rebuild_each_step) step->neighbor_list()->rebuild(*state.grains, true);
   step->advance(state);
 }
 

@@ -10,6 +10,7 @@
 #include "perf/cases.hpp"
 #include "perf/options.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/coupling/coupled_step.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/run/initial_state.hpp"
 

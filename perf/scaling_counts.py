@@ -157,7 +157,7 @@ def deposit_halo(p):
 
 
 def exchange(p):
-    """Coupling::gather(), deposit(), with smoothing."""
+    """Gather and Deposit, with smoothing."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
             + Counts(reductions=14))
 

@@ -2,20 +2,12 @@
 // Equations: docs/model.md.
 #pragma once
 
+#include "kernels/coupling/deposit_cache.hpp"
 #include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
-
-/// Sums on owned cells in fixed point. By row the conductances and the impulses along the floor are
-/// those of the momentum cells around the faces.
-struct Deposits {
-  // Volume; conductance between rows for the flow along x, along z; impulse x, y, z.
-  static constexpr int kQuantities = 6;
-  Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
-  FixedPoint volume, conductance, impulse;
-};
 
 /// What one grain gives to the fluid in one fluid step.
 struct GrainExchange {
@@ -34,8 +26,8 @@ struct ExchangeOfGrain {
     if (exchange.lift.extent(0) > 0) steady += exchange.lift(g);
     return {.volume = sphere_volume(grains(g).r), .impulse = on_grains.impulse(g) + dt * steady};
   }
-  /// [kg]
-  KOKKOS_INLINE_FUNCTION Real drag(int g) const { return dt * on_grains.beta(g); }
+  /// beta_p dt [kg].
+  KOKKOS_INLINE_FUNCTION Real beta_dt(int g) const { return dt * on_grains.beta(g); }
 };
 
 /// Bounds of the grains' centres, without a lower one for the height [m].
@@ -43,16 +35,16 @@ struct GrainExtent {
   Real left = 0, right = -1, top = 0, front = 0, back = 0;  // no grains
 };
 
-/// What all grains together give: volume [m^3], drag coefficient times dt [kg], sum of |impulse|
-/// components and the impulse itself [N s]; and their extent.
+/// What all grains together give: volume [m^3], beta_p dt [kg], sum of |impulse| components and the
+/// impulse itself [N s]; and their extent. Bounds of what one cell can get.
 struct GrainTotals {
   ExchangeOfGrain of_grain;
-  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& drag, Real& size, Real& x, Real& y,
+  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& beta_dt, Real& size, Real& x, Real& y,
                                   Real& z, Real& left, Real& right, Real& top, Real& front,
                                   Real& back) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
-    drag += of_grain.drag(g);
+    beta_dt += of_grain.beta_dt(g);
     size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
     x += e.impulse.x;
     y += e.impulse.y;
@@ -64,102 +56,76 @@ struct GrainTotals {
   }
 };
 
-/// What grains give to cells, on its way to the sums of all. A few cells are kept until others take
-/// their places: grains that follow one another in memory share cells, and an atomic addition takes
-/// longer than all else.
-template <int places>
-class RecentCells {
- public:
-  KOKKOS_INLINE_FUNCTION explicit RecentCells(const Deposits& deposits) : deposits_(deposits) {}
-  KOKKOS_INLINE_FUNCTION ~RecentCells() {
-    for (int place = 0; place < places; ++place) give_back(place);
-  }
-  RecentCells(const RecentCells&) = delete;
-
-  KOKKOS_INLINE_FUNCTION void add(std::int64_t cell,
-                                  const std::int64_t (&given)[Deposits::kQuantities]) {
-    const auto place = static_cast<int>(cell % places);
-    if (cell_[place] != cell) {
-      give_back(place);
-      cell_[place] = cell;
-    }
-    for (int q = 0; q < Deposits::kQuantities; ++q) sum_[place][q] += given[q];
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION void give_back(int place) {
-    for (int q = 0; q < Deposits::kQuantities; ++q) {
-      if (sum_[place][q] != 0) Kokkos::atomic_add(&deposits_.sum(cell_[place], q), sum_[place][q]);
-      sum_[place][q] = 0;
-    }
-  }
-
-  const Deposits& deposits_;
-  std::int64_t cell_[places]{}, sum_[places][Deposits::kQuantities]{};
-};
-
-/// Deposits the volume and the exchange of grains in the cells of their points: a work item is
-/// `together` grains that follow one another, one on a device.
-template <int together>
+/// Deposits the volume and the exchange of grains in the cells of their points, or by row. A work
+/// item is some grains that follow one another, one on a device.
+template <int grains_per_item>
 struct DepositGrains {
   ExchangeOfGrain of_grain;
-  ExchangeByRow rows;
+  ExchangeByRow by_row;
   Deposits deposits;
   int n = 0;  // all grains
 
-  using Recent = RecentCells<(together > 1 ? 16 : 1)>;
-  static constexpr int items_for(int n) { return (n + together - 1) / together; }
+  using Cache = DepositCache<(grains_per_item > 1 ? 16 : 1)>;
+  static constexpr int items_for(int n) { return (n + grains_per_item - 1) / grains_per_item; }
   KOKKOS_FUNCTION void operator()(int item) const {
-    Recent cells(deposits);
-    const int end = Kokkos::min((item + 1) * together, n);
-    for (int g = item * together; g < end; ++g) add(g, cells);
+    Cache cache(deposits);
+    const int end = Kokkos::min((item + 1) * grains_per_item, n);
+    for (int g = item * grains_per_item; g < end; ++g) deposit(g, cache);
   }
 
  private:
-  using Given = std::int64_t[Deposits::kQuantities];
-  KOKKOS_INLINE_FUNCTION void add(int g, Recent& to) const {
+  KOKKOS_INLINE_FUNCTION void deposit(int g, Cache& cache) const {
     const GrainKinematics grain = of_grain.grains(g);
-    const GrainRows in_rows = rows.stencil.rows_of(grain);
-    const GrainCells cells = rows.stencil(grain, in_rows);
-    const GrainExchange e = of_grain(g);
+    const GrainRows rows = by_row.stencil.rows_of(grain);
+    const GrainExchange given = of_grain(g);
+    to_cells(by_row.stencil(grain, rows), given, cache);
+    if (by_row.on) to_rows(g, rows, by_row.velocity(rows, grain), given.impulse, cache);
+  }
+  /// By shares of the points; by row the volume alone.
+  KOKKOS_INLINE_FUNCTION void to_cells(const GrainCells& cells, const GrainExchange& given,
+                                       Cache& cache) const {
     for (int q = 0; q < cells.n; ++q) {
       const Real w = cells.weight(q);
-      const Vec3 impulse = rows.on ? Vec3{} : w * e.impulse;
-      give(to, cells.cell[q],
-           {deposits.volume.encode(w * e.volume), 0, 0, deposits.impulse.encode(impulse.x),
-            deposits.impulse.encode(impulse.y), deposits.impulse.encode(impulse.z)});
+      const Vec3 impulse = by_row.on ? Vec3{} : w * given.impulse;
+      add(cache, cells.cell[q],
+          {.volume = deposits.volume.encode(w * given.volume),
+           .impulse_x = deposits.impulse.encode(impulse.x),
+           .impulse_y = deposits.impulse.encode(impulse.y),
+           .impulse_z = deposits.impulse.encode(impulse.z)});
     }
-    if (rows.on) add_by_row(g, grain, in_rows, e.impulse, to);
   }
-  /// Along the floor to the momentum cells that the grain belongs to. A cell that flows faster
-  /// than the grain sees on average drags it more: the difference adds up to nothing over the
+  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_p dt (u_jf - u_f)), and
+  /// the conductance c_f C_j to the row below; upwards w_j J to row j. A cell that flows faster
+  /// than the grain sees on average drags it more: the differences add up to nothing over the
   /// grain.
-  KOKKOS_INLINE_FUNCTION void add_by_row(int g, const GrainKinematics& grain,
-                                         const GrainRows& in_rows, const Vec3& impulse,
-                                         Recent& to) const {
-    const VelocityByRow v = rows.velocity(in_rows, grain);
-    const Real drag = of_grain.drag(g);
-    for (int r = 0; r < in_rows.n; ++r) {
-      const int j = in_rows.row[r];
-      const Real w = in_rows.weight(r);
-      const Real coupling = drag * conductance_below(in_rows, j);
-      give(to, CellIndex{v.i, j, v.k}, {0, 0, 0, 0, deposits.impulse.encode(w * impulse.y), 0});
+  KOKKOS_INLINE_FUNCTION void to_rows(int g, const GrainRows& rows, const VelocityByRow& u,
+                                      const Vec3& impulse, Cache& cache) const {
+    const Real beta_dt = of_grain.beta_dt(g);
+    for (int r = 0; r < rows.n; ++r) {
+      const int j = rows.row[r];
+      const Real w = rows.weight(r);
+      const Real C_j = beta_dt * conductance_below(rows, j);
+      add(cache, {u.i, j, u.k}, {.impulse_y = deposits.impulse.encode(w * impulse.y)});
       for (int side = 0; side < 2; ++side) {
-        const Real wx = v.x_faces.weight(side), wz = v.z_faces.weight(side);
-        if (wx > 0)
-          give(to, rows.x_face(v, side, j),
-               {0, deposits.conductance.encode(wx * coupling), 0,
-                deposits.impulse.encode(w * wx * (impulse.x + drag * (v.x[side][r] - v.mean_x))), 0,
-                0});
-        if (wz > 0)
-          give(to, rows.z_face(v, side, j),
-               {0, 0, deposits.conductance.encode(wz * coupling), 0, 0,
-                deposits.impulse.encode(w * wz * (impulse.z + drag * (v.z[side][r] - v.mean_z)))});
+        const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
+        if (c_x > 0) {
+          const Real lost = w * c_x * (impulse.x + beta_dt * (u.x[side][r] - u.mean_x));
+          add(cache, by_row.x_face(u, side, j),
+              {.conductance_x = deposits.conductance.encode(c_x * C_j),
+               .impulse_x = deposits.impulse.encode(lost)});
+        }
+        if (c_z > 0) {
+          const Real lost = w * c_z * (impulse.z + beta_dt * (u.z[side][r] - u.mean_z));
+          add(cache, by_row.z_face(u, side, j),
+              {.conductance_z = deposits.conductance.encode(c_z * C_j),
+               .impulse_z = deposits.impulse.encode(lost)});
+        }
       }
     }
   }
-  KOKKOS_INLINE_FUNCTION void give(Recent& to, const CellIndex& cell, const Given& given) const {
-    to.add(cell.linear(rows.stencil.grid), given);
+  KOKKOS_INLINE_FUNCTION void add(Cache& cache, const CellIndex& cell,
+                                  const CellDeposit& given) const {
+    cache.add(cell.linear(by_row.stencil.grid), given);
   }
 };
 
@@ -172,7 +138,7 @@ struct DecodeDeposit {
   GridRef grid;
   Deposits deposits;
   FixedPoint point;
-  int quantity = 0;
+  Deposits::Quantity quantity = Deposits::kVolume;
   Real most = Kokkos::Experimental::infinity_v<Real>;
   FieldRef density;
 

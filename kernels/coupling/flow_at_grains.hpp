@@ -119,7 +119,8 @@ struct FlowAtGrains {
   Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
   Kokkos::View<Vec3*> stress;           // force of the stress, likewise
   Kokkos::View<Real*> alpha_f;          // fraction of the flow
-  Kokkos::View<Real*> alpha_cells;      // mean over the grain's cells, before the smoothing
+  Kokkos::View<Real*> alpha_l;          // what the drag law reads: by row the mean over the grain's
+                                        // cells before the smoothing, else alpha_f
   Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells
 };
 
@@ -153,7 +154,7 @@ struct FlowAtCentres {
     flow.u(g) = interpolate_faces(u, at);
     flow.du_dt(g) = interpolate_faces(du_dt, at);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
-    flow.alpha_f(g) = interpolate_cell(alpha_f, at);
+    flow.alpha_f(g) = flow.alpha_l(g) = interpolate_cell(alpha_f, at);
   }
 };
 
@@ -168,7 +169,7 @@ struct FlowFromCells {
   KOKKOS_FUNCTION void operator()(int g) const {
     const CellPointFace at(grid, box, grains(g).x);
     flow.u(g) = {at(grid, x), at(grid, y), at(grid, z)};
-    flow.alpha_f(g) = at(grid, alpha_f);
+    flow.alpha_f(g) = flow.alpha_l(g) = at(grid, alpha_f);
   }
 };
 
@@ -202,7 +203,7 @@ struct FlowOverCells {
       if (with_pressure) of_pressure += w * pressure(c);
       if (with_stress) of_stress += w * stress(c);
     }
-    flow.alpha_cells(g) = mean;
+    flow.alpha_l(g) = mean;
     flow.solid_per_fluid(g) = most;
     if (with_pressure) flow.pressure(g) = of_pressure;
     if (with_stress) flow.stress(g) = of_stress;

@@ -14,10 +14,12 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
   return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
 }
 
-/// Conductance between row j - 1 and row j for what rows exchange through a drag coefficient of
-/// one, w_j (u_j - u) in each row j, u the mean over the grain: at least as stiff, sum over pairs
-/// of rows a < j <= b of w_a w_b (b - a); added up over j at most kDividedOffsets^2 / 4. For rows
-/// higher than a sixth of the grain: then each between its ends holds a point.
+/// What of beta_p dt joins rows j - 1 and j through one grain: C_j of docs/numerics.md, "Drag
+/// between rows",
+///   sum over pairs of its rows a < j <= b of w_a w_b (b - a).
+/// At least as stiff as the drag itself (tests/physics/drag_between_rows_test.cpp). Over all j it
+/// adds up to kDividedOffsets^2 / 4 at most. Rows must be higher than a sixth of the grain: then
+/// each between its ends holds a point.
 KOKKOS_INLINE_FUNCTION Real conductance_below(const GrainRows& rows, int j) {
   Real sum = 0;
   for (int a = 0; a < rows.n; ++a) {

@@ -18,8 +18,8 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> u_start;         // velocity as the fluid step began [m/s]
   Kokkos::View<Vec3*> spin_f;          // of the fluid, half its vorticity [rad/s]
   Kokkos::View<Real*> beta_r;          // torque = beta_r (spin_f - spin) [N m s]
-  bool none = true;                    // no fluid: nothing but steady_force is there
-  bool turns = false;                  // the fluid exerts a torque: spin_f and beta_r are there
+  bool has_fluid = false;              // without one nothing but steady_force is there
+  bool has_torque = false;             // of the fluid: spin_f and beta_r are there
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {

@@ -42,9 +42,10 @@ struct GrainMotion {
       s.x_r.put(q, grain.x_r()), s.u_m.put(q, grain.u_m()), s.spin.put(q, grain.spin());
       s.force.put(q, sums[q].force), s.torque.put(q, sums[q].torque);
     }
-    const bool worn = fluid.none    ? advance<moves, FluidEffect::none>(s, begin, n)
-                      : fluid.turns ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
-                                    : advance<moves, FluidEffect::force>(s, begin, n);
+    const bool worn = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
+                      : fluid.has_torque
+                          ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
+                          : advance<moves, FluidEffect::force>(s, begin, n);
     s.new_x.to_quads(n, s.x_r), s.new_u.to_quads(n, s.u_m), s.new_omega.to_quads(n, s.spin);
     for (int q = 0; q < n; ++q) {
       GrainKinematics& grain = grains(begin + q);

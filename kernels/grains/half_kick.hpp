@@ -26,11 +26,11 @@ struct GrainForces {
 };
 
 /// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the
-/// next. With m of the grain, m_f of its share of fluid, m_a the added mass and s = u_f - u:
-///   m (u' - u) = h F + J,   m_f (u_f' - u_f) = h m_f a - J,   J = h beta s' + m_a (s' - s),
+/// next. With m of the grain, m_f of its share of fluid, m_a the added mass and v = u_f - u:
+///   m (u' - u) = h F + J,   m_f (u_f' - u_f) = h m_f a - J,   J = h beta v' + m_a (v' - v),
 /// drag at the new slip, so stable at any step. Subtracted, with k = 1/m + 1/m_f:
-///   (1 + k (m_a + h beta)) s' = (1 + k m_a) s + h (a - F/m).
-/// Limits: beta = m_a = 0 is the plain kick; s = 0, F = 0, a = 0 stays so; 1/m_f = a = 0 is drag in
+///   (1 + k (m_a + h beta)) v' = (1 + k m_a) v + h (a - F/m).
+/// Limits: beta = m_a = 0 is the plain kick; v = 0, F = 0, a = 0 stays so; 1/m_f = a = 0 is drag in
 /// a flow that does not change.
 struct HalfKick {
   Real h;

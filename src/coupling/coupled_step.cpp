@@ -1,16 +1,12 @@
 #include "src/coupling/coupled_step.hpp"
 
-#include "kernels/coupling/gather.hpp"
+#include "kernels/coupling/frozen_grains.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
 
 namespace {
-
-Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
-  return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
-}
 
 /// List rebuilds during its own life are a phase of their own, not time of the grains.
 class RebuildSeconds {
@@ -91,7 +87,7 @@ void CoupledStep::gather(SystemState& state) {
     still_.on_grains = grains.fluid;
     Kokkos::parallel_for("grains: still fluid", items(grains.n), still_);
   }
-  if (grains.fluid.none) return;
+  if (!grains.fluid.has_fluid) return;
   Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
                        BeginFluidStep{grains.kin, grains.fluid});
 }
@@ -103,7 +99,7 @@ void CoupledStep::move_grains(SystemState& state, int n) {
   const PhaseTimer timer(phases_, "grains");
   if (!frozen_) {
     grains_->advance(grains, n, dt_ / n_substeps_);
-  } else if (!grains.fluid.none) {
+  } else if (grains.fluid.has_fluid) {
     Kokkos::parallel_for("grains: drag on frozen grains", grains.n,
                          DragOnFrozenGrains{.dt = dt_, .on_grains = grains.fluid});
   }
@@ -138,55 +134,6 @@ Vec3 CoupledStep::impulse_on_grains() const {
   if (!coupling_) return {};
   const ExchangeLedger& step = coupling_->ledger();
   return step.given_to_grains + step.flow_on_grains;
-}
-
-std::vector<NamedForce> CoupledStep::grain_forces(const SystemState& state) const {
-  const GrainState& grains = *state.grains;
-  const int n = grains.n;
-  std::vector<NamedForce> forces;
-  if (!grains.fluid.none) {
-    const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
-    Kokkos::parallel_for("output: forces on grains", n,
-                         DragAndAddedMass{.grains = grains.kin,
-                                          .on_grains = grains.fluid,
-                                          .exchange = grains.exchange,
-                                          .dt = dt_,
-                                          .drag = drag,
-                                          .added_mass = added});
-    forces.push_back({"force_drag", drag});
-    forces.push_back({"force_added_mass", added});
-  }
-  if (grains.exchange.lift.size() > 0) forces.push_back({"force_lift", grains.exchange.lift});
-  if (coupling_) {
-    forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
-    forces.push_back({"force_stress", grains.exchange.stress_force});
-  }
-  const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
-  grains_->split_contacts(grains, normal, tangential);
-  forces.push_back({"force_contact_normal", normal});
-  forces.push_back({"force_contact_tangential", tangential});
-  forces.push_back({"force_total", resultant_force(grains)});
-  return forces;
-}
-
-Kokkos::View<Vec3*> CoupledStep::resultant_force(const GrainState& grains) const {
-  const Kokkos::View<Vec3*> total = grain_vector("total", grains.n);
-  Kokkos::parallel_for("output: resultant force", grains.n,
-                       ResultantForce{.on_grains = grains.fluid,
-                                      .contact_force = grains.contact_force,
-                                      .dt = dt_,
-                                      .total = total});
-  return total;
-}
-
-Kokkos::View<Vec3*> CoupledStep::mean_resultant_force(const GrainState& grains) const {
-  if (grains.fluid.none) return resultant_force(grains);
-  const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
-  Kokkos::parallel_for(
-      "output: mean resultant force", grains.n,
-      MeanResultantForce{
-          .grains = grains.kin, .u_start = grains.fluid.u_start, .dt = dt_, .mean = mean});
-  return mean;
 }
 
 }  // namespace barchan

@@ -2,24 +2,18 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <span>
 #include <vector>
 
+#include "kernels/coupling/still_fluid.hpp"
 #include "src/base/stopwatch.hpp"
 #include "src/config/config.hpp"
 #include "src/coupling/coupling.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
+#include "src/coupling/system_state.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/grains/grain_solver.hpp"
 
 namespace barchan {
-
-/// What a run is made of; either part may be missing.
-struct SystemState {
-  std::optional<FluidState> fluid;
-  std::optional<GrainState> grains;
-};
 
 /// Unresolved CFD-DEM, model A; also a pure flow or pure grains.
 class CoupledStep {
@@ -47,16 +41,6 @@ class CoupledStep {
   /// The conservation ledger; grains beyond the outlet leave.
   void close_step(SystemState& state);
 
-  /// Forces on the grains over the last step by name [N], rows as in the state: drag, pressure
-  /// gradient, stress, added mass, contact normal and tangential, and total, the resultant with
-  /// weight and buoyancy.
-  std::vector<NamedForce> grain_forces(const SystemState& state) const;
-  /// The last of them alone.
-  Kokkos::View<Vec3*> resultant_force(const GrainState& grains) const;
-  /// Its mean over the last step, what changed the grains' momentum in water; without, the same as
-  /// above. Contacts of one grain step alone would be mostly vibration.
-  Kokkos::View<Vec3*> mean_resultant_force(const GrainState& grains) const;
-
   const FluidStepReport& fluid_report() const { return fluid_report_; }
   /// What changed sides in the last step, and since the run began.
   const ExchangeLedger& exchange() const { return coupling_->ledger(); }
@@ -65,24 +49,14 @@ class CoupledStep {
   Vec3 impulse_on_grains() const;
   const Phases& phases() const { return phases_; }
   int substeps() const { return n_substeps_; }
+  /// Of a fluid step [s].
+  Real dt() const { return dt_; }
 
-  /// Of a state with a flow, see FluidSolver.
-  Real friction_velocity(const SystemState& s) const { return fluid_->friction_velocity(*s.fluid); }
-  Real bulk_velocity(const SystemState& s) const { return barchan::bulk_velocity(*s.fluid); }
-  Real kinetic_energy_of_fluid(const SystemState& s) const {
-    return fluid_->kinetic_energy(*s.fluid);
-  }
-  /// Those that hold nothing between two steps; see FluidSolver::Idle.
-  std::vector<Field> scratch_fields() const { return fluid_->idle().for_anything(); }
-  /// After the flow was set by hand.
-  void fill_ghosts(SystemState& state) const { fluid_->fill_ghosts(*state.fluid); }
-
-  /// Of a state with grains.
-  ContactSummary contacts(const SystemState& s) const { return grains_->contacts(*s.grains); }
-  Real stable_grain_step(const SystemState& s) const { return grains_->stable_step(*s.grains); }
-  const WallShapes& walls() const { return grains_->walls(); }
-  NeighborList& neighbor_list() { return grains_->list(); }
-  const NeighborList& neighbor_list() const { return grains_->list(); }
+  /// Those that move flow and grains; null for a part that the state does not have.
+  const FluidSolver* fluid_solver() const { return fluid_.get(); }
+  const GrainSolver* grain_solver() const { return grains_.get(); }
+  NeighborList* neighbor_list() { return grains_ ? &grains_->list() : nullptr; }
+  const NeighborList* neighbor_list() const { return grains_ ? &grains_->list() : nullptr; }
 
  private:
   double dt_ = 0;

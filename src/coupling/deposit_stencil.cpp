@@ -1,10 +1,11 @@
-// Which cells a grain's volume may go to: where directions are periodic, end at walls or are cut.
+#include "src/coupling/deposit_stencil.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "src/config/load.hpp"
-#include "src/coupling/coupling.hpp"
+#include "src/parallel/decomposition.hpp"
 
 namespace barchan {
 

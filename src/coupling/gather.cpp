@@ -1,19 +1,71 @@
-// From the flow to the grains.
-#include "kernels/coupling/gather.hpp"
+#include "src/coupling/gather.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "kernels/coupling/gather_shear.hpp"
-#include "src/coupling/coupling.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
 
+namespace {
+
+DragModel make_drag(DragLaw law, Real sauter_diameter) {
+  const std::map<DragLaw, DragModel> models{
+      {DragLaw::gidaspow, Gidaspow{}},
+      {DragLaw::di_felice, DiFelice{}},
+      {DragLaw::koch_hill, KochHill{}},
+      {DragLaw::syamlal_obrien, SyamlalOBrien{}},
+      {DragLaw::beetstra, Beetstra{.d_mean = sauter_diameter}},
+      {DragLaw::paper_repaired, PaperRepaired{}},
+      {DragLaw::gidaspow_blended, GidaspowBlended{}},
+      {DragLaw::none, NoDrag{}}};
+  return models.at(law);
+}
+
+FluidForces forces_of(const ForceSwitches& f) {
+  return {f.drag,   f.pressure_gradient, f.stress, f.added_mass, f.buoyancy, f.lift,
+          f.torque, f.wall_drag};
+}
+
+}  // namespace
+
+Gather::Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+               CouplingFields& fields)
+    : grid_(grid),
+      fields_(fields),
+      host_grid_(grid.grid.on_host()),
+      forces_(forces_of(config.coupling.forces)),
+      drag_(make_drag(config.coupling.drag, grains.sauter_diameter)),
+      weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
+                          config.grains->gravity[2]},
+              .displaced = forces_.buoyancy ? Real(config.fluid->density) : 0},
+      rho_f_(config.fluid->density),
+      nu_(config.fluid->kinematic_viscosity),
+      has_floor_(config.fluid->bottom == WallFlow::no_slip),
+      reads_as_cfdem_(config.coupling.void_fraction == VoidFraction::cfdem_faithful) {}
+
+void Gather::operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent,
+                        Real dt, ExchangeLedger& ledger) {
+  reserve_flow_at(grains.n);
+  undo_smoothing(fluid);
+  const CellRange around = cells_around(extent);
+  pressure_gradient(fluid, grains, around, dt, ledger);
+  stress(fluid, grains, around, dt, ledger);
+  flow_at_grains(fluid, grains);
+  ledger.flow_on_grains = dt * force_of_flow(grains);
+  drag_and_share(grains, dt);
+  if (forces_.lift || forces_.torque) lift_and_torque(fluid, grains);
+  is_first_step_ = false;
+}
+
 /// The cells whose faces the grains read.
-CellRange Coupling::cells_around(const GrainExtent& grains) const {
-  CellRange cells = owned_cells(grid_);
+CellRange Gather::cells_around(const GrainExtent& grains) const {
+  const Grid& grid = grid_.grid;
+  CellRange cells = owned_cells(grid);
   if (!(grains.left <= grains.right)) return cells;  // no grains
   // One more on either side, and above one for faces; everything where that reaches a periodic
   // side.
@@ -25,179 +77,179 @@ CellRange Coupling::cells_around(const GrainExtent& grains) const {
     first = std::clamp(static_cast<int>(begin) - mine, 0, n);
     last = std::clamp(static_cast<int>(end) - mine, first, n);
   };
-  shrink(grains.left, grains.right, grid_.dx, grid_.nx_all, grid_.i_begin, cells.i0, cells.i1);
-  shrink(grains.front, grains.back, grid_.dz, grid_.nz_all, grid_.k_begin, cells.k0, cells.k1);
-  cells.j1 = std::min(grid_.ny, rows_.row_of(grains.top) + 3);
+  shrink(grains.left, grains.right, grid.dx, grid.nx_all, grid.i_begin, cells.i0, cells.i1);
+  shrink(grains.front, grains.back, grid.dz, grid.nz_all, grid.k_begin, cells.k0, cells.k1);
+  cells.j1 = std::min(grid.ny, host_grid_.row_of(grains.top) + 3);
   return cells;
 }
 
-/// A density on the faces of `cells`: what the solid fraction 1 - alpha takes of it to the ledger;
-/// and to the grains. By row the way is that of their volume to alpha, backwards, from the cells
-/// x, y, z on (FlowOverCells): so the grains get what the solid fraction takes.
-void Coupling::gather_density(const GrainState& grains, const CellRange& cells, const Field& alpha,
-                              FaceVector& on_cells, bool smoothed, Real dt,
-                              const Kokkos::View<Vec3*>& at) {
-  for_each_cell("coupling: force density at the walls",
-                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
-                HoldForceAtWall{force_.y, grid_.ny});
-  for (Field* component : {&force_.x, &force_.y, &force_.z})
-    boundary_.fill(*component, FieldKind::scalar);  // behind both walls constant, too
-  auto& [x, y, z] = on_cells;
-  ledger_.flow_on_solid += dt * sum_vector("coupling: force density on cells", grid_, cells,
-                                           ForceOnCells{grid_, force_, alpha, x, y, z});
-  if (!by_row_) {
-    Kokkos::parallel_for("coupling: force at grains", items(grains.n),
-                         AtCentres{grid_, box_, force_, grains.kin, at});
-    return;
-  }
-  for (Field* component : {&x, &y, &z}) {
-    if (smoothed) smoother_.solve(*component, *component);
-    if (grid_.ranks) boundary_.fill(*component, FieldKind::scalar);
-  }
-}
-
-void Coupling::pressure_at(const FluidState& fluid, const GrainState& grains,
-                           const CellRange& around, Real dt) {
-  if (!forces_.pressure_gradient) return;
-  const bool smoothed = by_row_ && config_.smoothing_length > 0;
-  const CellRange cells = smoothed ? owned_cells(grid_) : around;
-  for_each_cell(
-      "coupling: pressure force density", cells,
-      PressureForceDensity{
-          .grid = grid_, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive, .force = force_});
-  gather_density(grains, cells, fluid.alpha_f, cells_, smoothed, dt, flow_at_.pressure);
-}
-
-/// And the convective acceleration.
-void Coupling::stress_at(const FluidState& fluid, const GrainState& grains, const CellRange& cells,
-                         Real dt) {
-  for_each_cell("coupling: stress force density", cells,
-                StressForceDensity{.grid = grid_,
-                                   .u = fluid.u,
-                                   .stress = {grid_, fluid.u, fluid.nu_t, nu_},
-                                   .rho_f = rho_f_,
-                                   .force = force_,
-                                   .convective = convective_});
-  for (Field* component : {&convective_.x, &convective_.y, &convective_.z})
-    boundary_.fill(*component, FieldKind::scalar);
-  if (forces_.stress) {
-    const Field& alpha = by_row_ ? local_fraction(fluid) : fluid.alpha_f;
-    // The impulse of the last step is done with.
-    gather_density(grains, cells, alpha, on_faces_.impulse, false, dt, flow_at_.stress);
-  }
-}
-
-void Coupling::flow_at(const FluidState& fluid, const GrainState& grains, Real dt) {
-  const auto read = [&](const auto& reading) {
-    Kokkos::parallel_for("coupling: flow at grains", items(grains.n), reading);
-  };
-  const auto& kin = grains.kin;
-  const auto& [px, py, pz] = cells_;
-  const auto& [sx, sy, sz] = on_faces_.impulse;
-  const FlowOverCells over_cells{.stencil = stencil_,
-                                 .alpha_f = fluid.alpha_f,
-                                 .unsmoothed = local_fraction(fluid),
-                                 .with_pressure = by_row_ && forces_.pressure_gradient,
-                                 .with_stress = by_row_ && forces_.stress,
-                                 .pressure = {px, py, pz},
-                                 .stress = {sx, sy, sz},
-                                 .grains = kin,
-                                 .flow = flow_at_};
-  if (by_row_) {
-    read(FlowOfRows{over_cells, box_, fluid.u, fluid.du_dt, convective_});
-  } else {
-    read(over_cells);
-    read(FlowAtCentres{grid_, box_, fluid.u, fluid.du_dt, convective_, fluid.alpha_f, kin,
-                       flow_at_});
-  }
-  if (config_.void_fraction == VoidFraction::cfdem_faithful) {
-    auto& [x, y, z] = cells_;
-    for_each_cell("coupling: velocity on cells", grid_, CentreVelocity{fluid.u, x, y, z});
-    boundary_.fill(x, FieldKind::velocity_x);
-    for (Field* component : {&y, &z}) boundary_.fill(*component, FieldKind::velocity_z);
-    read(FlowFromCells{grid_, box_, x, y, z, fluid.alpha_f, kin, flow_at_});
-  }
-  std::vector<Real> sum(3);
-  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n), SumOfForces{kin, flow_at_},
-                          sum[0], sum[1], sum[2]);
-  sum_over(ranks_of(grid_), sum);
-  ledger_.flow_on_grains = dt * Vec3{sum[0], sum[1], sum[2]};
-}
-
-WallFaces Coupling::wall_faces(bool wall, bool along_x) const {
-  if (!wall) return {};
-  const int n = along_x ? grid_.nx : grid_.nz;
-  if (!grid_.ranks) return {0, n};
-  const RankLine& line = along_x ? grid_.ranks->along_x() : grid_.ranks->along_z();
-  WallFaces faces;
-  if (line.position == 0) faces.first = 0;
-  if (line.position + 1 == line.count) faces.last = n;
-  return faces;
-}
-
-void Coupling::unsmooth(const FluidState& fluid) {
-  const Real length = config_.smoothing_length;
-  if (length == 0) return;
-  for_each_cell("coupling: unsmoothed fraction", grid_,
-                UnsmoothedFraction{.grid = grid_,
-                                   .alpha_f = fluid.alpha_f,
-                                   .length_squared = length * length,
-                                   .walls_x = wall_faces(walls_.x, true),
-                                   .walls_z = wall_faces(walls_.z, false),
-                                   .unsmoothed = unsmoothed_});
-  boundary_.fill(unsmoothed_, FieldKind::scalar);
-}
-
-void Coupling::reserve_flow_at(int n) {
+void Gather::reserve_flow_at(int n) {
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_rows(*array, n);
-  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_cells, &flow_at_.solid_per_fluid})
+  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_l, &flow_at_.solid_per_fluid})
     reserve_rows(*array, n);
 }
 
-void Coupling::gather_shear(const FluidState& fluid, GrainState& grains) const {
-  Kokkos::parallel_for("coupling: gather shear", items(grains.n),
-                       GatherShear{.grid = grid_,
-                                   .box = box_,
-                                   .u = fluid.u,
-                                   .rho_f = rho_f_,
-                                   .mu_f = rho_f_ * nu_,
-                                   .lift = forces_.lift,
-                                   .torque = forces_.torque,
-                                   .floor = floor_,
-                                   .grains = grains.kin,
-                                   .on_grains = grains.fluid,
-                                   .exchange = grains.exchange});
+void Gather::undo_smoothing(const FluidState& fluid) {
+  const Real length = grid_.smoothing_length;
+  if (length == 0) return;
+  for_each_cell("coupling: fraction before smoothing", grid_.grid,
+                UnsmoothedFraction{.grid = grid_.grid,
+                                   .alpha_f = fluid.alpha_f,
+                                   .length_squared = length * length,
+                                   .walls_x = grid_.wall_faces_x(),
+                                   .walls_z = grid_.wall_faces_z(),
+                                   .unsmoothed = fields_.alpha_before_smoothing});
+  grid_.boundary.fill(fields_.alpha_before_smoothing, FieldKind::scalar);
 }
 
-void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
-  ledger_ = ExchangeLedger{};
-  reserve_flow_at(grains.n);
-  unsmooth(fluid);
-  const CellRange around = cells_around(extent_);
-  pressure_at(fluid, grains, around, dt);
-  stress_at(fluid, grains, around, dt);
-  flow_at(fluid, grains, dt);
+/// By row the grains get it the way that their volume went to alpha_f, backwards: smoothed, then
+/// from their cells (FlowOverCells). So they get what the solid fraction takes.
+void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains,
+                               const CellRange& around, Real dt, ExchangeLedger& ledger) {
+  if (!forces_.pressure_gradient) return;
+  const bool smoothed = grid_.by_row && grid_.smoothing_length > 0;
+  const CellRange cells = smoothed ? owned_cells(grid_.grid) : around;
+  FaceVector& on_faces = fields_.pressure_on_faces;
+  CellVector& in_cells = fields_.pressure_in_cells;
+  for_each_cell("coupling: pressure force density", cells,
+                PressureForceDensity{.grid = grid_.grid,
+                                     .p = fluid.p,
+                                     .rho_f = rho_f_,
+                                     .drive = fluid.drive,
+                                     .force = on_faces});
+  set_faces_on_walls(on_faces, cells);
+  ledger.flow_on_solid += dt * to_cells(on_faces, fluid.alpha_f, cells, in_cells);
+  if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.pressure);
+  for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z})
+    if (smoothed) grid_.smooth(*component);
+  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells);
+}
+
+/// And the convective acceleration. The solid takes of the stress what it has before the smoothing.
+void Gather::stress(const FluidState& fluid, const GrainState& grains, const CellRange& around,
+                    Real dt, ExchangeLedger& ledger) {
+  FaceVector& on_faces = fields_.stress_on_faces;
+  CellVector& in_cells = fields_.stress_in_cells;
+  for_each_cell("coupling: stress force density", around,
+                StressForceDensity{.grid = grid_.grid,
+                                   .u = fluid.u,
+                                   .stress = {grid_.grid, fluid.u, fluid.nu_t, nu_},
+                                   .rho_f = rho_f_,
+                                   .force = on_faces,
+                                   .convective = fields_.convective});
+  grid_.fill_ghosts(fields_.convective);
+  if (!forces_.stress) return;
+  const Field& alpha = grid_.by_row ? fields_.alpha_l(fluid) : fluid.alpha_f;
+  set_faces_on_walls(on_faces, around);
+  ledger.flow_on_solid += dt * to_cells(on_faces, alpha, around, in_cells);
+  if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.stress);
+  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells);
+}
+
+/// Constant behind both walls, and ghosts.
+void Gather::set_faces_on_walls(FaceVector& force, const CellRange& cells) const {
+  for_each_cell("coupling: force density at the walls",
+                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
+                HoldForceAtWall{force.y, grid_.grid.ny});
+  grid_.fill_ghosts(force);
+}
+
+/// Returns what the solid fraction 1 - alpha takes of it [N].
+Vec3 Gather::to_cells(const FaceVector& force, const Field& alpha, const CellRange& cells,
+                      CellVector& in_cells) const {
+  return sum_vector("coupling: force density on cells", grid_.grid, cells,
+                    ForceOnCells{grid_.grid, force, alpha, in_cells.x, in_cells.y, in_cells.z});
+}
+
+void Gather::at_centres(const FaceVector& force, const GrainState& grains,
+                        const Kokkos::View<Vec3*>& at) const {
+  Kokkos::parallel_for("coupling: force at grains", items(grains.n),
+                       AtCentres{grid_.grid, grid_.box, force, grains.kin, at});
+}
+
+void Gather::flow_at_grains(const FluidState& fluid, const GrainState& grains) {
+  const auto read = [&](const auto& reading) {
+    Kokkos::parallel_for("coupling: flow at grains", items(grains.n), reading);
+  };
+  const FlowOverCells over_cells{.stencil = grid_.stencil,
+                                 .alpha_f = fluid.alpha_f,
+                                 .unsmoothed = fields_.alpha_l(fluid),
+                                 .with_pressure = grid_.by_row && forces_.pressure_gradient,
+                                 .with_stress = grid_.by_row && forces_.stress,
+                                 .pressure = fields_.pressure_in_cells,
+                                 .stress = fields_.stress_in_cells,
+                                 .grains = grains.kin,
+                                 .flow = flow_at_};
+  if (grid_.by_row) {
+    read(FlowOfRows{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective});
+    return;
+  }
+  read(over_cells);
+  read(FlowAtCentres{grid_.grid, grid_.box, fluid.u, fluid.du_dt, fields_.convective, fluid.alpha_f,
+                     grains.kin, flow_at_});
+  if (reads_as_cfdem_) flow_of_cfdem(fluid, grains);
+}
+
+void Gather::flow_of_cfdem(const FluidState& fluid, const GrainState& grains) {
+  auto& [x, y, z] = fields_.velocity_in_cells;
+  for_each_cell("coupling: velocity on cells", grid_.grid, CentreVelocity{fluid.u, x, y, z});
+  grid_.boundary.fill(x, FieldKind::velocity_x);
+  for (Field* component : {&y, &z}) grid_.boundary.fill(*component, FieldKind::velocity_z);
+  Kokkos::parallel_for(
+      "coupling: flow at grains", items(grains.n),
+      FlowFromCells{grid_.grid, grid_.box, x, y, z, fluid.alpha_f, grains.kin, flow_at_});
+}
+
+/// Of pressure gradient and stress on the grains of all ranks [N].
+Vec3 Gather::force_of_flow(const GrainState& grains) const {
+  std::vector<Real> sum(3);
+  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
+                          SumOfForces{grains.kin, flow_at_}, sum[0], sum[1], sum[2]);
+  sum_over(ranks_of(grid_.grid), sum);
+  return {sum[0], sum[1], sum[2]};
+}
+
+void Gather::drag_and_share(const GrainState& grains, Real dt) const {
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather", items(grains.n),
-                             GatherFluid{.drag = law,
+                             GatherFluid{.law = law,
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .dt = dt,
                                          .weight = weight_,
                                          .forces = forces_,
-                                         .by_row = by_row_,
-                                         .first = first_,
                                          .grains = grains.kin,
                                          .flow_at = flow_at_,
                                          .on_grains = grains.fluid,
                                          .exchange = grains.exchange});
       },
       drag_);
-  if (forces_.lift || forces_.torque) gather_shear(fluid, grains);
-  first_ = false;
+  if (!is_first_step_) return;
+  Kokkos::parallel_for("coupling: gather in the first step", items(grains.n),
+                       GatherFirstStep{.rho_f = rho_f_,
+                                       .weight = weight_,
+                                       .grains = grains.kin,
+                                       .flow_at = flow_at_,
+                                       .on_grains = grains.fluid,
+                                       .exchange = grains.exchange});
+}
+
+void Gather::lift_and_torque(const FluidState& fluid, const GrainState& grains) const {
+  Kokkos::parallel_for("coupling: gather shear", items(grains.n),
+                       GatherShear{.grid = grid_.grid,
+                                   .box = grid_.box,
+                                   .u = fluid.u,
+                                   .rho_f = rho_f_,
+                                   .mu_f = rho_f_ * nu_,
+                                   .lift = forces_.lift,
+                                   .torque = forces_.torque,
+                                   .floor = has_floor_,
+                                   .grains = grains.kin,
+                                   .on_grains = grains.fluid,
+                                   .exchange = grains.exchange});
 }
 
 }  // namespace barchan

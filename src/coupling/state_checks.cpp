@@ -27,14 +27,15 @@ struct WorstGrains {
 WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt) {
   WorstGrains worst;
   Kokkos::parallel_reduce("state checks: pairs", items(grains.list.n_pairs),
-                          PairOverlap{.box = step.neighbor_list().box(),
+                          PairOverlap{.box = step.neighbor_list()->box(),
                                       .list = grains.list,
                                       .grains = grains.kin,
                                       .n_owned = grains.n},
                           WorstOf(worst.pair));
-  Kokkos::parallel_reduce("state checks: grains", items(grains.n),
-                          GrainLimits{.grains = grains.kin, .walls = step.walls(), .dt = dt},
-                          WorstOf(worst.in_wall), WorstOf(worst.displacement));
+  Kokkos::parallel_reduce(
+      "state checks: grains", items(grains.n),
+      GrainLimits{.grains = grains.kin, .walls = step.grain_solver()->walls(), .dt = dt},
+      WorstOf(worst.in_wall), WorstOf(worst.displacement));
   return worst;
 }
 
@@ -199,8 +200,8 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
   std::vector<Real> worst{mine.displacement.val, mine.in_wall.val, mine.pair.val, fraction};
   all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (grains_move) {
-    const GrainProblems problems{*state.grains, step.walls(), config_.grains->max_overlap,
-                                 at_start};
+    const GrainProblems problems{*state.grains, step.grain_solver()->walls(),
+                                 config_.grains->max_overlap, at_start};
     const auto check = [&](Real of_all, Real most, const WorstItem& item, auto problem) {
       if (of_all <= most) return std::string();
       // A rank without grains or pairs has Kokkos' identity for a worst item: it is nowhere.

@@ -103,14 +103,14 @@ void reserve_rows(GrainState& s, int n, unsigned uses) {
 }
 
 void add_fluid(GrainState& s) {
-  s.fluid.none = false;
+  s.fluid.has_fluid = true;
   allocate(s, Allocated::with_fluid);
 }
 
 void add_exchange(GrainState& s, const ForceSwitches& forces) {
   allocate(s, Allocated::with_flow);
   if (forces.lift) allocate(s, Allocated::with_lift);
-  s.fluid.turns = forces.torque;
+  s.fluid.has_torque = forces.torque;
   if (forces.torque) allocate(s, Allocated::with_torque);
 }
 

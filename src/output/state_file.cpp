@@ -80,7 +80,7 @@ void load_field(const CheckpointReader& file, const std::string& name, const Gri
   Kokkos::deep_copy(f.storage, host);
 }
 
-void save_state(CheckpointWriter& file, const SystemState& state, const CoupledStep& step) {
+void save_state(CheckpointWriter& file, const SystemState& state, const NeighborList* list) {
   if (state.fluid) {
     const FluidState& s = *state.fluid;
     for_each_field(
@@ -88,7 +88,7 @@ void save_state(CheckpointWriter& file, const SystemState& state, const CoupledS
     for (const auto& [name, number] : numbers) file.scalar(name, s.*number);
     file.scalar("fluid/has_history", std::int64_t{s.has_history});
   }
-  if (state.grains) save_grains(file, *state.grains, step.neighbor_list());
+  if (state.grains) save_grains(file, *state.grains, *list);
 }
 
 void load_flow(const CheckpointReader& file, FluidState& fluid) {
@@ -99,9 +99,9 @@ void load_flow(const CheckpointReader& file, FluidState& fluid) {
   fluid.has_history = file.integer("fluid/has_history") != 0;
 }
 
-void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step) {
+void load_state(const CheckpointReader& file, SystemState& state, NeighborList* list) {
   if (state.fluid) load_flow(file, *state.fluid);
-  if (state.grains) load_grains(file, *state.grains, step.neighbor_list());
+  if (state.grains) load_grains(file, *state.grains, *list);
 }
 
 }  // namespace barchan

@@ -4,17 +4,18 @@
 
 #include <string>
 
-#include "src/coupling/coupled_step.hpp"
+#include "src/coupling/system_state.hpp"
+#include "src/grains/neighbor_list.hpp"
 #include "src/io/checkpoint.hpp"
 
 namespace barchan {
 
-/// Writes all of `state` that the next step depends on.
-void save_state(CheckpointWriter& file, const SystemState& state, const CoupledStep& step);
+/// Writes all of `state` that the next step depends on. `list`: of its grains, if it has any.
+void save_state(CheckpointWriter& file, const SystemState& state, const NeighborList* list);
 
 /// Fills `state`, which has the grid and the rows of the file (grains_in_file), and
 /// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.
-void load_state(const CheckpointReader& file, SystemState& state, CoupledStep& step);
+void load_state(const CheckpointReader& file, SystemState& state, NeighborList* list);
 
 /// Only the flow, as the start of another run on the same mesh.
 void load_flow(const CheckpointReader& file, FluidState& fluid);

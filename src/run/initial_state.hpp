@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "src/config/config.hpp"
-#include "src/coupling/coupled_step.hpp"
+#include "src/coupling/system_state.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

@@ -164,7 +164,7 @@ class Pilot {
     p.grain_step = slice_.grains_per_grain * lower_quartile(grains_);
     p.state_checks = lower_quartile(checks_took_);
     if (moves_) {
-      auto& list = run_.coupled_step.neighbor_list();
+      auto& list = *run_.coupled_step.neighbor_list();
       const auto rebuild = [&] { list.rebuild(*run_.state.grains, false); };
       const double first = seconds_of(rebuild);
       p.rebuild = slice_.grains_per_grain * std::min(first, seconds_of(rebuild));

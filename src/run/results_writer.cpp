@@ -6,6 +6,7 @@
 
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -80,7 +81,7 @@ void RunDiagnostics::sample() {
   const GrainState& grains = *run_.state.grains;
   const std::vector<CloudGrain> all = gathered_grains(grains);
   const auto mine = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{}, run_.coupled_step.mean_resultant_force(grains));
+      Kokkos::HostSpace{}, mean_resultant_force(grains, run_.coupled_step.dt()));
   const auto force =
       on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
   if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
@@ -143,7 +144,7 @@ void ResultsWriter::write_due() {
 /// and warns of the first one above what the limit is uncertain by.
 double ResultsWriter::check_grain_step() {
   if (run_.config.grains->frozen) return 0;
-  const double stable = run_.coupled_step.stable_grain_step(run_.state);
+  const double stable = run_.coupled_step.grain_solver()->stable_step(*run_.state.grains);
   const double ratio = run_.clock.fluid_step / run_.coupled_step.substeps() / stable;
   double& largest = accounts_.grain_step_over_stable;
   constexpr double most = 1.1;
@@ -164,17 +165,18 @@ void ResultsWriter::write_history() {
   row.step = run_.clock.step;
   if (run_.state.fluid) {
     const FluidState& fluid = *run_.state.fluid;
-    row.u_star = run_.coupled_step.friction_velocity(run_.state);
-    row.bulk_velocity = run_.coupled_step.bulk_velocity(run_.state);
+    const FluidSolver& solver = *run_.coupled_step.fluid_solver();
+    row.u_star = solver.friction_velocity(fluid);
+    row.bulk_velocity = bulk_velocity(fluid);
     row.pressure_gradient = fluid.drive * run_.config.fluid->density;
-    row.fluid_kinetic_energy = run_.coupled_step.kinetic_energy_of_fluid(run_.state);
+    row.fluid_kinetic_energy = solver.kinetic_energy(fluid);
     row.cfl = interval.courant;
     row.continuity_residual = interval.continuity_residual;
     row.pressure_iterations = interval.mean_iterations();
   }
   if (run_.state.grains) {
     const GrainState& grains = *run_.state.grains;
-    const ContactSummary contacts = run_.coupled_step.contacts(run_.state);
+    const ContactSummary contacts = run_.coupled_step.grain_solver()->contacts(grains);
     row.grain_kinetic_energy = kinetic_energy(grains);
     row.n_grains = run_.n_grains;
     row.n_contacts = contacts.n_contacts;
@@ -201,7 +203,8 @@ void ResultsWriter::write_frames() {
   if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels();
   if (grains) {
     std::vector<NamedForce> forces;
-    if (o.grain_forces) forces = run_.coupled_step.grain_forces(now);
+    const CoupledStep& step = run_.coupled_step;
+    if (o.grain_forces) forces = grain_forces(now, *step.grain_solver(), step.dt());
     output_.write_grains(*now.grains, t, clock.step, forces, dunes);
   }
   if (tracks) output_.write_tracks(*now.grains, t, clock.step, dunes);
@@ -220,7 +223,7 @@ void ResultsWriter::write_restart() {
   const RunClock& clock = run_.clock;
   Watchdog::beat("writing a restart file", clock.step, clock.time());
   CheckpointWriter file(folder_, clock.step, run_.provenance, run_.ranks);
-  save_state(file, run_.state, run_.coupled_step);
+  save_state(file, run_.state, run_.coupled_step.neighbor_list());
   file.scalar("t", clock.time());
   file.scalar("step", clock.step);
   accounts_.save(file);

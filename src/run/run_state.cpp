@@ -45,7 +45,7 @@ double per_step(const RunState& run, double sum) {
 }
 
 double rebuilds_per_step(const RunState& run) {
-  return per_step(run, static_cast<double>(run.coupled_step.neighbor_list().rebuilds()));
+  return per_step(run, static_cast<double>(run.coupled_step.neighbor_list()->rebuilds()));
 }
 
 /// Cells of all ranks, each as often as it was computed.
@@ -77,7 +77,7 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
   c["reductions"] = since(now.reductions, start.reductions);
   c["all_to_alls"] = since(now.all_to_alls, start.all_to_alls);
   if (!run.state.grains) return c;
-  const NeighborList& list = run.coupled_step.neighbor_list();
+  const NeighborList& list = *run.coupled_step.neighbor_list();
   c["grains"] = run.state.grains->n;
   c["ghost_grains"] = run.state.grains->n_ghosts;
   c["grain_imbalance"] = list.partition()->imbalance();
@@ -117,7 +117,7 @@ RunState::RunState(const Config& the_case, std::unique_ptr<const Decomposition> 
 }
 
 void RunState::go_on_from(const CheckpointReader& file) {
-  load_state(file, state, coupled_step);
+  load_state(file, state, coupled_step.neighbor_list());
   clock.step = file.integer("step");
   if (clock.step > clock.end) {
     throw InputError(

@@ -5,6 +5,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
+#include "src/coupling/coupled_step.hpp"
 #include "src/diagnostics/dune_shape.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/parallel/exchange.hpp"

@@ -165,13 +165,13 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     Deposits deposits;
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.impulse = fixed_point_for(1e4);
-    using Deposit = DepositGrains<7>;
+    using Launch = DepositGrains<7>;
     Kokkos::parallel_for(
-        "test: scatter", Deposit::items_for(there.n),
-        Deposit{.of_grain = of_grain,
-                .rows = {.on = false, .stencil = stencil, .box = {}, .u = {}, .alpha_f = {}},
-                .deposits = deposits,
-                .n = there.n});
+        "test: scatter", Launch::items_for(there.n),
+        Launch{.of_grain = of_grain,
+               .by_row = {.on = false, .stencil = stencil, .box = {}, .u = {}, .alpha_f = {}},
+               .deposits = deposits,
+               .n = there.n});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {
@@ -186,7 +186,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
                              .pressure = {"test: found", n},
                              .stress = {},
                              .alpha_f = {},
-                             .alpha_cells = {"test: mean", n},
+                             .alpha_l = {"test: mean", n},
                              .solid_per_fluid = {"test: largest", n}};
     Kokkos::parallel_for("test: gather", there.n,
                          FlowOverCells{.stencil = stencil,

@@ -225,7 +225,7 @@ TEST(MessageCounts, ACoupledStep) {
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);
     SmallCase c(along_x, true);
-    const NeighborList& list = std::as_const(*c.step).neighbor_list();
+    const NeighborList& list = *std::as_const(*c.step).neighbor_list();
     const std::int64_t rebuilds = list.rebuilds();
     const std::vector<int> grains_before = grains_in_pencils(c.grid, *c.state.grains);
     const ExchangeCounts ghosts = list.ghosts() ? list.ghosts()->counts() : ExchangeCounts{};

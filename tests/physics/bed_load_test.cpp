@@ -36,7 +36,7 @@ FluidState developed_flow(Config c, const InitialGrains& grains, double seconds)
   test::CoupledRun run(c, grains);
   FluidState& flow = *run.state.fluid;
   set_turbulent_flow(c, flow);
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
   double drive = 0;
   const int n_steps = static_cast<int>(std::lround(seconds / c.time.fluid_step));
   for (int n = 1; n <= n_steps; ++n) {
@@ -109,7 +109,7 @@ class FlatBed : test::CoupledRun {
   /// Of the water [N s/m2].
   double momentum_per_area() {
     const double area = config.size[0] * config.size[2];
-    return kDensity * step.bulk_velocity(state) * (config.size[1] - solid_ / area);
+    return kDensity * bulk_velocity(*state.fluid) * (config.size[1] - solid_ / area);
   }
 
   std::vector<double> volume_;  // by id, from 1 on [m^3]

@@ -31,7 +31,7 @@ CoupledRun held_grain(Config c, const Vec3& x, const Velocity& u) {
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid,
                   [&](int i, int j, int) { return u(i, h.y(j)); });
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
   run.advance();
   return run;
 }
@@ -215,7 +215,7 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
     const Vec3 total = test::force_on_first(run, "force_total");
     worst = std::max(worst, norm(total - rate) / norm(rate));
     if (displaced_density == 0) continue;
-    const Vec3 mean = testing::host_copy(run.step.mean_resultant_force(*run.state.grains))(0);
+    const Vec3 mean = testing::host_copy(mean_resultant_force(*run.state.grains, run.step.dt()))(0);
     EXPECT_LT(norm(mean - rate), 1e-12 * norm(rate)) << what;
     const double parts = weight + test::force_on_first(run, "force_drag").y +
                          test::force_on_first(run, "force_added_mass").y;

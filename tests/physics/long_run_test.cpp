@@ -88,7 +88,7 @@ void a_long_run(std::int64_t grain_steps) {
     if (random() % 25 != 0) continue;
     ++looks;
     displacement += 25 * config.time.fluid_step * mean_speed(*state.grains);
-    const Pairs now = against_all_pairs(*state.grains, step.neighbor_list().box());
+    const Pairs now = against_all_pairs(*state.grains, step.neighbor_list()->box());
     pairs.touching += now.touching;
     pairs.missed += now.missed;
   }
@@ -100,7 +100,7 @@ void a_long_run(std::int64_t grain_steps) {
   const double growth = resident() / early - 1;
   std::printf(
       "[ measured ] %lld grain steps, %lld list rebuilds, %zu pairs seen touching, %zu missed\n",
-      static_cast<long long>(grain_steps), static_cast<long long>(step.neighbor_list().rebuilds()),
+      static_cast<long long>(grain_steps), static_cast<long long>(step.neighbor_list()->rebuilds()),
       pairs.touching, pairs.missed);
   EXPECT_EQ(pairs.missed, 0u);
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";

@@ -84,7 +84,7 @@ TEST(PackedBed, ANewRunGoesOnInASteadyFlow) {
   FrozenBed steady(bed), again(bed);
   steady.run.advance(60);
   again.run.state.fluid = steady.run.state.fluid;
-  again.run.step.fill_ghosts(again.run.state);
+  again.run.fill_ghosts();
   again.run.advance(1);
   testing::expect_relative("impulse on the bed in the first step of a new run [N s]",
                            again.run.step.exchange().given_to_grains.x,
@@ -136,7 +136,7 @@ Lift lift_in_bed(const Bed& bed) {
   const FluidState& f = *frozen.run.state.fluid;
   const auto rows = testing::host_copy(frozen.run.state.grains->kin);
   double force = 0, weight = 0;
-  for (const NamedForce& part : frozen.run.step.grain_forces(frozen.run.state)) {
+  for (const NamedForce& part : frozen.run.forces()) {
     if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
     const auto values = testing::host_copy(part.values);
     for (std::size_t g = 0; g < rows.extent(0); ++g) {

@@ -77,7 +77,7 @@ void set_shear(CoupledRun& run, double shear) {
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid,
                   [&](int, int j, int) { return shear * h.y(j); });
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
 }
 
 TEST(FluidTorque, SpinBecomesHalfTheVorticity) {
@@ -236,7 +236,7 @@ double lost_along_z(const Config& c, double& impulse, double& of_grain) {
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid, [&](int, int, int k) {
     return 0.2 * std::sin(2 * std::numbers::pi * h.z(k) / 4e-3);
   });
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
   const double before = momentum_along_z(run);
   impulse = 0;
   for (int n = 0; n < 40; ++n) {

@@ -114,7 +114,7 @@ Layers program(Exchange exchange, int rows, double smoothing, double lid) {
   result.stress = kMu * (lid - row.back()) / (kHeight / rows / 2);
   const auto kin = testing::host_copy(run.state.grains->kin);
   std::array<double, kLayers> count{};
-  for (const NamedForce& force : run.step.grain_forces(run.state)) {
+  for (const NamedForce& force : run.forces()) {
     if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
     const auto values = testing::host_copy(force.values);
     for (std::size_t g = 0; g < values.extent(0); ++g) {
@@ -178,7 +178,7 @@ TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
       slowest = std::min(slowest, u(i, j, k));
       if (j == 4) most = std::max(most, u(i, j, k));
     });
-    for (const NamedForce& force : run.step.grain_forces(run.state)) {
+    for (const NamedForce& force : run.forces()) {
       if (force.name != "force_drag") continue;
       const auto values = testing::host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) least = std::min(least, values(g).x);
@@ -200,12 +200,12 @@ TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
     test::CoupledRun run(c, random_bed());
     run.advance(6000);
     double on_grains = 0;
-    for (const NamedForce& force : run.step.grain_forces(run.state)) {
+    for (const NamedForce& force : run.forces()) {
       if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
       const auto values = testing::host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) on_grains += values(g).x;
     }
-    const double u_star = run.step.friction_velocity(run.state);
+    const double u_star = run.step.fluid_solver()->friction_velocity(*run.state.fluid);
     const double floor = 1000 * u_star * u_star * kWidth * kWidth;
     const std::string what = fmt::format(", smoothed over {:.1f} d", smoothing / kDiameter);
     testing::expect_relative("force on grains and floor over the drive" + what,

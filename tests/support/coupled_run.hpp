@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/coupling/coupled_step.hpp"
+#include "src/coupling/grain_forces.hpp"
 #include "src/fluid/domain.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/grain_cases.hpp"
@@ -52,6 +53,12 @@ struct CoupledRun {
     for (int s = 0; s < n; ++s) step.advance(state);
   }
   std::vector<testing::GrainRow> rows() const { return testing::rows_by_id(*state.grains); }
+  /// After the flow was set by hand.
+  void fill_ghosts() { step.fluid_solver()->fill_ghosts(*state.fluid); }
+  /// On the grains in the last step.
+  std::vector<NamedForce> forces() const {
+    return grain_forces(state, *step.grain_solver(), step.dt());
+  }
   Vec3 velocity_of(int id) const { return rows()[static_cast<std::size_t>(id)].u; }
 
  private:
@@ -77,7 +84,7 @@ inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
 
 /// A named force on the grain in row 0 of the last step [N].
 inline Vec3 force_on_first(CoupledRun& run, const std::string& name) {
-  for (const NamedForce& f : run.step.grain_forces(run.state)) {
+  for (const NamedForce& f : run.forces()) {
     if (f.name == name) return testing::host_copy(f.values)(0);
   }
   return {NAN, NAN, NAN};

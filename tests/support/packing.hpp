@@ -80,7 +80,7 @@ struct HostGrains {
 
 /// Resistance of a still liquid at rest: each grain slows down within `time` [s]; 0: none.
 inline void set_viscous_damping(GrainState& s, Real time) {
-  if (s.fluid.none) add_fluid(s);
+  if (!s.fluid.has_fluid) add_fluid(s);
   const auto beta = s.fluid.beta;
   const auto kin = s.kin;
   const Real rate = time > 0 ? 1 / time : 0;

@@ -243,7 +243,7 @@ std::vector<Real> owned_values(const FluidState& fluid) {
 TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
   Coupled a(coupled_config()), b(coupled_config());
   a.advance(3), b.advance(3);
-  for (const Field& field : b.step.scratch_fields()) {
+  for (const Field& field : b.step.fluid_solver()->idle().for_anything()) {
     Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
   for (Coupled* c : {&a, &b}) c->step.advance_fluid(c->state);
@@ -253,7 +253,7 @@ TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
 TEST(Coupling, BulkVelocityIsHeld) {
   Coupled c(coupled_config());
   c.advance(40);
-  EXPECT_NEAR(c.step.bulk_velocity(c.state), 0.2, 2e-4);
+  EXPECT_NEAR(bulk_velocity(*c.state.fluid), 0.2, 2e-4);
 }
 
 /// Velocity along x of a lone grain without drag after two steps in water of a bulk velocity of
@@ -266,7 +266,7 @@ double thrown(bool uniform_start) {
   testing::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
   test::CoupledRun run(c, grain);
   if (uniform_start) set_uniform_flow(c, *run.state.fluid);
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
   run.advance(2);
   return run.velocity_of(1).x / 0.2;
 }
@@ -279,7 +279,7 @@ TEST(Coupling, AUniformStartDoesNotThrowTheGrains) {
   Config c = coupled_config();
   c.initial.fluid = "uniform";
   const Coupled dune(c);
-  EXPECT_NEAR(dune.step.bulk_velocity(dune.state), 0.2, 1e-13);
+  EXPECT_NEAR(bulk_velocity(*dune.state.fluid), 0.2, 1e-13);
 }
 
 TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
@@ -305,7 +305,7 @@ TEST(Coupling, PartsOfTheForceAddUp) {
     config.coupling.forces.lift = true;
     Coupled c(config);
     c.advance(5);
-    const auto forces = c.step.grain_forces(c.state);
+    const auto forces = c.forces();
     ASSERT_EQ(forces.size(), 8u);
     const auto kin = testing::host_copy(c.state.grains->kin);
     const auto contact = testing::host_copy(c.state.grains->contact_force);

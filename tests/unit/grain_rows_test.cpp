@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "kernels/coupling/deposit.hpp"
+#include "kernels/coupling/deposit_cache.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -83,20 +83,20 @@ TEST(Rows, AGrainIsInTheRowsOfItsPoints) {
   EXPECT_GT(of_two_rows, 100);
 }
 
-// Cells that take the same place push each other out; what they held is not lost.
-TEST(RecentCells, SumsAreThoseOfEachGiftOnItsOwn) {
+// Cells that take the same slot push each other out; what they held is not lost.
+TEST(DepositCache, SumsAreThoseOfEachGiftOnItsOwn) {
   constexpr int cells = 200, gifts = 5000;
   Deposits deposits, one_by_one;
   deposits.sum = decltype(deposits.sum)("test: kept", cells);
   one_by_one.sum = decltype(deposits.sum)("test: one by one", cells);
   Kokkos::parallel_for(
       "test: gifts", 1, KOKKOS_LAMBDA(int) {
-        RecentCells<16> recent(deposits);
+        DepositCache<16> cache(deposits);
         for (std::int64_t n = 0; n < gifts; ++n) {
           const std::int64_t cell = n / 7 * 31 % cells;
-          const std::int64_t given[Deposits::kQuantities] = {n, -n, 1, n * n, cell - 50, 3 * n};
-          recent.add(cell, given);
-          for (int q = 0; q < Deposits::kQuantities; ++q) one_by_one.sum(cell, q) += given[q];
+          const CellDeposit given{n, -n, 1, n * n, cell - 50, 3 * n};
+          cache.add(cell, given);
+          one_by_one.add(cell, given);
         }
       });
   const auto kept = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, deposits.sum);

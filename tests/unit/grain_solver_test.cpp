@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/coupling/gather.hpp"
+#include "kernels/coupling/frozen_grains.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/half_kick.hpp"
 #include "tests/support/grain_bench.hpp"

@@ -138,7 +138,7 @@ std::string complaint_of_flow(Real u, Real odd) {
   CoupledRun run(c, {.fluid = make_fluid_state(make_grid(c)), .grains = {}});
   Kokkos::deep_copy(run.state.fluid->u.x.storage, u);
   set_cell(run.state.fluid->u.z, 2, 1, 3, odd);
-  run.step.fill_ghosts(run.state);
+  run.fill_ghosts();
   run.advance();
   return complaint(run);
 }

@@ -1,10 +1,10 @@
-// The ledger of mass and momentum over a run.
+#include "src/coupling/ledger.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "src/coupling/coupling.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {

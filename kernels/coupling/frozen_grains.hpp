@@ -1,0 +1,26 @@
+// Drag on grains that do not move. Equations: docs/numerics.md, "One coupled step".
+#pragma once
+
+#include "kernels/grains/half_kick.hpp"
+
+namespace barchan {
+
+/// The impulse of a whole fluid step, in one kick of infinite mass: only the share of fluid moves.
+struct DragOnFrozenGrains {
+  Real dt = 0;
+  FluidOnGrains on_grains;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const Real infinity = Kokkos::Experimental::infinity_v<Real>;
+    const HalfKick half_kick(dt, {.mass = infinity,
+                                  .inertia_moment = infinity,
+                                  .per_fluid_mass = on_grains.per_fluid_mass(g),
+                                  .beta = on_grains.beta(g),
+                                  .added_mass = on_grains.added_mass(g)});
+    GrainForces f;
+    f.u_f = on_grains.u_f_after(0, g), f.acceleration = on_grains.acceleration(g);
+    Vec3 u, spin;
+    on_grains.impulse(g) = half_kick(f, u, spin);
+  }
+};
+
+}  // namespace barchan

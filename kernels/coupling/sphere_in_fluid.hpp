@@ -1,0 +1,24 @@
+// What a fluid does to a sphere whether it flows or not: its weight less buoyancy, its added mass.
+#pragma once
+
+#include "kernels/grains/grain.hpp"
+
+namespace barchan {
+
+inline constexpr Real kAddedMassCoefficient = 0.5;  // C_m of a sphere
+
+/// C_m rho_f V_p [kg].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_added_mass(Real rho_f, Real volume) {
+  return kAddedMassCoefficient * rho_f * volume;
+}
+
+/// Weight less buoyancy [N].
+struct SubmergedWeight {
+  Vec3 gravity;        // [m/s^2]
+  Real displaced = 0;  // density of what a grain displaces [kg/m^3]; 0: no buoyancy
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const GrainKinematics& grain) const {
+    return (grain.m - displaced * sphere_volume(grain.r)) * gravity;
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,24 @@
+#include "src/coupling/coupling_fields.hpp"
+
+namespace barchan {
+
+CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
+    : on_faces{make_faces("exchange impulse", at.grid)} {
+  const FluidSolver::Idle idle = solver.idle();
+  const auto& [flux, u_star] = idle.faces;
+  pressure_on_faces = stress_on_faces = flux;
+  convective = u_star;
+  const auto& [a, b, c] = idle.cells;
+  pressure_in_cells = velocity_in_cells = impulse_in_cells = {a, b, c};
+  stress_in_cells = {on_faces.impulse.x, on_faces.impulse.y, on_faces.impulse.z};
+
+  if (at.smoothing_length > 0) {
+    alpha_before_smoothing = Field("coupling: fraction before smoothing", at.grid);
+  }
+  if (!at.by_row) return;
+  on_faces.stress_share = alpha_before_smoothing;
+  on_faces.conductance_x = Field("coupling: conductance between rows, x", at.grid);
+  on_faces.conductance_z = Field("coupling: conductance between rows, z", at.grid);
+}
+
+}  // namespace barchan

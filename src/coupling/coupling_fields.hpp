@@ -1,0 +1,38 @@
+// Fields of the exchange between flow and grains.
+#pragma once
+
+#include "src/coupling/coupling_grid.hpp"
+
+namespace barchan {
+
+/// A name for each meaning. Names in one group share memory: each is written after the one before
+/// it in the list was read for the last time. Most of it is the flow solver's between two of its
+/// steps. Which memory that is, is said in the constructor alone.
+struct CouplingFields {
+  CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
+
+  // Gather, force per volume of grain on faces [N/m^3].
+  FaceVector pressure_on_faces, stress_on_faces;
+
+  // Gather, u . grad u on faces [m/s^2].
+  FaceVector convective;
+
+  // Gather, force per volume in cells [N/m^3]; the velocity of CFDEM's cells [m/s]; deposit,
+  // momentum given to the grains per volume [N s/m^3].
+  CellVector pressure_in_cells, velocity_in_cells, impulse_in_cells;
+
+  // Gather, force per volume in cells [N/m^3]. Shares memory with the impulse of `on_faces`, which
+  // the last fluid step has read and the next deposit writes.
+  CellVector stress_in_cells;
+
+  // Kept through the fluid step.
+  Field alpha_before_smoothing;  // set by the gather; empty without smoothing
+  ExchangeOnFaces on_faces;      // set by the deposit
+
+  /// The fraction before the smoothing, with ghosts: alpha_f itself without one.
+  const Field& alpha_l(const FluidState& fluid) const {
+    return alpha_before_smoothing.storage.size() > 0 ? alpha_before_smoothing : fluid.alpha_f;
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,62 @@
+#include "src/coupling/coupling_grid.hpp"
+
+#include <algorithm>
+
+#include "src/config/derived.hpp"
+#include "src/parallel/decomposition.hpp"
+
+namespace barchan {
+
+namespace {
+
+Real square(Real a) { return a * a; }
+
+/// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
+/// or with walls others.
+std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidSolver& solver,
+                                              const Grid& grid, const Mirrors& walls) {
+  if (walls == Mirrors{} || config.coupling.smoothing_length == 0) return solver.fft();
+  return std::make_shared<const PlaneFft>(grid, walls);
+}
+
+WallFaces ends_of(const RankLine& line, int n) {
+  WallFaces faces;
+  if (line.position == 0) faces.first = 0;
+  if (line.position + 1 == line.count) faces.last = n;
+  return faces;
+}
+
+}  // namespace
+
+CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow,
+                           Real r_max)
+    : grid(of_flow),
+      boundary(solver.boundary()),
+      box(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
+      stencil(make_deposit_stencil(config, grid, r_max)),
+      by_row(exchanges_by_row(config.coupling)),
+      smoothing_length(config.coupling.smoothing_length),
+      walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
+            .z = config.grains->boundary_z == GrainBoundaryZ::wall},
+      smoother(grid, smoothing_fft(config, solver, grid, walls), 1,
+               square(std::max<Real>(smoothing_length, 1e-9))) {}
+
+void CouplingGrid::fill_ghosts(FaceVector& f) const {
+  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar);
+}
+
+void CouplingGrid::fill_ghosts(CellVector& f) const {
+  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar);
+}
+
+WallFaces CouplingGrid::wall_faces_x() const {
+  if (!walls.x) return {};
+  return ends_of(grid.ranks ? grid.ranks->along_x() : RankLine{}, grid.nx);
+}
+
+WallFaces CouplingGrid::wall_faces_z() const {
+  if (!walls.z) return {};
+  return ends_of(grid.ranks ? grid.ranks->along_z() : RankLine{}, grid.nz);
+}
+
+}  // namespace barchan

@@ -1,0 +1,61 @@
+// From the flow to the grains.
+#pragma once
+
+#include <variant>
+
+#include "kernels/coupling/deposit.hpp"
+#include "kernels/coupling/gather.hpp"
+#include "src/coupling/coupling_fields.hpp"
+#include "src/coupling/ledger.hpp"
+
+namespace barchan {
+
+using DragModel = std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired,
+                               GidaspowBlended, NoDrag>;
+
+/// Velocity, share of fluid, drag coefficient and steady forces of the fluid at each grain, before
+/// the grain steps of a fluid step. Grid and fields outlive it.
+class Gather {
+ public:
+  Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+         CouplingFields& fields);
+
+  /// `extent`: of the grains of all ranks. Books what the flow's pressure gradient and stress do.
+  void operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent, Real dt,
+                  ExchangeLedger& ledger);
+  /// The next step is the first of grains that have just been placed.
+  void start() { is_first_step_ = true; }
+
+ private:
+  CellRange cells_around(const GrainExtent& grains) const;
+  void reserve_flow_at(int n);
+  void undo_smoothing(const FluidState& fluid);
+  void pressure_gradient(const FluidState& fluid, const GrainState& grains, const CellRange& around,
+                         Real dt, ExchangeLedger& ledger);
+  void stress(const FluidState& fluid, const GrainState& grains, const CellRange& around, Real dt,
+              ExchangeLedger& ledger);
+  void set_faces_on_walls(FaceVector& force, const CellRange& cells) const;
+  Vec3 to_cells(const FaceVector& force, const Field& alpha, const CellRange& cells,
+                CellVector& in_cells) const;
+  void at_centres(const FaceVector& force, const GrainState& grains,
+                  const Kokkos::View<Vec3*>& at) const;
+  void flow_at_grains(const FluidState& fluid, const GrainState& grains);
+  void flow_of_cfdem(const FluidState& fluid, const GrainState& grains);
+  Vec3 force_of_flow(const GrainState& grains) const;
+  void drag_and_share(const GrainState& grains, Real dt) const;
+  void lift_and_torque(const FluidState& fluid, const GrainState& grains) const;
+
+  const CouplingGrid& grid_;
+  CouplingFields& fields_;
+  HostGrid host_grid_;
+  FluidForces forces_;
+  DragModel drag_;
+  SubmergedWeight weight_;
+  Real rho_f_, nu_;
+  bool has_floor_;       // no slip at y = 0
+  bool reads_as_cfdem_;  // from the centres of cells
+  bool is_first_step_ = false;
+  FlowAtGrains flow_at_;
+};
+
+}  // namespace barchan

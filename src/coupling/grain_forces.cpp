@@ -1,0 +1,65 @@
+#include "src/coupling/grain_forces.hpp"
+
+#include "kernels/coupling/force_output.hpp"
+#include "src/parallel/launch.hpp"
+
+namespace barchan {
+
+namespace {
+
+Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
+  return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
+}
+
+}  // namespace
+
+std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver& solver, Real dt) {
+  const GrainState& grains = *state.grains;
+  const int n = grains.n;
+  std::vector<NamedForce> forces;
+  if (grains.fluid.has_fluid) {
+    const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
+    Kokkos::parallel_for("output: forces on grains", items(n),
+                         DragAndAddedMass{.grains = grains.kin,
+                                          .on_grains = grains.fluid,
+                                          .exchange = grains.exchange,
+                                          .dt = dt,
+                                          .drag = drag,
+                                          .added_mass = added});
+    forces.push_back({"force_drag", drag});
+    forces.push_back({"force_added_mass", added});
+  }
+  if (grains.exchange.lift.size() > 0) forces.push_back({"force_lift", grains.exchange.lift});
+  if (state.fluid) {
+    forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
+    forces.push_back({"force_stress", grains.exchange.stress_force});
+  }
+  const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
+  solver.split_contacts(grains, normal, tangential);
+  forces.push_back({"force_contact_normal", normal});
+  forces.push_back({"force_contact_tangential", tangential});
+  forces.push_back({"force_total", resultant_force(grains, dt)});
+  return forces;
+}
+
+Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt) {
+  const Kokkos::View<Vec3*> total = grain_vector("total", grains.n);
+  Kokkos::parallel_for("output: resultant force", items(grains.n),
+                       ResultantForce{.on_grains = grains.fluid,
+                                      .contact_force = grains.contact_force,
+                                      .dt = dt,
+                                      .total = total});
+  return total;
+}
+
+Kokkos::View<Vec3*> mean_resultant_force(const GrainState& grains, Real dt) {
+  if (!grains.fluid.has_fluid) return resultant_force(grains, dt);
+  const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
+  Kokkos::parallel_for(
+      "output: mean resultant force", items(grains.n),
+      MeanResultantForce{
+          .grains = grains.kin, .u_start = grains.fluid.u_start, .dt = dt, .mean = mean});
+  return mean;
+}
+
+}  // namespace barchan

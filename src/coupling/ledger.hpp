@@ -1,0 +1,35 @@
+// The ledger of mass and momentum: what changed sides between flow and grains.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "src/grains/grain_state.hpp"
+
+namespace barchan {
+
+/// Momentum and volume that changed sides in one fluid step.
+struct ExchangeLedger {
+  Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
+  Vec3 given_to_grains;                         // drag and added mass over the sub-steps [N s]
+  Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
+  Vec3 flow_on_solid;   // pressure gradient and stress: what the solid fraction takes [N s]
+  Vec3 flow_on_grains;  // the same on the grains [N s]
+};
+
+/// Adds up what changed sides over a run and keeps the largest mismatch of any step.
+class Ledger {
+ public:
+  Ledger() { add({}); }
+  /// After each coupled step. Throws std::runtime_error if a grain is unaccounted for.
+  void close_step(const ExchangeLedger& step, const GrainState& grains);
+  /// Names and values for run.json; momentum along x, y, z [N s], mismatches relative.
+  const std::map<std::string, double>& entries() const { return entries_; }
+
+ private:
+  void add(const ExchangeLedger& step);
+
+  std::map<std::string, double> entries_;
+};
+
+}  // namespace barchan
