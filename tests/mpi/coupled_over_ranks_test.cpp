@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "src/coupling/coupled_step.hpp"
 #include "src/coupling/coupling.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
