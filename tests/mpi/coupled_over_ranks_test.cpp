@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "src/coupling/coupling.hpp"
+#include "src/coupling/coupled_step.hpp"
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/parallel/reduce.hpp"
