@@ -5,9 +5,9 @@
 
 namespace barchan {
 
-/// A name for each meaning. Names in one group share memory: each is written after the one before
-/// it in the list was read for the last time. Most of it is the flow solver's between two of its
-/// steps. Which memory that is, is said in the constructor alone.
+/// A name for each meaning. Names of one declaration share memory: each is written after the one
+/// before it was read for the last time. Most of this memory is the flow solver's, who needs it
+/// only within its steps. The constructor, and nothing else, says which memory is whose.
 struct CouplingFields {
   CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
 

@@ -5,6 +5,7 @@
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/coupling/coupling.hpp"
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_arrays.hpp"
@@ -282,8 +283,8 @@ TEST(CoupledOverRanks, TwentyStepsWithAllArraysOfAGrainAsOnOneRank) {
   const Config c = fullest_case();
   const Coupled shared(c, MPI_COMM_WORLD);
   EXPECT_EQ(layout_of(*shared.state.grains).n, 22) << "not all of for_each_grain_array";
-  EXPECT_EQ(shared.step.walls().n, kMaxWalls);
-  const auto migrated = sum_over(MPI_COMM_WORLD, shared.step.neighbor_list().n_migrated());
+  EXPECT_EQ(shared.step.grain_solver()->walls().n, kMaxWalls);
+  const auto migrated = sum_over(MPI_COMM_WORLD, shared.step.neighbor_list()->n_migrated());
   EXPECT_TRUE(rank_count(MPI_COMM_WORLD) == 1 || migrated > 0);
   twenty_steps(c);
 }

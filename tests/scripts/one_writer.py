@@ -18,10 +18,10 @@ SHARED = """
 [time]
 end = {end}
 fluid_step = 2.5e-4
-grain_step = 5e-6
-[domain]
+{step}[domain]
 size = [0.012, 0.006, 0.006]
 """
+GRAIN_STEP = "grain_step = 5e-6\n"
 FLUID = """[fluid]
 cells = [10, 14, 6]
 first_cell_height = 2.6e-4
@@ -139,11 +139,11 @@ def leaves_files_of_others(work):
 def write_cases(work, names):
     """Cases that start from one flow and one heap."""
     work.mkdir()
-    (work / "chan.toml").write_text(SHARED.format(end=0.05) + FLUID + '[initial]\nfluid = "turbulent"\n')
-    (work / "heap.toml").write_text(SHARED.format(end=0.01) + GRAINS + POURED)
+    (work / "chan.toml").write_text(SHARED.format(end=0.05, step="") + FLUID + '[initial]\nfluid = "turbulent"\n')
+    (work / "heap.toml").write_text(SHARED.format(end=0.01, step=GRAIN_STEP) + GRAINS + POURED)
     for name in names:
         starts = '[initial]\nfluid = "chan.toml"\ngrains = "heap.toml"\n'
-        (work / f"{name}.toml").write_text(SHARED.format(end=0.002) + FLUID + GRAINS + starts)
+        (work / f"{name}.toml").write_text(SHARED.format(end=0.002, step=GRAIN_STEP) + FLUID + GRAINS + starts)
 
 
 def start_case(work, name):

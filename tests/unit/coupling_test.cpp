@@ -250,6 +250,41 @@ TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
   EXPECT_EQ(owned_values(*a.state.fluid), owned_values(*b.state.fluid));
 }
 
+/// Leaves in them what a user before could have left, whatever holds nothing at the time.
+void spoil_idle_fields(const CoupledStep& step) {
+  const FluidSolver::Idle idle = step.fluid_solver()->idle();
+  for (const Field& field : idle.for_anything()) {
+    Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
+  }
+  for (const Field& field : idle.cells) Kokkos::deep_copy(field.storage, Real(1e30));
+}
+
+/// Fields of the gather and the deposit share memory with each other and with the flow solver: each
+/// is written before it is read.
+TEST(Coupling, TheExchangeDoesNotReadWhatOthersLeftInIdleFields) {
+  for (const Exchange exchange : {Exchange::by_row, Exchange::interpolated, Exchange::smoothed}) {
+    for (const VoidFraction kind : {VoidFraction::divided, VoidFraction::cfdem_faithful}) {
+      SCOPED_TRACE(static_cast<int>(exchange) * 10 + static_cast<int>(kind));
+      Config config = coupled_config();
+      config.coupling.exchange = exchange;
+      config.coupling.void_fraction = kind;
+      Coupled a(config), b(config);
+      a.advance(2), b.advance(2);
+      for (Coupled* c : {&a, &b}) {
+        if (c == &b) spoil_idle_fields(c->step);
+        c->step.gather(c->state);
+        c->step.move_grains(c->state);
+        if (c == &b) spoil_idle_fields(c->step);
+        c->step.deposit(c->state);
+        c->step.advance_fluid(c->state);
+      }
+      EXPECT_EQ(owned_values(*a.state.fluid), owned_values(*b.state.fluid));
+      const auto of_a = a.rows(), of_b = b.rows();
+      for (std::size_t g = 0; g < of_a.size(); ++g) EXPECT_EQ(norm(of_a[g].u - of_b[g].u), 0);
+    }
+  }
+}
+
 TEST(Coupling, BulkVelocityIsHeld) {
   Coupled c(coupled_config());
   c.advance(40);
