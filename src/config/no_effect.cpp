@@ -25,7 +25,8 @@ struct Need {
   const char* message;
 };
 
-// Not here: what a switch turns off that studies turn on and off (grains.frozen, a friction of 0).
+// Not here: what a key turns off that is set over a whole case (grains.frozen, a friction of 0, an
+// initial.grains instead of what the case pours).
 constexpr Need needs[] = {
     {"coupling", "fluid", has_fluid, without_fluid},
     {"coupling", "grains", has_grains, without_grains},
@@ -41,9 +42,6 @@ constexpr Need needs[] = {
      "must be absent unless rolling_model = \"theta_m\""},
     {"grains.youngs_modulus", "grains.contact_model", is_hertzian, with_springs},
     {"grains.poisson_ratio", "grains.contact_model", is_hertzian, with_springs},
-    {"grains.sizes", "initial.grains",
-     [](const Config& c) { return c.initial.pour.has_value() || c.initial.grains.empty(); },
-     "must be absent unless grains are poured: initial.grains decides"},
     {"initial.grains.pour.centre", "initial.grains.pour.shape",
      [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },
      "must be absent with shape = \"bed\", which covers the floor"},

@@ -18,7 +18,7 @@ def without(text, *keys):
 
 
 # The same with grains from a table beside it.
-TABLE = without(DUNE.replace(POUR, ""), "sizes").replace('fluid = "turbulent"', 'fluid = "turbulent"\ngrains = "grains.csv"')
+TABLE = DUNE.replace(POUR, "").replace('fluid = "turbulent"', 'fluid = "turbulent"\ngrains = "grains.csv"')
 # The same without water, and without grains.
 DRY = without(re.sub(r"\[fluid\].*?(?=\[grains\])", "", DUNE, flags=re.S), "fluid", "fields_interval")
 WET = without(DUNE[: DUNE.index("[grains]")], "grain_step") + '[initial]\nfluid = "turbulent"\n'
