@@ -164,6 +164,14 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
   EXPECT_LT(estimated, taken * 5);
 }
 
+// In its first steps this flow goes wrong over grains that are held.
+TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
+  const TemporaryFolder folder;
+  const Config config = load_config(BARCHAN_SOURCE_DIR "/configs/validation/laminar-bed.toml");
+  const std::string said = estimate(config, folder / "run", grains_ahead(config, folder / "run"));
+  EXPECT_TRUE(contains(said, "timed just now")) << said;
+}
+
 TEST(Estimate, OfManyGrainsIsMoreThanOfFew) {
   const Config config = load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml");
   PourConfig pour = *config.initial.pour;
