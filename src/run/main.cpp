@@ -123,15 +123,16 @@ int refuse(const MpiScope& mpi, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace barchan;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away must not cost the results
   keep_standard_streams();
   const MpiScope mpi(&argc, &argv);
   try {
     const auto line =
         parse_command_line(argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
     report::start(line.quiet, rank_of(MPI_COMM_WORLD));
+    // A reader of its output that goes away must not cost the results of a run.
+    if (line.command == Command::run) std::signal(SIGPIPE, SIG_IGN);
     const int code = execute(line);
-    if (!std::cout.flush())
+    if (line.command != Command::run && !std::cout.flush())
       throw std::runtime_error("cannot write to the terminal or where it leads");
     return code;
   } catch (const InputError& problem) {
