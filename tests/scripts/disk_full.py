@@ -84,6 +84,14 @@ def fill_disks(disk, work):
     if not broken(disk, work, "while_a_restart_is_written", restarts, 1_500_000, ["restart_"]):
         faults.fail("no restart file came before the disk was full")
     broken(disk, work, "before_the_first_restart", case, 200_000, [])
+    lost_output_is_told()
+
+
+def lost_output_is_told():
+    for words in (["keys"], ["check", "--resolved-only", str(faults.CASE)]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([faults.PROGRAM, *words], stdout=full, stderr=subprocess.PIPE, text=True)
+        faults.expect(done, 1, "cannot write to the terminal or where it leads")
 
 
 if __name__ == "__main__":
