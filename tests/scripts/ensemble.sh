@@ -11,7 +11,7 @@ part() {  # part END STEP SECTION...: a case of 20 x 20 x 20 mm with these secti
 water=$'[fluid]\ncells = [8, 8, 8]\nmean_velocity = 0.1'
 grains=$'[grains]\nyoungs_modulus = 3e5\nsizes = [[2e-4, 800]]'
 part 0.01 1e-3 "$grains" '[initial]' 'grains = { pour = { centre = [0.01, 0.01], radius = 0.0025 } }' > heap.toml
-part 0.1 1e-3 "$water" '[initial]' 'fluid = "turbulent"' > channel.toml
+part 0.1 1e-3 "$water" '[initial]' 'fluid = "turbulent"' | grep -v grain_step > channel.toml
 part 0.02 5e-4 "$water" "$grains" '[initial]' 'fluid = "channel.toml"' 'grains = "heap.toml"' \
   '[output]' 'dune_interval = 0.01' > case.toml
 cat > study.toml << 'STUDY'
