@@ -33,7 +33,9 @@ killed() {
   grep -q '^  "status": "failed",$' "$out/run.json" || fail "$out: $(head -n 3 "$out/run.json")"
   grep -q "\"message\": \"ended by SIGKILL" "$out/run.json" || fail "$out: $(head -n 3 "$out/run.json")"
   "$python" -m json.tool "$out/run.json" > /dev/null || fail "$out/run.json is broken"
-  [ "$(grep -c "ended by SIGKILL" "$out.said")" -eq 1 ] && ! grep -v "^warning: \|^barchan: ended" "$out.said" ||
+  # The rank that is left may have been reading from the other's memory: MPI itself says so, and cannot be told not to.
+  [ "$(grep -c "ended by SIGKILL" "$out.said")" -eq 1 ] &&
+    ! grep -v "^warning: \|^barchan: ended\|^\[.*\] Read -1, expected [0-9]*, errno = 3$" "$out.said" ||
     { cat "$out.said"; fail "$out: not one line about it"; }
 }
 
