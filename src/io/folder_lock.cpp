@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse(const fs::path& folder, int error) {
-  throw InputError(fmt::format("cannot write results to {}: {}; take another --out",
-                               folder.string(), std::generic_category().message(error)));
-}
-
 /// True if `file` still names what is open: a holder that ends removes the file, and whoever waited
 /// for that one has then locked a file that nobody else finds.
 bool names_open_file(const fs::path& file, int descriptor) {
@@ -50,6 +45,11 @@ void write_holder(int descriptor) {
 
 }  // namespace
 
+void refuse_folder(const fs::path& folder, const std::string& why) {
+  throw InputError(
+      fmt::format("cannot write results to {}: {}; take another --out", folder.string(), why));
+}
+
 std::optional<FolderLock> FolderLock::take(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> made;
@@ -57,11 +57,11 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder) {
        at = at.parent_path())
     if (at.has_filename()) made.push_back(at);
   fs::create_directories(folder, error);
-  if (error) refuse(folder, error.value());
+  if (error) refuse_folder(folder, error.message());
   const fs::path file = file_in(folder);
   for (;;) {
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0) refuse(folder, errno);
+    if (descriptor < 0) refuse_folder(folder, std::generic_category().message(errno));
     const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno == EWOULDBLOCK) {
       ::close(descriptor);

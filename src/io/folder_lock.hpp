@@ -8,6 +8,9 @@
 
 namespace barchan {
 
+/// Throws InputError: results cannot go to `folder`, and why.
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder, const std::string& why);
+
 /// Keeps a folder to this process while it lives: flock on DIR/.barchan.lock, in which host,
 /// process and time stand for others to read. The kernel lets it go when the process ends, however
 /// it ends, so it is never stale. On file systems without locks it says so (`enforced`).

@@ -8,6 +8,7 @@
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/folder_lock.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/run/run_folder.hpp"
 
@@ -17,11 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-  throw InputError(
-      fmt::format("cannot write results to {}: {}; take another --out", folder.string(), why));
-}
-
 /// The nearest folder on the way up that is there.
 fs::path existing_part(const fs::path& folder) {
   fs::path at = fs::absolute(folder).lexically_normal();
@@ -29,7 +25,7 @@ fs::path existing_part(const fs::path& folder) {
     std::error_code error;
     const auto status = fs::symlink_status(at, error);
     if (error && status.type() != fs::file_type::not_found && error.value() != ENOTDIR) {
-      refuse(folder, error.message());
+      refuse_folder(folder, error.message());
     }
     if (fs::exists(status) || at == at.parent_path()) return at;
   }
@@ -65,16 +61,17 @@ void check_out_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(there, error)) {
     const bool link = fs::is_symlink(there, error);
-    refuse(folder, fmt::format("{} is {}", there.string(),
-                               link ? "a link that leads nowhere" : "a file, not a folder"));
+    refuse_folder(folder, fmt::format("{} is {}", there.string(),
+                                      link ? "a link that leads nowhere" : "a file, not a folder"));
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
-    refuse(folder, fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
+    refuse_folder(folder,
+                  fmt::format("{}: {}", there.string(), std::generic_category().message(errno)));
   }
   if (!same_folder(there, folder)) return;
   for (const auto& entry : fs::directory_iterator(there)) {
     if (is_result_name(entry.path().filename()) && entry.is_directory()) {
-      refuse(folder, entry.path().filename().string() + " in it is a folder");
+      refuse_folder(folder, entry.path().filename().string() + " in it is a folder");
     }
   }
 }
@@ -119,7 +116,7 @@ void check_is_ours(const Config& config, const fs::path& folder) {
     std::error_code error;
     if (is_result_name(name) && !is_checkpoint_name(name) &&
         !fs::equivalent(entry.path(), config.file, error))
-      refuse(folder, name.string() + " in it is not of a run");
+      refuse_folder(folder, name.string() + " in it is not of a run");
   }
 }
 

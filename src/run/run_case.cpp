@@ -45,6 +45,14 @@ void check_on_root(const Check& check) {
   if (broadcast(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
 }
 
+/// Before the folder is made or locked, and before hours go into what the case starts from.
+void check_place(const Config& config, const RunOptions& options) {
+  check_on_root([&] {
+    check_out_folder(options.folder);
+    if (!options.restart) check_nothing_is_lost(config, options.folder);
+  });
+}
+
 /// The lock of a folder, on rank 0; empty if another process has it.
 std::optional<FolderLock> try_to_lock(const fs::path& folder) {
   std::optional<FolderLock> lock;
@@ -72,8 +80,8 @@ std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
   }
 }
 
-/// Results of another configuration, or of somebody else, in the folder of a start: nobody asked
-/// for their end, so they stay under another name.
+/// Results of another configuration in the folder of a start: nobody asked for their end, so they
+/// stay under another name.
 void set_aside(const fs::path& folder) {
   check_on_root([&] {
     fs::path kept = folder;
@@ -88,7 +96,9 @@ void set_aside(const fs::path& folder) {
 /// Runs a start, or goes on with it, unless somebody else has done so while we waited.
 void make_start(const fs::path& source, const fs::path& beside, int realisation) {
   for (;;) {
-    const auto lock = wait_for_lock(start_case(source, beside, realisation).folder);
+    const StartCase start = start_case(source, beside, realisation);
+    check_place(start.config, {.folder = start.folder, .restart = start.earlier.restart});
+    const auto lock = wait_for_lock(start.folder);
     const auto& [first, config, folder, earlier] = start_case(source, beside, realisation);
     // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
@@ -138,18 +148,14 @@ void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
       config.file.string(), need / 1e9, have / 1e9));
 }
 
-/// In a folder that is ours, which all checks have passed.
+/// A case in a folder that this process has locked.
 void run_locked(const Config& config, const RunOptions& options) {
   const auto sizes =
       options.restart ? known_sizes(config) : grains_ahead(config, options.folder).sizes;
   check_memory(config, sizes);
   check_on_root([&] {
     check_is_ours(config, options.folder);
-    if (options.restart) {
-      check_results_go_on(options.folder);
-    } else {
-      check_nothing_is_lost(config, options.folder);
-    }
+    if (options.restart) check_results_go_on(options.folder);
   });
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
@@ -172,10 +178,7 @@ void run_locked(const Config& config, const RunOptions& options) {
 /// unless the user said so.
 void run_one(const Config& config, const RunOptions& options, bool overwrite) {
   const fs::path& folder = options.folder;
-  check_on_root([&] {
-    check_out_folder(folder);
-    if (!options.restart) check_nothing_is_lost(config, folder);
-  });
+  check_place(config, options);
   const auto lock = try_to_lock(folder);
   if (!broadcast(lock.has_value(), MPI_COMM_WORLD)) {
     throw InputError(fmt::format("{} is in use by {}: wait for it, or take another --out",

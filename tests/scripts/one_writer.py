@@ -43,14 +43,7 @@ def content(folder):
 
 
 def wait_for_restart(folder, process):
-    for _ in range(2000):
-        if faults.last_restart(folder):
-            return
-        if process.poll() is not None:
-            break
-        time.sleep(0.005)
-    process.kill()
-    faults.fail(f"{folder}: no restart file: {process.stderr.read()}")
+    faults.wait_until(lambda: faults.last_restart(folder), process, folder)
 
 
 def refuses_a_second_run(work):

@@ -4,7 +4,6 @@ file, ends with exit code 3 and says how to go on; going on gives the bits of th
 output nobody reads ends as any other."""
 import signal
 import subprocess
-import time
 
 import faults
 
@@ -13,15 +12,8 @@ LONG = {**faults.OFTEN, "time.end": 0.25, "restart.interval": 0}
 
 def wait_for_steps(folder, process):
     """Until the run is under way."""
-    for _ in range(1000):
-        table = folder / "history.csv"
-        if table.exists() and table.read_text().count("\n") > 4:
-            return
-        if process.poll() is not None:
-            break
-        time.sleep(0.01)
-    process.kill()
-    faults.fail(f"{folder}: the run is not there: {process.stderr.read()}")
+    table = folder / "history.csv"
+    faults.wait_until(lambda: table.exists() and table.read_text().count("\n") > 4, process, folder)
 
 
 def check_stopped(folder, status, said):

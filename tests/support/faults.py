@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 import same_bits
 
@@ -35,6 +36,16 @@ def start(folder, settings, restart=None, threads=1):
     environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
     return subprocess.Popen(command(folder, settings, restart), env=environment, stdout=subprocess.DEVNULL,
                             stderr=subprocess.PIPE, text=True)
+
+
+def wait_until(happened, process, folder):
+    """Until happened() is true; fails if the run ends before that, or in half a minute."""
+    end = time.monotonic() + 30
+    while not happened():
+        if process.poll() is not None or time.monotonic() > end:
+            process.kill()
+            fail(f"{folder}: the run did not come so far: {process.stderr.read()}")
+        time.sleep(0.005)
 
 
 def summary(folder):
