@@ -63,40 +63,41 @@ struct ContactSum {
   Quad force, torque;
 };
 
-/// Most rows of a chunk: on a CPU they stay in its L2 cache, on a GPU every row is a chunk.
+/// Most entries of a chunk: on a CPU they stay in its L2 cache, on a GPU every entry is a chunk.
 inline constexpr int kLargestChunk =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                Kokkos::DefaultExecutionSpace::memory_space>::accessible
         ? 4096
         : 1;
 
-/// The grains in chunks of consecutive rows, each of which one thread takes at a time. Their size
-/// depends on the number of grains alone, so that results do not depend on the number of threads.
+/// The grains in chunks of consecutive entries, each of which one thread takes at a time. Their
+/// size depends on the number of grains alone, so that results do not depend on the number of
+/// threads.
 struct Chunks {
-  int n = 0, rows = 1;
+  int n = 0, size = 1;
 
-  KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + rows - 1) / rows; }
-  /// Two rows of one chunk; rows from n on are in none.
+  KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + size - 1) / size; }
+  /// Two entries of one chunk; entries from n on are in none.
   KOKKOS_FORCEINLINE_FUNCTION bool together(int a, int b) const {
-    return a < n && b < n && a / rows == b / rows;
+    return a < n && b < n && a / size == b / size;
   }
-  KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * rows; }
+  KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * size; }
   KOKKOS_FORCEINLINE_FUNCTION int end(int chunk) const {
-    return (chunk + 1) * rows < n ? (chunk + 1) * rows : n;
+    return (chunk + 1) * size < n ? (chunk + 1) * size : n;
   }
 };
-/// Place of a row in its chunk: a constant where every row is one, so that a device keeps what lies
-/// there in registers.
-KOKKOS_FORCEINLINE_FUNCTION constexpr int place_in_chunk(int row, int begin) {
-  return kLargestChunk > 1 ? row - begin : 0;
+/// Place of an entry in its chunk: a constant where every entry is one, so that a device keeps what
+/// lies there in registers.
+KOKKOS_FORCEINLINE_FUNCTION constexpr int place_in_chunk(int entry, int begin) {
+  return kLargestChunk > 1 ? entry - begin : 0;
 }
 /// Large chunks have few pairs that cross; a multiple of eight of them shares well among threads,
 /// unless that makes them tiny.
 inline Chunks make_chunks(int n) {
   const int count = 8 * ((n + 8 * kLargestChunk - 1) / (8 * kLargestChunk));
-  const int rows = count > 0 ? (n + count - 1) / count : 1;
+  const int size = count > 0 ? (n + count - 1) / count : 1;
   const int least = kLargestChunk < 256 ? kLargestChunk : 256;
-  return {.n = n, .rows = rows < least ? least : rows};
+  return {.n = n, .size = size < least ? least : size};
 }
 
 /// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does

@@ -8,10 +8,10 @@
 
 namespace barchan {
 
-/// Contacts under grains (rows before the replacement) with the id of the partner: ids survive
+/// Contacts under grains (entries before the replacement) with the id of the partner: ids survive
 /// sorting and migration.
 struct ContactHistory {
-  Kokkos::View<int*> first;             // (rows + 1)
+  Kokkos::View<int*> first;             // (entries + 1)
   Kokkos::View<std::int64_t*> partner;  // (contacts) id
   Kokkos::View<Vec3*> xi_t;             // (contacts) of the grain relative to the partner [m]
   Kokkos::View<Vec3*> rolling, force;   // on the grain [N m], [N]; empty where the list has none
@@ -19,16 +19,16 @@ struct ContactHistory {
   KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }
   KOKKOS_FORCEINLINE_FUNCTION bool has_force() const { return force.extent(0) > 0; }
 
-  /// Index of the contact of a row with a grain, or -1.
-  KOKKOS_FUNCTION int find(int row, std::int64_t id) const {
-    for (int k = first(row); k < first(row + 1); ++k) {
+  /// Index of the contact of an entry with a grain, or -1.
+  KOKKOS_FUNCTION int find(int entry, std::int64_t id) const {
+    for (int k = first(entry); k < first(entry + 1); ++k) {
       if (partner(k) == id) return k;
     }
     return -1;
   }
 };
 
-/// Calls f(row, id of the partner, sign) for the grains that keep the history of the contact in a
+/// Calls f(entry, id of the partner, sign) for the grains that keep the history of the contact in a
 /// slot: its first grain, or with `both` each one that is owned. History is that of the first
 /// grain; seen from the second one it has the sign -1.
 struct GrainsWithHistory {
@@ -114,9 +114,9 @@ struct PairSearch {
   OccupiedColumns occupied;
   Windows window;
   PeriodicBox box;
-  int n_owned = 0;  // rows from here on are ghosts; two of them are no pair of this rank
+  int n_owned = 0;  // entries from here on are ghosts; two of them are no pair of this rank
 
-  /// From row `begin` on in column c.
+  /// From entry `begin` on in column c.
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int c, int begin, const Action& action) const {
     const GrainKinematics& a = grains(i);
@@ -181,14 +181,14 @@ struct CountPairs {
   }
 };
 
-/// Writes the pairs of each grain and their contact history. `old_row` is the row under which
+/// Writes the pairs of each grain and their contact history. `old_entry` is the entry under which
 /// `history` has each owned grain.
 struct FillPairs {
   PairSearch search;
   NotedPartners noted;
   PairList list;
   ContactHistory history;
-  Kokkos::View<const int*> old_row;
+  Kokkos::View<const int*> old_entry;
   Kokkos::View<const std::int64_t*> id;
   bool has_history = false;
 
@@ -212,9 +212,9 @@ struct FillPairs {
     Real sign = 1;
     if (has_history) {
       const int n_owned = list.chunks.n;
-      if (i < n_owned) k = history.find(old_row(i), id(j));
+      if (i < n_owned) k = history.find(old_entry(i), id(j));
       if (k < 0 && j < n_owned) {
-        k = history.find(old_row(j), id(i));
+        k = history.find(old_entry(j), id(i));
         sign = -1;  // forces and displacements are those of the first grain
       }
     }

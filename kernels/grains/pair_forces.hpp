@@ -21,7 +21,7 @@ struct PairForces {
   PairList list;
   bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
 
-  /// A block of pairs (a, b), a row each.
+  /// A block of pairs (a, b), an entry each.
   struct Stage {
     BlockOfQuads separation, slip, spin_a, spin_b;
     alignas(64) Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
@@ -56,10 +56,10 @@ struct PairForces {
     for (int q = 0; q < n; ++q) store_pair_force(s.contacts, q, slots[q]);
   }
 
-  /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its rows.
+  /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its entries.
   KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums) const {
-    const int first_row = list.chunks.begin(chunk);
-    const int* active = &list.active(list.inner_first(first_row) - list.n_crossing);
+    const int first_entry = list.chunks.begin(chunk);
+    const int* active = &list.active(list.inner_first(first_entry) - list.n_crossing);
     const int n_active = list.n_active(chunk);
     Stage s;
     for (int begin = 0; begin < n_active; begin += kBlock) {
@@ -69,11 +69,11 @@ struct PairForces {
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
         const Quad force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
-        ContactSum& a = sums[list.i(p) - first_row];
+        ContactSum& a = sums[list.i(p) - first_entry];
         a.force = a.force + force;
         a.torque = fused(-s.arm_a[q], n_cross_f_t, a.torque);
         if constexpr (kRolls) a.torque = a.torque + s.contacts.rolling[q];
-        ContactSum& b = sums[list.j(p) - first_row];
+        ContactSum& b = sums[list.j(p) - first_entry];
         b.force = b.force - force;
         b.torque = fused(-s.arm_b[q], n_cross_f_t, b.torque);
         if constexpr (kRolls) b.torque = b.torque - s.contacts.rolling[q];

@@ -24,8 +24,8 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
   prefetch(list.j(list.other_slot(s)));
 }
 
-/// Sums of the crossing contacts of the rows [begin, end), of each row its own slots first, then
-/// the others.
+/// Sums of the crossing contacts of the entries [begin, end), of each entry its own slots first,
+/// then the others.
 template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
                                               const Kokkos::View<GrainKinematics*>& grains,

@@ -34,8 +34,8 @@ struct Walls {
     return 0;
   }
 
-  /// Adds the forces and torques of all walls on the grains of rows [begin, end) that are near one
-  /// to sums[0..], and takes their history a sub-step on.
+  /// Adds the forces and torques of all walls on the grains of entries [begin, end) that are near
+  /// one to sums[0..], and takes their history a sub-step on.
   template <class Near>
   KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
                                        ContactSum* sums) const {

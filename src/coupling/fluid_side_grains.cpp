@@ -17,12 +17,12 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const ForceS
              .dx = grid.dx,
              .dz = grid.dz,
              .box = grid.box(periodic_x)};
-  copies_ = make_grain_rows(0, ranks_);
+  copies_ = make_grain_entries(0, ranks_);
   add_fluid(copies_);
   add_exchange(copies_, forces);
 }
 
-/// Fills row_, in the order of the owners, and counts_.
+/// Fills entry_, in the order of the owners, and counts_.
 void FluidSideGrains::find_owners(const GrainState& grains) {
   const Kokkos::View<int*> owner("fluid-side grains: owners", grains.kin.extent(0));
   const auto kin = grains.kin;
@@ -30,9 +30,9 @@ void FluidSideGrains::find_owners(const GrainState& grains) {
   Kokkos::parallel_for(
       "fluid-side grains: owners", items(grains.n),
       KOKKOS_LAMBDA(int g) { owner(g) = owner_of(kin(g).x); });
-  RowsByRank rows = sort_by_rank(owner, grains.n, rank_count(ranks_));
-  row_ = rows.row;
-  counts_ = exchange_counts(ranks_, std::move(rows.to));
+  SendList entries = sort_by_rank(owner, grains.n, rank_count(ranks_));
+  entry_ = entries.entry;
+  counts_ = exchange_counts(ranks_, std::move(entries.to));
 }
 
 void FluidSideGrains::wrap_copies() const {
@@ -46,11 +46,11 @@ void FluidSideGrains::wrap_copies() const {
 void FluidSideGrains::copy_to_fluid_ranks(const GrainState& grains, unsigned uses) {
   if (!is_cut_) return;
   find_owners(grains);
-  exchange_.exchange(counts_, layout_of(grains, uses), row_);
+  exchange_.exchange(counts_, layout_of(grains, uses), entry_);
   for (std::size_t e = copies_.extra.size(); e < grains.extra.size(); ++e)
     add_extra(copies_, grains.extra[e].name, grains.extra[e].unit, grains.extra[e].uses);
   copies_.n = counts_.n_from();
-  reserve_rows(copies_, copies_.n, kFluidSide);
+  reserve_entries(copies_, copies_.n, kFluidSide);
   exchange_.unpack(layout_of(copies_, uses), {});
   wrap_copies();
 }
@@ -68,7 +68,7 @@ const GrainState& FluidSideGrains::to_fluid_ranks(const GrainState& grains, unsi
 void FluidSideGrains::to_grain_ranks(GrainState& grains, unsigned uses) {
   if (!is_cut_) return;
   exchange_.exchange(counts_.back(), layout_of(copies_, uses));
-  exchange_.unpack(layout_of(grains, uses), row_);
+  exchange_.unpack(layout_of(grains, uses), entry_);
 }
 
 }  // namespace barchan

@@ -22,7 +22,7 @@ class FluidSideGrains {
   const GrainState& to_fluid_ranks(const GrainState& grains, unsigned uses);
 
   /// The arrays of the `uses` back to the grains that were sent last; no grain may have moved to
-  /// another row since. All ranks together.
+  /// another entry since. All ranks together.
   void to_grain_ranks(GrainState& grains, unsigned uses);
 
   // Public only because nvcc takes no device lambda from a private function.
@@ -37,8 +37,8 @@ class FluidSideGrains {
   PencilOwners owners_;
   GrainState copies_;
   ExchangeCounts counts_;
-  Kokkos::View<int*> row_;  // of the grains, in the order of their owners
-  RowExchange exchange_{"fluid-side grains"};
+  Kokkos::View<int*> entry_;  // of the grains, in the order of their owners
+  EntryExchange exchange_{"fluid-side grains"};
 };
 
 }  // namespace barchan

@@ -8,44 +8,45 @@
 
 namespace barchan {
 
-using Rows = Kokkos::View<int*>;
+using Entries = Kokkos::View<int*>;
 
-/// Fills sent_row_ and counts_.
+/// Fills sent_entry_ and counts_.
 void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
                          const GrainOwners& owners) {
   const auto kin = grains.kin;
   const int n = grains.n;
-  const auto first = uninitialized<Rows>("ghosts: first copy", n + 1);
+  const auto first = uninitialized<Entries>("ghosts: first copy", n + 1);
   Kokkos::parallel_for(
       "ghosts: count copies", items(n),
       KOKKOS_LAMBDA(int g) { first(g) = GhostDestinations(columns, owners, kin(g).x).n; });
   const int n_copies = counts_to_starts(first, n);
-  const auto rank = uninitialized<Rows>("ghosts: rank", n_copies);
-  const auto row = uninitialized<Rows>("ghosts: row", n_copies);
+  const auto rank = uninitialized<Entries>("ghosts: rank", n_copies);
+  const auto entry = uninitialized<Entries>("ghosts: entry", n_copies);
   Kokkos::parallel_for(
       "ghosts: list copies", items(n), KOKKOS_LAMBDA(int g) {
         if (first(g) == first(g + 1)) return;
         const GhostDestinations destinations(columns, owners, kin(g).x);
         for (int q = 0; q < destinations.n; ++q) {
           rank(first(g) + q) = destinations.rank[q];
-          row(first(g) + q) = g;
+          entry(first(g) + q) = g;
         }
       });
-  RowsByRank copies = sort_by_rank(rank, n_copies, owners.start.extent_int(0));
-  sent_row_ = copies.row;
-  const auto sent = sent_row_;
+  SendList copies = sort_by_rank(rank, n_copies, owners.start.extent_int(0));
+  sent_entry_ = copies.entry;
+  const auto sent = sent_entry_;
   Kokkos::parallel_for(
-      "ghosts: rows to send", items(n_copies), KOKKOS_LAMBDA(int p) { sent(p) = row(sent(p)); });
+      "ghosts: entries to send", items(n_copies),
+      KOKKOS_LAMBDA(int p) { sent(p) = entry(sent(p)); });
   counts_ = exchange_counts(grains.ranks, std::move(copies.to));
 }
 
-/// What was received, into the rows after the owned ones, in the order of the columns.
+/// What was received, into the entries after the owned ones, in the order of the columns.
 void GhostGrains::unpack(GrainState& grains, const SearchColumns& columns) {
   const int n = grains.n, n_ghosts = count();
   grains.n_ghosts = n_ghosts;
-  reserve_rows(grains, n + n_ghosts, kGhosts);
+  reserve_entries(grains, n + n_ghosts, kGhosts);
   const auto key = uninitialized<Kokkos::View<std::uint64_t*>>("ghosts: key", n_ghosts);
-  const auto order = uninitialized<Rows>("ghosts: order", n_ghosts);
+  const auto order = uninitialized<Entries>("ghosts: order", n_ghosts);
   const PackLayout layout = layout_of(grains, kGhosts);
   const Real* const received = exchange_.received() + layout.offset_of(grains.kin.data());
   const int width = exchange_.width();
@@ -56,17 +57,17 @@ void GhostGrains::unpack(GrainState& grains, const SearchColumns& columns) {
         order(p) = p;
       });
   Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, order);
-  row_ = uninitialized<Rows>("ghosts: row", n_ghosts);
-  const auto row = row_;
+  entry_ = uninitialized<Entries>("ghosts: entry", n_ghosts);
+  const auto entry = entry_;
   Kokkos::parallel_for(
-      "ghosts: rows", items(n_ghosts), KOKKOS_LAMBDA(int q) { row(order(q)) = n + q; });
-  exchange_.unpack(layout, row_);
+      "ghosts: entries", items(n_ghosts), KOKKOS_LAMBDA(int q) { entry(order(q)) = n + q; });
+  exchange_.unpack(layout, entry_);
 }
 
 void GhostGrains::find(GrainState& grains, const SearchColumns& columns,
                        const GrainOwners& owners) {
   choose(grains, columns, owners);
-  exchange_.exchange(counts_, layout_of(grains, kGhosts), sent_row_);
+  exchange_.exchange(counts_, layout_of(grains, kGhosts), sent_entry_);
   unpack(grains, columns);
 }
 
@@ -75,8 +76,8 @@ void GhostGrains::update(const Kokkos::View<GrainKinematics*>& kin) {
   motion.add(kin, &GrainKinematics::x);
   motion.add(kin, &GrainKinematics::u);
   motion.add(kin, &GrainKinematics::omega);
-  exchange_.exchange(counts_, motion, sent_row_);
-  exchange_.unpack(motion, row_);
+  exchange_.exchange(counts_, motion, sent_entry_);
+  exchange_.unpack(motion, entry_);
 }
 
 }  // namespace barchan

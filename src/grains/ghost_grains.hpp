@@ -7,12 +7,12 @@
 
 namespace barchan {
 
-/// Ghosts stand in the rows after the owned grains, in the order of their columns and heights;
+/// Ghosts stand in the entries after the owned grains, in the order of their columns and heights;
 /// which ones there are changes with the neighbour list, where they are in every sub-step.
 class GhostGrains {
  public:
   /// Copies every grain beside another rank's columns to that rank; the arrays that ghosts have are
-  /// given room for them behind the grains.n owned rows. All ranks together.
+  /// given room for them behind the grains.n owned entries. All ranks together.
   void find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
   /// Position, velocity and spin of the ghosts as their owners have them now. All ranks together.
   void update(const Kokkos::View<GrainKinematics*>& kin);
@@ -26,9 +26,9 @@ class GhostGrains {
 
  private:
   ExchangeCounts counts_;
-  Kokkos::View<int*> sent_row_;  // in the order of the ranks they are sent to
-  Kokkos::View<int*> row_;       // of each ghost, in the order they are received
-  RowExchange exchange_{"ghosts"};
+  Kokkos::View<int*> sent_entry_;  // in the order of the ranks they are sent to
+  Kokkos::View<int*> entry_;       // of each ghost, in the order they are received
+  EntryExchange exchange_{"ghosts"};
 };
 
 }  // namespace barchan

@@ -61,12 +61,12 @@ inline PackLayout layout_of(const GrainState& s, unsigned uses = kAnyUse) {
   return layout;
 }
 
-/// Room for n rows of one array, an eighth more where it grows; what it holds stays.
+/// Room for n entries of one array, an eighth more where it grows; what it holds stays.
 template <class View>
-void reserve_rows(View& array, int n) {
-  const auto rows = static_cast<std::size_t>(n);
-  if (array.extent(0) >= rows) return;
-  const std::size_t room = rows + rows / 8;
+void reserve_entries(View& array, int n) {
+  const auto entries = static_cast<std::size_t>(n);
+  if (array.extent(0) >= entries) return;
+  const std::size_t room = entries + entries / 8;
   if constexpr (View::rank() == 2) {
     Kokkos::resize(array, room, array.extent(1));
   } else {

@@ -10,7 +10,7 @@ namespace barchan {
 
 namespace {
 
-using Rows = Kokkos::View<int*>;
+using Entries = Kokkos::View<int*>;
 
 /// Calls action(array) for what a history has of each contact.
 template <class History, class Action>
@@ -29,8 +29,9 @@ PackLayout layout_of(const ContactHistory& history) {
 }
 
 /// Rank that owns the column of each grain; -1 where this one does.
-Rows new_ranks(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners) {
-  const auto rank = uninitialized<Rows>("migration: ranks of grains", grains.n);
+Entries new_ranks(const GrainState& grains, const SearchColumns& columns,
+                  const GrainOwners& owners) {
+  const auto rank = uninitialized<Entries>("migration: ranks of grains", grains.n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "migration: ranks of grains", items(grains.n), KOKKOS_LAMBDA(int g) {
@@ -41,8 +42,9 @@ Rows new_ranks(const GrainState& grains, const SearchColumns& columns, const Gra
 }
 
 /// Where its contacts go with each grain.
-Rows ranks_of_contacts(const Rows& rank_of_grain, const Rows& first, int n, int n_contacts) {
-  const auto rank = uninitialized<Rows>("migration: ranks of contacts", n_contacts);
+Entries ranks_of_contacts(const Entries& rank_of_grain, const Entries& first, int n,
+                          int n_contacts) {
+  const auto rank = uninitialized<Entries>("migration: ranks of contacts", n_contacts);
   Kokkos::parallel_for(
       "migration: ranks of contacts", items(n), KOKKOS_LAMBDA(int g) {
         for (int k = first(g); k < first(g + 1); ++k) rank(k) = rank_of_grain(g);
@@ -52,15 +54,15 @@ Rows ranks_of_contacts(const Rows& rank_of_grain, const Rows& first, int n, int 
 
 /// Numbers of contacts of n grains, which travel with them, and back.
 using Numbers = Kokkos::View<std::int64_t*>;
-Numbers contacts_of_grains(const Rows& first, int n) {
+Numbers contacts_of_grains(const Entries& first, int n) {
   const auto n_contacts = uninitialized<Numbers>("migration: contacts of grains", n);
   Kokkos::parallel_for(
       "migration: contacts of grains", items(n),
       KOKKOS_LAMBDA(int g) { n_contacts(g) = first(g + 1) - first(g); });
   return n_contacts;
 }
-Rows first_contacts(const Numbers& n_contacts, int n) {
-  const auto first = uninitialized<Rows>("contact history: first", n + 1);
+Entries first_contacts(const Numbers& n_contacts, int n) {
+  const auto first = uninitialized<Entries>("contact history: first", n + 1);
   Kokkos::parallel_for(
       "migration: contacts that are here", items(n),
       KOKKOS_LAMBDA(int g) { first(g) = static_cast<int>(n_contacts(g)); });
@@ -68,13 +70,13 @@ Rows first_contacts(const Numbers& n_contacts, int n) {
   return first;
 }
 
-/// The rows that stay of an array, and room for n.
+/// The entries that stay of an array, and room for n.
 template <class View>
-void keep_rows(View& array, const Rows& stay, int n) {
+void keep_entries(View& array, const Entries& stay, int n) {
   const View kept(array.label(), static_cast<std::size_t>(std::max(n, 1)));
   const View all = array;
   Kokkos::parallel_for(
-      "migration: rows that stay", items(stay.extent_int(0)),
+      "migration: entries that stay", items(stay.extent_int(0)),
       KOKKOS_LAMBDA(int p) { kept(p) = all(stay(p)); });
   array = kept;
 }
@@ -87,13 +89,13 @@ void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
   const int n = grains.n, n_ranks = owners.start.extent_int(0);
   int n_contacts = 0;
   Kokkos::deep_copy(n_contacts, Kokkos::subview(history.first, n));
-  const Rows rank = new_ranks(grains, columns, owners);
-  const RowsByRank rows = sort_by_rank(rank, n, n_ranks);
-  const RowsByRank contacts =
+  const Entries rank = new_ranks(grains, columns, owners);
+  const SendList entries = sort_by_rank(rank, n, n_ranks);
+  const SendList contacts =
       sort_by_rank(ranks_of_contacts(rank, history.first, n, n_contacts), n_contacts, n_ranks);
-  const ExchangeCounts row_counts = exchange_counts(grains.ranks, rows.to);
+  const ExchangeCounts entry_counts = exchange_counts(grains.ranks, entries.to);
   const ExchangeCounts contact_counts = exchange_counts(grains.ranks, contacts.to);
-  const int n_to = row_counts.n_to(), n_from = row_counts.n_from();
+  const int n_to = entry_counts.n_to(), n_from = entry_counts.n_from();
   if (n_to == 0 && n_from == 0) return;
   n_sent_ += n_to;
   Numbers of_grains = contacts_of_grains(history.first, n);
@@ -102,21 +104,21 @@ void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
     layout.add(of_grains);
     return layout;
   };
-  exchange_.exchange(row_counts, whole_grain(), rows.row);
-  exchange_contacts_.exchange(contact_counts, layout_of(history), contacts.row);
+  exchange_.exchange(entry_counts, whole_grain(), entries.entry);
+  exchange_contacts_.exchange(contact_counts, layout_of(history), contacts.entry);
 
-  const Rows stay = Kokkos::subview(rows.row, std::pair<int, int>(n_to, n));
+  const Entries stay = Kokkos::subview(entries.entry, std::pair<int, int>(n_to, n));
   permute(grains, stay, n - n_to, room);
   grains.n = n - n_to + n_from;
-  reserve_rows(grains, grains.n);
-  keep_rows(of_grains, stay, grains.n);
+  reserve_entries(grains, grains.n);
+  keep_entries(of_grains, stay, grains.n);
   exchange_.unpack(whole_grain(), {}, n - n_to);
 
   const int n_contacts_to = contact_counts.n_to(), n_contacts_stay = n_contacts - n_contacts_to;
-  const Rows contacts_stay =
-      Kokkos::subview(contacts.row, std::pair<int, int>(n_contacts_to, n_contacts));
+  const Entries contacts_stay =
+      Kokkos::subview(contacts.entry, std::pair<int, int>(n_contacts_to, n_contacts));
   for_each_contact_array(history, [&](auto& array) {
-    keep_rows(array, contacts_stay, n_contacts_stay + contact_counts.n_from());
+    keep_entries(array, contacts_stay, n_contacts_stay + contact_counts.n_from());
   });
   exchange_contacts_.unpack(layout_of(history), {}, n_contacts_stay);
   history.first = first_contacts(of_grains, grains.n);

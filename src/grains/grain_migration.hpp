@@ -11,7 +11,7 @@ namespace barchan {
 /// Grains that stay keep their order; those that come follow in the order of their senders.
 class GrainMigration {
  public:
-  /// `history` holds contacts under both of their grains; afterwards those of the new rows.
+  /// `history` holds contacts under both of their grains; afterwards those of the new entries.
   /// `room`: as many as there are grains, overwritten. All ranks together.
   void operator()(GrainState& grains, ContactHistory& history, const SearchColumns& columns,
                   const GrainOwners& owners, const Kokkos::View<Quad*>& room);
@@ -20,7 +20,7 @@ class GrainMigration {
   std::int64_t n_sent() const { return n_sent_; }
 
  private:
-  RowExchange exchange_{"migration"}, exchange_contacts_{"migration of contacts"};
+  EntryExchange exchange_{"migration"}, exchange_contacts_{"migration of contacts"};
   std::int64_t n_sent_ = 0;
 };
 

@@ -26,7 +26,7 @@ void add_wall(WallShapes& walls, const Plane& plane, int history);
 /// that share the grains every member is called together, and what is counted is that of all.
 class GrainSolver {
  public:
-  /// Sets up laws, walls and their history. Then call start() or, for rows read from a restart,
+  /// Sets up laws, walls and their history. Then call start() or, for entries read from a restart,
   /// list().restore().
   GrainSolver(const Config& config, GrainState& grains);
   /// Builds the first list.

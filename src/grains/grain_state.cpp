@@ -23,21 +23,21 @@ void allocate(GrainState& s, Allocated when) {
   });
 }
 
-/// Reorders the n first rows of an array with entries no wider than a Quad.
-template <class Rows>
-void take_rows(const Rows& rows, const Kokkos::View<int*>& row, int n,
-               const Kokkos::View<Quad*>& room) {
-  using Value = typename Rows::non_const_value_type;
+/// Reorders the n first entries of an array with entries no wider than a Quad.
+template <class Entries>
+void take_entries(const Entries& entries, const Kokkos::View<int*>& entry, int n,
+                  const Kokkos::View<Quad*>& room) {
+  using Value = typename Entries::non_const_value_type;
   static_assert(sizeof(Value) <= sizeof(Quad) && alignof(Value) <= alignof(Quad));
   const Kokkos::View<Value*, Kokkos::MemoryUnmanaged> copy(reinterpret_cast<Value*>(room.data()),
                                                            room.extent(0));
   Kokkos::parallel_for(
-      "grains: reorder", items(n), KOKKOS_LAMBDA(int g) { copy(g) = rows(row(g)); });
+      "grains: reorder", items(n), KOKKOS_LAMBDA(int g) { copy(g) = entries(entry(g)); });
   Kokkos::parallel_for(
-      "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { rows(g) = copy(g); });
+      "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { entries(g) = copy(g); });
 }
 
-/// Calls action(rows) for the parts of an array that are no wider than a Quad.
+/// Calls action(entries) for the parts of an array that are no wider than a Quad.
 template <class T, class Action>
 void for_each_part(const Kokkos::View<T*>& array, const Action& action) {
   action(array);
@@ -57,7 +57,7 @@ void for_each_part(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history, cons
 
 }  // namespace
 
-GrainState make_grain_rows(int n, MPI_Comm ranks) {
+GrainState make_grain_entries(int n, MPI_Comm ranks) {
   GrainState s;
   s.n = n;
   s.ranks = ranks;
@@ -69,7 +69,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   const int n_all = static_cast<int>(initial.size());
   const Split shares{.n = n_all, .parts = rank_count(ranks)};
   const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
-  GrainState s = make_grain_rows(n, ranks);
+  GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;
 
   const auto kin = Kokkos::create_mirror_view(s.kin);
@@ -98,8 +98,8 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   return s;
 }
 
-void reserve_rows(GrainState& s, int n, unsigned uses) {
-  for_each_grain_array(s, uses, [n](const auto&, auto& array) { reserve_rows(array, n); });
+void reserve_entries(GrainState& s, int n, unsigned uses) {
+  for_each_grain_array(s, uses, [n](const auto&, auto& array) { reserve_entries(array, n); });
 }
 
 void add_fluid(GrainState& s) {
@@ -121,9 +121,10 @@ Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std:
   return values;
 }
 
-void permute(GrainState& s, const Kokkos::View<int*>& row, int n, const Kokkos::View<Quad*>& room) {
+void permute(GrainState& s, const Kokkos::View<int*>& entry, int n,
+             const Kokkos::View<Quad*>& room) {
   for_each_grain_array(s, kAnyUse, [&](const auto&, const auto& array) {
-    for_each_part(array, [&](const auto& rows) { take_rows(rows, row, n, room); });
+    for_each_part(array, [&](const auto& entries) { take_entries(entries, entry, n, room); });
   });
   s.n = n;
 }

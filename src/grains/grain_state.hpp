@@ -48,9 +48,9 @@ struct NamedForce {
   Kokkos::View<const Vec3*> values;
 };
 
-/// Grains [0, n) of this rank. Rows are in spatial order, which a list rebuild changes; `id` never
-/// changes. Arrays may have room for more rows. Behind the rows of `kin` and `id` stand ghosts,
-/// copies of grains of other ranks.
+/// Grains [0, n) of this rank. Entries are in spatial order, which a list rebuild changes; `id`
+/// never changes. Arrays may have room for more entries. Behind the entries of `kin` and `id` stand
+/// ghosts, copies of grains of other ranks.
 struct GrainState {
   int n = 0, n_ghosts = 0;
   MPI_Comm ranks = MPI_COMM_SELF;                        // that share the grains
@@ -71,10 +71,10 @@ struct GrainState {
   std::int64_t n_left = 0;                               // left through the outlet, on this rank
 };
 
-/// Rows for n grains of this rank, to be filled.
-GrainState make_grain_rows(int n, MPI_Comm ranks);
+/// Entries for n grains of this rank, to be filled.
+GrainState make_grain_entries(int n, MPI_Comm ranks);
 /// Grains without contact history and fluid. density [kg/m^3]. Each rank takes an equal share of
-/// the rows; the first neighbour list then gives them to the ranks that own their columns.
+/// the entries; the first neighbour list then gives them to the ranks that own their columns.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
@@ -84,14 +84,14 @@ void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
 Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
                               unsigned uses);
 
-/// Room for n rows in the arrays that have one of the uses, an eighth more where it grows; what
+/// Room for n entries in the arrays that have one of the uses, an eighth more where it grows; what
 /// they hold stays.
 inline constexpr unsigned kAnyUse = ~0u;
-void reserve_rows(GrainState& grains, int n, unsigned uses = kAnyUse);
+void reserve_entries(GrainState& grains, int n, unsigned uses = kAnyUse);
 
-/// Takes the rows in the order of `row` (new row -> old row) and keeps the first n of them. `room`:
-/// as many as there are grains, overwritten.
-void permute(GrainState& grains, const Kokkos::View<int*>& row, int n,
+/// Takes the entries in the order of `entry` (new entry -> old entry) and keeps the first n of
+/// them. `room`: as many as there are grains, overwritten.
+void permute(GrainState& grains, const Kokkos::View<int*>& entry, int n,
              const Kokkos::View<Quad*>& room);
 
 }  // namespace barchan

@@ -57,7 +57,7 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
 void NeighborList::take_room(const GrainState& grains) {
   idle_.free_all();
   const int n = grains.n + grains.n_ghosts;
-  take_scratch(idle_, row_, "row in the contact history", n + 1);
+  take_scratch(idle_, entry_, "entry in the contact history", n + 1);
   take_scratch(idle_, room_, "room of a rebuild", n);
   take_scratch(idle_, key_room_, "keys of a rebuild", 2 * n);
   take_scratch(idle_, occupied_.of_grain, "column of grain", n);
@@ -109,11 +109,11 @@ void NeighborList::collect_history(const GrainState& grains) {
   take(history_.partner), take(history_.xi_t);
   if (list.has_rolling()) take(history_.rolling);
   if (list.has_force()) take(history_.force);
-  const std::pair<int, int> rows(0, n);
-  Kokkos::deep_copy(Kokkos::subview(row_, rows), Kokkos::subview(history_.first, rows));
+  const std::pair<int, int> entries(0, n);
+  Kokkos::deep_copy(Kokkos::subview(entry_, entries), Kokkos::subview(history_.first, entries));
   Kokkos::parallel_for(
       "neighbors: fill the contact history", list.n_pairs,
-      FillContactHistory{.grains = with_history, .history = history_, .cursor = row_});
+      FillContactHistory{.grains = with_history, .history = history_, .cursor = entry_});
   has_history_ = true;
 }
 
@@ -127,11 +127,11 @@ void NeighborList::redistribute(GrainState& grains) {
 
 void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
-  reserve(row_, "row in the contact history", n + 1);
+  reserve(entry_, "entry in the contact history", n + 1);
   reserve_room(n);
-  const std::pair<int, int> rows(0, n);
-  const auto key = Kokkos::subview(key_room_, rows);
-  const auto row = Kokkos::subview(row_, rows);
+  const std::pair<int, int> entries(0, n);
+  const auto key = Kokkos::subview(key_room_, entries);
+  const auto entry = Kokkos::subview(entry_, entries);
   const auto kin = grains.kin;
   const SearchColumns columns = columns_;
   const CountBeyondOutlet outlet{kin, lx_};
@@ -142,12 +142,12 @@ void NeighborList::sort(GrainState& grains, bool drop) {
       KOKKOS_LAMBDA(int g, int& dropped) {
         const bool outside = drops && outlet.is_beyond(g);
         key(g) = outside ? kDroppedKey : columns.key_of(kin(g).x);
-        row(g) = g;
+        entry(g) = g;
         dropped += outside ? 1 : 0;
       },
       n_dropped);
-  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, row);
-  permute(grains, row, n - n_dropped, room_);
+  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, entry);
+  permute(grains, entry, n - n_dropped, room_);
   grains.n_left += n_dropped;
 }
 
@@ -234,7 +234,7 @@ void NeighborList::search(GrainState& grains) {
                                  .noted = noted,
                                  .list = list,
                                  .history = history_,
-                                 .old_row = row_,
+                                 .old_entry = entry_,
                                  .id = grains.id,
                                  .has_history = has_history_});
   has_history_ = false;
@@ -277,19 +277,19 @@ void NeighborList::restore(GrainState& grains) {
                                               static_cast<std::size_t>(std::max(n, 1)));
   const auto kin = grains.kin, moved = at_reference;
   const auto reference = grains.x_reference;
-  const auto row = row_;
+  const auto entry = entry_;
   Kokkos::parallel_for(
       "neighbors: restore reference", n, KOKKOS_LAMBDA(int g) {
         moved(g) = kin(g);
         moved(g).x = reference(g);
-        row(g) = g;
+        entry(g) = g;
       });
   if (ranks_) columns_.origin = ranks_->partition.origin();
   std::swap(grains.kin, at_reference);  // ghosts and pairs are those of that time
   find_ghosts_and_pairs(grains);
   std::swap(grains.kin, at_reference);
   if (!ranks_) return;
-  reserve_rows(grains.kin, n + grains.n_ghosts);
+  reserve_entries(grains.kin, n + grains.n_ghosts);
   const std::pair<int, int> ghosts(n, n + grains.n_ghosts);
   Kokkos::deep_copy(Kokkos::subview(grains.kin, ghosts), Kokkos::subview(at_reference, ghosts));
   update_ghosts(grains);

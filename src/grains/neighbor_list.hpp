@@ -36,7 +36,7 @@ class NeighborList {
   /// together, on as many as there were.
   void restore(GrainState& grains);
   /// The contacts that the next rebuild or restore carries over, as a restart file has them, under
-  /// rows of `grains` as they are now.
+  /// entries of `grains` as they are now.
   void set_history(const ContactHistory& history) { history_ = history, has_history_ = true; }
   /// Brings the ghosts to where their owners have moved them. All ranks together.
   void update_ghosts(const GrainState& grains) const {
@@ -91,7 +91,7 @@ class NeighborList {
   std::unique_ptr<Ranks> ranks_;
   ContactHistory history_;
   bool has_history_ = false;
-  Kokkos::View<int*> row_;  // row of each grain in history_; before, the next free slot there
+  Kokkos::View<int*> entry_;  // entry of each grain in history_; before, the next free slot there
   // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
   // then the next free place of other slots.
   Kokkos::View<Quad*> room_;

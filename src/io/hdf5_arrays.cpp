@@ -197,7 +197,7 @@ BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
 
-Share share_of_rows(std::uint64_t n, MPI_Comm ranks) {
+Share share_of_entries(std::uint64_t n, MPI_Comm ranks) {
   if (rank_count(ranks) == 1) return {};
   std::uint64_t before = 0, all = 0;
   MPI_Exscan(&n, &before, 1, MPI_UINT64_T, MPI_SUM, ranks);
@@ -205,11 +205,11 @@ Share share_of_rows(std::uint64_t n, MPI_Comm ranks) {
   return {.whole = {all}, .first = {rank_of(ranks) == 0 ? 0 : before}};
 }
 
-Share share_of(const Share& rows, const Extents& extents, std::size_t row_dimension) {
+Share share_of(const Share& rows, const Extents& extents, std::size_t dimension) {
   if (rows.whole.empty()) return {};
   Share share{.whole = extents, .first = Extents(extents.size(), 0)};
-  share.whole[row_dimension] = rows.whole[0];
-  share.first[row_dimension] = rows.first[0];
+  share.whole[dimension] = rows.whole[0];
+  share.first[dimension] = rows.first[0];
   return share;
 }
 

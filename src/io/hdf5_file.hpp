@@ -39,10 +39,10 @@ struct Share {
 };
 
 /// This rank's n rows among those of all ranks, one rank after the other; the default on one rank.
-Share share_of_rows(std::uint64_t n, MPI_Comm ranks);
+Share share_of_entries(std::uint64_t n, MPI_Comm ranks);
 
 /// The share of an array of `extents`, one of which is that of the rows.
-Share share_of(const Share& rows, const Extents& extents, std::size_t row_dimension);
+Share share_of(const Share& rows, const Extents& extents, std::size_t dimension);
 
 /// One open HDF5 file. With a communicator of more than one rank it is opened in parallel; every
 /// call is then collective, with equal arguments except the values and the shares.

@@ -21,12 +21,12 @@ namespace barchan {
 
 namespace {
 
-/// The first n rows of an array of a grain.
+/// The first n entries of an array of a grain.
 template <class View>
-auto first_rows(const View& v, int n) {
-  const std::pair<int, int> rows(0, n);
-  if constexpr (View::rank() == 2) return Kokkos::subview(v, rows, Kokkos::ALL());
-  if constexpr (View::rank() == 1) return Kokkos::subview(v, rows);
+auto first_entries(const View& v, int n) {
+  const std::pair<int, int> entries(0, n);
+  if constexpr (View::rank() == 2) return Kokkos::subview(v, entries, Kokkos::ALL());
+  if constexpr (View::rank() == 1) return Kokkos::subview(v, entries);
 }
 
 /// Calls f(name, array) for every array of a grain that the next step reads.
@@ -39,20 +39,20 @@ void for_each_saved_array(const GrainState& s, const F& f) {
                        });
 }
 
-/// Rows of this rank among those of all ranks. In the file the last index of a view, which is not
-/// always the rows, runs slowest, but for components.
+/// Entries of this rank among those of all ranks. In the file the last index of a view, which is
+/// not always the entries, runs slowest, but for components.
 template <class View>
-void save_rows(CheckpointWriter& file, const std::string& name, const View& mine,
-               const Share& rows) {
+void save_entries(CheckpointWriter& file, const std::string& name, const View& mine,
+                  const Share& entries) {
   const auto numbers = checkpoint_detail::to_numbers(mine);
   const Extents extents = checkpoint_detail::file_extents(mine);
-  file.array(name, std::span(numbers), extents, share_of(rows, extents, View::rank() - 1));
+  file.array(name, std::span(numbers), extents, share_of(entries, extents, View::rank() - 1));
 }
 
-/// Rows [begin, begin + rows of the view) of n_all.
+/// Entries [begin, begin + entries of the view) of n_all.
 template <class View>
-void load_rows(const CheckpointReader& file, const std::string& name, const View& mine,
-               std::uint64_t begin, std::uint64_t n_all) {
+void load_entries(const CheckpointReader& file, const std::string& name, const View& mine,
+                  std::uint64_t begin, std::uint64_t n_all) {
   using Number = typename checkpoint_detail::Stored<typename View::non_const_value_type>::type;
   const Extents extents = checkpoint_detail::file_extents(mine);
   Extents whole = extents, first(extents.size(), 0);
@@ -64,7 +64,7 @@ void load_rows(const CheckpointReader& file, const std::string& name, const View
 template <class T>
 using HostRows = Kokkos::View<T*, Kokkos::HostSpace>;
 
-/// A copy on the device, of one row at least.
+/// A copy on the device, of one entry at least.
 template <class T>
 Kokkos::View<T*> to_device(const char* label, const std::vector<T>& values) {
   const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
@@ -74,16 +74,16 @@ Kokkos::View<T*> to_device(const char* label, const std::vector<T>& values) {
   return view;
 }
 
-/// Contacts [begin, end) of the file under the rows of this rank's grains; `both`: under both of
+/// Contacts [begin, end) of the file under the entries of this rank's grains; `both`: under both of
 /// their grains.
 ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, std::uint64_t begin,
                              std::uint64_t end, bool both, bool with_rolling) {
   constexpr std::uint64_t piece = 1 << 20;
   const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
-  std::unordered_map<std::int64_t, int> row;
-  for (int g = 0; g < s.n; ++g) row[id(g)] = g;
+  std::unordered_map<std::int64_t, int> entry;
+  for (int g = 0; g < s.n; ++g) entry[id(g)] = g;
   struct Contact {
-    int row;
+    int entry;
     std::int64_t partner;
     Vec3 xi_t, rolling;
   };
@@ -93,24 +93,24 @@ ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, 
     const std::uint64_t n = std::min(end - begin, piece);
     const HostRows<std::int64_t> first("first", n), second("second", n);
     const HostRows<Vec3> xi_t("xi_t", n), rolling("rolling", n);
-    load_rows(file, "contacts/first", first, begin, n_all);
-    load_rows(file, "contacts/second", second, begin, n_all);
-    load_rows(file, "contacts/xi_t", xi_t, begin, n_all);
-    if (with_rolling) load_rows(file, "contacts/rolling", rolling, begin, n_all);
+    load_entries(file, "contacts/first", first, begin, n_all);
+    load_entries(file, "contacts/second", second, begin, n_all);
+    load_entries(file, "contacts/xi_t", xi_t, begin, n_all);
+    if (with_rolling) load_entries(file, "contacts/rolling", rolling, begin, n_all);
     for (std::uint64_t k = 0; k < n; ++k) {
-      const auto a = row.find(first(k)), b = row.find(second(k));
-      if (a != row.end()) contacts.push_back({a->second, second(k), xi_t(k), rolling(k)});
-      if (b != row.end() && (both || a == row.end()))
+      const auto a = entry.find(first(k)), b = entry.find(second(k));
+      if (a != entry.end()) contacts.push_back({a->second, second(k), xi_t(k), rolling(k)});
+      if (b != entry.end() && (both || a == entry.end()))
         contacts.push_back({b->second, first(k), -xi_t(k), -rolling(k)});
     }
   }
   std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const Contact& a, const Contact& b) { return a.row < b.row; });
+                   [](const Contact& a, const Contact& b) { return a.entry < b.entry; });
   std::vector<int> first(static_cast<std::size_t>(s.n) + 1, 0);
   std::vector<std::int64_t> partner;
   std::vector<Vec3> xi_t, rolling;
   for (const Contact& contact : contacts) {
-    ++first[static_cast<std::size_t>(contact.row) + 1];
+    ++first[static_cast<std::size_t>(contact.entry) + 1];
     partner.push_back(contact.partner);
     xi_t.push_back(contact.xi_t);
     rolling.push_back(contact.rolling);
@@ -124,8 +124,8 @@ ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, 
           .force = {}};
 }
 
-/// [begin, end) of this rank in an array of n rows whose shares were written by as many ranks, or
-/// nothing.
+/// [begin, end) of this rank in an array of n entries whose shares were written by as many ranks,
+/// or nothing.
 struct Piece {
   std::uint64_t begin = 0, end = 0;
 };
@@ -138,20 +138,20 @@ std::optional<Piece> my_piece(const CheckpointReader& file, const std::string& n
     starts.push_back(starts.back() + static_cast<std::uint64_t>(count));
     fits = fits && count >= 0 && starts.back() <= n;
   }
-  if (!fits || starts.back() != n) file.fail(name + " does not fit the rows it counts");
+  if (!fits || starts.back() != n) file.fail(name + " does not fit the entries it counts");
   if (counts.size() != static_cast<std::size_t>(rank_count(ranks))) return {};
   const auto me = static_cast<std::size_t>(rank_of(ranks));
   return Piece{starts[me], starts[me + 1]};
 }
 
-std::uint64_t rows_of(const CheckpointReader& file, const std::string& name) {
+std::uint64_t entries_of(const CheckpointReader& file, const std::string& name) {
   const Extents extents = file.extents(name);
   if (extents.empty()) file.fail(name + " is not an array");
   return extents[0];
 }
 
-Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
-  const std::uint64_t n = rows_of(file, "grains/id");
+Piece my_entries(const CheckpointReader& file, MPI_Comm ranks) {
+  const std::uint64_t n = entries_of(file, "grains/id");
   if (n > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
     file.fail(fmt::format("it holds {} grains, more than this version can count", n));
   if (const auto piece = my_piece(file, "grains/of_rank", n, ranks)) return *piece;
@@ -162,7 +162,7 @@ Piece my_rows(const CheckpointReader& file, MPI_Comm ranks) {
 
 void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Comm ranks,
                         std::int64_t mine) {
-  file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, share_of_rows(1, ranks));
+  file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, share_of_entries(1, ranks));
 }
 
 /// All contacts of this rank's list, by the ids of both grains: one of owned and ghost grain is on
@@ -170,7 +170,7 @@ void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Com
 void save_contacts(CheckpointWriter& file, const GrainState& s) {
   const PairList& list = s.list;
   const auto here = [](const auto& view, int n) {
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, first_rows(view, n));
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, first_entries(view, n));
   };
   const auto touching = here(list.touching, list.n_pairs);
   const auto i = here(list.i, list.n_pairs), j = here(list.j, list.n_pairs);
@@ -181,11 +181,11 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   for (int p = 0; p < list.n_pairs; ++p) {
     if (touching(p)) pairs.push_back(p);
   }
-  const Share rows = share_of_rows(pairs.size(), s.ranks);
+  const Share entries = share_of_entries(pairs.size(), s.ranks);
   const auto save = [&](const char* name, const auto& value_of) {
     const HostRows<decltype(value_of(0))> values(name, pairs.size());
     std::transform(pairs.begin(), pairs.end(), values.data(), value_of);
-    save_rows(file, name, values, rows);
+    save_entries(file, name, values, entries);
   };
   save("contacts/first", [&](int p) { return id(i(p)); });
   save("contacts/second", [&](int p) { return id(j(p)); });
@@ -197,9 +197,9 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
 }  // namespace
 
 void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList& list) {
-  const Share rows = share_of_rows(static_cast<std::uint64_t>(s.n), s.ranks);
+  const Share entries = share_of_entries(static_cast<std::uint64_t>(s.n), s.ranks);
   for_each_saved_array(s, [&](const std::string& name, const auto& array) {
-    save_rows(file, name, first_rows(array, s.n), rows);
+    save_entries(file, name, first_entries(array, s.n), entries);
   });
   save_contacts(file, s);
   save_of_every_rank(file, "grains/of_rank", s.ranks, s.n);
@@ -216,8 +216,8 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
 }
 
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
-  const Piece rows = my_rows(file, ranks);
-  GrainState s = make_grain_rows(static_cast<int>(rows.end - rows.begin), ranks);
+  const Piece entries = my_entries(file, ranks);
+  GrainState s = make_grain_entries(static_cast<int>(entries.end - entries.begin), ranks);
   s.r_max = file.real("grains/r_max");
   s.r_min = file.real("grains/r_min");
   s.sauter_diameter = file.real("grains/sauter_diameter");
@@ -229,13 +229,13 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
 }
 
 void load_grains(const CheckpointReader& file, GrainState& s, NeighborList& list) {
-  const Piece rows = my_rows(file, s.ranks);
-  const std::uint64_t n_all = rows_of(file, "grains/id");
+  const Piece entries = my_entries(file, s.ranks);
+  const std::uint64_t n_all = entries_of(file, "grains/id");
   for_each_saved_array(s, [&](const std::string& name, const auto& array) {
-    load_rows(file, name, first_rows(array, s.n), rows.begin, n_all);
+    load_entries(file, name, first_entries(array, s.n), entries.begin, n_all);
   });
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;
-  const std::uint64_t n_contacts = rows_of(file, "contacts/first");
+  const std::uint64_t n_contacts = entries_of(file, "contacts/first");
   const auto piece = my_piece(file, "contacts/of_rank", n_contacts, s.ranks);
   const Piece contacts = piece.value_or(Piece{0, n_contacts});
   list.set_history(load_contacts(file, s, contacts.begin, contacts.end, both, rolls));

@@ -10,7 +10,7 @@ namespace barchan {
 namespace {
 
 using Cells = Kokkos::MDRangePolicy<Kokkos::Rank<3, Kokkos::Iterate::Left, Kokkos::Iterate::Left>>;
-using Rows = Kokkos::RangePolicy<>;
+using Entries = Kokkos::RangePolicy<>;
 
 template <class View>
 auto on_host(const View& view) {
@@ -19,13 +19,13 @@ auto on_host(const View& view) {
 
 /// An array of this rank's grains, scalars (n) or vectors (n, 3), among those of all ranks.
 template <class View>
-void write_rows(Hdf5File& file, const std::string& name, const View& view, const char* units,
-                const Share& rows) {
+void write_entries(Hdf5File& file, const std::string& name, const View& view, const char* units,
+                   const Share& entries) {
   const auto host = on_host(view);
   Extents extents{host.extent(0)};
   if (View::rank() == 2) extents.push_back(host.extent(1));
   file.write(name, std::span<const typename View::non_const_value_type>(host.data(), host.size()),
-             extents, units, share_of(rows, extents, 0));
+             extents, units, share_of(entries, extents, 0));
 }
 
 auto ids_of(const GrainState& grains) {
@@ -76,16 +76,17 @@ class FieldWriter {
 };
 
 void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
-                  const Share& rows) {
-  if (dunes) file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", rows);
+                  const Share& entries) {
+  if (dunes)
+    file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", entries);
 }
 
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
 void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
                    std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
-  const Share rows = share_of_rows(n, grains.ranks);
-  const Rows range(0, grains.n);
+  const Share entries = share_of_entries(n, grains.ranks);
+  const Entries range(0, grains.n);
   const SplitGrains split{.grains = grains.kin,
                           .x = FrameVectors<double>("output: x", n),
                           .d = Kokkos::View<double*>("output: d", n),
@@ -93,17 +94,17 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
                           .omega = FrameVectors<float>("output: omega", n)};
   Kokkos::parallel_for("output: split grains", range, split);
   frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    write_rows(file, group + "/id", ids_of(grains), "1", rows);
-    write_rows(file, group + "/x", split.x, "m", rows);
-    write_rows(file, group + "/d", split.d, "m", rows);
-    write_rows(file, group + "/u", split.u, "m/s", rows);
-    write_rows(file, group + "/omega", split.omega, "rad/s", rows);
+    write_entries(file, group + "/id", ids_of(grains), "1", entries);
+    write_entries(file, group + "/x", split.x, "m", entries);
+    write_entries(file, group + "/d", split.d, "m", entries);
+    write_entries(file, group + "/u", split.u, "m/s", entries);
+    write_entries(file, group + "/omega", split.omega, "rad/s", entries);
     for (const auto& force : forces) {
       const FrameVectors<float> out("output: force", n);
       Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
-      write_rows(file, group + "/" + force.name, out, "N", rows);
+      write_entries(file, group + "/" + force.name, out, "N", entries);
     }
-    write_labels(file, group, dunes, rows);
+    write_labels(file, group, dunes, entries);
   });
 }
 
@@ -189,15 +190,15 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
                                const DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
-  const Share rows = share_of_rows(n, grains.ranks);
+  const Share entries = share_of_entries(n, grains.ranks);
   const FrameVectors<float> x("output: track", n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
   tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    write_rows(file, group + "/id", ids_of(grains), "1", rows);
-    write_labels(file, group, dunes, rows);
-    write_rows(file, group + "/x", x, "m", rows);
+    write_entries(file, group + "/id", ids_of(grains), "1", entries);
+    write_labels(file, group, dunes, entries);
+    write_entries(file, group + "/x", x, "m", entries);
   });
 }
 

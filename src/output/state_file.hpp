@@ -13,7 +13,7 @@ namespace barchan {
 /// Writes all of `state` that the next step depends on. `list`: of its grains, if it has any.
 void save_state(CheckpointWriter& file, const SystemState& state, const NeighborList* list);
 
-/// Fills `state`, which has the grid and the rows of the file (grains_in_file), and
+/// Fills `state`, which has the grid and the entries of the file (grains_in_file), and
 /// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.
 void load_state(const CheckpointReader& file, SystemState& state, NeighborList* list);
 
@@ -27,11 +27,11 @@ void save_field(CheckpointWriter& file, const std::string& name, const Grid& gri
 void load_field(const CheckpointReader& file, const std::string& name, const Grid& grid,
                 const Field& f);
 
-/// The grains: rows of all ranks one after the other, contacts by the ids of their grains.
+/// The grains: entries of all ranks one after the other, contacts by the ids of their grains.
 void save_grains(CheckpointWriter& file, const GrainState& grains, const NeighborList& list);
 
-/// This rank's rows of a restart file without their history, to size the state: those it wrote if
-/// as many ranks did, else an equal share.
+/// This rank's entries of a restart file without their history, to size the state: those it wrote
+/// if as many ranks did, else an equal share.
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks);
 
 /// All that save_grains() wrote, into `grains` from grains_in_file(). On another number of ranks

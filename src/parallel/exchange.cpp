@@ -117,11 +117,11 @@ std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int 
 int ExchangeCounts::n_to() const { return std::accumulate(to.begin(), to.end(), 0); }
 int ExchangeCounts::n_from() const { return std::accumulate(from.begin(), from.end(), 0); }
 
-RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
-  const Kokkos::View<int*> row("rows by rank", static_cast<std::size_t>(n));
-  const Kokkos::View<int*> count("rows of a rank", static_cast<std::size_t>(n_ranks));
+SendList sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
+  const Kokkos::View<int*> entry("entries by rank", static_cast<std::size_t>(n));
+  const Kokkos::View<int*> count("entries of a rank", static_cast<std::size_t>(n_ranks));
   Kokkos::parallel_for(
-      "rows by rank: count", items(n), KOKKOS_LAMBDA(int p) {
+      "entries by rank: count", items(n), KOKKOS_LAMBDA(int p) {
         if (rank(p) >= 0) Kokkos::atomic_inc(&count(rank(p)));
       });
   const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count);
@@ -130,14 +130,14 @@ RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
     const int wanted = r < n_ranks ? r : -1, first = begin;
     if (wanted >= 0 && to(wanted) == 0) continue;
     Kokkos::parallel_scan(
-        "rows by rank: list", items(n), KOKKOS_LAMBDA(int p, int& sum, bool final) {
+        "entries by rank: list", items(n), KOKKOS_LAMBDA(int p, int& sum, bool final) {
           if (rank(p) != wanted) return;
-          if (final) row(first + sum) = p;
+          if (final) entry(first + sum) = p;
           ++sum;
         });
     if (wanted >= 0) begin += to(wanted);
   }
-  return {.row = row, .to = {to.data(), to.data() + n_ranks}};
+  return {.entry = entry, .to = {to.data(), to.data() + n_ranks}};
 }
 
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to) {

@@ -59,7 +59,7 @@ struct MessageBlock {
 void exchange(MPI_Comm ranks, const MessageBuffer& send, std::span<const MessageBlock> to,
               const MessageBuffer& receive, std::span<const MessageBlock> from);
 
-/// A block for each rank, of count[rank] rows of `width` numbers, one after the other.
+/// A block for each rank, of count[rank] entries of `width` numbers, one after the other.
 std::vector<MessageBlock> consecutive_blocks(const std::vector<int>& count, int width);
 
 /// Rows (of grains, ghosts, contacts) that this rank sends to each rank of a communicator, and
@@ -70,19 +70,19 @@ struct ExchangeCounts {
 
   int n_to() const;
   int n_from() const;
-  /// The same rows sent back.
+  /// The same entries sent back.
   ExchangeCounts back() const { return {ranks, from, to}; }
 };
 
 /// Rows in the order of the ranks that they go to, then those that go nowhere; how many go to each.
-struct RowsByRank {
-  Kokkos::View<int*> row;
+struct SendList {
+  Kokkos::View<int*> entry;
   std::vector<int> to;
 };
-/// `rank` of the rows 0 to n - 1, -1 for nowhere; rows that go to one rank keep their order.
-RowsByRank sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks);
+/// `rank` of the entries 0 to n - 1, -1 for nowhere; entries that go to one rank keep their order.
+SendList sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks);
 
-/// Tells each rank how many rows it will receive. All ranks together.
+/// Tells each rank how many entries it will receive. All ranks together.
 ExchangeCounts exchange_counts(MPI_Comm ranks, std::vector<int> to);
 
 }  // namespace barchan

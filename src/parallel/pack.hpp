@@ -1,4 +1,4 @@
-// Into messages and out of them, bit for bit: rows of arrays, and boxes of strided arrays.
+// Into messages and out of them, bit for bit: entries of arrays, and boxes of strided arrays.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace barchan {
 
-/// Which entries of a row are packed together: those of some arrays, one after the other. A message
-/// consists of numbers of eight bytes.
+/// Which arrays of an entry are packed together: those of some arrays, one after the other. A
+/// message consists of numbers of eight bytes.
 struct PackLayout {
   // All arrays of a grain fit, as a test of CoupledOverRanks shows; more would not fit a kernel's
   // arguments. However many columns an array has, it is one.
@@ -23,19 +23,19 @@ struct PackLayout {
   struct Array {
     char* data;
     std::int32_t column_stride;  // from column to column [numbers of eight bytes]
-    std::int16_t stride;         // from row to row [bytes]
-    std::int8_t numbers;         // of a row and column; 0: a single byte, a number in the message
+    std::int16_t stride;         // from entry to entry [bytes]
+    std::int8_t numbers;  // of an entry and column; 0: a single byte, a number in the message
     std::int8_t columns;
 
     KOKKOS_FUNCTION int width() const { return columns * (numbers > 0 ? numbers : 1); }
-    /// The entry of a row in a column.
-    KOKKOS_FUNCTION char* entry(std::ptrdiff_t row, int column) const {
-      return data + row * stride +
+    /// The address of an entry in a column.
+    KOKKOS_FUNCTION char* address(std::ptrdiff_t entry, int column) const {
+      return data + entry * stride +
              static_cast<std::ptrdiff_t>(sizeof(Real)) * column_stride * column;
     }
   };
   Array array[kMost];
-  int n = 0, width = 0;  // arrays; numbers of a row
+  int n = 0, width = 0;  // arrays; numbers of an entry
 
   /// Entries of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on; in
   /// each of some columns. Throws std::length_error beyond kMost.
@@ -48,9 +48,9 @@ struct PackLayout {
     width += array[n++].width();
   }
   template <class T>
-  void add(const Kokkos::View<T*>& rows) {
+  void add(const Kokkos::View<T*>& entries) {
     static_assert(sizeof(T) == 1 || sizeof(T) % sizeof(Real) == 0);
-    add(rows.data(), sizeof(T), sizeof(T));
+    add(entries.data(), sizeof(T), sizeof(T));
   }
   template <class T>
   void add(const Kokkos::View<T**, Kokkos::LayoutLeft>& columns) {
@@ -58,13 +58,13 @@ struct PackLayout {
     add(columns.data(), sizeof(T), sizeof(T), columns.extent(1),
         columns.stride(1) * (sizeof(T) / sizeof(Real)));
   }
-  /// One member of each row.
+  /// One member of each entry.
   template <class T, class Member>
-  void add(const Kokkos::View<T*>& rows, Member T::*member) {
-    add(&(rows.data()->*member), sizeof(T), sizeof(Member));
+  void add(const Kokkos::View<T*>& entries, Member T::*member) {
+    add(&(entries.data()->*member), sizeof(T), sizeof(Member));
   }
 
-  /// Where in a packed row the entry of an array begins.
+  /// Where in a packed entry the part of an array begins.
   int offset_of(const void* data) const {
     int offset = 0;
     for (int a = 0; a < n && array[a].data != data; ++a) offset += array[a].width();
@@ -72,19 +72,19 @@ struct PackLayout {
   }
 };
 
-/// Packs rows one after the other.
-struct PackRows {
+/// Packs entries one after the other.
+struct PackEntries {
   PackLayout layout;
-  Kokkos::View<const int*> row;  // that are packed; none: 0, 1, ...
+  Kokkos::View<const int*> entry;  // that are packed; none: 0, 1, ...
   Real* message;
 
   KOKKOS_FUNCTION void operator()(int p) const {
-    const std::ptrdiff_t r = row.extent(0) > 0 ? row(p) : p;
+    const std::ptrdiff_t r = entry.extent(0) > 0 ? entry(p) : p;
     Real* to = message + std::ptrdiff_t{layout.width} * p;
     for (int a = 0; a < layout.n; ++a) {
       const PackLayout::Array& array = layout.array[a];
       for (int c = 0; c < array.columns; ++c) {
-        const char* from = array.entry(r, c);
+        const char* from = array.address(r, c);
         if (array.numbers == 0) *to++ = *reinterpret_cast<const std::uint8_t*>(from);
         for (int q = 0; q < array.numbers; ++q, from += sizeof(Real))
           std::memcpy(to++, from, sizeof(Real));
@@ -92,20 +92,20 @@ struct PackRows {
     }
   }
 };
-/// Unpacks them to other rows.
-struct UnpackRows {
+/// Unpacks them to other entries.
+struct UnpackEntries {
   PackLayout layout;
-  Kokkos::View<const int*> row;  // that are filled; none: first_row and those after it
-  int first_row;
+  Kokkos::View<const int*> entry;  // that are filled; none: first_entry and those after it
+  int first_entry;
   const Real* message;
-  int width;  // of a packed row, which may hold more than the layout
+  int width;  // of a packed entry, which may hold more than the layout
 
   KOKKOS_FUNCTION void unpack(int p, std::ptrdiff_t r) const {
     const Real* from = message + std::ptrdiff_t{width} * p;
     for (int a = 0; a < layout.n; ++a) {
       const PackLayout::Array& array = layout.array[a];
       for (int c = 0; c < array.columns; ++c) {
-        char* to = array.entry(r, c);
+        char* to = array.address(r, c);
         if (array.numbers == 0)
           *reinterpret_cast<std::uint8_t*>(to) = static_cast<std::uint8_t>(*from++);
         for (int q = 0; q < array.numbers; ++q, to += sizeof(Real))
@@ -114,42 +114,42 @@ struct UnpackRows {
     }
   }
   KOKKOS_FUNCTION void operator()(int p) const {
-    unpack(p, row.extent(0) > 0 ? row(p) : first_row + p);
+    unpack(p, entry.extent(0) > 0 ? entry(p) : first_entry + p);
   }
 };
 
 /// Rows packed, exchanged and unpacked, in buffers that serve again.
-class RowExchange {
+class EntryExchange {
  public:
   /// `name` heads the labels of kernels and memory.
-  explicit RowExchange(const std::string& name)
+  explicit EntryExchange(const std::string& name)
       : pack_(name + ": pack"),
         unpack_(name + ": unpack"),
         send_(name + ": send", 0),
         receive_(name + ": receive", 0) {}
 
-  /// Packs the rows for rank 0 first (none given: 0, 1, ...) and exchanges them. All ranks
+  /// Packs the entries for rank 0 first (none given: 0, 1, ...) and exchanges them. All ranks
   /// together.
   void exchange(const ExchangeCounts& counts, const PackLayout& layout,
-                const Kokkos::View<const int*>& row = {}) {
+                const Kokkos::View<const int*>& entry = {}) {
     send_.reserve(static_cast<std::size_t>(counts.n_to()) * static_cast<std::size_t>(layout.width));
-    Kokkos::parallel_for(pack_, items(counts.n_to()), PackRows{layout, row, send_.data()});
+    Kokkos::parallel_for(pack_, items(counts.n_to()), PackEntries{layout, entry, send_.data()});
     width_ = layout.width;
     n_received_ = counts.n_from();
     receive_.reserve(static_cast<std::size_t>(n_received_) * static_cast<std::size_t>(width_));
     barchan::exchange(counts.ranks, send_, consecutive_blocks(counts.to, width_), receive_,
                       consecutive_blocks(counts.from, width_));
   }
-  /// What was received, into the rows of a list, or into `first_row` and those after it.
-  void unpack(const PackLayout& layout, const Kokkos::View<const int*>& row,
-              int first_row = 0) const {
-    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, row, first_row));
+  /// What was received, into the entries of a list, or into `first_entry` and those after it.
+  void unpack(const PackLayout& layout, const Kokkos::View<const int*>& entry,
+              int first_entry = 0) const {
+    Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, entry, first_entry));
   }
-  UnpackRows unpacking(const PackLayout& layout, const Kokkos::View<const int*>& row,
-                       int first_row) const {
-    return {layout, row, first_row, receive_.data(), width_};
+  UnpackEntries unpacking(const PackLayout& layout, const Kokkos::View<const int*>& entry,
+                          int first_entry) const {
+    return {layout, entry, first_entry, receive_.data(), width_};
   }
-  /// (rows) of width() numbers.
+  /// (entries) of width() numbers.
   const Real* received() const { return receive_.data(); }
   int width() const { return width_; }
 

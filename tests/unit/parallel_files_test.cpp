@@ -30,7 +30,7 @@ FluidState flow_of(int rank, const Decomposition* pencils) {
 
 /// Rank r has r grains: none on the first.
 GrainState grains_of(int rank) {
-  GrainState grains = make_grain_rows(rank, world);
+  GrainState grains = make_grain_entries(rank, world);
   Kokkos::deep_copy(grains.id, rank);
   return grains;
 }
