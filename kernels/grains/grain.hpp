@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "kernels/math/quad.hpp"
+#include "kernels/math/vec4.hpp"
 
 namespace barchan {
 
@@ -29,9 +29,9 @@ struct alignas(32) GrainKinematics {
   Vec3 omega;     // spin [rad/s]
   Real skin = 0;  // distance that it may move until the neighbour list is searched again [m]
 
-  KOKKOS_FORCEINLINE_FUNCTION Quad x_r() const { return {x.x, x.y, x.z, r}; }
-  KOKKOS_FORCEINLINE_FUNCTION Quad u_m() const { return {u.x, u.y, u.z, m}; }
-  KOKKOS_FORCEINLINE_FUNCTION Quad spin() const { return {omega.x, omega.y, omega.z, skin}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec4 x_r() const { return {x.x, x.y, x.z, r}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec4 u_m() const { return {u.x, u.y, u.z, m}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec4 spin() const { return {omega.x, omega.y, omega.z, skin}; }
 };
 
 /// Asks the caches of a CPU for something that is needed soon.
@@ -60,7 +60,7 @@ struct ListValidity {
 
 /// Sum of the contact forces [N] and torques [N m] on a grain.
 struct ContactSum {
-  Quad force, torque;
+  Vec4 force, torque;
 };
 
 /// Most entries of a chunk: on a CPU they stay in its L2 cache, on a GPU every entry is a chunk.
@@ -103,8 +103,8 @@ inline Chunks make_chunks(int n) {
 /// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does
 /// not touch.
 struct alignas(64) PairForce {
-  Quad force{};        // on the first grain [N], and the overlap [m]
-  Quad n_cross_f_t{};  // n x F_t [N]
+  Vec4 force{};        // on the first grain [N], and the overlap [m]
+  Vec4 n_cross_f_t{};  // n x F_t [N]
 };
 
 /// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains

@@ -2,8 +2,8 @@
 // their slip. Equations: docs/numerics.md, "Grains".
 #pragma once
 
-#include "kernels/grains/block.hpp"
 #include "kernels/grains/half_kick.hpp"
+#include "kernels/grains/tile.hpp"
 
 namespace barchan {
 
@@ -24,10 +24,10 @@ struct GrainMotion {
   Kokkos::View<Real*> slack;  // of PairList
 
   /// Grains as they come, with the sums of their contacts, and as they go.
-  struct Stage {
-    BlockOfQuads x_r, u_m, spin, force, torque;
-    BlockOfVectors new_x, new_u, new_omega;
-    Real excess[kBlock];  // over the skin [m^2]
+  struct Tile {
+    AosTile x_r, u_m, spin, force, torque;
+    SoaTile new_x, new_u, new_omega;
+    Real excess[kTile];  // over the skin [m^2]
   };
 
   /// Moves the grains [begin, end), a block of them at most, with the sums of their contacts.
@@ -36,17 +36,17 @@ struct GrainMotion {
   template <Moves moves>
   KOKKOS_FUNCTION bool advance(int begin, int end, const ContactSum* sums, Real& largest) const {
     const int n = size_of_block(begin, end);
-    Stage s;
+    Tile s;
     for (int q = 0; q < n; ++q) {
       const GrainKinematics& grain = grains(begin + q);
-      s.x_r.put(q, grain.x_r()), s.u_m.put(q, grain.u_m()), s.spin.put(q, grain.spin());
-      s.force.put(q, sums[q].force), s.torque.put(q, sums[q].torque);
+      s.x_r.store(q, grain.x_r()), s.u_m.store(q, grain.u_m()), s.spin.store(q, grain.spin());
+      s.force.store(q, sums[q].force), s.torque.store(q, sums[q].torque);
     }
     const bool worn = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
                       : fluid.has_torque
                           ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
                           : advance<moves, FluidEffect::force>(s, begin, n);
-    s.new_x.to_quads(n, s.x_r), s.new_u.to_quads(n, s.u_m), s.new_omega.to_quads(n, s.spin);
+    s.new_x.to_aos(n, s.x_r), s.new_u.to_aos(n, s.u_m), s.new_omega.to_aos(n, s.spin);
     for (int q = 0; q < n; ++q) {
       GrainKinematics& grain = grains(begin + q);
       grain.x = s.x_r.vec(q), grain.u = s.u_m.vec(q), grain.omega = s.spin.vec(q);
@@ -57,7 +57,7 @@ struct GrainMotion {
 
  private:
   template <Moves moves, FluidEffect effect>
-  KOKKOS_FORCEINLINE_FUNCTION bool advance(Stage& s, int begin, int n) const {
+  KOKKOS_FORCEINLINE_FUNCTION bool advance(Tile& s, int begin, int n) const {
     int worn = 0;
 #pragma GCC ivdep
     for (int q = 0; q < n; ++q) worn |= advance_one<moves, effect>(s, q, begin + q);
@@ -65,7 +65,7 @@ struct GrainMotion {
   }
   /// Returns 1 for a grain that has used up its slack.
   template <Moves moves, FluidEffect effect>
-  KOKKOS_FORCEINLINE_FUNCTION int advance_one(Stage& s, int q, int g) const {
+  KOKKOS_FORCEINLINE_FUNCTION int advance_one(Tile& s, int q, int g) const {
     Vec3 x = s.x_r.vec(q), u = s.u_m.vec(q), omega = s.spin.vec(q);
     const Real radius = s.x_r.w(q), mass = s.u_m.w(q), skin = s.spin.w(q);
     GrainForces f = forces<effect>(s, q, g);
@@ -74,7 +74,7 @@ struct GrainMotion {
     if constexpr (moves == Moves::between) impulse += half_kick(f, u, omega);
     if constexpr (moves != Moves::out_of_last) x = fused(dt, u, x);
     if constexpr (effect != FluidEffect::none) fluid.impulse(g) += impulse;
-    s.new_x.put(q, x, radius), s.new_u.put(q, u, mass), s.new_omega.put(q, omega, skin);
+    s.new_x.store(q, x, radius), s.new_u.store(q, u, mass), s.new_omega.store(q, omega, skin);
     s.excess[q] = excess_over_skin(x - x_reference(g), skin);
     if constexpr (kLargestChunk == 1 || moves == Moves::into_first) return 0;
     slack(g) -= dt * norm(u);
@@ -92,7 +92,7 @@ struct GrainMotion {
     return c;
   }
   template <FluidEffect effect>
-  KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(const Stage& s, int q, int g) const {
+  KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(const Tile& s, int q, int g) const {
     GrainForces f;
     f.force = s.force.vec(q) + fluid.steady_force(g);
     f.torque = s.torque.vec(q);
@@ -113,10 +113,10 @@ struct KickAndDrift {
   Kokkos::View<const Vec3*> contact_force, contact_torque;
 
   KOKKOS_FUNCTION void operator()(int block, Real& largest) const {
-    const int begin = block * kBlock;
-    ContactSum sums[kBlock];
+    const int begin = block * kTile;
+    ContactSum sums[kTile];
     for (int q = 0; q < size_of_block(begin, n); ++q) {
-      sums[q] = {quad(contact_force(begin + q)), quad(contact_torque(begin + q))};
+      sums[q] = {vec4(contact_force(begin + q)), vec4(contact_torque(begin + q))};
     }
     motion.advance<Moves::into_first>(begin, n, sums, largest);
   }

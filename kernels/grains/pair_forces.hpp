@@ -2,15 +2,15 @@
 // the whole block (vectorised on a CPU), hand the results on.
 #pragma once
 
-#include "kernels/grains/contact_block.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/contact_tile.hpp"
 
 namespace barchan {
 
-/// As a kernel: the crossing pairs, kBlock of them per index.
+/// As a kernel: the crossing pairs, kTile of them per index.
 template <class Law>
 struct PairForces {
-  using Contacts = ContactBlock<Law>;
+  using Contacts = ContactTile<Law>;
   static constexpr bool kRolls = Law::kRolls;
   static constexpr int kAhead = 16;  // pairs that are fetched before their turn
 
@@ -22,18 +22,18 @@ struct PairForces {
   bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
 
   /// A block of pairs (a, b), an entry each.
-  struct Stage {
-    BlockOfQuads separation, slip, spin_a, spin_b;
-    alignas(64) Real r_a[kBlock], r_b[kBlock], m_a[kBlock], m_b[kBlock];
-    alignas(64) Real arm_a[kBlock], arm_b[kBlock];  // from the centres to the contact [m]
+  struct Tile {
+    AosTile separation, slip, spin_a, spin_b;
+    alignas(64) Real r_a[kTile], r_b[kTile], m_a[kTile], m_b[kTile];
+    alignas(64) Real arm_a[kTile], arm_b[kTile];  // from the centres to the contact [m]
     Contacts contacts;
   };
 
   KOKKOS_FUNCTION void operator()(int block) const {
     if (!validity.holds()) return;
-    if constexpr (kBlock == 1) {  // constant indices: the stage stays in registers
+    if constexpr (kTile == 1) {  // constant indices: the stage stays in registers
       if (!is_near(block, 0)) return;
-      Stage s;
+      Tile s;
       load(s, 0, block);
       find_contact(s, 0);
       s.contacts.evaluate(law, 1);
@@ -41,9 +41,9 @@ struct PairForces {
       store_pair_force(s.contacts, 0, block);
       return;
     }
-    const int begin = block * kBlock;
+    const int begin = block * kTile;
     const int end = begin + size_of_block(begin, list.n_crossing);
-    int slots[kBlock];
+    int slots[kTile];
     int n = 0;
     for (int p = begin; p < end; ++p) {
       fetch_grains(p + kAhead < list.n_crossing ? p + kAhead : p);
@@ -51,7 +51,7 @@ struct PairForces {
       n += is_near(p, 0) ? 1 : 0;
     }
     if (n == 0) return;
-    Stage s;
+    Tile s;
     evaluate(s, slots, n, n);
     for (int q = 0; q < n; ++q) store_pair_force(s.contacts, q, slots[q]);
   }
@@ -61,14 +61,14 @@ struct PairForces {
     const int first_entry = list.chunks.begin(chunk);
     const int* active = &list.active(list.inner_first(first_entry) - list.n_crossing);
     const int n_active = list.n_active(chunk);
-    Stage s;
-    for (int begin = 0; begin < n_active; begin += kBlock) {
+    Tile s;
+    for (int begin = 0; begin < n_active; begin += kTile) {
       const int n = size_of_block(begin, n_active);
       const int* slots = active + begin;
       evaluate(s, slots, n, n_active - begin);
       for (int q = 0; q < n; ++q) {
         const int p = slots[q];
-        const Quad force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
+        const Vec4 force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
         ContactSum& a = sums[list.i(p) - first_entry];
         a.force = a.force + force;
         a.torque = fused(-s.arm_a[q], n_cross_f_t, a.torque);
@@ -121,8 +121,7 @@ struct PairForces {
 
   /// Loads n pairs, evaluates them and stores their history; `n_to_come`: entries of `slots`, those
   /// of later blocks among them.
-  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, const int* slots, int n,
-                                            int n_to_come) const {
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Tile& s, const int* slots, int n, int n_to_come) const {
     for (int q = 0; q < n; ++q) {
       const int ahead = slots[q + kAhead < n_to_come ? q + kAhead : q];
       prefetch(grains(list.j(ahead)));
@@ -137,18 +136,18 @@ struct PairForces {
     for (int q = 0; q < n; ++q) store_history(s.contacts, q, slots[q]);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int p) const {
+  KOKKOS_FORCEINLINE_FUNCTION void load(Tile& s, int q, int p) const {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
-    s.separation.put(q, a.x_r() - b.x_r());
-    s.slip.put(q, a.u_m() - b.u_m());
-    s.spin_a.put(q, a.spin()), s.spin_b.put(q, b.spin());
+    s.separation.store(q, a.x_r() - b.x_r());
+    s.slip.store(q, a.u_m() - b.u_m());
+    s.spin_a.store(q, a.spin()), s.spin_b.store(q, b.spin());
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
-    s.contacts.xi_t.put(q, quad(list.xi_t(p)));
-    if constexpr (Law::Rolling::has_history) s.contacts.rolling.put(q, quad(list.rolling(p)));
+    s.contacts.xi_t.store(q, vec4(list.xi_t(p)));
+    if constexpr (Law::Rolling::has_history) s.contacts.rolling.store(q, vec4(list.rolling(p)));
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void find_contact(Stage& s, int q) const {
+  KOKKOS_FORCEINLINE_FUNCTION void find_contact(Tile& s, int q) const {
     const Vec3 separation = box.nearest_image(s.separation.vec(q));
     const Real distance = norm(separation);
     const Vec3 normal = (1 / distance) * separation;
@@ -161,12 +160,12 @@ struct PairForces {
     const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
     s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
     const Vec3 arm_spin = fused(arm_a, spin_a, arm_b * spin_b);
-    s.contacts.put(q, {.normal = normal,
-                       .delta_n = delta_n,
-                       .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
-                       .spin_difference = spin_a - spin_b,
-                       .r_eff = effective.r,
-                       .m_eff = effective.m});
+    s.contacts.store(q, {.normal = normal,
+                         .delta_n = delta_n,
+                         .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
+                         .spin_difference = spin_a - spin_b,
+                         .r_eff = effective.r,
+                         .m_eff = effective.m});
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store_history(const Contacts& c, int q, int p) const {

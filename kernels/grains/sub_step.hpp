@@ -15,7 +15,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, 
   const PairForce& pair = list.pair_force(slot);
   sum.force = fused(sign, pair.force, sum.force);
   sum.torque = fused(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
-  if constexpr (rolls) sum.torque = fused(sign, quad(list.rolling(slot)), sum.torque);
+  if constexpr (rolls) sum.torque = fused(sign, vec4(list.rolling(slot)), sum.torque);
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
@@ -70,7 +70,7 @@ struct SumKickDrift {
     walls.add(begin, end, is_near, sums);
     if (last) keep(begin, end, sums);
     bool worn = false;
-    for (int g = begin; g < end; g += kBlock) {
+    for (int g = begin; g < end; g += kTile) {
       const ContactSum* of_block = sums + place_in_chunk(g, begin);
       const bool is_worn = last ? motion.advance<Moves::out_of_last>(g, end, of_block, largest)
                                 : motion.advance<Moves::between>(g, end, of_block, largest);

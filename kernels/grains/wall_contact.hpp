@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "kernels/grains/contact_block.hpp"
+#include "kernels/grains/contact_tile.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
@@ -19,10 +19,10 @@ struct Walls {
   Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
 
   /// Contacts side by side: of which grain, with which wall, at which arm [m].
-  struct Stage {
-    int grain[kBlock], wall[kBlock];
-    Real arm[kBlock];
-    ContactBlock<Law> contacts;
+  struct Tile {
+    int grain[kTile], wall[kTile];
+    Real arm[kTile];
+    ContactTile<Law> contacts;
   };
 
   /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
@@ -39,7 +39,7 @@ struct Walls {
   template <class Near>
   KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
                                        ContactSum* sums) const {
-    Stage s;
+    Tile s;
     int n = 0;
     for (int g = begin; g < end; ++g) {
       if (!near(g)) continue;
@@ -50,43 +50,43 @@ struct Walls {
         const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
         now = static_cast<std::uint8_t>(now | bit);
         load(s, n, g, w, (before & bit) != 0);
-        if (++n == kBlock) {
-          evaluate(s, kBlock, begin, sums);
+        if (++n == kTile) {
+          evaluate(s, kTile, begin, sums);
           n = 0;
         }
       }
       if (now != before) touching(g) = now;
     }
-    if (kBlock > 1 && n > 0) evaluate(s, n, begin, sums);
+    if (kTile > 1 && n > 0) evaluate(s, n, begin, sums);
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void load(Stage& s, int q, int g, int w, bool touched) const {
+  KOKKOS_FORCEINLINE_FUNCTION void load(Tile& s, int q, int g, int w, bool touched) const {
     const GrainKinematics& grain = grains(g);
     const Plane plane = shapes.at(w, grain.x);
     const Vec3& normal = plane.normal;
     const Real delta_n = plane.overlap(grain), arm = grain.r - delta_n / 2;
     const int h = shapes.history[w];
     s.grain[q] = g, s.wall[q] = w, s.arm[q] = arm;
-    s.contacts.put(q, {.normal = normal,
-                       .delta_n = delta_n,
-                       .slip = contact_slip(grain.u, arm * grain.omega, normal),
-                       .spin_difference = grain.omega,
-                       .r_eff = shapes.effective_radius(w, grain.r),
-                       .m_eff = grain.m});
-    s.contacts.xi_t.put(q, quad(touched ? xi_t(g, h) : Vec3{}));
+    s.contacts.store(q, {.normal = normal,
+                         .delta_n = delta_n,
+                         .slip = contact_slip(grain.u, arm * grain.omega, normal),
+                         .spin_difference = grain.omega,
+                         .r_eff = shapes.effective_radius(w, grain.r),
+                         .m_eff = grain.m});
+    s.contacts.xi_t.store(q, vec4(touched ? xi_t(g, h) : Vec3{}));
     if constexpr (Law::Rolling::has_history) {
-      s.contacts.rolling.put(q, quad(touched ? torque(g, h) : Vec3{}));
+      s.contacts.rolling.store(q, vec4(touched ? torque(g, h) : Vec3{}));
     }
   }
-  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Stage& s, int n, int begin, ContactSum* sums) const {
-    const int n_full = ContactBlock<Law>::whole_vectors(n);
+  KOKKOS_FORCEINLINE_FUNCTION void evaluate(Tile& s, int n, int begin, ContactSum* sums) const {
+    const int n_full = ContactTile<Law>::whole_vectors(n);
     for (int q = n; q < n_full; ++q) load(s, q, s.grain[0], s.wall[0], true);
     s.contacts.evaluate(law, n_full);
     for (int q = 0; q < n; ++q) {
       const int g = s.grain[q], h = shapes.history[s.wall[q]];
       ContactSum& sum = sums[place_in_chunk(g, begin)];
-      sum.force = sum.force + quad(s.contacts.force.vec(q));
+      sum.force = sum.force + vec4(s.contacts.force.vec(q));
       sum.torque = fused(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
       if constexpr (Law::kRolls) sum.torque = sum.torque + s.contacts.rolling[q];
       xi_t(g, h) = s.contacts.xi_t.vec(q);

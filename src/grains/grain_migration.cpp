@@ -85,7 +85,7 @@ void keep_entries(View& array, const Entries& stay, int n) {
 
 void GrainMigration::operator()(GrainState& grains, ContactHistory& history,
                                 const SearchColumns& columns, const GrainOwners& owners,
-                                const Kokkos::View<Quad*>& room) {
+                                const Kokkos::View<Vec4*>& room) {
   const int n = grains.n, n_ranks = owners.start.extent_int(0);
   int n_contacts = 0;
   Kokkos::deep_copy(n_contacts, Kokkos::subview(history.first, n));

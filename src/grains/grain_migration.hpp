@@ -14,7 +14,7 @@ class GrainMigration {
   /// `history` holds contacts under both of their grains; afterwards those of the new entries.
   /// `room`: as many as there are grains, overwritten. All ranks together.
   void operator()(GrainState& grains, ContactHistory& history, const SearchColumns& columns,
-                  const GrainOwners& owners, const Kokkos::View<Quad*>& room);
+                  const GrainOwners& owners, const Kokkos::View<Vec4*>& room);
 
   /// Grains that have left this rank for another so far.
   std::int64_t n_sent() const { return n_sent_; }

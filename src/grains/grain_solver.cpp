@@ -49,7 +49,7 @@ Friction friction_of(const Material& m, CoulombLimit limit) {
           .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
-int blocks_of(int n) { return (n + kBlock - 1) / kBlock; }
+int tiles_of(int n) { return (n + kTile - 1) / kTile; }
 
 GrainMotion motion(const GrainState& grains, Real dt, Real elapsed) {
   return {.dt = dt,
@@ -119,7 +119,7 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
     host_excess_ = Kokkos::create_mirror_view(excess_);
   }
   Kokkos::deep_copy(grains.list.worn, 1);  // the first drift does not keep account
-  Kokkos::parallel_reduce("grains: first kick and drift", items(blocks_of(grains.n)),
+  Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),
                           KickAndDrift{.motion = motion(grains, dt, 0),
                                        .n = grains.n,
                                        .contact_force = grains.contact_force,
@@ -140,7 +140,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
         .grains = grains.kin,
         .list = grains.list,
         .keep_force = list_.with_force && last};
-    Kokkos::parallel_for("grains: crossing pairs", items(blocks_of(grains.list.n_crossing)), pairs);
+    Kokkos::parallel_for("grains: crossing pairs", items(tiles_of(grains.list.n_crossing)), pairs);
     const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
                                 .pairs = pairs,
                                 .walls = {.shapes = walls_,

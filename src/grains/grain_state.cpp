@@ -23,12 +23,12 @@ void allocate(GrainState& s, Allocated when) {
   });
 }
 
-/// Reorders the n first entries of an array with entries no wider than a Quad.
+/// Reorders the n first entries of an array with entries no wider than a Vec4.
 template <class Entries>
 void take_entries(const Entries& entries, const Kokkos::View<int*>& entry, int n,
-                  const Kokkos::View<Quad*>& room) {
+                  const Kokkos::View<Vec4*>& room) {
   using Value = typename Entries::non_const_value_type;
-  static_assert(sizeof(Value) <= sizeof(Quad) && alignof(Value) <= alignof(Quad));
+  static_assert(sizeof(Value) <= sizeof(Vec4) && alignof(Value) <= alignof(Vec4));
   const Kokkos::View<Value*, Kokkos::MemoryUnmanaged> copy(reinterpret_cast<Value*>(room.data()),
                                                            room.extent(0));
   Kokkos::parallel_for(
@@ -37,16 +37,16 @@ void take_entries(const Entries& entries, const Kokkos::View<int*>& entry, int n
       "grains: take in order", items(n), KOKKOS_LAMBDA(int g) { entries(g) = copy(g); });
 }
 
-/// Calls action(entries) for the parts of an array that are no wider than a Quad.
+/// Calls action(entries) for the parts of an array that are no wider than a Vec4.
 template <class T, class Action>
 void for_each_part(const Kokkos::View<T*>& array, const Action& action) {
   action(array);
 }
 template <class Action>
 void for_each_part(const Kokkos::View<GrainKinematics*>& kin, const Action& action) {
-  using Parts = Kokkos::View<Quad* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
-  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Quad));
-  const Parts parts(reinterpret_cast<Quad*>(kin.data()), kin.extent(0));
+  using Parts = Kokkos::View<Vec4* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
+  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Vec4));
+  const Parts parts(reinterpret_cast<Vec4*>(kin.data()), kin.extent(0));
   for (int part = 0; part < 3; ++part) action(Kokkos::subview(parts, Kokkos::ALL(), part));
 }
 template <class Action>
@@ -122,7 +122,7 @@ Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std:
 }
 
 void permute(GrainState& s, const Kokkos::View<int*>& entry, int n,
-             const Kokkos::View<Quad*>& room) {
+             const Kokkos::View<Vec4*>& room) {
   for_each_grain_array(s, kAnyUse, [&](const auto&, const auto& array) {
     for_each_part(array, [&](const auto& entries) { take_entries(entries, entry, n, room); });
   });

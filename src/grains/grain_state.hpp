@@ -92,6 +92,6 @@ void reserve_entries(GrainState& grains, int n, unsigned uses = kAnyUse);
 /// Takes the entries in the order of `entry` (new entry -> old entry) and keeps the first n of
 /// them. `room`: as many as there are grains, overwritten.
 void permute(GrainState& grains, const Kokkos::View<int*>& entry, int n,
-             const Kokkos::View<Quad*>& room);
+             const Kokkos::View<Vec4*>& room);
 
 }  // namespace barchan

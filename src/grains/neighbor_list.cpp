@@ -212,7 +212,7 @@ void NeighborList::search(GrainState& grains) {
   reserve(list.inner_first, "pairs: inner first", n + 1);
   reserve(list.other_first, "pairs: other first", n + 1);
   reserve(list.near_wall, "near a wall", grains.n);
-  static_assert(kNoted * sizeof(int) == sizeof(Quad));
+  static_assert(kNoted * sizeof(int) == sizeof(Vec4));
   const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
   const PairSearch pair_search{.columns = columns_,
                                .grains = grains.kin,

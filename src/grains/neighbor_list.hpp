@@ -94,7 +94,7 @@ class NeighborList {
   Kokkos::View<int*> entry_;  // entry of each grain in history_; before, the next free slot there
   // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
   // then the next free place of other slots.
-  Kokkos::View<Quad*> room_;
+  Kokkos::View<Vec4*> room_;
   Kokkos::View<std::uint64_t*> key_room_;  // two for each
   ScratchMemory idle_;
 };

@@ -1,5 +1,5 @@
 // Vectors of four numbers: what the processor does with all of them at once.
-#include "kernels/math/quad.hpp"
+#include "kernels/math/vec4.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,15 +9,15 @@ namespace barchan {
 namespace {
 
 // Numbers that round in every operation: a product and a sum that is rounded once shows.
-TEST(Quad, EachComponentGetsTheBitsThatItGetsOnItsOwn) {
+TEST(Vec4, EachComponentGetsTheBitsThatItGetsOnItsOwn) {
   int n_rounded_once = 0;
   for (int n = 1; n < 200; ++n) {
     const Real s = std::sin(n), a[] = {std::cos(n), 1e-9 * n, -std::sqrt(n), 1.0 / n};
     const Real b[] = {std::tan(n), 3e-9, std::sqrt(n) / 3, -0.3 / n};
     Real sum[4], difference[4], both[4];
-    (Quad(a) + Quad(b)).store(sum);
-    (Quad(a) - Quad(b)).store(difference);
-    fused(s, Quad(a), Quad(b)).store(both);
+    (Vec4(a) + Vec4(b)).store(sum);
+    (Vec4(a) - Vec4(b)).store(difference);
+    fused(s, Vec4(a), Vec4(b)).store(both);
     for (int q = 0; q < 4; ++q) {
       EXPECT_EQ(sum[q], a[q] + b[q]);
       EXPECT_EQ(difference[q], a[q] - b[q]);
@@ -29,14 +29,14 @@ TEST(Quad, EachComponentGetsTheBitsThatItGetsOnItsOwn) {
   EXPECT_EQ(n_rounded_once > 50, rounds_once);
 }
 
-TEST(Quad, CarriesAVectorAndANumber) {
+TEST(Vec4, CarriesAVectorAndANumber) {
   const Vec3 a{1, -2, 3};
-  const Quad with_number(a.x, a.y, a.z, 4);
+  const Vec4 with_number(a.x, a.y, a.z, 4);
   EXPECT_EQ(with_number.w(), 4);
-  EXPECT_EQ(quad(a).w(), 0);
-  for (const Vec3& b : {with_number.vec(), quad(a).vec()}) EXPECT_EQ(norm(b - a), 0);
-  EXPECT_EQ(alignof(Quad), sizeof(Quad));
-  EXPECT_EQ(sizeof(Quad), 4 * sizeof(Real));
+  EXPECT_EQ(vec4(a).w(), 0);
+  for (const Vec3& b : {with_number.vec(), vec4(a).vec()}) EXPECT_EQ(norm(b - a), 0);
+  EXPECT_EQ(alignof(Vec4), sizeof(Vec4));
+  EXPECT_EQ(sizeof(Vec4), 4 * sizeof(Real));
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 #include <type_traits>
 
-#include "kernels/grains/block.hpp"
 #include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/tile.hpp"
 
 namespace barchan {
 
@@ -26,30 +26,30 @@ struct ContactLaw {
 /// passes are short, so that a CPU has several vectors of contacts under way in each of them: roots
 /// and divisions take long, one after another.
 template <class Law>
-struct ContactBlock {
+struct ContactTile {
   static constexpr bool kRolls = Law::kRolls;
-  static constexpr int kVector = kBlock < 8 ? kBlock : 8;  // contacts in the widest vectors
+  static constexpr int kVector = kTile < 8 ? kTile : 8;  // contacts in the widest vectors
 
-  BlockOfVectors normal;           // and the overlap [m], 0 where the two do not touch
-  BlockOfVectors slip;             // [m/s]
-  BlockOfVectors spin_difference;  // [rad/s]
-  BlockOfQuads xi_t;               // [m], before and after
-  BlockOfQuads rolling;            // [N m], before and after
-  BlockOfQuads force;              // result [N], and the overlap [m]
-  BlockOfQuads n_cross_f_t;        // result [N]
-  alignas(64) Real r_eff[kBlock], m_eff[kBlock];                                // [m], [kg]
-  alignas(64) Real k_n[kBlock], k_t[kBlock], gamma_n[kBlock], gamma_t[kBlock];  // [N/m], [kg/s]
-  BlockOfVectors new_force, new_n_cross_f_t, new_xi_t, new_rolling;
+  SoaTile normal;                               // and the overlap [m], 0 where the two do not touch
+  SoaTile slip;                                 // [m/s]
+  SoaTile spin_difference;                      // [rad/s]
+  AosTile xi_t;                                 // [m], before and after
+  AosTile rolling;                              // [N m], before and after
+  AosTile force;                                // result [N], and the overlap [m]
+  AosTile n_cross_f_t;                          // result [N]
+  alignas(64) Real r_eff[kTile], m_eff[kTile];  // [m], [kg]
+  alignas(64) Real k_n[kTile], k_t[kTile], gamma_n[kTile], gamma_t[kTile];  // [N/m], [kg/s]
+  SoaTile new_force, new_n_cross_f_t, new_xi_t, new_rolling;
 
   /// n contacts in whole vectors; the block has room for so many.
   KOKKOS_FORCEINLINE_FUNCTION static int whole_vectors(int n) {
     return (n + kVector - 1) / kVector * kVector;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void put(int q, const ContactPair& pair) {
-    normal.put(q, pair.normal, pair.delta_n);
-    slip.put(q, pair.slip, 0);
-    if constexpr (kRolls) spin_difference.put(q, pair.spin_difference, 0);
+  KOKKOS_FORCEINLINE_FUNCTION void store(int q, const ContactPair& pair) {
+    normal.store(q, pair.normal, pair.delta_n);
+    slip.store(q, pair.slip, 0);
+    if constexpr (kRolls) spin_difference.store(q, pair.spin_difference, 0);
     r_eff[q] = pair.r_eff, m_eff[q] = pair.m_eff;
   }
 
@@ -59,10 +59,10 @@ struct ContactBlock {
     for (int q = 0; q < n; ++q) find_stiffness(law, q);
 #pragma GCC ivdep
     for (int q = 0; q < n; ++q) find_force(law, q);
-    new_force.to_quads(n, force);
-    new_n_cross_f_t.to_quads(n, n_cross_f_t);
-    new_xi_t.to_quads(n, xi_t);
-    if constexpr (kRolls) new_rolling.to_quads(n, rolling);
+    new_force.to_aos(n, force);
+    new_n_cross_f_t.to_aos(n, n_cross_f_t);
+    new_xi_t.to_aos(n, xi_t);
+    if constexpr (kRolls) new_rolling.to_aos(n, rolling);
   }
 
  private:
@@ -87,10 +87,10 @@ struct ContactBlock {
             .k_n = k_n[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
         law.rolling, law.friction, pair, history, law.dt);
     const Real on = delta_n > 0 ? 1 : 0;
-    new_force.put(q, on * result.force, delta_n);
-    new_n_cross_f_t.put(q, on * result.n_cross_f_t, 0);
-    new_xi_t.put(q, on * result.xi_t, 0);
-    if constexpr (kRolls) new_rolling.put(q, on * result.rolling, 0);
+    new_force.store(q, on * result.force, delta_n);
+    new_n_cross_f_t.store(q, on * result.n_cross_f_t, 0);
+    new_xi_t.store(q, on * result.xi_t, 0);
+    if constexpr (kRolls) new_rolling.store(q, on * result.rolling, 0);
   }
 };
 
