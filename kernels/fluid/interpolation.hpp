@@ -30,8 +30,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real interpolate_in_row(const ConstFieldRef& f, cons
                                                     int j) {
   const Real* const near = &f(at.i, j, at.k);
   const Real* const far = near + f.stride_z;
-  return fused(at.back[1], far[1],
-               fused(at.back[0], far[0], fused(at.front[1], near[1], at.front[0] * near[0])));
+  return fma(at.back[1], far[1],
+             fma(at.back[0], far[0], fma(at.front[1], near[1], at.front[0] * near[0])));
 }
 /// Value of `f` from its eight surrounding nodes; exact for linear fields.
 KOKKOS_FORCEINLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const PlaneStencil& at,

@@ -91,13 +91,13 @@ struct RollingContact {
 
 /// Relative spin without its part along the normal (no torsion) [rad/s].
 KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_spin(const RollingContact& c) {
-  return fused(-dot(c.spin_difference, c.normal), c.normal, c.spin_difference);
+  return fma(-dot(c.spin_difference, c.normal), c.normal, c.spin_difference);
 }
 
 /// `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff F_n.
 KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c, Real k_r,
                                                         const Vec3& torque) {
-  const Vec3 trial = fused(-k_r * c.dt, rolling_spin(c), torque);
+  const Vec3 trial = fma(-k_r * c.dt, rolling_spin(c), torque);
   const Real size = norm(trial);
   const Real limit = c.mu_r * c.r_eff * c.f_n;
   return (size > limit ? limit / size : Real(1)) * trial;
@@ -186,23 +186,23 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& 
                                                         const ContactPair& pair,
                                                         const ContactResult& history, Real dt) {
   const Real v_n = dot(pair.slip, pair.normal);
-  const Vec3 v_t = fused(-v_n, pair.normal, pair.slip);
+  const Vec3 v_t = fma(-v_n, pair.normal, pair.slip);
   const Real elastic = k.k_n * pair.delta_n, dashpot = -k.gamma_n * v_n;
   const Real f_n = elastic + dashpot;
 
-  Vec3 xi = fused(dt, v_t, history.xi_t);
-  xi = fused(-dot(xi, pair.normal), pair.normal, xi);
+  Vec3 xi = fma(dt, v_t, history.xi_t);
+  xi = fma(-dot(xi, pair.normal), pair.normal, xi);
   const Vec3 spring = (-k.k_t) * xi;
   const Real limit = friction.sliding * Kokkos::abs(elastic + friction.dashpot_in_limit * dashpot);
   const bool slides = dot(spring, spring) > limit * limit;
-  const Vec3 trial = fused(slides ? Real(0) : -k.gamma_t, v_t, spring);
+  const Vec3 trial = fma(slides ? Real(0) : -k.gamma_t, v_t, spring);
   const Real size2 = dot(trial, trial);  // that of the spring where it slides
   const Real shorten = size2 > limit * limit ? limit / Kokkos::sqrt(size2) : Real(1);
   const Vec3 f_t = shorten * trial;
   xi = (slides ? shorten : Real(1)) * xi;
 
   ContactResult result;
-  result.force = fused(f_n, pair.normal, f_t);
+  result.force = fma(f_n, pair.normal, f_t);
   result.n_cross_f_t = cross(pair.normal, f_t);
   result.xi_t = xi;
   result.rolling = rolling(RollingContact{.normal = pair.normal,

@@ -72,7 +72,7 @@ struct GrainMotion {
     const HalfKick half_kick(dt / 2, coefficients<effect>(g, mass, radius));
     Vec3 impulse = half_kick(f, u, omega);
     if constexpr (moves == Moves::between) impulse += half_kick(f, u, omega);
-    if constexpr (moves != Moves::out_of_last) x = fused(dt, u, x);
+    if constexpr (moves != Moves::out_of_last) x = fma(dt, u, x);
     if constexpr (effect != FluidEffect::none) fluid.impulse(g) += impulse;
     s.new_x.store(q, x, radius), s.new_u.store(q, u, mass), s.new_omega.store(q, omega, skin);
     s.excess[q] = excess_over_skin(x - x_reference(g), skin);

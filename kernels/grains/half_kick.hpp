@@ -50,12 +50,12 @@ struct HalfKick {
 
   /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(GrainForces& f, Vec3& u, Vec3& omega) const {
-    const Vec3 slip = f.u_f - u, pull = fused(-per_mass, f.force, f.acceleration);
+    const Vec3 slip = f.u_f - u, pull = fma(-per_mass, f.force, f.acceleration);
     const Vec3 impulse =
-        fused(with_drag, fused(kept, slip, gained * pull), -of_grain.added_mass * slip);
-    f.u_f = fused(-of_grain.per_fluid_mass, impulse, fused(h, f.acceleration, f.u_f));
-    u = fused(per_mass, fused(h, f.force, impulse), u);
-    omega = fused(per_moment, fused(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
+        fma(with_drag, fma(kept, slip, gained * pull), -of_grain.added_mass * slip);
+    f.u_f = fma(-of_grain.per_fluid_mass, impulse, fma(h, f.acceleration, f.u_f));
+    u = fma(per_mass, fma(h, f.force, impulse), u);
+    omega = fma(per_moment, fma(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
     return impulse;
   }
 };

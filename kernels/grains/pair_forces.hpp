@@ -71,11 +71,11 @@ struct PairForces {
         const Vec4 force = s.contacts.force[q], n_cross_f_t = s.contacts.n_cross_f_t[q];
         ContactSum& a = sums[list.i(p) - first_entry];
         a.force = a.force + force;
-        a.torque = fused(-s.arm_a[q], n_cross_f_t, a.torque);
+        a.torque = fma(-s.arm_a[q], n_cross_f_t, a.torque);
         if constexpr (kRolls) a.torque = a.torque + s.contacts.rolling[q];
         ContactSum& b = sums[list.j(p) - first_entry];
         b.force = b.force - force;
-        b.torque = fused(-s.arm_b[q], n_cross_f_t, b.torque);
+        b.torque = fma(-s.arm_b[q], n_cross_f_t, b.torque);
         if constexpr (kRolls) b.torque = b.torque - s.contacts.rolling[q];
       }
     }
@@ -159,7 +159,7 @@ struct PairForces {
     const Vec3 spin_a = s.spin_a.vec(q), spin_b = s.spin_b.vec(q);
     const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
     s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
-    const Vec3 arm_spin = fused(arm_a, spin_a, arm_b * spin_b);
+    const Vec3 arm_spin = fma(arm_a, spin_a, arm_b * spin_b);
     s.contacts.store(q, {.normal = normal,
                          .delta_n = delta_n,
                          .slip = contact_slip(s.slip.vec(q), arm_spin, normal),

@@ -13,9 +13,9 @@ template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
                                                 Real radius, ContactSum& sum) {
   const PairForce& pair = list.pair_force(slot);
-  sum.force = fused(sign, pair.force, sum.force);
-  sum.torque = fused(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
-  if constexpr (rolls) sum.torque = fused(sign, vec4(list.rolling(slot)), sum.torque);
+  sum.force = fma(sign, pair.force, sum.force);
+  sum.torque = fma(pair.force.w() / 2 - radius, pair.n_cross_f_t, sum.torque);
+  if constexpr (rolls) sum.torque = fma(sign, vec4(list.rolling(slot)), sum.torque);
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {

@@ -87,7 +87,7 @@ struct Walls {
       const int g = s.grain[q], h = shapes.history[s.wall[q]];
       ContactSum& sum = sums[place_in_chunk(g, begin)];
       sum.force = sum.force + vec4(s.contacts.force.vec(q));
-      sum.torque = fused(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
+      sum.torque = fma(-s.arm[q], s.contacts.n_cross_f_t[q], sum.torque);
       if constexpr (Law::kRolls) sum.torque = sum.torque + s.contacts.rolling[q];
       xi_t(g, h) = s.contacts.xi_t.vec(q);
       if constexpr (Law::Rolling::has_history) torque(g, h) = s.contacts.rolling.vec(q);

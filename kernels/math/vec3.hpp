@@ -9,7 +9,7 @@ using Real = double;
 
 /// a b + c, rounded once where the processor does that in one instruction. Written out where it
 /// counts: left to the compiler, it would depend on where a formula is inlined.
-KOKKOS_FORCEINLINE_FUNCTION constexpr Real fused(Real a, Real b, Real c) {
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real fma(Real a, Real b, Real c) {
 #if defined(__FMA__) || defined(__CUDA_ARCH__)
   return __builtin_fma(a, b, c);
 #else
@@ -40,15 +40,14 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 operator*(Real s, const Vec3& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 KOKKOS_FORCEINLINE_FUNCTION constexpr Real dot(const Vec3& a, const Vec3& b) {
-  return fused(a.x, b.x, fused(a.y, b.y, a.z * b.z));
+  return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
 }
 KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {fused(a.y, b.z, -(a.z * b.y)), fused(a.z, b.x, -(a.x * b.z)),
-          fused(a.x, b.y, -(a.y * b.x))};
+  return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
 }
 /// s a + b, each component fused.
-KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 fused(Real s, const Vec3& a, const Vec3& b) {
-  return {fused(s, a.x, b.x), fused(s, a.y, b.y), fused(s, a.z, b.z)};
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 fma(Real s, const Vec3& a, const Vec3& b) {
+  return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
 KOKKOS_FORCEINLINE_FUNCTION Real norm(const Vec3& a) { return Kokkos::sqrt(dot(a, a)); }
 

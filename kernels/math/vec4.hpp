@@ -43,13 +43,13 @@ KOKKOS_FORCEINLINE_FUNCTION Vec4 operator-(const Vec4& a, const Vec4& b) {
   difference.v = a.v - b.v;
   return difference;
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec4 fused(Real s, const Vec4& a, const Vec4& b) {
+KOKKOS_FORCEINLINE_FUNCTION Vec4 fma(Real s, const Vec4& a, const Vec4& b) {
   Vec4 sum;
 #if defined(__FMA__) && !defined(__clang__)  // which g++ does not find by itself
   const Vec4 factor(s, s, s, s);
   sum.v = __builtin_ia32_vfmaddpd256(factor.v, a.v, b.v);
 #else
-  for (int q = 0; q < Vec4::kSize; ++q) sum.v[q] = fused(s, a.v[q], b.v[q]);
+  for (int q = 0; q < Vec4::kSize; ++q) sum.v[q] = fma(s, a.v[q], b.v[q]);
 #endif
   return sum;
 }
@@ -60,9 +60,9 @@ KOKKOS_FORCEINLINE_FUNCTION Vec4 operator+(const Vec4& a, const Vec4& b) {
 KOKKOS_FORCEINLINE_FUNCTION Vec4 operator-(const Vec4& a, const Vec4& b) {
   return {a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec4 fused(Real s, const Vec4& a, const Vec4& b) {
-  return {fused(s, a.v[0], b.v[0]), fused(s, a.v[1], b.v[1]), fused(s, a.v[2], b.v[2]),
-          fused(s, a.v[3], b.v[3])};
+KOKKOS_FORCEINLINE_FUNCTION Vec4 fma(Real s, const Vec4& a, const Vec4& b) {
+  return {fma(s, a.v[0], b.v[0]), fma(s, a.v[1], b.v[1]), fma(s, a.v[2], b.v[2]),
+          fma(s, a.v[3], b.v[3])};
 }
 #endif
 #undef BARCHAN_VECTOR_REGISTERS

@@ -17,15 +17,15 @@ TEST(Vec4, EachComponentGetsTheBitsThatItGetsOnItsOwn) {
     Real sum[4], difference[4], both[4];
     (Vec4(a) + Vec4(b)).store(sum);
     (Vec4(a) - Vec4(b)).store(difference);
-    fused(s, Vec4(a), Vec4(b)).store(both);
+    fma(s, Vec4(a), Vec4(b)).store(both);
     for (int q = 0; q < 4; ++q) {
       EXPECT_EQ(sum[q], a[q] + b[q]);
       EXPECT_EQ(difference[q], a[q] - b[q]);
-      EXPECT_EQ(both[q], fused(s, a[q], b[q]));
+      EXPECT_EQ(both[q], fma(s, a[q], b[q]));
       n_rounded_once += both[q] != s * a[q] + b[q] ? 1 : 0;
     }
   }
-  const bool rounds_once = fused(1 + 0x1p-30, 1 - 0x1p-30, -1.0) != 0;
+  const bool rounds_once = fma(1 + 0x1p-30, 1 - 0x1p-30, -1.0) != 0;
   EXPECT_EQ(n_rounded_once > 50, rounds_once);
 }
 
