@@ -88,10 +88,10 @@ void register_grain_kernels() {
   loose.config.grains->gravity = {0, 0, 0};
   // The kernel that holds most pair forces holds sum and integration as well; grains that touch
   // nothing show what that part takes.
-  const std::string fused = "grains: inner pairs, sum, kick and drift";
+  const std::string fused = "grains: intra-chunk pairs, sum, kick and drift";
   add_kernel({.name = "pair_forces",
               .spec = heap,
-              .labels = {"grains: crossing pairs", fused},
+              .labels = {"grains: inter-chunk pairs", fused},
               .prepare = move_grains,
               .unit = "grain-steps",
               .per_unit = pair_force_work,

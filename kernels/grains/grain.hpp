@@ -78,7 +78,7 @@ struct Chunks {
 
   KOKKOS_FORCEINLINE_FUNCTION int count() const { return (n + size - 1) / size; }
   /// Two entries of one chunk; entries from n on are in none.
-  KOKKOS_FORCEINLINE_FUNCTION bool together(int a, int b) const {
+  KOKKOS_FORCEINLINE_FUNCTION bool contain_both(int a, int b) const {
     return a < n && b < n && a / size == b / size;
   }
   KOKKOS_FORCEINLINE_FUNCTION int begin(int chunk) const { return chunk * size; }
@@ -100,30 +100,31 @@ inline Chunks make_chunks(int n) {
   return {.n = n, .size = size < least ? least : size};
 }
 
-/// What a crossing pair does to its grains in a sub-step: one cache line, all zero while it does
-/// not touch.
+/// What an inter-chunk pair does to its grains in a sub-step: one cache line, all zero while it
+/// does not touch.
 struct alignas(64) PairForce {
   Vec4 force{};        // on the first grain [N], and the overlap [m]
   Vec4 n_cross_f_t{};  // n x F_t [N]
 };
 
-/// Half Verlet list with the contacts' history. Slots [0, n_crossing) hold the pairs whose grains
+/// Half Verlet list with the contacts' history. Slots [0, n_inter) hold the pairs whose grains
 /// are not of one chunk (ghosts are of none), the others those inside a chunk. Grain g is the first
-/// one of its pairs in the slots [first(g), first(g+1)), crossing, and [inner_first(g),
-/// inner_first(g+1)), inner; it is the second one in the crossing slots other_slot[other_first(g)
-/// .. other_first(g+1)).
+/// one of its pairs in the slots [first(g), first(g+1)), inter-chunk, and [intra_first(g),
+/// intra_first(g+1)), intra-chunk; it is the second one in the inter-chunk slots
+/// incoming[incoming_first(g)
+/// .. incoming_first(g+1)).
 struct PairList {
   Chunks chunks;
-  int n_pairs = 0, n_crossing = 0;
-  Kokkos::View<int*> first, inner_first, other_first;  // (n + 1)
-  Kokkos::View<int*> i, j;                             // (n_pairs)
-  Kokkos::View<int*> other_slot;                       // (n_crossing)
-  Kokkos::View<int*> active;    // (inner pairs) slots of a chunk's active pairs ...
-  Kokkos::View<int*> n_active;  // (chunks) ... this many, from its first inner pair on
+  int n_pairs = 0, n_inter = 0;
+  Kokkos::View<int*> first, intra_first, incoming_first;  // (n + 1)
+  Kokkos::View<int*> i, j;                                // (n_pairs)
+  Kokkos::View<int*> incoming;                            // (n_inter)
+  Kokkos::View<int*> active;    // (intra-chunk pairs) slots of a chunk's active pairs ...
+  Kokkos::View<int*> n_active;  // (chunks) ... this many, from its first intra-chunk pair on
   Kokkos::View<Real*> slack;    // (n) how far a grain may still go until other pairs may touch [m]
   Kokkos::View<std::uint8_t*> worn;       // (chunks) 1: one of its grains has gone farther
   Kokkos::View<std::uint8_t*> near_wall;  // (n) 1: may touch a wall until then
-  Kokkos::View<PairForce*> pair_force;    // (n_crossing)
+  Kokkos::View<PairForce*> pair_force;    // (n_inter)
   Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]
   Kokkos::View<Vec3*> rolling;  // (n_pairs) rolling torque on i [N m]; empty without rolling
   Kokkos::View<Vec3*> force;    // (n_pairs) on i in the last sub-step [N]; empty unless asked for

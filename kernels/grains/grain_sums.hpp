@@ -75,11 +75,11 @@ struct SplitContacts {
     for (int g = begin; g < end; ++g) {
       normal(g) = tangential(g) = Vec3{};
       for (int p = list.first(g); p < list.first(g + 1); ++p) add(g, p, 1);
-      for (int s = list.other_first(g); s < list.other_first(g + 1); ++s) {
-        add(g, list.other_slot(s), -1);
+      for (int s = list.incoming_first(g); s < list.incoming_first(g + 1); ++s) {
+        add(g, list.incoming(s), -1);
       }
     }
-    for (int p = list.inner_first(begin); p < list.inner_first(end); ++p) {
+    for (int p = list.intra_first(begin); p < list.intra_first(end); ++p) {
       add(list.i(p), p, 1);
       add(list.j(p), p, -1);
     }

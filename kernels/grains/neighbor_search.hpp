@@ -167,17 +167,17 @@ using NotedPartners = Kokkos::View<int* [kNoted], Kokkos::MemoryUnmanaged>;
 struct CountPairs {
   PairSearch search;
   Chunks chunks;
-  Kokkos::View<int*> crossing, inner;
+  Kokkos::View<int*> inter, intra;
   NotedPartners noted;
   KOKKOS_FUNCTION void operator()(int i) const {
-    int n = 0, n_inner = 0;
+    int n = 0, n_intra = 0;
     search.for_each_partner(i, [&](int j) {
       if (n < kNoted) noted(i, n) = j;
       ++n;
-      n_inner += chunks.together(i, j) ? 1 : 0;
+      n_intra += chunks.contain_both(i, j) ? 1 : 0;
     });
-    crossing(i) = n - n_inner;
-    inner(i) = n_inner;
+    inter(i) = n - n_intra;
+    intra(i) = n_intra;
   }
 };
 
@@ -193,10 +193,10 @@ struct FillPairs {
   bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
-    int crossing = list.first(i), inner = list.inner_first(i);
-    const int n = list.first(i + 1) - crossing + list.inner_first(i + 1) - inner;
+    int inter = list.first(i), intra = list.intra_first(i);
+    const int n = list.first(i + 1) - inter + list.intra_first(i + 1) - intra;
     const auto add = [&](int j) {
-      const int slot = list.chunks.together(i, j) ? inner++ : crossing++;
+      const int slot = list.chunks.contain_both(i, j) ? intra++ : inter++;
       list.i(slot) = i;
       list.j(slot) = j;
       remember(slot, i, j);
@@ -226,32 +226,32 @@ struct FillPairs {
       const bool has = known && history.has_force();  // restart files do without
       list.force(slot) = has ? sign * history.force(k) : Vec3{};
     }
-    if (slot < list.n_crossing) list.pair_force(slot) = PairForce{};
+    if (slot < list.n_inter) list.pair_force(slot) = PairForce{};
   }
 };
 
-/// Registers each crossing slot with its second grain; `cursor` holds the next free entry of each
-/// grain.
-struct RegisterOthers {
+/// Registers each inter-chunk slot with its second grain; `cursor` holds the next free entry of
+/// each grain.
+struct FillIncoming {
   PairList list;
   Kokkos::View<int*> cursor;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    list.other_slot(Kokkos::atomic_fetch_add(&cursor(list.j(slot)), 1)) = slot;
+    list.incoming(Kokkos::atomic_fetch_add(&cursor(list.j(slot)), 1)) = slot;
   }
 };
 
 /// Ascending order of each grain's other slots, whatever order the threads came in.
-struct SortOthers {
+struct SortIncoming {
   PairList list;
   KOKKOS_FUNCTION void operator()(int g) const {
-    const int begin = list.other_first(g), end = list.other_first(g + 1);
+    const int begin = list.incoming_first(g), end = list.incoming_first(g + 1);
     for (int a = begin + 1; a < end; ++a) {
-      const int slot = list.other_slot(a);
+      const int slot = list.incoming(a);
       int b = a;
-      for (; b > begin && list.other_slot(b - 1) > slot; --b) {
-        list.other_slot(b) = list.other_slot(b - 1);
+      for (; b > begin && list.incoming(b - 1) > slot; --b) {
+        list.incoming(b) = list.incoming(b - 1);
       }
-      list.other_slot(b) = slot;
+      list.incoming(b) = slot;
     }
   }
 };

@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// As a kernel: the crossing pairs, kTile of them per index.
+/// As a kernel: the inter-chunk pairs, kTile of them per index.
 template <class Law>
 struct PairForces {
   using Contacts = ContactTile<Law>;
@@ -42,11 +42,11 @@ struct PairForces {
       return;
     }
     const int begin = block * kTile;
-    const int end = begin + size_of_block(begin, list.n_crossing);
+    const int end = begin + size_of_block(begin, list.n_inter);
     int slots[kTile];
     int n = 0;
     for (int p = begin; p < end; ++p) {
-      fetch_grains(p + kAhead < list.n_crossing ? p + kAhead : p);
+      fetch_grains(p + kAhead < list.n_inter ? p + kAhead : p);
       slots[n] = p;
       n += is_near(p, 0) ? 1 : 0;
     }
@@ -59,7 +59,7 @@ struct PairForces {
   /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its entries.
   KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums) const {
     const int first_entry = list.chunks.begin(chunk);
-    const int* active = &list.active(list.inner_first(first_entry) - list.n_crossing);
+    const int* active = &list.active(list.intra_first(first_entry) - list.n_inter);
     const int n_active = list.n_active(chunk);
     Tile s;
     for (int begin = 0; begin < n_active; begin += kTile) {
@@ -81,12 +81,12 @@ struct PairForces {
     }
   }
 
-  /// Lists the inner pairs of a chunk as active that come into contact if both go as far as their
-  /// slacks.
+  /// Lists the intra-chunk pairs of a chunk as active that come into contact if both go as far as
+  /// their slacks.
   KOKKOS_FUNCTION void find_active(int chunk) const {
-    const int begin = list.inner_first(list.chunks.begin(chunk));
-    const int end = list.inner_first(list.chunks.end(chunk));
-    int* active = &list.active(begin - list.n_crossing);
+    const int begin = list.intra_first(list.chunks.begin(chunk));
+    const int end = list.intra_first(list.chunks.end(chunk));
+    int* active = &list.active(begin - list.n_inter);
     int n = 0;
     for (int p = begin; p < end; ++p) {
       active[n] = p;
@@ -109,7 +109,7 @@ struct PairForces {
 
   KOKKOS_FUNCTION void clear(int p) const {
     list.touching(p) = 0;
-    if (p < list.n_crossing) list.pair_force(p) = PairForce{};
+    if (p < list.n_inter) list.pair_force(p) = PairForce{};
     list.xi_t(p) = Vec3{};
     if constexpr (kRolls) list.rolling(p) = Vec3{};
   }

@@ -1,5 +1,5 @@
-// One pass over the chunks of grains per sub-step: forces of their inner pairs and of the walls,
-// sum of all contacts, kick, and drift into the next sub-step.
+// One pass over the chunks of grains per sub-step: forces of their intra-chunk pairs and of the
+// walls, sum of all contacts, kick, and drift into the next sub-step.
 #pragma once
 
 #include "kernels/grains/grain_motion.hpp"
@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// Adds what a crossing pair does to its first grain (sign 1) or second grain (-1).
+/// Adds what an inter-chunk pair does to its first grain (sign 1) or second grain (-1).
 template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
                                                 Real radius, ContactSum& sum) {
@@ -19,12 +19,12 @@ KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, 
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
-  if (s >= list.n_crossing) return;
-  prefetch(list.pair_force(list.other_slot(s)));
-  prefetch(list.j(list.other_slot(s)));
+  if (s >= list.n_inter) return;
+  prefetch(list.pair_force(list.incoming(s)));
+  prefetch(list.j(list.incoming(s)));
 }
 
-/// Sums of the crossing contacts of the entries [begin, end), of each entry its own slots first,
+/// Sums of the inter-chunk contacts of the entries [begin, end), of each entry its own slots first,
 /// then the others.
 template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
@@ -35,9 +35,9 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
     const int g = list.i(p);
     add_pair_force<rolls>(list, p, 1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
-  for (int s = list.other_first(begin); s < list.other_first(end); ++s) {
+  for (int s = list.incoming_first(begin); s < list.incoming_first(end); ++s) {
     if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
-    const int slot = list.other_slot(s), g = list.j(slot);
+    const int slot = list.incoming(s), g = list.j(slot);
     add_pair_force<rolls>(list, slot, -1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
 }

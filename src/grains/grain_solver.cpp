@@ -140,7 +140,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
         .grains = grains.kin,
         .list = grains.list,
         .keep_force = list_.with_force && last};
-    Kokkos::parallel_for("grains: crossing pairs", items(tiles_of(grains.list.n_crossing)), pairs);
+    Kokkos::parallel_for("grains: inter-chunk pairs", items(tiles_of(grains.list.n_inter)), pairs);
     const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
                                 .pairs = pairs,
                                 .walls = {.shapes = walls_,
@@ -156,7 +156,7 @@ void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) 
                                 .contact_torque = grains.contact_torque,
                                 .last = last,
                                 .least_slack = list_.least_slack()};
-    Kokkos::parallel_reduce("grains: inner pairs, sum, kick and drift",
+    Kokkos::parallel_reduce("grains: intra-chunk pairs, sum, kick and drift",
                             items(grains.list.chunks.count()), sum, max_excess(s + 1));
   };
   std::visit(launch, pair_law_, rolling_);

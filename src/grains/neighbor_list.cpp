@@ -175,9 +175,9 @@ Windows NeighborList::find_windows(const GrainState& grains, int n) {
 void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.i, "pairs: i", list.n_pairs);
   reserve(list.j, "pairs: j", list.n_pairs);
-  reserve(list.other_slot, "pairs: other slot", list.n_crossing);
-  reserve(list.pair_force, "pairs: force of a crossing pair", list.n_crossing);
-  reserve(list.active, "pairs: active", list.n_pairs - list.n_crossing + 1);
+  reserve(list.incoming, "pairs: incoming slot", list.n_inter);
+  reserve(list.pair_force, "pairs: force of an inter-chunk pair", list.n_inter);
+  reserve(list.active, "pairs: active", list.n_pairs - list.n_inter + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "pairs: slack", kLargestChunk > 1 ? list.chunks.n : 0);
   reserve(list.worn, "chunks: worn", list.chunks.count());
@@ -189,17 +189,17 @@ void NeighborList::reserve_pairs(PairList& list) const {
 }
 
 void NeighborList::register_others(const PairList& list, int n) {
-  Kokkos::deep_copy(list.other_first, 0);
+  Kokkos::deep_copy(list.incoming_first, 0);
   Kokkos::parallel_for(
-      "neighbors: count others", list.n_crossing,
-      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.other_first(list.j(slot))); });
-  counts_to_starts(list.other_first, n);
+      "neighbors: count incoming", list.n_inter,
+      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.incoming_first(list.j(slot))); });
+  counts_to_starts(list.incoming_first, n);
   const Kokkos::View<int*> cursor(reinterpret_cast<int*>(key_room_.data()),
                                   static_cast<std::size_t>(n));
-  Kokkos::deep_copy(cursor, Kokkos::subview(list.other_first, std::pair<int, int>(0, n)));
-  Kokkos::parallel_for("neighbors: register others", list.n_crossing,
-                       RegisterOthers{.list = list, .cursor = cursor});
-  Kokkos::parallel_for("neighbors: sort others", n, SortOthers{.list = list});
+  Kokkos::deep_copy(cursor, Kokkos::subview(list.incoming_first, std::pair<int, int>(0, n)));
+  Kokkos::parallel_for("neighbors: fill incoming", list.n_inter,
+                       FillIncoming{.list = list, .cursor = cursor});
+  Kokkos::parallel_for("neighbors: sort incoming", n, SortIncoming{.list = list});
 }
 
 void NeighborList::search(GrainState& grains) {
@@ -209,8 +209,8 @@ void NeighborList::search(GrainState& grains) {
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
   reserve(list.first, "pairs: first", n + 1);
-  reserve(list.inner_first, "pairs: inner first", n + 1);
-  reserve(list.other_first, "pairs: other first", n + 1);
+  reserve(list.intra_first, "pairs: first intra-chunk", n + 1);
+  reserve(list.incoming_first, "pairs: incoming first", n + 1);
   reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Vec4));
   const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
@@ -223,11 +223,11 @@ void NeighborList::search(GrainState& grains) {
   Kokkos::parallel_for("neighbors: count", n,
                        CountPairs{.search = pair_search,
                                   .chunks = list.chunks,
-                                  .crossing = list.first,
-                                  .inner = list.inner_first,
+                                  .inter = list.first,
+                                  .intra = list.intra_first,
                                   .noted = noted});
-  list.n_crossing = counts_to_starts(list.first, n);
-  list.n_pairs = counts_to_starts(list.inner_first, n, list.n_crossing);
+  list.n_inter = counts_to_starts(list.first, n);
+  list.n_pairs = counts_to_starts(list.intra_first, n, list.n_inter);
   reserve_pairs(list);
   Kokkos::parallel_for("neighbors: fill", n,
                        FillPairs{.search = pair_search,

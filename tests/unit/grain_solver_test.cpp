@@ -240,7 +240,7 @@ TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
     const AngularMomentum before = angular_momentum(c);
     c.advance(600, 2.5e-6);
     const AngularMomentum after = angular_momentum(c);
-    EXPECT_GT(c.state.list.n_crossing, 100);
+    EXPECT_GT(c.state.list.n_inter, 100);
     EXPECT_GT(c.solver.contacts(c.state).n_contacts, 10);
     EXPECT_GT(after.spin, 0) << "they roll";
     EXPECT_LT(norm(after.total - before.total), 1e-11 * after.spin);
@@ -315,7 +315,7 @@ TEST(GrainSolver, StepsInOneCallEqualCallsOfOneStep) {
   EXPECT_GT(together.solver.list().rebuilds(), 3);
   const PairList& list = together.state.list;
   EXPECT_GT(list.chunks.count(), 1);
-  EXPECT_GT(list.n_crossing, 100);
+  EXPECT_GT(list.n_inter, 100);
   const auto a = rows_by_id(together.state), b = rows_by_id(apart.state);
   for (std::size_t n = 1; n < a.size(); ++n) {
     EXPECT_EQ(norm(a[n].x - b[n].x), 0);
