@@ -122,7 +122,7 @@ struct PairList {
   Kokkos::View<int*> active;    // (intra-chunk pairs) slots of a chunk's active pairs ...
   Kokkos::View<int*> n_active;  // (chunks) ... this many, from its first intra-chunk pair on
   Kokkos::View<Real*> slack;    // (n) how far a grain may still go until other pairs may touch [m]
-  Kokkos::View<std::uint8_t*> worn;       // (chunks) 1: one of its grains has gone farther
+  Kokkos::View<std::uint8_t*> expired;    // (chunks) 1: one of its grains has gone farther
   Kokkos::View<std::uint8_t*> near_wall;  // (n) 1: may touch a wall until then
   Kokkos::View<PairForce*> pair_force;    // (n_inter)
   Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]

@@ -42,26 +42,26 @@ struct GrainMotion {
       s.x_r.store(q, grain.x_r()), s.u_m.store(q, grain.u_m()), s.spin.store(q, grain.spin());
       s.force.store(q, sums[q].force), s.torque.store(q, sums[q].torque);
     }
-    const bool worn = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
-                      : fluid.has_torque
-                          ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
-                          : advance<moves, FluidEffect::force>(s, begin, n);
+    const bool expired = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
+                         : fluid.has_torque
+                             ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
+                             : advance<moves, FluidEffect::force>(s, begin, n);
     s.new_x.to_aos(n, s.x_r), s.new_u.to_aos(n, s.u_m), s.new_omega.to_aos(n, s.spin);
     for (int q = 0; q < n; ++q) {
       GrainKinematics& grain = grains(begin + q);
       grain.x = s.x_r.vec(q), grain.u = s.u_m.vec(q), grain.omega = s.spin.vec(q);
       if constexpr (moves != Moves::out_of_last) largest = Kokkos::max(largest, s.excess[q]);
     }
-    return worn;
+    return expired;
   }
 
  private:
   template <Moves moves, FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION bool advance(Tile& s, int begin, int n) const {
-    int worn = 0;
+    int expired = 0;
 #pragma GCC ivdep
-    for (int q = 0; q < n; ++q) worn |= advance_one<moves, effect>(s, q, begin + q);
-    return worn != 0;
+    for (int q = 0; q < n; ++q) expired |= advance_one<moves, effect>(s, q, begin + q);
+    return expired != 0;
   }
   /// Returns 1 for a grain that has used up its slack.
   template <Moves moves, FluidEffect effect>

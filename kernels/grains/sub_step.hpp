@@ -63,20 +63,20 @@ struct SumKickDrift {
     ContactSum sums[kLargestChunk];
     sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
     if constexpr (kLargestChunk > 1) {
-      if (pairs.list.worn(chunk)) find_active(chunk, begin, end);
+      if (pairs.list.expired(chunk)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);
     }
     const auto is_near = [&](int g) { return kLargestChunk == 1 || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
     if (last) keep(begin, end, sums);
-    bool worn = false;
+    bool expired = false;
     for (int g = begin; g < end; g += kTile) {
       const ContactSum* of_block = sums + place_in_chunk(g, begin);
-      const bool is_worn = last ? motion.advance<Moves::out_of_last>(g, end, of_block, largest)
-                                : motion.advance<Moves::between>(g, end, of_block, largest);
-      worn = worn || is_worn;
+      const bool is_expired = last ? motion.advance<Moves::out_of_last>(g, end, of_block, largest)
+                                   : motion.advance<Moves::between>(g, end, of_block, largest);
+      expired = expired || is_expired;
     }
-    pairs.list.worn(chunk) = worn;
+    pairs.list.expired(chunk) = expired;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void keep(int begin, int end, const ContactSum* sums) const {
@@ -90,8 +90,8 @@ struct SumKickDrift {
   /// its slack. That is as far as each comes in the same time at the speed that it has, and a
   /// little more.
   KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
-    Real way = 0;  // of all grains in a sub-step [m]
-    for (int g = begin; g < end; ++g) way += motion.dt * norm(motion.grains(g).u);
+    Real displacement = 0;  // of all grains in a sub-step [m]
+    for (int g = begin; g < end; ++g) displacement += motion.dt * norm(motion.grains(g).u);
     const Real n_steps = steps_of_slack(way / (end - begin));
     for (int g = begin; g < end; ++g) {
       const Real slack = least_slack + n_steps * motion.dt * norm(motion.grains(g).u);
@@ -102,10 +102,10 @@ struct SumKickDrift {
   }
 
   /// For how many sub-steps slack is best given. To look for active pairs costs once, more of them
-  /// cost in every sub-step, and how many more grows with `way`, the mean one of a grain in a
-  /// sub-step [m]. Measured (docs/performance.md); hardly anything changes from 20 to 200.
-  KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real way) const {
-    const Real n_steps = Kokkos::sqrt(100 * least_slack / way);
+  /// cost in every sub-step, and how many more grows with `displacement`, the mean one of a grain
+  /// in a sub-step [m]. Measured (docs/performance.md); hardly anything changes from 20 to 200.
+  KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real displacement) const {
+    const Real n_steps = Kokkos::sqrt(100 * least_slack / displacement);
     return n_steps < 100 ? n_steps : 100;
   }
 };

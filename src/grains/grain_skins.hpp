@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// Skins follow the speed: a list wears out for all grains at about the same time, though a few
+/// Skins follow the speed: a list expires for all grains at about the same time, though a few
 /// move a hundred times as fast as the rest.
 class GrainSkins {
  public:

@@ -118,7 +118,7 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
     excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
     host_excess_ = Kokkos::create_mirror_view(excess_);
   }
-  Kokkos::deep_copy(grains.list.worn, 1);  // the first drift does not keep account
+  Kokkos::deep_copy(grains.list.expired, 1);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),
                           KickAndDrift{.motion = motion(grains, dt, 0),
                                        .n = grains.n,

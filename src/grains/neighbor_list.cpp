@@ -180,8 +180,8 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.active, "pairs: active", list.n_pairs - list.n_inter + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
   reserve(list.slack, "pairs: slack", kLargestChunk > 1 ? list.chunks.n : 0);
-  reserve(list.worn, "chunks: worn", list.chunks.count());
-  Kokkos::deep_copy(list.worn, 1);
+  reserve(list.expired, "chunks: expired", list.chunks.count());
+  Kokkos::deep_copy(list.expired, 1);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
   if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
