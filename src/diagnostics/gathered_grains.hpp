@@ -11,10 +11,10 @@ namespace barchan {
 
 /// On rank 0: how many numbers each rank has, and where these begin among all; on others nothing.
 struct RankShares {
-  std::vector<int> counts, starts{0};
+  std::vector<int> counts, offsets{0};
   RankShares(MPI_Comm ranks, int n) : counts(static_cast<std::size_t>(rank_count(ranks))) {
     MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, ranks);
-    for (const int count : counts) starts.push_back(starts.back() + count);
+    for (const int count : counts) offsets.push_back(offsets.back() + count);
   }
 };
 
@@ -26,8 +26,8 @@ std::vector<Row> on_rank_0(MPI_Comm ranks, const std::vector<Row>& mine) {
   constexpr std::size_t width = sizeof(Row) / sizeof(double);
   const int n = static_cast<int>(mine.size() * width);
   const RankShares of(ranks, n);
-  std::vector<Row> all(static_cast<std::size_t>(of.starts.back()) / width);
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), of.counts.data(), of.starts.data(),
+  std::vector<Row> all(static_cast<std::size_t>(of.offsets.back()) / width);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), of.counts.data(), of.offsets.data(),
               MPI_DOUBLE, 0, ranks);
   return all;
 }
@@ -38,7 +38,7 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
   if (rank_count(ranks) == 1) return all;
   const RankShares of(ranks, n);
   std::vector<int> mine(static_cast<std::size_t>(n));
-  MPI_Scatterv(all.data(), of.counts.data(), of.starts.data(), MPI_INT, mine.data(), n, MPI_INT, 0,
+  MPI_Scatterv(all.data(), of.counts.data(), of.offsets.data(), MPI_INT, mine.data(), n, MPI_INT, 0,
                ranks);
   return mine;
 }

@@ -19,7 +19,7 @@ void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
   Kokkos::parallel_for(
       "ghosts: count copies", items(n),
       KOKKOS_LAMBDA(int g) { first(g) = GhostDestinations(columns, owners, kin(g).x).n; });
-  const int n_copies = counts_to_starts(first, n);
+  const int n_copies = counts_to_offsets(first, n);
   const auto rank = uninitialized<Entries>("ghosts: rank", n_copies);
   const auto entry = uninitialized<Entries>("ghosts: entry", n_copies);
   Kokkos::parallel_for(

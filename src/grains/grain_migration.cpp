@@ -66,7 +66,7 @@ Entries first_contacts(const Numbers& n_contacts, int n) {
   Kokkos::parallel_for(
       "migration: contacts that are here", items(n),
       KOKKOS_LAMBDA(int g) { first(g) = static_cast<int>(n_contacts(g)); });
-  counts_to_starts(first, n);
+  counts_to_offsets(first, n);
   return first;
 }
 

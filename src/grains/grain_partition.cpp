@@ -116,7 +116,7 @@ void GrainPartition::restore(const std::vector<std::int64_t>& starts, Real imbal
   has_cut_ = true;
 }
 
-std::vector<std::int64_t> GrainPartition::starts() const {
+std::vector<std::int64_t> GrainPartition::offsets() const {
   return {on_host_.data(), on_host_.data() + count_};
 }
 

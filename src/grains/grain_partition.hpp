@@ -26,9 +26,9 @@ class GrainPartition {
   void balance(const GrainState& grains, const SearchColumns& columns,
                const Kokkos::View<const int*>& contacts);
 
-  /// Of a restart file: starts() and imbalance_at_cut() of the ranks that wrote it.
+  /// Of a restart file: offsets() and imbalance_at_cut() of the ranks that wrote it.
   void restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut);
-  std::vector<std::int64_t> starts() const;
+  std::vector<std::int64_t> offsets() const;
 
   GrainOwners owners() const { return {me_, start_}; }
   /// Place where this rank's columns begin.

@@ -35,8 +35,8 @@ void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* la
   reserve(view, label, n);
 }
 
-/// Turns counts in [0, n) into starts from `begin` on, the end at n. Returns the end.
-inline int counts_to_starts(const Kokkos::View<int*>& a, int n, int begin = 0) {
+/// Turns counts in [0, n) into offsets from `begin` on, the end at n. Returns the end.
+inline int counts_to_offsets(const Kokkos::View<int*>& a, int n, int begin = 0) {
   int total = 0;
   Kokkos::parallel_scan(
       "neighbors: prefix sum", n,

@@ -104,7 +104,7 @@ void NeighborList::collect_history(const GrainState& grains) {
   Kokkos::deep_copy(history_.first, 0);
   Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
                        CountContacts{.grains = with_history, .count = history_.first});
-  const int n_contacts = counts_to_starts(history_.first, n);
+  const int n_contacts = counts_to_offsets(history_.first, n);
   const auto take = [&](auto& array) { take_scratch(idle_, array, "contact history", n_contacts); };
   take(history_.partner), take(history_.xi_t);
   if (list.has_rolling()) take(history_.rolling);
@@ -193,7 +193,7 @@ void NeighborList::register_others(const PairList& list, int n) {
   Kokkos::parallel_for(
       "neighbors: count incoming", list.n_inter,
       KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.incoming_first(list.j(slot))); });
-  counts_to_starts(list.incoming_first, n);
+  counts_to_offsets(list.incoming_first, n);
   const Kokkos::View<int*> cursor(reinterpret_cast<int*>(key_room_.data()),
                                   static_cast<std::size_t>(n));
   Kokkos::deep_copy(cursor, Kokkos::subview(list.incoming_first, std::pair<int, int>(0, n)));
@@ -226,8 +226,8 @@ void NeighborList::search(GrainState& grains) {
                                   .inter = list.first,
                                   .intra = list.intra_first,
                                   .noted = noted});
-  list.n_inter = counts_to_starts(list.first, n);
-  list.n_pairs = counts_to_starts(list.intra_first, n, list.n_inter);
+  list.n_inter = counts_to_offsets(list.first, n);
+  list.n_pairs = counts_to_offsets(list.intra_first, n, list.n_inter);
   reserve_pairs(list);
   Kokkos::parallel_for("neighbors: fill", n,
                        FillPairs{.search = pair_search,

@@ -132,16 +132,16 @@ struct Piece {
 std::optional<Piece> my_piece(const CheckpointReader& file, const std::string& name,
                               std::uint64_t n, MPI_Comm ranks) {
   const auto counts = file.array<std::int64_t>(name);
-  std::vector<std::uint64_t> starts{0};
+  std::vector<std::uint64_t> offsets{0};
   bool fits = true;
   for (const std::int64_t count : counts) {
-    starts.push_back(starts.back() + static_cast<std::uint64_t>(count));
-    fits = fits && count >= 0 && starts.back() <= n;
+    offsets.push_back(offsets.back() + static_cast<std::uint64_t>(count));
+    fits = fits && count >= 0 && offsets.back() <= n;
   }
-  if (!fits || starts.back() != n) file.fail(name + " does not fit the entries it counts");
+  if (!fits || offsets.back() != n) file.fail(name + " does not fit the entries it counts");
   if (counts.size() != static_cast<std::size_t>(rank_count(ranks))) return {};
   const auto me = static_cast<std::size_t>(rank_of(ranks));
-  return Piece{starts[me], starts[me + 1]};
+  return Piece{offsets[me], offsets[me + 1]};
 }
 
 std::uint64_t entries_of(const CheckpointReader& file, const std::string& name) {
@@ -204,8 +204,8 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
   save_contacts(file, s);
   save_of_every_rank(file, "grains/of_rank", s.ranks, s.n);
   if (const GrainPartition* partition = list.partition()) {
-    const auto starts = partition->starts();
-    file.array("grains/columns_of_rank", std::span<const std::int64_t>(starts));
+    const auto offsets = partition->offsets();
+    file.array("grains/columns_of_rank", std::span<const std::int64_t>(offsets));
     file.scalar("grains/imbalance_at_cut", partition->imbalance_at_cut());
   }
   file.scalar("grains/r_max", s.r_max);
@@ -244,12 +244,12 @@ void load_grains(const CheckpointReader& file, GrainState& s, NeighborList& list
     return;
   }
   if (list.partition()) {
-    const auto starts = file.array<std::int64_t>("grains/columns_of_rank",
-                                                 {static_cast<std::uint64_t>(rank_count(s.ranks))});
-    if (starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
-        starts.back() > std::numeric_limits<std::uint32_t>::max())
+    const auto offsets = file.array<std::int64_t>(
+        "grains/columns_of_rank", {static_cast<std::uint64_t>(rank_count(s.ranks))});
+    if (offsets.front() != 0 || !std::is_sorted(offsets.begin(), offsets.end()) ||
+        offsets.back() > std::numeric_limits<std::uint32_t>::max())
       file.fail("grains/columns_of_rank does not cut the columns");
-    list.partition()->restore(starts, file.real("grains/imbalance_at_cut"));
+    list.partition()->restore(offsets, file.real("grains/imbalance_at_cut"));
   }
   list.restore(s);
 }
