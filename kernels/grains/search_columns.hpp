@@ -42,12 +42,14 @@ struct SearchColumns {
   std::uint32_t origin = 0;  // position on the Morton curve
 
   /// Number on the Morton curve of the column around a position.
-  KOKKOS_FUNCTION std::uint32_t place_of(const Vec3& x) const {
+  KOKKOS_FUNCTION std::uint32_t morton_code_of(const Vec3& x) const {
     const int ix = Kokkos::clamp(static_cast<int>(x.x * inverse_width_x), 0, nx - 1);
     const int iz = Kokkos::clamp(static_cast<int>(x.z * inverse_width_z), 0, nz - 1);
     return code_of(ix, iz);
   }
-  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const { return place_of(x) - origin; }
+  KOKKOS_FUNCTION std::uint32_t column_of(const Vec3& x) const {
+    return morton_code_of(x) - origin;
+  }
   KOKKOS_FUNCTION static std::uint32_t code_of(int ix, int iz) {
     return (spread_bits(static_cast<std::uint32_t>(ix)) << 1) |
            spread_bits(static_cast<std::uint32_t>(iz));
@@ -64,9 +66,9 @@ struct SearchColumns {
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
-    const std::uint32_t place = column + origin;
-    int ix = static_cast<int>(gather_bits(place >> 1)) + dx;
-    int iz = static_cast<int>(gather_bits(place)) + dz;
+    const std::uint32_t code = column + origin;
+    int ix = static_cast<int>(gather_bits(code >> 1)) + dx;
+    int iz = static_cast<int>(gather_bits(code)) + dz;
     if (periodic_x) ix = (ix + nx) % nx;
     if (periodic_z) iz = (iz + nz) % nz;
     if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
@@ -160,14 +162,14 @@ struct LinkColumns {
   }
 };
 
-/// Rank r owns the columns from place start(r) on the Morton curve up to start(r + 1); start(0) is
+/// Rank r owns the columns from code start(r) on the Morton curve up to start(r + 1); start(0) is
 /// 0. A rank that starts where the next one does owns nothing.
 struct GrainOwners {
   int me = 0;
   Kokkos::View<const std::uint32_t*> start;  // (ranks)
 
-  KOKKOS_FUNCTION int of_place(std::uint32_t place) const {
-    return count_up_to(start, start.extent_int(0), place) - 1;
+  KOKKOS_FUNCTION int of_code(std::uint32_t code) const {
+    return count_up_to(start, start.extent_int(0), code) - 1;
   }
 };
 
@@ -184,7 +186,7 @@ struct GhostDestinations {
       for (int dz = -columns.rings; dz <= columns.rings; ++dz) {
         std::uint32_t other = 0;
         if (!columns.neighbor(column, dx, dz, other)) continue;
-        add(owners.of_place(other + columns.origin), owners.me);
+        add(owners.of_code(other + columns.origin), owners.me);
       }
     }
   }

@@ -35,7 +35,7 @@ Entries new_ranks(const GrainState& grains, const SearchColumns& columns,
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "migration: ranks of grains", items(grains.n), KOKKOS_LAMBDA(int g) {
-        const int owner = owners.of_place(columns.place_of(kin(g).x));
+        const int owner = owners.of_code(columns.morton_code_of(kin(g).x));
         rank(g) = owner == owners.me ? -1 : owner;
       });
   return rank;

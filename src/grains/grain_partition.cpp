@@ -19,13 +19,13 @@ Kokkos::View<std::uint64_t*> work_at_places(const GrainState& grains, const Sear
   Kokkos::parallel_for(
       "partition: work", items(grains.n), KOKKOS_LAMBDA(int g) {
         const int sides = contacts(g + 1) - contacts(g);
-        work(g) = (std::uint64_t{columns.place_of(kin(g).x)} << 32) |
+        work(g) = (std::uint64_t{columns.morton_code_of(kin(g).x)} << 32) |
                   static_cast<std::uint64_t>(2 + sides);
       });
   return work;
 }
 
-/// Work by place on the curve, of the grains of one rank.
+/// Work by code on the curve, of the grains of one rank.
 class WorkAlongCurve {
  public:
   explicit WorkAlongCurve(const Kokkos::View<std::uint64_t*>& at_places) {
@@ -36,9 +36,9 @@ class WorkAlongCurve {
       sum_.push_back(sum_.back() + static_cast<std::int64_t>(grain & 0xffffffffu));
   }
   std::int64_t total() const { return sum_.back(); }
-  /// Of the places before this one.
-  std::int64_t before(std::uint32_t place) const {
-    const auto at = std::lower_bound(grain_.begin(), grain_.end(), std::uint64_t{place} << 32);
+  /// Of the codes before this one.
+  std::int64_t before(std::uint32_t code) const {
+    const auto at = std::lower_bound(grain_.begin(), grain_.end(), std::uint64_t{code} << 32);
     return sum_[static_cast<std::size_t>(at - grain_.begin())];
   }
 
