@@ -19,7 +19,7 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidS
   return std::make_shared<const PlaneFft>(grid, walls);
 }
 
-WallFaces ends_of(const RankLine& line, int n) {
+WallFaces ends_of(const RankAxis& line, int n) {
   WallFaces faces;
   if (line.position == 0) faces.first = 0;
   if (line.position + 1 == line.count) faces.last = n;
@@ -51,12 +51,12 @@ void CouplingGrid::fill_ghosts(CellVector& f) const {
 
 WallFaces CouplingGrid::wall_faces_x() const {
   if (!walls.x) return {};
-  return ends_of(grid.ranks ? grid.ranks->along_x() : RankLine{}, grid.nx);
+  return ends_of(grid.ranks ? grid.ranks->along_x() : RankAxis{}, grid.nx);
 }
 
 WallFaces CouplingGrid::wall_faces_z() const {
   if (!walls.z) return {};
-  return ends_of(grid.ranks ? grid.ranks->along_z() : RankLine{}, grid.nz);
+  return ends_of(grid.ranks ? grid.ranks->along_z() : RankAxis{}, grid.nz);
 }
 
 }  // namespace barchan

@@ -13,7 +13,7 @@ namespace {
 
 /// One direction. Points beyond the end of a pencil lie in its ghosts; beyond an end of the domain
 /// they wrap by `length`, or without a period belong to the last cell.
-void set_ends(const RankLine& line, bool periodic, int n, Real& length, int& low, int& high) {
+void set_ends(const RankAxis& line, bool periodic, int n, Real& length, int& low, int& high) {
   if (!periodic || line.count > 1) length = 0;
   if (line.count == 1) return;
   if (periodic || line.position > 0) low = -1;
@@ -29,8 +29,8 @@ DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real
   DepositStencil stencil = deposit_stencil_in(grid, PointModel::divided, periodic_x);
   if (kind == VoidFraction::centre) stencil.points = PointModel::centre;
   if (kind == VoidFraction::cfdem_faithful) stencil.points = PointModel::cfdem;
-  const RankLine along_x = grid.ranks ? grid.ranks->along_x() : RankLine{};
-  const RankLine along_z = grid.ranks ? grid.ranks->along_z() : RankLine{};
+  const RankAxis along_x = grid.ranks ? grid.ranks->along_x() : RankAxis{};
+  const RankAxis along_z = grid.ranks ? grid.ranks->along_z() : RankAxis{};
   set_ends(along_x, periodic_x, grid.nx, stencil.box.lx, stencil.i_low, stencil.i_high);
   set_ends(along_z, periodic_z, grid.nz, stencil.box.lz, stencil.k_low, stencil.k_high);
   const Real reach = kOuterShell * r_max;

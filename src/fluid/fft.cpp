@@ -8,8 +8,8 @@ namespace barchan {
 
 namespace {
 
-RankLine along_x(const Grid& grid) { return grid.ranks ? grid.ranks->along_x() : RankLine{}; }
-RankLine along_z(const Grid& grid) { return grid.ranks ? grid.ranks->along_z() : RankLine{}; }
+RankAxis along_x(const Grid& grid) { return grid.ranks ? grid.ranks->along_x() : RankAxis{}; }
+RankAxis along_z(const Grid& grid) { return grid.ranks ? grid.ranks->along_z() : RankAxis{}; }
 
 StridedArray inside(const Field& f) { return {f.origin, {1, f.stride_y, f.stride_z}}; }
 StridedArray array(const Spectrum& s) {
@@ -76,9 +76,10 @@ PlaneFft::PlaneFft(const Grid& grid, Mirrors mirrors)
                  ? lines_in_field(grid)
                  : lines_in_a_row(with(rows_.joined_extents(), 0, period_x_)),
              {period_z_, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
-      first_x_(Split{.n = period_x_ / 2 + 1, .parts = along_z(grid).count}.begin(
+      first_x_(BlockPartition{.n = period_x_ / 2 + 1, .parts = along_z(grid).count}.begin(
           along_z(grid).position)),
-      first_z_(Split{.n = period_z_, .parts = along_x(grid).count}.begin(along_x(grid).position)) {
+      first_z_(BlockPartition{.n = period_z_, .parts = along_x(grid).count}.begin(
+          along_x(grid).position)) {
   if (!rows_.is_trivial() || mirrors.x)
     lines_of_x_ =
         view_of<Field::Storage>("fft: lines of x", with(rows_.joined_extents(), 0, period_x_));

@@ -67,7 +67,7 @@ GrainState make_grain_entries(int n, MPI_Comm ranks) {
 
 GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm ranks) {
   const int n_all = static_cast<int>(initial.size());
-  const Split shares{.n = n_all, .parts = rank_count(ranks)};
+  const BlockPartition shares{.n = n_all, .parts = rank_count(ranks)};
   const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
   GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;

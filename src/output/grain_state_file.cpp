@@ -155,7 +155,7 @@ Piece my_entries(const CheckpointReader& file, MPI_Comm ranks) {
   if (n > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
     file.fail(fmt::format("it holds {} grains, more than this version can count", n));
   if (const auto piece = my_piece(file, "grains/of_rank", n, ranks)) return *piece;
-  const Split split{.n = static_cast<int>(n), .parts = rank_count(ranks)};
+  const BlockPartition split{.n = static_cast<int>(n), .parts = rank_count(ranks)};
   const auto begin = [&](int rank) { return static_cast<std::uint64_t>(split.begin(rank)); };
   return {begin(rank_of(ranks)), begin(rank_of(ranks) + 1)};
 }

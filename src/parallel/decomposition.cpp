@@ -13,12 +13,12 @@ namespace {
 /// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
 /// or written six times on its way; some 40 fields whose halos are exchanged; and what a message
 /// costs however short it is, about 400 numbers a row.
-double cost_of(const Split& x, const Split& z) {
+double cost_of(const BlockPartition& x, const BlockPartition& z) {
   const double cells = double(x.n) * z.n / (double(x.parts) * z.parts);
   const auto transposes = [cells](int parts, int numbers, int times) {
     return parts == 1 ? 0 : 6 * numbers * cells + 400 * times * (parts - 1);
   };
-  const auto halo = [](int parts, const Split& other) {
+  const auto halo = [](int parts, const BlockPartition& other) {
     return parts == 1 ? 0 : 2.0 * other.count(0);
   };
   return transposes(x.parts, 3, 4) + transposes(z.parts, 2, 2) +
@@ -49,8 +49,8 @@ int best_count_along_x(int count, int nx, int nz) {
       count, nx, nz, Decomposition::kThinnest, fewer));
 }
 
-RankLine line_of(MPI_Comm all, int colour, int key) {
-  RankLine line;
+RankAxis line_of(MPI_Comm all, int colour, int key) {
+  RankAxis line;
   MPI_Comm_split(all, colour, key, &line.communicator);
   MPI_Comm_size(line.communicator, &line.count);
   MPI_Comm_rank(line.communicator, &line.position);

@@ -11,18 +11,18 @@
 namespace barchan {
 
 /// [0, n) in consecutive parts, as equal as can be, the longer ones first.
-struct Split {
+struct BlockPartition {
   int n = 1, parts = 1;
   int begin(int part) const { return part * (n / parts) + std::min(part, n % parts); }
   int count(int part) const { return begin(part + 1) - begin(part); }
 };
 
 /// The ranks side by side along one periodic direction.
-struct RankLine {
+struct RankAxis {
   MPI_Comm communicator = MPI_COMM_NULL;
   int count = 1, position = 0;
-  int before() const { return (position + count - 1) % count; }
-  int after() const { return (position + 1) % count; }
+  int lower() const { return (position + count - 1) % count; }
+  int upper() const { return (position + 1) % count; }
 };
 
 /// nx x nz columns of cells, cut into pencils of full height, a rank each. The shape is the one
@@ -45,16 +45,16 @@ class Decomposition {
   Decomposition(const Decomposition&) = delete;
   Decomposition& operator=(const Decomposition&) = delete;
 
-  const Split& x() const { return x_; }
-  const Split& z() const { return z_; }
+  const BlockPartition& x() const { return x_; }
+  const BlockPartition& z() const { return z_; }
   /// The ranks that share this one's z, and its x.
-  const RankLine& along_x() const { return along_x_; }
-  const RankLine& along_z() const { return along_z_; }
+  const RankAxis& along_x() const { return along_x_; }
+  const RankAxis& along_z() const { return along_z_; }
   MPI_Comm all() const { return all_; }
 
  private:
-  Split x_, z_;
-  RankLine along_x_, along_z_;
+  BlockPartition x_, z_;
+  RankAxis along_x_, along_z_;
   MPI_Comm all_ = MPI_COMM_NULL;
 };
 

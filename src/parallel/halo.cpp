@@ -21,12 +21,12 @@ void exchange_planes(const HaloBuffers& buffers, const BoxShape& plane, const Pl
   const auto halves = [n](const MessageBuffer& b) { return Planes<Real>{b.data(), b.data() + n}; };
   copy_boxes<BoxCopy::pack>("halo: pack", plane, from, halves(send));
   // Both neighbours may be the same rank: what is sent forth first is received from before first.
-  const MessageBlock before{line.before(), 0, n}, after{line.after(), n, n};
+  const MessageBlock before{line.lower(), 0, n}, after{line.upper(), n, n};
   exchange(line.communicator, send, std::array{after, before}, receive, std::array{before, after});
   copy_boxes<take>(take == BoxCopy::add ? "halo: add" : "halo: unpack", plane, to, halves(receive));
 }
 
-HaloBuffers buffers_for(const RankLine& line, int n) {
+HaloBuffers buffers_for(const RankAxis& line, int n) {
   if (line.count == 1) return {};
   const std::size_t room = 2 * static_cast<std::size_t>(n);
   return {line, {"halo: send", room}, {"halo: receive", room}};

@@ -10,7 +10,7 @@ namespace barchan {
 
 /// Messages to and from the two neighbours along a direction, that for the rank before first.
 struct HaloBuffers {
-  RankLine line;
+  RankAxis line;
   MessageBuffer send, receive;  // empty where the direction is not cut
   bool is_cut() const { return line.count > 1; }
 };

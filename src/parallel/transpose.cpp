@@ -4,11 +4,11 @@
 
 namespace barchan {
 
-Transpose::Transpose(const RankLine& line, std::array<int, 3> whole, std::size_t shared,
+Transpose::Transpose(const RankAxis& line, std::array<int, 3> whole, std::size_t shared,
                      std::size_t split, int width)
     : line_(line), width_(width), cut_(whole), joined_(whole) {
-  const Split of_shared{.n = whole[shared], .parts = line.count};
-  const Split of_split{.n = whole[split], .parts = line.count};
+  const BlockPartition of_shared{.n = whole[shared], .parts = line.count};
+  const BlockPartition of_split{.n = whole[split], .parts = line.count};
   cut_[shared] = of_shared.count(line.position);
   joined_[split] = of_split.count(line.position);
   if (is_trivial()) return;
@@ -17,7 +17,7 @@ Transpose::Transpose(const RankLine& line, std::array<int, 3> whole, std::size_t
 }
 
 Transpose::Side Transpose::make_side(const std::array<int, 3>& extents, std::size_t axis,
-                                     const Split& split, const char* label) const {
+                                     const BlockPartition& split, const char* label) const {
   std::vector<int> planes;
   for (int rank = 0; rank < line_.count; ++rank) planes.push_back(split.count(rank));
   const int all = width_ * extents[0] * extents[1] * extents[2];

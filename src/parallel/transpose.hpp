@@ -21,7 +21,7 @@ struct StridedArray {
 class Transpose {
  public:
   /// `whole`: extents with both axes whole.
-  Transpose(const RankLine& line, std::array<int, 3> whole, std::size_t shared, std::size_t split,
+  Transpose(const RankAxis& line, std::array<int, 3> whole, std::size_t shared, std::size_t split,
             int width);
 
   /// With one rank in the line both arrays are the same, and nobody has to move anything.
@@ -40,18 +40,18 @@ class Transpose {
   struct Side {
     std::array<int, 3> extents{};
     std::size_t axis = 0;
-    Split split;
+    BlockPartition split;
     std::vector<MessageBlock> blocks;
     MessageBuffer buffer;
   };
-  Side make_side(const std::array<int, 3>& extents, std::size_t axis, const Split& split,
+  Side make_side(const std::array<int, 3>& extents, std::size_t axis, const BlockPartition& split,
                  const char* label) const;
   void move(const Side& from, const StridedArray& source, const Side& to,
             const StridedArray& target) const;
   template <BoxCopy how>
   void copy(const Side& side, const StridedArray& array) const;
 
-  RankLine line_;
+  RankAxis line_;
   int width_;
   std::array<int, 3> cut_, joined_;
   Side cut_side_, joined_side_;

@@ -27,7 +27,7 @@ SharedGrid awkward(int along_x) { return {kCells, kSize, 1e-3, along_x}; }
 TEST(Decomposition, SplitsAreEvenAndComplete) {
   for (const int n : {1, 2, 7, 63, 250}) {
     for (int parts = 1; parts <= 9; ++parts) {
-      const Split split{.n = n, .parts = parts};
+      const BlockPartition split{.n = n, .parts = parts};
       EXPECT_EQ(split.begin(0), 0);
       EXPECT_EQ(split.begin(parts), n);
       for (int p = 0; p < parts; ++p) {
@@ -46,9 +46,9 @@ TEST(Decomposition, EveryColumnHasOneOwner) {
   EXPECT_GE(grid.mine.nx, 2);
   EXPECT_GE(grid.mine.nz, 2);
   // The rank behind along x begins where this one ends.
-  const RankLine& line = grid.ranks->along_x();
+  const RankAxis& line = grid.ranks->along_x();
   int next = 0, end = (grid.mine.i_begin + grid.mine.nx) % 11;
-  MPI_Sendrecv(&grid.mine.i_begin, 1, MPI_INT, line.before(), 0, &next, 1, MPI_INT, line.after(), 0,
+  MPI_Sendrecv(&grid.mine.i_begin, 1, MPI_INT, line.lower(), 0, &next, 1, MPI_INT, line.upper(), 0,
                line.communicator, MPI_STATUS_IGNORE);
   EXPECT_EQ(next, end);
 }

@@ -52,7 +52,7 @@ MessageCounts fill(const Grid& grid, int ny) {
 MessageCounts fill(const Grid& grid) { return fill(grid, grid.ny); }
 
 /// To the other ranks of a line their part of `split` of all `n_here` and `others` here.
-MessageCounts shares(int place, int n_here, const Split& split, int others, int width) {
+MessageCounts shares(int place, int n_here, const BlockPartition& split, int others, int width) {
   MessageCounts sum;
   for (int p = 0; p < split.parts; ++p) {
     const std::int64_t numbers = std::int64_t{n_here} * split.count(p) * others * width;
@@ -62,18 +62,18 @@ MessageCounts shares(int place, int n_here, const Split& split, int others, int 
 }
 
 /// The axis `shared` made whole at the cost of `split`, and cut again.
-MessageCounts there_and_back(const RankLine& line, const Split& shared, const Split& split,
-                             int others, int width) {
+MessageCounts there_and_back(const RankAxis& line, const BlockPartition& shared,
+                             const BlockPartition& split, int others, int width) {
   return shares(line.position, shared.count(line.position), split, others, width) +
          shares(line.position, split.count(line.position), shared, others, width);
 }
 
 /// Lines of x, lines of z, rows.
 MessageCounts fft_solve(const Grid& grid) {
-  const RankLine &x = grid.ranks->along_x(), &z = grid.ranks->along_z();
-  const Split cells_x{grid.nx_all, x.count}, cells_z{grid.nz_all, z.count};
-  const Split rows{grid.ny, x.count}, planes{grid.nz_all, x.count};
-  const Split modes{grid.nx_all / 2 + 1, z.count};
+  const RankAxis &x = grid.ranks->along_x(), &z = grid.ranks->along_z();
+  const BlockPartition cells_x{grid.nx_all, x.count}, cells_z{grid.nz_all, z.count};
+  const BlockPartition rows{grid.ny, x.count}, planes{grid.nz_all, x.count};
+  const BlockPartition modes{grid.nx_all / 2 + 1, z.count};
   return there_and_back(x, cells_x, rows, grid.nz, 1) +
          there_and_back(z, cells_z, modes, rows.count(x.position), 2) +
          there_and_back(x, rows, planes, modes.count(z.position), 2);
@@ -121,7 +121,7 @@ MessageCounts exchange(const Grid& grid) {
 std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& grains) {
   std::vector<int> n(static_cast<std::size_t>(n_ranks()));
   const auto kin = testing::host_copy(grains.kin);
-  const auto part = [](const Split& split, Real at, Real spacing) {
+  const auto part = [](const BlockPartition& split, Real at, Real spacing) {
     int p = 0;
     while (p + 1 < split.parts && at >= split.begin(p + 1) * spacing) ++p;
     return p;
