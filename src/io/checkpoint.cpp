@@ -115,13 +115,13 @@ template void CheckpointWriter::scalar(const std::string&, double);
 template void CheckpointWriter::scalar(const std::string&, std::int64_t);
 
 void CheckpointWriter::array(const std::string& name, std::span<const double> values,
-                             const Extents& extents, const Share& share) {
-  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "SI", share);
+                             const Extents& extents, const Hyperslab& slab) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "SI", slab);
 }
 
 void CheckpointWriter::array(const std::string& name, std::span<const std::int64_t> values,
-                             const Extents& extents, const Share& share) {
-  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "1", share);
+                             const Extents& extents, const Hyperslab& slab) {
+  file_.write(name, values, extents.empty() ? Extents{values.size()} : extents, "1", slab);
 }
 
 std::filesystem::path CheckpointWriter::commit(int keep) {

@@ -94,11 +94,11 @@ class CheckpointWriter {
   template <class T>
   void scalar(const std::string& name, T value);
 
-  /// `extents` slowest first; empty: one row of values. `share`: see Hdf5File.
+  /// `extents` slowest first; empty: one row of values. `slab`: see Hdf5File.
   void array(const std::string& name, std::span<const double> values, const Extents& extents = {},
-             const Share& share = {});
+             const Hyperslab& slab = {});
   void array(const std::string& name, std::span<const std::int64_t> values,
-             const Extents& extents = {}, const Share& share = {});
+             const Extents& extents = {}, const Hyperslab& slab = {});
 
   /// A host or device view of rank 1 to 3 of numbers, Vec3 or plain structs of doubles. Where only
   /// the first n rows count, pass a subview.

@@ -59,10 +59,10 @@ Handle array_creation_list() {
 
 template <class T>
 void Hdf5File::put_checksum(const std::string& name, std::span<const T> values,
-                            const Extents& extents, const Share& share) {
-  std::uint64_t sum = 0;  // of this rank's share
-  if (!share.whole.empty()) {
-    sum = checksum(values, extents, share.whole, share.first);
+                            const Extents& extents, const Hyperslab& slab) {
+  std::uint64_t sum = 0;  // of this rank's slab
+  if (!slab.whole.empty()) {
+    sum = checksum(values, extents, slab.whole, slab.first);
   } else if (is_root_) {
     sum = checksum(values, extents, extents, Extents(extents.size(), 0));
   }
@@ -72,8 +72,8 @@ void Hdf5File::put_checksum(const std::string& name, std::span<const T> values,
 
 template <class T>
 void Hdf5File::write(const std::string& name, std::span<const T> values, const Extents& extents,
-                     std::string_view units, const Share& share) {
-  const Extents& whole = share.whole.empty() ? extents : share.whole;
+                     std::string_view units, const Hyperslab& slab) {
+  const Extents& whole = slab.whole.empty() ? extents : slab.whole;
   std::uint64_t count = 0, count_of_all = 0;
   count_elements(whole, count_of_all);
   if (extents.empty() || !count_elements(extents, count) || count != values.size()) {
@@ -88,11 +88,11 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
                                       creation.get(), H5P_DEFAULT),
                            name),
                      H5Dclose);
-  if (values.empty() || (share.whole.empty() && !is_root_)) {
+  if (values.empty() || (slab.whole.empty() && !is_root_)) {
     check(H5Sselect_none(memory.get()), name);
     check(H5Sselect_none(file.get()), name);
-  } else if (!share.whole.empty()) {
-    check(select_block(file, share.first, extents), name);
+  } else if (!slab.whole.empty()) {
+    check(select_block(file, slab.first, extents), name);
   }
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (parallel_) check(H5Pset_dxpl_mpio(transfer.get(), H5FD_MPIO_COLLECTIVE), name);
@@ -103,7 +103,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
           name);
   }
   set_attribute(name, "units", units);
-  if (mode_ != Mode::create_sealable) put_checksum(name, values, extents, share);
+  if (mode_ != Mode::create_sealable) put_checksum(name, values, extents, slab);
   check_writes();  // no need to go on with a full disk
 }
 
@@ -188,7 +188,7 @@ std::vector<T> Hdf5File::read(const std::string& name, const Extents& whole, con
 
 #define BARCHAN_HDF5_ARRAYS(T)                                                               \
   template void Hdf5File::write(const std::string&, std::span<const T>, const Extents&,      \
-                                std::string_view, const Share&);                             \
+                                std::string_view, const Hyperslab&);                         \
   template std::vector<T> Hdf5File::read(const std::string&, const Extents&, const Extents&, \
                                          const Extents&) const;
 BARCHAN_HDF5_ARRAYS(float)
@@ -197,7 +197,7 @@ BARCHAN_HDF5_ARRAYS(std::int32_t)
 BARCHAN_HDF5_ARRAYS(std::int64_t)
 #undef BARCHAN_HDF5_ARRAYS
 
-Share share_of_entries(std::uint64_t n, MPI_Comm ranks) {
+Hyperslab slab_of_entries(std::uint64_t n, MPI_Comm ranks) {
   if (rank_count(ranks) == 1) return {};
   std::uint64_t before = 0, all = 0;
   MPI_Exscan(&n, &before, 1, MPI_UINT64_T, MPI_SUM, ranks);
@@ -205,12 +205,12 @@ Share share_of_entries(std::uint64_t n, MPI_Comm ranks) {
   return {.whole = {all}, .first = {rank_of(ranks) == 0 ? 0 : before}};
 }
 
-Share share_of(const Share& rows, const Extents& extents, std::size_t dimension) {
+Hyperslab slab_of(const Hyperslab& rows, const Extents& extents, std::size_t dimension) {
   if (rows.whole.empty()) return {};
-  Share share{.whole = extents, .first = Extents(extents.size(), 0)};
-  share.whole[dimension] = rows.whole[0];
-  share.first[dimension] = rows.first[0];
-  return share;
+  Hyperslab slab{.whole = extents, .first = Extents(extents.size(), 0)};
+  slab.whole[dimension] = rows.whole[0];
+  slab.first[dimension] = rows.first[0];
+  return slab;
 }
 
 }  // namespace barchan

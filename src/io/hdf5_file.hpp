@@ -32,17 +32,17 @@ struct ArrayInfo {
   Extents extents;
 };
 
-/// Where this rank's share of an array lies: the whole array, and the first element of the share.
-/// Default: the share is the whole.
-struct Share {
+/// Where this rank's slab of an array lies: the whole array, and the first element of the slab.
+/// Default: the slab is the whole.
+struct Hyperslab {
   Extents whole, first;
 };
 
 /// This rank's n rows among those of all ranks, one rank after the other; the default on one rank.
-Share share_of_entries(std::uint64_t n, MPI_Comm ranks);
+Hyperslab slab_of_entries(std::uint64_t n, MPI_Comm ranks);
 
-/// The share of an array of `extents`, one of which is that of the rows.
-Share share_of(const Share& rows, const Extents& extents, std::size_t dimension);
+/// The slab of an array of `extents`, one of which is that of the rows.
+Hyperslab slab_of(const Hyperslab& rows, const Extents& extents, std::size_t dimension);
 
 /// One open HDF5 file. With a communicator of more than one rank it is opened in parallel; every
 /// call is then collective, with equal arguments except the values and the shares.
@@ -80,11 +80,11 @@ class Hdf5File {
   void publish_group();
 
   /// T is float, double, std::int32_t or std::int64_t. `extents` are those of `values`. Without a
-  /// share, what rank 0 has is written. The attribute "checksum" tells a reader that the values are
+  /// slab, what rank 0 has is written. The attribute "checksum" tells a reader that the values are
   /// those that were written; a file that is sealed needs none.
   template <class T>
   void write(const std::string& name, std::span<const T> values, const Extents& extents,
-             std::string_view units, const Share& share = {});
+             std::string_view units, const Hyperslab& slab = {});
 
   /// Type and extents of an array; extents are checked against the file's size before they are
   /// believed.
@@ -124,7 +124,7 @@ class Hdf5File {
   void check_writes() const;
   template <class T>
   void put_checksum(const std::string& name, std::span<const T> values, const Extents& extents,
-                    const Share& share);
+                    const Hyperslab& slab);
   /// As read(), of an array that is known.
   template <class T>
   std::vector<T> read_as(const std::string& name, const ArrayInfo& found, const Extents& first,

@@ -43,10 +43,10 @@ void for_each_saved_array(const GrainState& s, const F& f) {
 /// not always the entries, runs slowest, but for components.
 template <class View>
 void save_entries(CheckpointWriter& file, const std::string& name, const View& mine,
-                  const Share& entries) {
+                  const Hyperslab& entries) {
   const auto numbers = checkpoint_detail::to_numbers(mine);
   const Extents extents = checkpoint_detail::file_extents(mine);
-  file.array(name, std::span(numbers), extents, share_of(entries, extents, View::rank() - 1));
+  file.array(name, std::span(numbers), extents, slab_of(entries, extents, View::rank() - 1));
 }
 
 /// Entries [begin, begin + entries of the view) of n_all.
@@ -162,7 +162,7 @@ Piece my_entries(const CheckpointReader& file, MPI_Comm ranks) {
 
 void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Comm ranks,
                         std::int64_t mine) {
-  file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, share_of_entries(1, ranks));
+  file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, slab_of_entries(1, ranks));
 }
 
 /// All contacts of this rank's list, by the ids of both grains: one of owned and ghost grain is on
@@ -181,7 +181,7 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   for (int p = 0; p < list.n_pairs; ++p) {
     if (touching(p)) pairs.push_back(p);
   }
-  const Share entries = share_of_entries(pairs.size(), s.ranks);
+  const Hyperslab entries = slab_of_entries(pairs.size(), s.ranks);
   const auto save = [&](const char* name, const auto& value_of) {
     const HostRows<decltype(value_of(0))> values(name, pairs.size());
     std::transform(pairs.begin(), pairs.end(), values.data(), value_of);
@@ -197,7 +197,7 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
 }  // namespace
 
 void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList& list) {
-  const Share entries = share_of_entries(static_cast<std::uint64_t>(s.n), s.ranks);
+  const Hyperslab entries = slab_of_entries(static_cast<std::uint64_t>(s.n), s.ranks);
   for_each_saved_array(s, [&](const std::string& name, const auto& array) {
     save_entries(file, name, first_entries(array, s.n), entries);
   });

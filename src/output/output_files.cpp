@@ -20,12 +20,12 @@ auto on_host(const View& view) {
 /// An array of this rank's grains, scalars (n) or vectors (n, 3), among those of all ranks.
 template <class View>
 void write_entries(Hdf5File& file, const std::string& name, const View& view, const char* units,
-                   const Share& entries) {
+                   const Hyperslab& entries) {
   const auto host = on_host(view);
   Extents extents{host.extent(0)};
   if (View::rank() == 2) extents.push_back(host.extent(1));
   file.write(name, std::span<const typename View::non_const_value_type>(host.data(), host.size()),
-             extents, units, share_of(entries, extents, 0));
+             extents, units, slab_of(entries, extents, 0));
 }
 
 auto ids_of(const GrainState& grains) {
@@ -42,8 +42,8 @@ class FieldWriter {
         values_("output: frame field", grid.nx, grid.ny, grid.nz),
         extents_{size(grid.nz), size(grid.ny), size(grid.nx)} {
     if (!grid.ranks) return;
-    share_ = {.whole = {size(grid.nz_all), size(grid.ny), size(grid.nx_all)},
-              .first = {size(grid.k_begin), 0, size(grid.i_begin)}};
+    slab_ = {.whole = {size(grid.nz_all), size(grid.ny), size(grid.nx_all)},
+             .first = {size(grid.k_begin), 0, size(grid.i_begin)}};
   }
 
   void centred(const std::string& name, const Field& field, const std::string& units) {
@@ -64,7 +64,7 @@ class FieldWriter {
     Kokkos::parallel_for("output: average to centres", cells_, functor);
     const auto host = on_host(values_);
     file_.write(group_ + "/" + name, std::span<const float>(host.data(), host.size()), extents_,
-                units, share_);
+                units, slab_);
   }
 
   Hdf5File& file_;
@@ -72,11 +72,11 @@ class FieldWriter {
   Cells cells_;
   FrameField values_;
   Extents extents_;
-  Share share_;
+  Hyperslab slab_;
 };
 
 void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
-                  const Share& entries) {
+                  const Hyperslab& entries) {
   if (dunes)
     file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", entries);
 }
@@ -85,7 +85,7 @@ void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::D
 void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
                    std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
-  const Share entries = share_of_entries(n, grains.ranks);
+  const Hyperslab entries = slab_of_entries(n, grains.ranks);
   const Entries range(0, grains.n);
   const SplitGrains split{.grains = grains.kin,
                           .x = FrameVectors<double>("output: x", n),
@@ -190,7 +190,7 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
                                const DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
-  const Share entries = share_of_entries(n, grains.ranks);
+  const Hyperslab entries = slab_of_entries(n, grains.ranks);
   const FrameVectors<float> x("output: track", n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(

@@ -123,7 +123,7 @@ Shares exact(const Vec3& x, double r) {
   return s;
 }
 
-/// Share of the grain that lies in wrong cells.
+/// Hyperslab of the grain that lies in wrong cells.
 double misplaced(const Shares& a, const Shares& b) {
   double sum = 0;
   for (const auto& [cell, share] : a)
