@@ -27,7 +27,7 @@ cleanup() {
 trap cleanup EXIT
 trap 'exit 130' INT TERM
 
-# Mirrors that this machine's own apt is set to, those with the suite of this system first (third
+# EvenExtension that this machine's own apt is set to, those with the suite of this system first (third
 # parties and security updates have suites of other names); works before the first apt-get update too.
 list_mirrors() {
   local codename

@@ -14,8 +14,8 @@ Real square(Real a) { return a * a; }
 /// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
 /// or with walls others.
 std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidSolver& solver,
-                                              const Grid& grid, const Mirrors& walls) {
-  if (walls == Mirrors{} || config.coupling.smoothing_length == 0) return solver.fft();
+                                              const Grid& grid, const EvenExtension& walls) {
+  if (walls == EvenExtension{} || config.coupling.smoothing_length == 0) return solver.fft();
   return std::make_shared<const PlaneFft>(grid, walls);
 }
 

@@ -34,7 +34,7 @@ struct CouplingGrid {
   DepositStencil stencil;
   bool by_row;            // the exchange of momentum
   Real smoothing_length;  // [m]; 0: none
-  Mirrors walls;          // of the grains, where the smoothing ends
+  EvenExtension walls;    // of the grains, where the smoothing ends
   PoissonFft smoother;
 };
 

@@ -65,14 +65,14 @@ void mirror_planes(const Spectrum& modes) {
 
 }  // namespace
 
-PlaneFft::PlaneFft(const Grid& grid, Mirrors mirrors)
-    : mirrors_(mirrors),
-      period_x_(mirrors.x ? 2 * grid.nx_all : grid.nx_all),
-      period_z_(mirrors.z ? 2 * grid.nz_all : grid.nz_all),
+PlaneFft::PlaneFft(const Grid& grid, EvenExtension even)
+    : even_(even),
+      period_x_(even.x ? 2 * grid.nx_all : grid.nx_all),
+      period_z_(even.z ? 2 * grid.nz_all : grid.nz_all),
       rows_(along_x(grid), {grid.nx_all, grid.ny, grid.nz}, 0, 1, 1),
       planes_(along_z(grid), {period_x_ / 2 + 1, rows_.joined_extents()[1], grid.nz_all}, 2, 0, 2),
       columns_(along_x(grid), {planes_.joined_extents()[0], grid.ny, period_z_}, 1, 2, 2),
-      lines_(rows_.is_trivial() && !mirrors.x
+      lines_(rows_.is_trivial() && !even.x
                  ? lines_in_field(grid)
                  : lines_in_a_row(with(rows_.joined_extents(), 0, period_x_)),
              {period_z_, planes_.joined_extents()[0], planes_.joined_extents()[1]}),
@@ -80,7 +80,7 @@ PlaneFft::PlaneFft(const Grid& grid, Mirrors mirrors)
           along_z(grid).position)),
       first_z_(BlockPartition{.n = period_z_, .parts = along_x(grid).count}.begin(
           along_x(grid).position)) {
-  if (!rows_.is_trivial() || mirrors.x)
+  if (!rows_.is_trivial() || even.x)
     lines_of_x_ =
         view_of<Field::Storage>("fft: lines of x", with(rows_.joined_extents(), 0, period_x_));
   if (!planes_.is_trivial())
@@ -97,7 +97,7 @@ PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
 }
 
 StridedArray PlaneFft::lines_of_x(const Field& f) const {
-  if (rows_.is_trivial() && !mirrors_.x) return inside(f);
+  if (rows_.is_trivial() && !even_.x) return inside(f);
   return contiguous(lines_of_x_.data(), with(rows_.joined_extents(), 0, period_x_));
 }
 
@@ -105,12 +105,12 @@ void PlaneFft::forward(const Field& in, const Spectrum& out) const {
   const Stages stage = stages(out);
   const StridedArray lines = lines_of_x(in);
   if (!rows_.is_trivial()) rows_.join(inside(in), lines);
-  if (mirrors_.x) {
+  if (even_.x) {
     copy_lines(rows_.is_trivial() ? inside(in) : lines, lines, rows_.joined_extents(), true);
   }
   lines_.forward_x(lines.data, stage.rows.data());
   if (!planes_.is_trivial()) planes_.join(array(stage.rows), array(stage.planes));
-  if (mirrors_.z) mirror_planes(stage.planes);
+  if (even_.z) mirror_planes(stage.planes);
   lines_.forward_z(stage.planes.data());
   if (!columns_.is_trivial()) columns_.join(array(stage.planes), array(out));
 }
@@ -124,7 +124,7 @@ void PlaneFft::backward(const Spectrum& in, Field& out) const {
   lines_.backward_x(stage.rows.data(), lines.data);
   if (!rows_.is_trivial()) {
     rows_.cut(lines, inside(out));
-  } else if (mirrors_.x) {
+  } else if (even_.x) {
     copy_lines(lines, inside(out), rows_.joined_extents(), false);
   }
 }

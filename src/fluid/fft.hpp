@@ -12,13 +12,13 @@ using Spectrum = Kokkos::View<Kokkos::complex<Real>***, Kokkos::LayoutLeft>;
 
 /// Directions in which a field goes on as its mirror image beyond both ends: zero gradient there.
 /// Else it goes on periodically.
-struct Mirrors {
+struct EvenExtension {
   bool x = false, z = false;
-  bool operator==(const Mirrors&) const = default;
+  bool operator==(const EvenExtension&) const = default;
 };
 
 /// Both directions without normalisation: backward(forward(f)) = period_x period_z f. All ranks
-/// call together. With mirrors the field and its image are one period, at twice the cost: the
+/// call together. With even the field and its image are one period, at twice the cost: the
 /// image is made where a line is whole, and dropped there again.
 ///
 /// Over ranks the lines of x, then of z, then the rows are made whole, three transposes in each
@@ -27,7 +27,7 @@ struct Mirrors {
 /// where a prime means a share of the ranks beside each other.
 class PlaneFft {
  public:
-  explicit PlaneFft(const Grid& grid, Mirrors mirrors = {});
+  explicit PlaneFft(const Grid& grid, EvenExtension even = {});
 
   /// Room for one spectrum, for those who transform there and straight back.
   const Spectrum& spectrum() const { return spectrum_; }
@@ -49,7 +49,7 @@ class PlaneFft {
   Stages stages(const Spectrum& modes) const;
   StridedArray lines_of_x(const Field& f) const;
 
-  Mirrors mirrors_;
+  EvenExtension even_;
   int period_x_ = 0, period_z_ = 0;
   Transpose rows_, planes_, columns_;  // that make the lines of x, the lines of z, the rows whole
   LineFft lines_;

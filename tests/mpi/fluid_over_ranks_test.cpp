@@ -97,12 +97,12 @@ TEST(PoissonOverRanks, AsOnOneRank) {
       PoissonFft(grid.mine, std::make_shared<const PlaneFft>(grid.mine), mass, 1e-5).solve(f, phi);
       EXPECT_LT(grid.difference(phi_whole, phi), 1e-14 * 10);
     }
-    for (const Mirrors mirrors :
-         {Mirrors{true, false}, Mirrors{false, true}, Mirrors{true, true}}) {
+    for (const EvenExtension even :
+         {EvenExtension{true, false}, EvenExtension{false, true}, EvenExtension{true, true}}) {
       Field f("f", grid.mine), f_whole("f", grid.whole);
       grid.set(f_whole, f, [](int i, int j, int k) { return noise(i, j, k, 2); });
       for (const auto& [cells, field] : {std::pair{&grid.whole, &f_whole}, {&grid.mine, &f}}) {
-        PoissonFft(*cells, std::make_shared<const PlaneFft>(*cells, mirrors), 1, 1e-5)
+        PoissonFft(*cells, std::make_shared<const PlaneFft>(*cells, even), 1, 1e-5)
             .solve(*field, *field);
       }
       EXPECT_LT(grid.difference(f_whole, f), 1e-14 * 10);

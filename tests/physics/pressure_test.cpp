@@ -112,11 +112,12 @@ TEST(FluidSmoother, MirrorsDampCosinesByTheory) {
   const std::array<int, 3> n{9, 4, 7};
   const Grid grid = test::stretched_grid(n, {0.4, 0.3, 0.9}, 0.02);
   const double length = 0.13;
-  for (const Mirrors mirrors : {Mirrors{true, false}, Mirrors{false, true}, Mirrors{true, true}}) {
-    const PoissonFft smoother(grid, std::make_shared<const PlaneFft>(grid, mirrors), 1,
+  for (const EvenExtension even :
+       {EvenExtension{true, false}, EvenExtension{false, true}, EvenExtension{true, true}}) {
+    const PoissonFft smoother(grid, std::make_shared<const PlaneFft>(grid, even), 1,
                               length * length);
-    // Half waves between mirrors, whole waves where the field is periodic.
-    const double a = (mirrors.x ? 3 : 4) * pi / n[0], b = (mirrors.z ? 5 : 2) * pi / n[2];
+    // Half waves between even, whole waves where the field is periodic.
+    const double a = (even.x ? 3 : 4) * pi / n[0], b = (even.z ? 5 : 2) * pi / n[2];
     const auto mode = [&](int i, int, int k) {
       return std::cos(a * (i + 0.5)) * std::cos(b * (k + 0.5));
     };
