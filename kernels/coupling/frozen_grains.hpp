@@ -13,7 +13,7 @@ struct DragOnFrozenGrains {
     const Real infinity = Kokkos::Experimental::infinity_v<Real>;
     const HalfKick half_kick(dt, {.mass = infinity,
                                   .inertia_moment = infinity,
-                                  .per_fluid_mass = on_grains.per_fluid_mass(g),
+                                  .inv_fluid_mass = on_grains.inv_fluid_mass(g),
                                   .beta = on_grains.beta(g),
                                   .added_mass = on_grains.added_mass(g)});
     GrainForces f;

@@ -54,7 +54,7 @@ struct GatherFluid {
 
     on_grains.u_f(g) = flow_at.u(g);
     on_grains.acceleration(g) = a;
-    on_grains.per_fluid_mass(g) = m_f_inv;
+    on_grains.inv_fluid_mass(g) = m_f_inv;
     on_grains.beta(g) = beta;
     on_grains.added_mass(g) = m_added;
     exchange.pressure_force(g) = volume * flow_at.pressure(g);

@@ -22,7 +22,7 @@ struct GatherStillFluid {
     const LocalFlow flow{
         .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};
     on_grains.u_f(g) = on_grains.acceleration(g) = Vec3{};
-    on_grains.per_fluid_mass(g) = 0;
+    on_grains.inv_fluid_mass(g) = 0;
     on_grains.beta(g) = SchillerNaumann{}(flow);
     on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
   }

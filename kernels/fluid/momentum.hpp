@@ -139,11 +139,11 @@ struct Predict {
   FaceRef rate, u_star;
   ConstFaceRef impulse;  // of ExchangeOnFaces
   AdamsBashforth weight;
-  Real per_density;  // 1 / rho [m^3/kg]
+  Real inv_density;  // 1 / rho [m^3/kg]
 
   KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
                                            const Real alpha_here, const Real given) const {
-    return (momentum + weight.now * n + weight.before * n_before + given * per_density) /
+    return (momentum + weight.now * n + weight.before * n_before + given * inv_density) /
            alpha_here;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real at(const ConstFieldRef& f, int i, int j, int k) {

@@ -154,14 +154,14 @@ struct CorrectVelocity {
   GridRef grid;
   ConstFaceRef u_star;
   ConstFieldRef p;   // with ghosts
-  Real per_density;  // 1 / rho
+  Real inv_density;  // 1 / rho
   Real drive_dt, dt;
   FaceRef u, du_dt;
 
   /// Returns the Courant number of the new velocity.
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
-    const Real push = dt * per_density;
+    const Real push = dt * inv_density;
     const Real ux = u_star.x(i, j, k) + (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
     const Real uy = inside * (u_star.y(i, j, k) - push * ddy_at_yface(grid, p, i, j, k));
     const Real uz = u_star.z(i, j, k) - push * ddz_at_zface(grid, p, i, j, k);

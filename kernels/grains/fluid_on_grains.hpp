@@ -10,7 +10,7 @@ namespace barchan {
 struct FluidOnGrains {
   Kokkos::View<Vec3*> u_f;           // as the fluid step begins [m/s]
   Kokkos::View<Vec3*> acceleration;  // of the grain's share of fluid, by all but the grain [m/s^2]
-  Kokkos::View<Real*> per_fluid_mass;  // 1 / mass of that share [1/kg]; 0: u_f does not change
+  Kokkos::View<Real*> inv_fluid_mass;  // 1 / mass of that share [1/kg]; 0: u_f does not change
   Kokkos::View<Real*> beta;            // [kg/s]
   Kokkos::View<Vec3*> steady_force;    // weight, buoyancy, pressure gradient, ... [N]
   Kokkos::View<Real*> added_mass;      // [kg]
@@ -23,7 +23,7 @@ struct FluidOnGrains {
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
-    return u_f(g) + elapsed * acceleration(g) - per_fluid_mass(g) * impulse(g);
+    return u_f(g) + elapsed * acceleration(g) - inv_fluid_mass(g) * impulse(g);
   }
 };
 

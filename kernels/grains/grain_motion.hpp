@@ -84,7 +84,7 @@ struct GrainMotion {
   KOKKOS_FORCEINLINE_FUNCTION MotionCoefficients coefficients(int g, Real mass, Real radius) const {
     MotionCoefficients c{.mass = mass, .inertia_moment = sphere_inertia(mass, radius)};
     if constexpr (effect != FluidEffect::none) {
-      c.per_fluid_mass = fluid.per_fluid_mass(g);
+      c.inv_fluid_mass = fluid.inv_fluid_mass(g);
       c.beta = fluid.beta(g);
       c.added_mass = fluid.added_mass(g);
     }

@@ -10,7 +10,7 @@ namespace barchan {
 struct MotionCoefficients {
   Real mass = 0;            // of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
-  Real per_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
+  Real inv_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]
   Real added_mass = 0;      // F = added_mass d(u_f - u)/dt [kg]
   Real beta_r = 0;          // T = beta_r (spin_f - omega) [N m s]
@@ -35,27 +35,27 @@ struct GrainForces {
 struct HalfKick {
   Real h;
   MotionCoefficients of_grain;
-  Real per_mass, per_moment, with_drag, kept, gained;
+  Real inv_mass, h_over_inertia, with_drag, kept, gained;
 
   KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const MotionCoefficients& coefficients)
       : h(half_step),
         of_grain(coefficients),
-        per_mass(1 / of_grain.mass),
-        per_moment(h / (of_grain.inertia_moment + h * of_grain.beta_r)),
+        inv_mass(1 / of_grain.mass),
+        h_over_inertia(h / (of_grain.inertia_moment + h * of_grain.beta_r)),
         with_drag(of_grain.added_mass + h * of_grain.beta) {
-    const Real k = per_mass + of_grain.per_fluid_mass, share = 1 / (1 + k * with_drag);
+    const Real k = inv_mass + of_grain.inv_fluid_mass, share = 1 / (1 + k * with_drag);
     kept = (1 + k * of_grain.added_mass) * share;
     gained = h * share;
   }
 
   /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(GrainForces& f, Vec3& u, Vec3& omega) const {
-    const Vec3 slip = f.u_f - u, pull = fma(-per_mass, f.force, f.acceleration);
+    const Vec3 slip = f.u_f - u, pull = fma(-inv_mass, f.force, f.acceleration);
     const Vec3 impulse =
         fma(with_drag, fma(kept, slip, gained * pull), -of_grain.added_mass * slip);
-    f.u_f = fma(-of_grain.per_fluid_mass, impulse, fma(h, f.acceleration, f.u_f));
-    u = fma(per_mass, fma(h, f.force, impulse), u);
-    omega = fma(per_moment, fma(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
+    f.u_f = fma(-of_grain.inv_fluid_mass, impulse, fma(h, f.acceleration, f.u_f));
+    u = fma(inv_mass, fma(h, f.force, impulse), u);
+    omega = fma(h_over_inertia, fma(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
     return impulse;
   }
 };

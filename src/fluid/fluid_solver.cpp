@@ -131,7 +131,7 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
                           .u_star = u_star_,
                           .impulse = on_faces.impulse,
                           .weight = weights(fluid, dt),
-                          .per_density = 1 / config_.density});
+                          .inv_density = 1 / config_.density});
   };
   if (exchange == nullptr) {
     run(std::false_type{}, fluid.u, fluid.alpha_f, {});
@@ -241,7 +241,7 @@ void FluidSolver::correct(FluidState& fluid, bool coupled, Real dt) {
                                   CorrectVelocity{.grid = grid_,
                                                   .u_star = u_star_,
                                                   .p = fluid.p,
-                                                  .per_density = 1 / config_.density,
+                                                  .inv_density = 1 / config_.density,
                                                   .drive_dt = fluid.drive * dt,
                                                   .dt = dt,
                                                   .u = fluid.u,

@@ -36,7 +36,7 @@ double growth(const Mixture& m) {
     double &w = s(0), &u = s(1), &change = s(2), &impulse = s(3), &push = s(4), &x = s(5);
     const MotionCoefficients coefficients{.mass = c * rho_p,
                                           .inertia_moment = 1,
-                                          .per_fluid_mass = per_share,
+                                          .inv_fluid_mass = per_share,
                                           .beta = 150 * c * c * mu_f / (m.alpha * d * d),
                                           .added_mass = kAddedMassCoefficient * c * rho_f};
     const double added_mass = coefficients.added_mass;

@@ -154,7 +154,7 @@ TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
   add_fluid(c.state);
   Kokkos::deep_copy(c.state.fluid.beta, beta);
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
-  Kokkos::deep_copy(c.state.fluid.per_fluid_mass, 1 / share);
+  Kokkos::deep_copy(c.state.fluid.inv_fluid_mass, 1 / share);
   Kokkos::deep_copy(c.state.fluid.acceleration, Vec3{0, a, 0});
   Kokkos::deep_copy(c.state.fluid.steady_force, Vec3{0, -weight, 0});
   Kokkos::deep_copy(c.state.fluid.u_f, Vec3{u_f, 0, 0});
@@ -182,13 +182,13 @@ TEST(GrainSolver, HeldGrainsBrakeTheirShareOfFluid) {
   add_fluid(c.state);
   Kokkos::deep_copy(c.state.fluid.beta, beta);
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
-  Kokkos::deep_copy(c.state.fluid.per_fluid_mass, 1 / share);
+  Kokkos::deep_copy(c.state.fluid.inv_fluid_mass, 1 / share);
   Kokkos::deep_copy(c.state.fluid.acceleration, acceleration);
   Kokkos::deep_copy(c.state.fluid.u_f, u_f);
   Kokkos::parallel_for("test: held", 1, DragOnFrozenGrains{.dt = dt, .on_grains = c.state.fluid});
   const HalfKick kick(dt, {.mass = 1e30,
                            .inertia_moment = 1,
-                           .per_fluid_mass = 1 / share,
+                           .inv_fluid_mass = 1 / share,
                            .beta = beta,
                            .added_mass = added});
   GrainForces f;
