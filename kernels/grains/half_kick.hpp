@@ -35,24 +35,24 @@ struct GrainForces {
 struct HalfKick {
   Real h;
   MotionCoefficients of_grain;
-  Real inv_mass, h_over_inertia, with_drag, kept, gained;
+  Real inv_mass, h_over_inertia, drag_and_added_mass, decay, gain;
 
   KOKKOS_FORCEINLINE_FUNCTION HalfKick(Real half_step, const MotionCoefficients& coefficients)
       : h(half_step),
         of_grain(coefficients),
         inv_mass(1 / of_grain.mass),
         h_over_inertia(h / (of_grain.inertia_moment + h * of_grain.beta_r)),
-        with_drag(of_grain.added_mass + h * of_grain.beta) {
-    const Real k = inv_mass + of_grain.inv_fluid_mass, share = 1 / (1 + k * with_drag);
-    kept = (1 + k * of_grain.added_mass) * share;
-    gained = h * share;
+        drag_and_added_mass(of_grain.added_mass + h * of_grain.beta) {
+    const Real k = inv_mass + of_grain.inv_fluid_mass, share = 1 / (1 + k * drag_and_added_mass);
+    decay = (1 + k * of_grain.added_mass) * share;
+    gain = h * share;
   }
 
   /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(GrainForces& f, Vec3& u, Vec3& omega) const {
-    const Vec3 slip = f.u_f - u, pull = fma(-inv_mass, f.force, f.acceleration);
-    const Vec3 impulse =
-        fma(with_drag, fma(kept, slip, gained * pull), -of_grain.added_mass * slip);
+    const Vec3 slip = f.u_f - u, relative_acceleration = fma(-inv_mass, f.force, f.acceleration);
+    const Vec3 impulse = fma(drag_and_added_mass, fma(decay, slip, gain * relative_acceleration),
+                             -of_grain.added_mass * slip);
     f.u_f = fma(-of_grain.inv_fluid_mass, impulse, fma(h, f.acceleration, f.u_f));
     u = fma(inv_mass, fma(h, f.force, impulse), u);
     omega = fma(h_over_inertia, fma(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
