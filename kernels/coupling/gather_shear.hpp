@@ -28,9 +28,9 @@ struct GatherShear {
       on_grains.steady_force(g) += force;
     }
     if (torque) {
-      const Vec3 spin_f = Real(0.5) * vorticity;
-      on_grains.spin_f(g) = spin_f;
-      on_grains.beta_r(g) = rotational_drag(rho_f, mu_f, 2 * grain.r, norm(spin_f - grain.omega));
+      const Vec3 omega_f = Real(0.5) * vorticity;
+      on_grains.omega_f(g) = omega_f;
+      on_grains.beta_r(g) = rotational_drag(rho_f, mu_f, 2 * grain.r, norm(omega_f - grain.omega));
     }
   }
 

@@ -80,24 +80,24 @@ struct LinearSpring {
 
 /// What a rolling law sees of one contact.
 struct RollingContact {
-  Vec3 normal;           // unit, from j to i
-  Vec3 spin_difference;  // omega_i - omega_j [rad/s]
-  Real r_eff;            // [m]
-  Real k_t;              // tangential stiffness now [N/m]
-  Real f_n;              // |normal force| [N]
-  Real mu_r;             // rolling friction [-]
-  Real dt;               // sub-step [s]
+  Vec3 normal;            // unit, from j to i
+  Vec3 omega_difference;  // omega_i - omega_j [rad/s]
+  Real r_eff;             // [m]
+  Real k_t;               // tangential stiffness now [N/m]
+  Real f_n;               // |normal force| [N]
+  Real mu_r;              // rolling friction [-]
+  Real dt;                // sub-step [s]
 };
 
 /// Relative spin without its part along the normal (no torsion) [rad/s].
-KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_spin(const RollingContact& c) {
-  return fma(-dot(c.spin_difference, c.normal), c.normal, c.spin_difference);
+KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_velocity(const RollingContact& c) {
+  return fma(-dot(c.omega_difference, c.normal), c.normal, c.omega_difference);
 }
 
 /// `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff F_n.
 KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c, Real k_r,
                                                         const Vec3& torque) {
-  const Vec3 trial = fma(-k_r * c.dt, rolling_spin(c), torque);
+  const Vec3 trial = fma(-k_r * c.dt, rolling_velocity(c), torque);
   const Real size = norm(trial);
   const Real limit = c.mu_r * c.r_eff * c.f_n;
   return (size > limit ? limit / size : Real(1)) * trial;
@@ -135,7 +135,7 @@ struct ThetaM {
 struct ConstantTorque {
   static constexpr bool has_history = false;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3&) const {
-    const Vec3 spin = rolling_spin(c);
+    const Vec3 spin = rolling_velocity(c);
     const Real size = norm(spin);
     return (size > 0 ? -c.mu_r * c.r_eff * c.f_n / size : Real(0)) * spin;
   }
@@ -143,11 +143,11 @@ struct ConstantTorque {
 
 /// Geometry and relative motion of a touching pair (i, j); for a wall j stands still.
 struct ContactPair {
-  Vec3 normal;           // unit, from j to i
-  Real delta_n;          // overlap, A1, > 0 [m]
-  Vec3 slip;             // velocity of i relative to j at the contact point [m/s]
-  Vec3 spin_difference;  // omega_i - omega_j [rad/s]
-  Real r_eff, m_eff;     // A2 [m], A3 [kg]
+  Vec3 normal;            // unit, from j to i
+  Real delta_n;           // overlap, A1, > 0 [m]
+  Vec3 slip;              // velocity of i relative to j at the contact point [m/s]
+  Vec3 omega_difference;  // omega_i - omega_j [rad/s]
+  Real r_eff, m_eff;      // A2 [m], A3 [kg]
 };
 
 /// What a contact does to grain i; j gets -force, the same arm torque and -rolling torque.
@@ -167,8 +167,8 @@ struct Friction {
 
 /// Slip velocity at the contact point: lever arms r - delta_n / 2 on both sides [m/s].
 KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
-                                              const Vec3& arm_spin_sum, const Vec3& normal) {
-  return velocity_difference - cross(arm_spin_sum, normal);
+                                              const Vec3& arm_omega_sum, const Vec3& normal) {
+  return velocity_difference - cross(arm_omega_sum, normal);
 }
 
 /// Contact force, Lima et al. (2022) eqs 8-10 with A6-A13 as the programs behind the paper
@@ -206,7 +206,7 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& 
   result.n_cross_f_t = cross(pair.normal, f_t);
   result.xi_t = xi;
   result.rolling = rolling(RollingContact{.normal = pair.normal,
-                                          .spin_difference = pair.spin_difference,
+                                          .omega_difference = pair.omega_difference,
                                           .r_eff = pair.r_eff,
                                           .k_t = k.k_t,
                                           .f_n = Kokkos::abs(f_n),

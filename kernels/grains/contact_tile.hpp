@@ -32,7 +32,7 @@ struct ContactTile {
 
   SoaTile normal;                               // and the overlap [m], 0 where the two do not touch
   SoaTile slip;                                 // [m/s]
-  SoaTile spin_difference;                      // [rad/s]
+  SoaTile omega_difference;                     // [rad/s]
   AosTile xi_t;                                 // [m], before and after
   AosTile rolling;                              // [N m], before and after
   AosTile force;                                // result [N], and the overlap [m]
@@ -49,7 +49,7 @@ struct ContactTile {
   KOKKOS_FORCEINLINE_FUNCTION void store(int q, const ContactPair& pair) {
     normal.store(q, pair.normal, pair.delta_n);
     slip.store(q, pair.slip, 0);
-    if constexpr (kRolls) spin_difference.store(q, pair.spin_difference, 0);
+    if constexpr (kRolls) omega_difference.store(q, pair.omega_difference, 0);
     r_eff[q] = pair.r_eff, m_eff[q] = pair.m_eff;
   }
 
@@ -75,10 +75,10 @@ struct ContactTile {
     ContactPair pair{.normal = normal.vec(q),
                      .delta_n = delta_n,
                      .slip = slip.vec(q),
-                     .spin_difference = {},
+                     .omega_difference = {},
                      .r_eff = r_eff[q],
                      .m_eff = m_eff[q]};
-    if constexpr (kRolls) pair.spin_difference = spin_difference.vec(q);
+    if constexpr (kRolls) pair.omega_difference = omega_difference.vec(q);
     ContactResult history;
     history.xi_t = xi_t.vec(q);
     if constexpr (Law::Rolling::has_history) history.rolling = rolling.vec(q);

@@ -16,10 +16,10 @@ struct FluidOnGrains {
   Kokkos::View<Real*> added_mass;      // [kg]
   Kokkos::View<Vec3*> impulse;         // of drag and added mass on the grain so far [N s]
   Kokkos::View<Vec3*> u_start;         // velocity as the fluid step began [m/s]
-  Kokkos::View<Vec3*> spin_f;          // of the fluid, half its vorticity [rad/s]
-  Kokkos::View<Real*> beta_r;          // torque = beta_r (spin_f - spin) [N m s]
+  Kokkos::View<Vec3*> omega_f;         // of the fluid, half its vorticity [rad/s]
+  Kokkos::View<Real*> beta_r;          // torque = beta_r (omega_f - omega) [N m s]
   bool has_fluid = false;              // without one nothing but steady_force is there
-  bool has_torque = false;             // of the fluid: spin_f and beta_r are there
+  bool has_torque = false;             // of the fluid: omega_f and beta_r are there
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {

@@ -26,12 +26,12 @@ struct alignas(32) GrainKinematics {
   Real r = 0;     // radius [m]
   Vec3 u;         // velocity [m/s]
   Real m = 0;     // mass [kg]
-  Vec3 omega;     // spin [rad/s]
+  Vec3 omega;     // angular velocity [rad/s]
   Real skin = 0;  // distance that it may move until the neighbour list is searched again [m]
 
   KOKKOS_FORCEINLINE_FUNCTION Vec4 x_r() const { return {x.x, x.y, x.z, r}; }
   KOKKOS_FORCEINLINE_FUNCTION Vec4 u_m() const { return {u.x, u.y, u.z, m}; }
-  KOKKOS_FORCEINLINE_FUNCTION Vec4 spin() const { return {omega.x, omega.y, omega.z, skin}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec4 omega_skin() const { return {omega.x, omega.y, omega.z, skin}; }
 };
 
 /// Asks the caches of a CPU for something that is needed soon.

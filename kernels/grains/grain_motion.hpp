@@ -25,7 +25,7 @@ struct GrainMotion {
 
   /// Grains as they come, with the sums of their contacts, and as they go.
   struct Tile {
-    AosTile x_r, u_m, spin, force, torque;
+    AosTile x_r, u_m, omega_skin, force, torque;
     SoaTile new_x, new_u, new_omega;
     Real excess[kTile];  // over the skin [m^2]
   };
@@ -39,17 +39,18 @@ struct GrainMotion {
     Tile s;
     for (int q = 0; q < n; ++q) {
       const GrainKinematics& grain = grains(begin + q);
-      s.x_r.store(q, grain.x_r()), s.u_m.store(q, grain.u_m()), s.spin.store(q, grain.spin());
+      s.x_r.store(q, grain.x_r()), s.u_m.store(q, grain.u_m()),
+          s.omega_skin.store(q, grain.omega_skin());
       s.force.store(q, sums[q].force), s.torque.store(q, sums[q].torque);
     }
     const bool expired = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
                          : fluid.has_torque
                              ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
                              : advance<moves, FluidEffect::force>(s, begin, n);
-    s.new_x.to_aos(n, s.x_r), s.new_u.to_aos(n, s.u_m), s.new_omega.to_aos(n, s.spin);
+    s.new_x.to_aos(n, s.x_r), s.new_u.to_aos(n, s.u_m), s.new_omega.to_aos(n, s.omega_skin);
     for (int q = 0; q < n; ++q) {
       GrainKinematics& grain = grains(begin + q);
-      grain.x = s.x_r.vec(q), grain.u = s.u_m.vec(q), grain.omega = s.spin.vec(q);
+      grain.x = s.x_r.vec(q), grain.u = s.u_m.vec(q), grain.omega = s.omega_skin.vec(q);
       if constexpr (moves != Moves::out_of_last) largest = Kokkos::max(largest, s.excess[q]);
     }
     return expired;
@@ -66,8 +67,8 @@ struct GrainMotion {
   /// Returns 1 for a grain that has used up its slack.
   template <Moves moves, FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION int advance_one(Tile& s, int q, int g) const {
-    Vec3 x = s.x_r.vec(q), u = s.u_m.vec(q), omega = s.spin.vec(q);
-    const Real radius = s.x_r.w(q), mass = s.u_m.w(q), skin = s.spin.w(q);
+    Vec3 x = s.x_r.vec(q), u = s.u_m.vec(q), omega = s.omega_skin.vec(q);
+    const Real radius = s.x_r.w(q), mass = s.u_m.w(q), skin = s.omega_skin.w(q);
     GrainForces f = forces<effect>(s, q, g);
     const HalfKick half_kick(dt / 2, coefficients<effect>(g, mass, radius));
     Vec3 impulse = half_kick(f, u, omega);
@@ -100,7 +101,7 @@ struct GrainMotion {
       f.u_f = fluid.u_f_after(elapsed, g);
       f.acceleration = fluid.acceleration(g);
     }
-    if constexpr (effect == FluidEffect::force_and_torque) f.spin_f = fluid.spin_f(g);
+    if constexpr (effect == FluidEffect::force_and_torque) f.omega_f = fluid.omega_f(g);
     return f;
   }
 };

@@ -13,7 +13,7 @@ struct MotionCoefficients {
   Real inv_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]
   Real added_mass = 0;      // F = added_mass d(u_f - u)/dt [kg]
-  Real beta_r = 0;          // T = beta_r (spin_f - omega) [N m s]
+  Real beta_r = 0;          // T = beta_r (omega_f - omega) [N m s]
 };
 
 /// Forces on one grain over a sub-step, and the motion of the fluid around it.
@@ -22,7 +22,7 @@ struct GrainForces {
   Vec3 torque;        // all but that of the fluid [N m]
   Vec3 u_f;           // velocity of the grain's share of fluid [m/s]
   Vec3 acceleration;  // of that share by all but the grain [m/s^2]
-  Vec3 spin_f;        // spin of the fluid [rad/s]
+  Vec3 omega_f;       // angular velocity of the fluid [rad/s]
 };
 
 /// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the
@@ -55,7 +55,7 @@ struct HalfKick {
                              -of_grain.added_mass * slip);
     f.u_f = fma(-of_grain.inv_fluid_mass, impulse, fma(h, f.acceleration, f.u_f));
     u = fma(inv_mass, fma(h, f.force, impulse), u);
-    omega = fma(h_over_inertia, fma(of_grain.beta_r, f.spin_f - omega, f.torque), omega);
+    omega = fma(h_over_inertia, fma(of_grain.beta_r, f.omega_f - omega, f.torque), omega);
     return impulse;
   }
 };

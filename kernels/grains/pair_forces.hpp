@@ -23,7 +23,7 @@ struct PairForces {
 
   /// A block of pairs (a, b), an entry each.
   struct Tile {
-    AosTile separation, slip, spin_a, spin_b;
+    AosTile separation, slip, omega_a, omega_b;
     alignas(64) Real r_a[kTile], r_b[kTile], m_a[kTile], m_b[kTile];
     alignas(64) Real arm_a[kTile], arm_b[kTile];  // from the centres to the contact [m]
     Contacts contacts;
@@ -141,7 +141,7 @@ struct PairForces {
     const GrainKinematics& b = grains(list.j(p));
     s.separation.store(q, a.x_r() - b.x_r());
     s.slip.store(q, a.u_m() - b.u_m());
-    s.spin_a.store(q, a.spin()), s.spin_b.store(q, b.spin());
+    s.omega_a.store(q, a.omega_skin()), s.omega_b.store(q, b.omega_skin());
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
     s.contacts.xi_t.store(q, vec4(list.xi_t(p)));
     if constexpr (Law::Rolling::has_history) s.contacts.rolling.store(q, vec4(list.rolling(p)));
@@ -156,14 +156,14 @@ struct PairForces {
     const Real overlap = r_a + r_b - distance;
     const bool touches = overlap > 0;
     const Real delta_n = touches ? overlap : 0;
-    const Vec3 spin_a = s.spin_a.vec(q), spin_b = s.spin_b.vec(q);
+    const Vec3 omega_a = s.omega_a.vec(q), omega_b = s.omega_b.vec(q);
     const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
     s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
-    const Vec3 arm_spin = fma(arm_a, spin_a, arm_b * spin_b);
+    const Vec3 arm_omega = fma(arm_a, omega_a, arm_b * omega_b);
     s.contacts.store(q, {.normal = normal,
                          .delta_n = delta_n,
-                         .slip = contact_slip(s.slip.vec(q), arm_spin, normal),
-                         .spin_difference = spin_a - spin_b,
+                         .slip = contact_slip(s.slip.vec(q), arm_omega, normal),
+                         .omega_difference = omega_a - omega_b,
                          .r_eff = effective.r,
                          .m_eff = effective.m});
   }

@@ -71,7 +71,7 @@ struct Walls {
     s.contacts.store(q, {.normal = normal,
                          .delta_n = delta_n,
                          .slip = contact_slip(grain.u, arm * grain.omega, normal),
-                         .spin_difference = grain.omega,
+                         .omega_difference = grain.omega,
                          .r_eff = shapes.effective_radius(w, grain.r),
                          .m_eff = grain.m});
     s.contacts.xi_t.store(q, vec4(touched ? xi_t(g, h) : Vec3{}));

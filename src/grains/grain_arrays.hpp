@@ -40,7 +40,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(e.stress_force,     "stress_force",     "N",    with_flow,  kGatherWrites);
   add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
   add(e.lift,             "lift",             "N",    with_lift,  kGatherWrites | kDepositReads);
-  add(f.spin_f,           "spin_f",           "rad/s", with_torque, kGatherWrites);
+  add(f.omega_f,           "omega_f",           "rad/s", with_torque, kGatherWrites);
   add(f.beta_r,           "beta_r",           "N m s", with_torque, kGatherWrites);
   // clang-format on
   for (auto& x : s.extra) add(x.values, x.name.c_str(), x.unit.c_str(), always, x.uses);

@@ -20,7 +20,7 @@ struct InitialGrains {
   std::vector<double> diameter;  // [m]
   std::vector<Vec3> x;           // centre [m]
   std::vector<Vec3> u;           // velocity [m/s]
-  std::vector<Vec3> omega;       // spin [rad/s]
+  std::vector<Vec3> omega;       // angular velocity [rad/s]
 
   std::size_t size() const { return id.size(); }
   void add(std::int64_t new_id, double d, const Vec3& centre, const Vec3& velocity = {},

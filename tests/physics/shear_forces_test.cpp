@@ -109,13 +109,13 @@ TEST(FluidTorque, WhatTheFluidIsSparedIsAPartOfTheViscousStress) {
   const test::HostGrid h(run.state.fluid->grid);
   const test::HostField alpha = test::to_host(run.state.fluid->alpha_f);
   const auto kin = testing::host_copy(grains.kin);
-  const auto spin_f = testing::host_copy(grains.fluid.spin_f);
+  const auto omega_f = testing::host_copy(grains.fluid.omega_f);
   double spared = 0, viscous = 0, solid = 0;
   for (int g = 0; g < grains.n; ++g) {
     const double s =
         1 - interpolate_cell(alpha.ref(), PointStencil(h.ref(), {0, c.size[2]}, kin(g).x));
-    spared += 3 * s * norm(spin_f(g) - kin(g).omega);
-    viscous += 2 * norm(spin_f(g));
+    spared += 3 * s * norm(omega_f(g) - kin(g).omega);
+    viscous += 2 * norm(omega_f(g));
     solid += s;
   }
   std::printf("[ measured ] solid fraction at the grains %.3f\n", solid / grains.n);

@@ -44,7 +44,7 @@ Impact head_on(const HertzMindlin& hertz, Real v, Real dt) {
     ContactPair pair{.normal = {1, 0, 0},
                      .delta_n = std::max(delta, 1e-300),
                      .slip = {-approach, 0, 0},
-                     .spin_difference = {},
+                     .omega_difference = {},
                      .r_eff = r_eff,
                      .m_eff = m_eff};
     history = force_by(hertz, NoRolling{}, Friction{}, pair, history, dt);
@@ -139,7 +139,7 @@ ContactPair sliding_pair(Real slip) {
   return {.normal = {0, 1, 0},
           .delta_n = 1e-6,
           .slip = {slip, 0, 0},
-          .spin_difference = {},
+          .omega_difference = {},
           .r_eff = kRadius / 2,
           .m_eff = 1e-8};
 }
@@ -203,11 +203,11 @@ TEST(ContactForce, OppositeRolesGiveOppositeForces) {
   const ContactPair a{.normal = normal,
                       .delta_n = 1e-6,
                       .slip = {0.1, -0.2, 0.05},
-                      .spin_difference = {1, 2, 3},
+                      .omega_difference = {1, 2, 3},
                       .r_eff = 5e-5,
                       .m_eff = 1e-8};
   ContactPair b = a;
-  b.normal = -a.normal, b.slip = -a.slip, b.spin_difference = -a.spin_difference;
+  b.normal = -a.normal, b.slip = -a.slip, b.omega_difference = -a.omega_difference;
   const ContactResult ra = force_by(law(0.5), Epsd2{}, friction, a, {}, 1e-7);
   const ContactResult rb = force_by(law(0.5), Epsd2{}, friction, b, {}, 1e-7);
   EXPECT_NEAR(norm(ra.force + rb.force), 0, 1e-12 * norm(ra.force));
@@ -221,7 +221,7 @@ Real rolled(const Law& rolling, Real mu_r, Real angle, int n) {
   ContactResult c;
   for (int s = 0; s < n; ++s) {
     ContactPair pair = sliding_pair(0);
-    pair.spin_difference = {0, 100, angle / n / dt};  // the part along the normal is torsion
+    pair.omega_difference = {0, 100, angle / n / dt};  // the part along the normal is torsion
     c = force_by(law(1), rolling, Friction{.sliding = 0.6, .rolling = mu_r}, pair, c, dt);
     EXPECT_EQ(c.rolling.y, 0);
   }
