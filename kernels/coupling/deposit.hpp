@@ -12,7 +12,7 @@ namespace barchan {
 /// What one grain gives to the fluid in one fluid step.
 struct GrainExchange {
   Real volume;   // [m^3]
-  Vec3 impulse;  // drag, added mass and lift on the grain during the sub-steps [N s]
+  Vec3 impulse;  // drag, added mass and lift on the grain during the grain steps [N s]
 };
 
 struct ExchangeOfGrain {

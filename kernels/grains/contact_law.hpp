@@ -86,7 +86,7 @@ struct RollingContact {
   Real k_t;               // tangential stiffness now [N/m]
   Real f_n;               // |normal force| [N]
   Real mu_r;              // rolling friction [-]
-  Real dt;                // sub-step [s]
+  Real dt;                // grain step [s]
 };
 
 /// Relative spin without its part along the normal (no torsion) [rad/s].
@@ -178,7 +178,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
 ///   |k_t xi_t| <= mu F_c:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu F_c where it is longer
 ///   else                   F_t = -mu F_c xi_t/|xi_t|, xi_t shortened to the limit (re-sticks)
 /// F_c = |F_n|, or k_n delta_n in the Coulomb limit of Chung & Ooi (2011).
-/// `history` is the result of the previous sub-step (zero at first touch); dt [s].
+/// `history` is the result of the previous grain step (zero at first touch); dt [s].
 template <class Rolling>
 KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& k,
                                                         const Rolling& rolling,

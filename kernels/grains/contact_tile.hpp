@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// The law of one kind of contact and its sub-step.
+/// The law of one kind of contact and its grain step.
 template <class StiffnessLaw, class RollingLaw>
 struct ContactLaw {
   using Stiffness = StiffnessLaw;

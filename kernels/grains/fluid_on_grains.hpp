@@ -5,7 +5,7 @@
 
 namespace barchan {
 
-/// What acts on the grains besides contacts over the sub-steps of a fluid step. All but `impulse`
+/// What acts on the grains besides contacts over the grain steps of a fluid step. All but `impulse`
 /// is constant meanwhile.
 struct FluidOnGrains {
   Kokkos::View<Vec3*> u_f;           // as the fluid step begins [m/s]

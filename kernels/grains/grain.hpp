@@ -49,12 +49,12 @@ KOKKOS_FORCEINLINE_FUNCTION Real excess_over_skin(const Vec3& displacement, Real
   return excess == excess ? excess : Kokkos::Experimental::infinity_v<Real>;
 }
 
-/// Lets a sub-step go ahead while no grain has moved farther than its skin. A host that waits for a
-/// device only now and then launches sub-steps ahead of that knowledge; those behind a stale list
-/// then do nothing.
+/// Lets a grain step go ahead while no grain has moved farther than its skin. A host that waits for
+/// a device only now and then launches grain steps ahead of that knowledge; those behind a stale
+/// list then do nothing.
 struct ListValidity {
   Kokkos::View<const Real*> excess;  // largest of all grains [m^2] ...
-  int before = 0;                    // ... as this sub-step begins: in this element
+  int before = 0;                    // ... as this grain step begins: in this element
   KOKKOS_FORCEINLINE_FUNCTION bool holds() const { return excess(before) <= 0; }
 };
 
@@ -100,7 +100,7 @@ inline Chunks make_chunks(int n) {
   return {.n = n, .size = size < least ? least : size};
 }
 
-/// What an inter-chunk pair does to its grains in a sub-step: one cache line, all zero while it
+/// What an inter-chunk pair does to its grains in a grain step: one cache line, all zero while it
 /// does not touch.
 struct alignas(64) PairForce {
   Vec4 force{};        // on the first grain [N], and the overlap [m]
@@ -127,7 +127,7 @@ struct PairList {
   Kokkos::View<PairForce*> pair_force;    // (n_inter)
   Kokkos::View<Vec3*> xi_t;     // (n_pairs) tangential displacement of i relative to j [m]
   Kokkos::View<Vec3*> rolling;  // (n_pairs) rolling torque on i [N m]; empty without rolling
-  Kokkos::View<Vec3*> force;    // (n_pairs) on i in the last sub-step [N]; empty unless asked for
+  Kokkos::View<Vec3*> force;    // (n_pairs) on i in the last grain step [N]; empty unless asked for
   Kokkos::View<std::uint8_t*> touching;  // (n_pairs) 1 while in contact
 
   KOKKOS_FORCEINLINE_FUNCTION bool has_rolling() const { return rolling.extent(0) > 0; }

@@ -10,7 +10,7 @@ namespace barchan {
 /// What the fluid does to the grains: nothing, a force, or a force and a torque.
 enum class FluidEffect { none, force, force_and_torque };
 
-/// Between which sub-steps grains move: half a kick and a drift before the first, a half kick of
+/// Between which grain steps grains move: half a kick and a drift before the first, a half kick of
 /// each of two and the drift of the next one, half a kick after the last.
 enum class Moves { into_first, between, out_of_last };
 
@@ -106,8 +106,8 @@ struct GrainMotion {
   }
 };
 
-/// The start of the sub-steps with the stored contact forces, a block of grains per index. Reduces
-/// the largest excess over the skin of a grain [m^2].
+/// The start of the grain steps with the stored contact forces, a block of grains per index.
+/// Reduces the largest excess over the skin of a grain [m^2].
 struct KickAndDrift {
   GrainMotion motion;
   int n;

@@ -49,7 +49,7 @@ struct CountBeyondOutlet {
   KOKKOS_FUNCTION void operator()(int g, int& count) const { count += is_beyond(g) ? 1 : 0; }
 };
 
-/// Splits contact_force(g) [N] of the last sub-step. Pairs: F_t = F - (F.n) n, with n from the
+/// Splits contact_force(g) [N] of the last grain step. Pairs: F_t = F - (F.n) n, with n from the
 /// positions, which have not changed since. Walls: the rest, along and across
 /// the normal of the first wall that the grain touches.
 struct SplitContacts {

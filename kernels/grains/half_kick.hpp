@@ -16,7 +16,7 @@ struct MotionCoefficients {
   Real beta_r = 0;          // T = beta_r (omega_f - omega) [N m s]
 };
 
-/// Forces on one grain over a sub-step, and the motion of the fluid around it.
+/// Forces on one grain over a grain step, and the motion of the fluid around it.
 struct GrainForces {
   Vec3 force;         // all but drag and added mass [N]
   Vec3 torque;        // all but that of the fluid [N m]
@@ -25,7 +25,7 @@ struct GrainForces {
   Vec3 omega_f;       // angular velocity of the fluid [rad/s]
 };
 
-/// Factors of a half kick over h [s], the same for the end of one sub-step and the start of the
+/// Factors of a half kick over h [s], the same for the end of one grain step and the start of the
 /// next. With m of the grain, m_f of its share of fluid, m_a the added mass and v = u_f - u:
 ///   m (u' - u) = h F + J,   m_f (u_f' - u_f) = h m_f a - J,   J = h beta v' + m_a (v' - v),
 /// drag at the new slip, so stable at any step. Subtracted, with k = 1/m + 1/m_f:

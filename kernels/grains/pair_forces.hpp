@@ -19,7 +19,7 @@ struct PairForces {
   ListValidity validity;
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
-  bool keep_force = false;  // the last sub-step, and someone asks for the force of each pair
+  bool keep_force = false;  // the last grain step, and someone asks for the force of each pair
 
   /// A block of pairs (a, b), an entry each.
   struct Tile {

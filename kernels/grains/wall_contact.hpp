@@ -35,7 +35,7 @@ struct Walls {
   }
 
   /// Adds the forces and torques of all walls on the grains of entries [begin, end) that are near
-  /// one to sums[0..], and takes their history a sub-step on.
+  /// one to sums[0..], and takes their history a grain step on.
   template <class Near>
   KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
                                        ContactSum* sums) const {

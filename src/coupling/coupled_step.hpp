@@ -1,4 +1,4 @@
-// One fluid step with the grains' sub-steps inside it: the algorithm of the whole program.
+// One fluid step with the grains' grain steps inside it: the algorithm of the whole program.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@ namespace barchan {
 /// Momentum and volume that changed sides in one fluid step.
 struct ExchangeLedger {
   Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
-  Vec3 given_to_grains;                         // drag and added mass over the sub-steps [N s]
+  Vec3 given_to_grains;                         // drag and added mass over the grain steps [N s]
   Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
   Vec3 flow_on_solid;   // pressure gradient and stress: what the solid fraction takes [N s]
   Vec3 flow_on_grains;  // the same on the grains [N s]

@@ -8,7 +8,7 @@
 namespace barchan {
 
 /// Ghosts stand in the entries after the owned grains, in the order of their columns and heights;
-/// which ones there are changes with the neighbour list, where they are in every sub-step.
+/// which ones there are changes with the neighbour list, where they are in every grain step.
 class GhostGrains {
  public:
   /// Copies every grain beside another rank's columns to that rank; the arrays that ghosts have are

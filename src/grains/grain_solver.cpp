@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/grains/grain_step.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/stable_step.hpp"
-#include "kernels/grains/sub_step.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -112,7 +112,7 @@ void GrainSolver::add_walls(const Config& config, Real r_max) {
   if (config.grains->boundary_z == GrainBoundaryZ::wall) add_opposite({0, 0, 1}, size[2]);
 }
 
-/// Before the sub-steps: first half kick and drift.
+/// Before the grain steps: first half kick and drift.
 void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
   if (excess_.extent_int(0) != ahead_ + 1) {
     excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
@@ -127,9 +127,9 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
                           max_excess(0));
 }
 
-/// Sub-step s: forces at the new positions and second half kick, then, unless it is the last one,
+/// Grain step s: forces at the new positions and second half kick, then, unless it is the last one,
 /// the first half kick and drift of the next one.
-void GrainSolver::sub_step(const GrainState& grains, int s, bool last, Real dt) {
+void GrainSolver::grain_step(const GrainState& grains, int s, bool last, Real dt) {
   const auto launch = [&](const auto& stiffness, const auto& rolling) {
     using Stiffness = std::decay_t<decltype(stiffness)>;
     using Law = ContactLaw<Stiffness, std::decay_t<decltype(rolling)>>;
@@ -167,7 +167,7 @@ void GrainSolver::rebuild(GrainState& grains, int s) {
   Kokkos::deep_copy(Kokkos::subview(excess_, element(s)), Real(0));
 }
 
-/// Over ranks, before each sub-step: ghosts to where their grains are, or a new list as soon as a
+/// Over ranks, before each grain step: ghosts to where their grains are, or a new list as soon as a
 /// grain of any rank has moved too far for it.
 void GrainSolver::update_ghosts(GrainState& grains, int s) {
   Real excess = 0;
@@ -179,11 +179,11 @@ void GrainSolver::update_ghosts(GrainState& grains, int s) {
   }
 }
 
-/// On one rank, from sub-step s: as many as are launched ahead. Returns the first one that the list
-/// no longer covered, after a new list for it.
+/// On one rank, from grain step s: as many as are launched ahead. Returns the first one that the
+/// list no longer covered, after a new list for it.
 int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
   const int end = std::min(s + ahead_, n);
-  for (int next = s; next < end; ++next) sub_step(grains, next, next + 1 == n, dt);
+  for (int next = s; next < end; ++next) grain_step(grains, next, next + 1 == n, dt);
   Kokkos::deep_copy(host_excess_, excess_);
   const auto is_stale = [&](int step) { return !(host_excess_(element(step)) <= 0); };
   while (s < end && !is_stale(s)) ++s;
@@ -197,7 +197,7 @@ void GrainSolver::advance(GrainState& grains, int n, Real dt) {
   for (int s = 0; s < n;) {
     if (list_.partition()) {
       update_ghosts(grains, s);
-      sub_step(grains, s, s + 1 == n, dt);
+      grain_step(grains, s, s + 1 == n, dt);
       ++s;
     } else {
       s = launch_ahead(grains, s, n, dt);

@@ -1,4 +1,4 @@
-// The grains' equations of motion over the sub-steps of one fluid step.
+// The grains' equations of motion over the grain steps of one fluid step.
 #pragma once
 
 #include <variant>
@@ -32,16 +32,16 @@ class GrainSolver {
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }
 
-  /// n sub-steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
-  /// sub-step, bit for bit.
+  /// n grain steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
+  /// grain step, bit for bit.
   void advance(GrainState& grains, int n, Real dt);
   /// Drops the grains that have passed the outlet (counted in n_left of their rank).
   void remove_left(GrainState& grains) { list_.drop_left(grains); }
-  /// Contacts and largest overlap from the last sub-step.
+  /// Contacts and largest overlap from the last grain step.
   ContactSummary contacts(const GrainState& grains) const;
   /// Longest grain step for which they are stable [s]; infinite without contacts or friction.
   Real stable_step(const GrainState& grains) const;
-  /// Normal and tangential contact force of each grain in the last sub-step [N]; throws
+  /// Normal and tangential contact force of each grain in the last grain step [N]; throws
   /// std::logic_error without output.grain_forces.
   void split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
                       const Kokkos::View<Vec3*>& tangential) const;
@@ -49,22 +49,22 @@ class GrainSolver {
   const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
   const WallShapes& walls() const { return walls_; }
-  /// Sub-steps that are launched before the host waits and looks whether the list still holds; the
-  /// results do not depend on it.
+  /// Grain steps that are launched before the host waits and looks whether the list still holds;
+  /// the results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  /// Element of excess_ for a sub-step.
+  /// Element of excess_ for a grain step.
   int element(int step) const { return step % (ahead_ + 1); }
-  /// Reduces into the element of a sub-step, without a wait.
+  /// Reduces into the element of a grain step, without a wait.
   Kokkos::Max<Real, DeviceMemory> max_excess(int step) const {
     return Kokkos::Max<Real, DeviceMemory>(
         Kokkos::View<Real, DeviceMemory>(excess_.data() + element(step)));
   }
   void add_walls(const Config& config, Real r_max);
   void kick_and_drift(const GrainState& grains, Real dt);
-  void sub_step(const GrainState& grains, int s, bool last, Real dt);
+  void grain_step(const GrainState& grains, int s, bool last, Real dt);
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
@@ -75,7 +75,7 @@ class GrainSolver {
   Friction pair_friction_, wall_friction_;
   WallShapes walls_;
   int ahead_ = kLargestChunk > 1 ? 1 : 16;
-  // Largest squared displacement beyond the skin of a grain as a sub-step begins [m^2].
+  // Largest squared displacement beyond the skin of a grain as a grain step begins [m^2].
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;
 };

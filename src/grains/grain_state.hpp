@@ -1,4 +1,4 @@
-// Everything the grains remember from one sub-step to the next.
+// Everything the grains remember from one grain step to the next.
 #pragma once
 
 #include <mpi.h>

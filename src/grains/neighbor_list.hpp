@@ -55,7 +55,7 @@ class NeighborList {
   /// goes, for what they need only until they return.
   void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
   bool with_rolling = false;  // keep a rolling torque per pair
-  bool with_force = false;    // keep the force of each pair in the last sub-step
+  bool with_force = false;    // keep the force of each pair in the last grain step
   const PeriodicBox& box() const { return box_; }
 
   // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.

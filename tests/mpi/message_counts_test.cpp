@@ -156,7 +156,9 @@ MessageCounts back_from_fluid(const std::vector<int>& n, int writes) {
 // --- the grains --------------------------------------------------------------------------------
 
 /// Position, velocity and spin of the ghosts, and the largest excess over a skin.
-MessageCounts sub_step(const ExchangeCounts& ghosts) { return rows(ghosts.to, 9) + reductions(1); }
+MessageCounts grain_step(const ExchangeCounts& ghosts) {
+  return rows(ghosts.to, 9) + reductions(1);
+}
 /// Ghosts whole; the balance; the largest and the mean speed; numbers of grains, contacts and
 /// ghosts.
 MessageCounts rebuild(const ExchangeCounts& ghosts) {
@@ -221,7 +223,7 @@ TEST(MessageCounts, AFlowStep) {
 }
 
 TEST(MessageCounts, ACoupledStep) {
-  constexpr int sub_steps = 10, iterations = 3;
+  constexpr int grain_steps = 10, iterations = 3;
   for (const int along_x : test::shapes(SmallCase::cells)) {
     SCOPED_TRACE(along_x);
     SmallCase c(along_x, true);
@@ -234,14 +236,14 @@ TEST(MessageCounts, ACoupledStep) {
     const MessageCounts counted = since(before);
     ASSERT_EQ(list.rebuilds(), rebuilds);
     ASSERT_EQ(c.step->fluid_report().pressure_iterations, iterations);
-    ASSERT_EQ(c.step->substeps(), sub_steps);
+    ASSERT_EQ(c.step->substeps(), grain_steps);
 
     MessageCounts expected =
         flow_step_around_grains(c.grid.mine, iterations) + exchange(c.grid.mine) +
         to_fluid(grains_before, 15) + back_from_fluid(grains_before, 21) +
         to_fluid(grains_in_pencils(c.grid, *c.state.grains), 19) +
         reductions(2);  // the ledger's number of grains; whether one has passed the outlet
-    if (n_ranks() > 1) expected = expected + sub_steps * sub_step(ghosts);
+    if (n_ranks() > 1) expected = expected + grain_steps * grain_step(ghosts);
     expect_equal(counted, expected);
   }
 }

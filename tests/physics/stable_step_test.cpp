@@ -10,7 +10,8 @@ namespace {
 
 using namespace testing;
 
-/// Amplitude of an oscillator after 2,000 steps over that at first, in the order of the sub-steps.
+/// Amplitude of an oscillator after 2,000 steps over that at first, in the order of the grain
+/// steps.
 Real growth(Real k, Real gamma, Real m, Real dt) {
   Real x = 1, u = 0;
   for (int s = 0; s < 2000 && std::abs(x) < 1e6; ++s) {

@@ -2,7 +2,7 @@
 
     exact_stable_step.py RUN_DIR     of the last frame of grains.h5, beside what the run wrote into history.csv
 
-The sub-steps take positions of now and velocities half a step old. Small motions q about a packing then grow where the
+The grain steps take positions of now and velocities half a step old. Small motions q about a packing then grow where the
 largest eigenvalue of M^-1 (K dt^2 + 2 C dt) is above 4, with the matrices of inertia, stiffness and damping. K and C are
 sums over contacts: a spring and a dashpot along the normal and along two tangents, by the stiffness of Hertz-Mindlin
 (1.5 times its secant along the normal) and its damping. Sliding and rolling springs are left out.

@@ -1,4 +1,5 @@
-// One or a few grains through the real solver, watched sub-step by sub-step, and reference tables.
+// One or a few grains through the real solver, watched grain step by grain step, and reference
+// tables.
 #pragma once
 
 #include "kernels/grains/contact_law.hpp"
@@ -22,7 +23,7 @@ struct GrainBench {
   auto kinematics() const { return host_copy(state.kin); }
   /// The grain of an id, counted from 1.
   GrainKinematics grain(std::int64_t id) const { return kinematics()(row_of(id)); }
-  /// Sum of its contact forces in the last sub-step [N].
+  /// Sum of its contact forces in the last grain step [N].
   Vec3 contact_force(std::int64_t id) const { return host_copy(state.contact_force)(row_of(id)); }
   /// Sum of their torques [N m].
   Vec3 contact_torque(std::int64_t id) const { return host_copy(state.contact_torque)(row_of(id)); }

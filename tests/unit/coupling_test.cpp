@@ -26,7 +26,7 @@ GrainExchange exchange_of_first(const ExchangeOfGrain& of) {
   return testing::host_copy(result)(0);
 }
 
-// What one grain gives the fluid: what it got of it in the sub-steps, and what acts all along.
+// What one grain gives the fluid: what it got of it in the grain steps, and what acts all along.
 TEST(Coupling, ExchangeOfAGrainIsItsImpulseAndTheSteadyPart) {
   const Real dt = 2.5e-4, beta = 3e-6;
   const Kokkos::View<GrainKinematics*> grains("test: grain", 1);

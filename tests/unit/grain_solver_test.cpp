@@ -247,7 +247,7 @@ TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
   }
 }
 
-// Sub-steps launched ahead of a stale list do nothing until it is rebuilt.
+// Grain steps launched ahead of a stale list do nothing until it is rebuilt.
 TEST(GrainSolver, LaunchingAheadChangesNothing) {
   Config config = grain_config();
   config.size = {0.003, 0.003, 0.003};

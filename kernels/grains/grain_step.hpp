@@ -1,5 +1,5 @@
-// One pass over the chunks of grains per sub-step: forces of their intra-chunk pairs and of the
-// walls, sum of all contacts, kick, and drift into the next sub-step.
+// One pass over the chunks of grains per grain step: forces of their intra-chunk pairs and of the
+// walls, sum of all contacts, kick, and drift into the next grain step.
 #pragma once
 
 #include "kernels/grains/grain_motion.hpp"
@@ -42,15 +42,15 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
   }
 }
 
-/// The end of a sub-step, a chunk of grains per index: new contact forces, second half kick, and
-/// unless it is the last sub-step the first half kick and drift of the next one. No grain of
+/// The end of a grain step, a chunk of grains per index: new contact forces, second half kick, and
+/// unless it is the last grain step the first half kick and drift of the next one. No grain of
 /// another chunk is read, so chunks may go ahead of each other.
 template <class Law>
 struct SumKickDrift {
   GrainMotion motion;
   PairForces<Law> pairs;
   Walls<Law> walls;
-  Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last sub-step: [N], [N m]
+  Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last grain step: [N], [N m]
   bool last = false;
   Real least_slack = 0;  // of a grain at rest [m]
 
@@ -90,7 +90,7 @@ struct SumKickDrift {
   /// its slack. That is as far as each comes in the same time at the speed that it has, and a
   /// little more.
   KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
-    Real displacement = 0;  // of all grains in a sub-step [m]
+    Real displacement = 0;  // of all grains in a grain step [m]
     for (int g = begin; g < end; ++g) displacement += motion.dt * norm(motion.grains(g).u);
     const Real n_steps = steps_of_slack(way / (end - begin));
     for (int g = begin; g < end; ++g) {
@@ -101,9 +101,10 @@ struct SumKickDrift {
     pairs.find_active(chunk);
   }
 
-  /// For how many sub-steps slack is best given. To look for active pairs costs once, more of them
-  /// cost in every sub-step, and how many more grows with `displacement`, the mean one of a grain
-  /// in a sub-step [m]. Measured (docs/performance.md); hardly anything changes from 20 to 200.
+  /// For how many grain steps slack is best given. To look for active pairs costs once, more of
+  /// them cost in every grain step, and how many more grows with `displacement`, the mean one of a
+  /// grain in a grain step [m]. Measured (docs/performance.md); hardly anything changes from 20 to
+  /// 200.
   KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real displacement) const {
     const Real n_steps = Kokkos::sqrt(100 * least_slack / displacement);
     return n_steps < 100 ? n_steps : 100;
