@@ -130,7 +130,7 @@ struct DepositGrains {
 };
 
 /// The largest solid fraction that CFDEM's void fraction models leave: its alphaMin is 0.1.
-inline constexpr Real kMostSolid = 1 - 0.1;
+inline constexpr Real kMaxSolid = 1 - 0.1;
 
 /// One quantity of the deposits as a density on cells, sum / cell volume, without what is above
 /// `most`.

@@ -125,7 +125,7 @@ struct FlowAtGrains {
 };
 
 /// In drag laws a fluid fraction counts as at least 0.1.
-KOKKOS_INLINE_FUNCTION Real least_fraction(Real alpha) {
+KOKKOS_INLINE_FUNCTION Real limited_fraction(Real alpha) {
   return Kokkos::clamp(alpha, Real(0.1), Real(1));
 }
 

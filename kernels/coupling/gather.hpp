@@ -68,8 +68,8 @@ struct GatherFluid {
   /// beta_p = s^2 beta(alpha_l, s |u_f - u_p|), s = alpha_f/alpha_l: the law knows the superficial
   /// slip, and takes alpha_f of the whole force (model A); both go with the fraction of the flow.
   KOKKOS_INLINE_FUNCTION Real drag_coefficient(int g, const GrainKinematics& grain) const {
-    const Real alpha_l = least_fraction(flow_at.alpha_l(g));
-    const Real s = least_fraction(flow_at.alpha_f(g)) / alpha_l;
+    const Real alpha_l = limited_fraction(flow_at.alpha_l(g));
+    const Real s = limited_fraction(flow_at.alpha_f(g)) / alpha_l;
     const LocalFlow flow{.alpha_f = alpha_l,
                          .rho_f = rho_f,
                          .mu_f = mu_f,

@@ -64,7 +64,7 @@ struct ContactSum {
 };
 
 /// Most entries of a chunk: on a CPU they stay in its L2 cache, on a GPU every entry is a chunk.
-inline constexpr int kLargestChunk =
+inline constexpr int kMaxChunk =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                Kokkos::DefaultExecutionSpace::memory_space>::accessible
         ? 4096
@@ -89,14 +89,14 @@ struct Chunks {
 /// Place of an entry in its chunk: a constant where every entry is one, so that a device keeps what
 /// lies there in registers.
 KOKKOS_FORCEINLINE_FUNCTION constexpr int place_in_chunk(int entry, int begin) {
-  return kLargestChunk > 1 ? entry - begin : 0;
+  return kMaxChunk > 1 ? entry - begin : 0;
 }
 /// Large chunks have few pairs that cross; a multiple of eight of them shares well among threads,
 /// unless that makes them tiny.
 inline Chunks make_chunks(int n) {
-  const int count = 8 * ((n + 8 * kLargestChunk - 1) / (8 * kLargestChunk));
+  const int count = 8 * ((n + 8 * kMaxChunk - 1) / (8 * kMaxChunk));
   const int size = count > 0 ? (n + count - 1) / count : 1;
-  const int least = kLargestChunk < 256 ? kLargestChunk : 256;
+  const int least = kMaxChunk < 256 ? kMaxChunk : 256;
   return {.n = n, .size = size < least ? least : size};
 }
 

@@ -77,7 +77,7 @@ struct GrainMotion {
     if constexpr (effect != FluidEffect::none) fluid.impulse(g) += impulse;
     s.new_x.store(q, x, radius), s.new_u.store(q, u, mass), s.new_omega.store(q, omega, skin);
     s.excess[q] = excess_over_skin(x - x_reference(g), skin);
-    if constexpr (kLargestChunk == 1 || moves == Moves::into_first) return 0;
+    if constexpr (kMaxChunk == 1 || moves == Moves::into_first) return 0;
     slack(g) -= dt * norm(u);
     return slack(g) >= 0 ? 0 : 1;
   }

@@ -36,7 +36,7 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
     add_pair_force<rolls>(list, p, 1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
   for (int s = list.incoming_first(begin); s < list.incoming_first(end); ++s) {
-    if constexpr (kLargestChunk > 1) fetch_pair_force(list, s + 8);
+    if constexpr (kMaxChunk > 1) fetch_pair_force(list, s + 8);
     const int slot = list.incoming(s), g = list.j(slot);
     add_pair_force<rolls>(list, slot, -1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
@@ -52,7 +52,7 @@ struct SumKickDrift {
   Walls<Law> walls;
   Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last grain step: [N], [N m]
   bool last = false;
-  Real least_slack = 0;  // of a grain at rest [m]
+  Real min_slack = 0;  // of a grain at rest [m]
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
     if (!pairs.validity.holds()) {  // so that the next one is closed, too
@@ -60,13 +60,13 @@ struct SumKickDrift {
       return;
     }
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
-    ContactSum sums[kLargestChunk];
+    ContactSum sums[kMaxChunk];
     sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
-    if constexpr (kLargestChunk > 1) {
+    if constexpr (kMaxChunk > 1) {
       if (pairs.list.expired(chunk)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);
     }
-    const auto is_near = [&](int g) { return kLargestChunk == 1 || pairs.list.near_wall(g) != 0; };
+    const auto is_near = [&](int g) { return kMaxChunk == 1 || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
     if (last) keep(begin, end, sums);
     bool expired = false;
@@ -94,7 +94,7 @@ struct SumKickDrift {
     for (int g = begin; g < end; ++g) displacement += motion.dt * norm(motion.grains(g).u);
     const Real n_steps = steps_of_slack(way / (end - begin));
     for (int g = begin; g < end; ++g) {
-      const Real slack = least_slack + n_steps * motion.dt * norm(motion.grains(g).u);
+      const Real slack = min_slack + n_steps * motion.dt * norm(motion.grains(g).u);
       pairs.list.slack(g) = slack;
       pairs.list.near_wall(g) = walls.is_near(g, slack);
     }
@@ -106,7 +106,7 @@ struct SumKickDrift {
   /// grain in a grain step [m]. Measured (docs/performance.md); hardly anything changes from 20 to
   /// 200.
   KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real displacement) const {
-    const Real n_steps = Kokkos::sqrt(100 * least_slack / displacement);
+    const Real n_steps = Kokkos::sqrt(100 * min_slack / displacement);
     return n_steps < 100 ? n_steps : 100;
   }
 };

@@ -34,8 +34,8 @@ inline constexpr int kMaxColumns = 65535;
 /// rank, a piece of the Morton curve from `origin` on, come before those of others.
 struct SearchColumns {
   int nx = 1, nz = 1;
-  int rings = 1;         // 1 or 2
-  Real most_narrow = 0;  // radius + skin of a grain that is not wide, at most [m]
+  int rings = 1;        // 1 or 2
+  Real max_narrow = 0;  // radius + skin of a grain that is not wide, at most [m]
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
@@ -62,7 +62,7 @@ struct SearchColumns {
     return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
   }
   KOKKOS_FORCEINLINE_FUNCTION bool is_wide(const GrainKinematics& grain) const {
-    return rings > 1 && grain.r + grain.skin > most_narrow;
+    return rings > 1 && grain.r + grain.skin > max_narrow;
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
@@ -175,9 +175,9 @@ struct GrainOwners {
 
 /// The other ranks that own a column in the rings around a grain's: they need a copy of it.
 struct GhostDestinations {
-  static constexpr int kMost = 8 + kOuterColumns;
+  static constexpr int kMax = 8 + kOuterColumns;
   int n = 0;
-  int rank[kMost];
+  int rank[kMax];
 
   KOKKOS_FUNCTION GhostDestinations(const SearchColumns& columns, const GrainOwners& owners,
                                     const Vec3& x) {

@@ -161,11 +161,11 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
 /// Throws if there is any problem.
 Loaded checked(Loaded loaded) {
   if (loaded.problems.empty()) return loaded;
-  constexpr std::size_t most_told = 30;  // of what is no case at all there may be any number
+  constexpr std::size_t max_told = 30;  // of what is no case at all there may be any number
   const std::size_t count = loaded.problems.size();
   std::vector<std::string> lines;
   for (const Problem& problem : loaded.problems) {
-    if (lines.size() == most_told) break;
+    if (lines.size() == max_told) break;
     lines.push_back(printable(fmt::format("{}: {}", to_string(problem.where), problem.text)));
   }
   if (count > lines.size()) lines.push_back(fmt::format("  ... and {} more", count - lines.size()));

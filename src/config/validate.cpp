@@ -10,11 +10,11 @@ namespace barchan {
 namespace {
 
 void check_time(const Config& c, Findings& found) {
-  constexpr double most_steps = 9'999'999'999;  // restart files have ten digits in their names
-  found.error_if(c.time.end / c.time.fluid_step > most_steps, {"time.end", "time.fluid_step"},
+  constexpr double max_steps = 9'999'999'999;  // restart files have ten digits in their names
+  found.error_if(c.time.end / c.time.fluid_step > max_steps, {"time.end", "time.fluid_step"},
                  "must be at most {:.3g} s, which is {:.0f} fluid steps; take an earlier end or a "
                  "longer time.fluid_step",
-                 most_steps * c.time.fluid_step, most_steps);
+                 max_steps * c.time.fluid_step, max_steps);
   found.error_if(c.time.end < c.time.fluid_step, {"time.end", "time.fluid_step"},
                  "must be at least one fluid_step, {:.3g} s", c.time.fluid_step);
   const double ran = static_cast<double>(fluid_steps(c.time)) * c.time.fluid_step;
@@ -100,13 +100,13 @@ void check_fluid(const Config& c, Findings& found) {
   found.error_if(fluid.uniform_height > 0 && fluid.first_cell_height == 0,
                  {"fluid.uniform_height", "fluid.first_cell_height"},
                  "must come with a first_cell_height, the height of those rows");
-  constexpr int least_rows = 8;
+  constexpr int min_rows = 8;
   found.warning_if(
-      driven && fluid.bottom == WallFlow::no_slip && fluid.cells[1] < least_rows,
+      driven && fluid.bottom == WallFlow::no_slip && fluid.cells[1] < min_rows,
       {"fluid.cells", "fluid.bottom"},
       "has {} rows over a no-slip floor; with fewer than {} the shear at the floor, and "
       "u* with it, is far off",
-      fluid.cells[1], least_rows);
+      fluid.cells[1], min_rows);
   if (!check_rows(c, found)) check_flow_step(c, *derive(c, {}).fluid, found);
 }
 

@@ -42,10 +42,10 @@ struct Printer {
 
 std::string Range::text() const {
   std::string words;
-  if (least > -infinite) words = fmt::format("{} {:g}", above_least ? "above" : "at least", least);
-  if (most == infinite) return words;
+  if (min > -infinite) words = fmt::format("{} {:g}", above_min ? "above" : "at least", min);
+  if (max == infinite) return words;
   return fmt::format("{}{}{} {:g}", words, words.empty() ? "" : " and ",
-                     below_most ? "below" : "at most", most);
+                     below_max ? "below" : "at most", max);
 }
 
 Mismatch convert(const Node& node, double& value) {
@@ -84,7 +84,7 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
   const std::string expected = "an array of [diameter in m above 0, count above 0]";
   const auto* classes = std::get_if<NodeArray>(&node.value);
   if (classes == nullptr) return expected;
-  constexpr std::int64_t most = std::numeric_limits<int>::max();  // what a run can number
+  constexpr std::int64_t max = std::numeric_limits<int>::max();  // what a run can number
   std::int64_t total = 0;
   for (const Node& element : *classes) {
     const auto* pair = std::get_if<NodeArray>(&element.value);
@@ -93,7 +93,7 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
         convert((*pair)[1], size.count) || size.diameter <= 0 || size.count <= 0) {
       return fmt::format("{}; {} is not", expected, toml_text(element));
     }
-    if (size.count > most - total) return fmt::format("sizes of at most {} grains in all", most);
+    if (size.count > max - total) return fmt::format("sizes of at most {} grains in all", max);
     total += size.count;
     value.push_back(size);
   }
@@ -186,15 +186,15 @@ std::string toml_text(const Node& node) {
 }
 
 Mismatch check(double value, const Range& r) {
-  const bool too_low = r.above_least ? value <= r.least : value < r.least;
-  const bool too_high = r.below_most ? value >= r.most : value > r.most;
+  const bool too_low = r.above_min ? value <= r.min : value < r.min;
+  const bool too_high = r.below_max ? value >= r.max : value > r.max;
   return too_low || too_high ? Mismatch(r.text()) : Mismatch();
 }
 
 Mismatch check(const std::string& value, const Range& range) {
   if (printable_lines(value) != value) return "text without control characters";
-  if (static_cast<double>(value.size()) > range.most) {
-    return fmt::format("at most {} bytes long", range.most);
+  if (static_cast<double>(value.size()) > range.max) {
+    return fmt::format("at most {} bytes long", range.max);
   }
   return {};
 }

@@ -76,18 +76,18 @@ inline constexpr std::array<ForceName, 8> force_names{
 /// on purpose: what is merely unusual is the user's business, but powers of it must be numbers.
 struct Range {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
-  double least = -infinite, most = infinite;
-  bool above_least = false, below_most = false;  // the bound itself is excluded
+  double min = -infinite, max = infinite;
+  bool above_min = false, below_max = false;  // the bound itself is excluded
 
-  constexpr Range at_most(double bound) const { return {least, bound, above_least, false}; }
-  constexpr Range below(double bound) const { return {least, bound, above_least, true}; }
+  constexpr Range at_most(double bound) const { return {min, bound, above_min, false}; }
+  constexpr Range below(double bound) const { return {min, bound, above_min, true}; }
   /// "above 0 and at most 1"; empty if there are no bounds.
   std::string text() const;
 };
-constexpr Range above(double bound) { return {.least = bound, .above_least = true}; }
-constexpr Range at_least(double bound) { return {.least = bound}; }
-constexpr Range at_most(double bound) { return {.most = bound}; }
-constexpr Range between(double least, double most) { return {least, most}; }
+constexpr Range above(double bound) { return {.min = bound, .above_min = true}; }
+constexpr Range at_least(double bound) { return {.min = bound}; }
+constexpr Range at_most(double bound) { return {.max = bound}; }
+constexpr Range between(double min, double max) { return {min, max}; }
 constexpr Range any{};
 
 /// What is given for a T: of an optional, its value.

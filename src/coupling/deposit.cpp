@@ -119,7 +119,7 @@ void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, Field
                         .quantity = quantity,
                         .density = density};
   if (quantity == Deposits::kVolume && config_.void_fraction == VoidFraction::cfdem_faithful) {
-    functor.most = kMostSolid;
+    functor.most = kMaxSolid;
   }
   for_each_cell("coupling: decode deposit", grid_.grid, functor);
   if (smooths(quantity)) grid_.smooth(density);

@@ -170,7 +170,7 @@ std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepRe
         "drag there; take a shorter one",
         where(courant));
   }
-  if (report.courant > kMostCourant) {
+  if (report.courant > kMaxCourant) {
     return fmt::format(
         "CFL = {:.2f} in {} is beyond stability: the flow is faster there than time.fluid_step "
         "allows; take one below {:.2e} s, or wider cells",

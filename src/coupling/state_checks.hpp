@@ -14,7 +14,7 @@ namespace barchan {
 /// Limits of a sound state beside grains.max_overlap. They are far from what a good run shows (a
 /// CFL number of 0.5), and near enough to stop before results are ruined unseen.
 inline constexpr Real kMaxDisplacement = 0.5;  // of a grain in a grain step, in radii
-inline constexpr Real kMostCourant = 1;        // of the flow
+inline constexpr Real kMaxCourant = 1;         // of the flow
 inline constexpr Real kFractionSlack = 1e-9;   // of the fluid fraction around (0, 1]
 
 /// All ranks call every member together.

@@ -65,13 +65,13 @@ std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size
     return std::max(1, std::min(static_cast<int>(length / wave), cells / 4));
   };
   const double lx = size[0], lz = size[2];
-  const int most_x = most(lx, scale, grid.nx_all), most_z = most(lz, 0.5 * scale, grid.nz_all);
+  const int max_x = most(lx, scale, grid.nx_all), max_z = most(lz, 0.5 * scale, grid.nz_all);
   std::vector<Mode> modes;
   for (int m = 0; m < n_vortex_modes + n_wave_modes; ++m) {
     const bool vortex = m < n_vortex_modes;
     Mode mode;
-    mode.mx = vortex ? 0 : whole(1, most_x);
-    mode.mz = vortex ? whole(std::max(1, most_z / 3), most_z) : whole(0, most_z);
+    mode.mx = vortex ? 0 : whole(1, max_x);
+    mode.mz = vortex ? whole(std::max(1, max_z / 3), max_z) : whole(0, max_z);
     const double k = 2 * pi * std::hypot(mode.mx / lx, mode.mz / lz);
     for (std::size_t c = 0; c < 3; ++c) {
       const double weight = vortex ? (c == 0 ? 2.0 : 0.0) : 1.0;

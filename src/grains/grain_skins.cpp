@@ -17,7 +17,7 @@ namespace {
 constexpr Real kNarrowSkin = 3;
 /// Where a domain is too narrow for two rings: the largest skin over the largest diameter. With
 /// wider ones rebuilds are rarer, but columns are as much wider, and hold more grains.
-constexpr Real kLargestSkin = 0.4;
+constexpr Real kMaxSkin = 0.4;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ GrainSkins::GrainSkins(const Config& config, Real r_max)
     largest_ = column_width_ - r_max;
   } else {
     rings_ = 1;
-    largest_ = std::max(least_, std::min(kLargestSkin * 2 * r_max, narrowest / 6 - r_max));
+    largest_ = std::max(least_, std::min(kMaxSkin * 2 * r_max, narrowest / 6 - r_max));
     column_width_ = 2 * (r_max + largest_);
   }
 }

@@ -155,7 +155,7 @@ void GrainSolver::grain_step(const GrainState& grains, int s, bool last, Real dt
                                 .contact_force = grains.contact_force,
                                 .contact_torque = grains.contact_torque,
                                 .last = last,
-                                .least_slack = list_.least_slack()};
+                                .min_slack = list_.min_slack()};
     Kokkos::parallel_reduce("grains: intra-chunk pairs, sum, kick and drift",
                             items(grains.list.chunks.count()), sum, max_excess(s + 1));
   };

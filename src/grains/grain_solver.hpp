@@ -74,7 +74,7 @@ class GrainSolver {
   RollingLaw rolling_;
   Friction pair_friction_, wall_friction_;
   WallShapes walls_;
-  int ahead_ = kLargestChunk > 1 ? 1 : 16;
+  int ahead_ = kMaxChunk > 1 ? 1 : 16;
   // Largest squared displacement beyond the skin of a grain as a grain step begins [m^2].
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;

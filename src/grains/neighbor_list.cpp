@@ -43,7 +43,7 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
   columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
   const Real cutoff = skins_.column_width();
   columns_.rings = skins_.rings();
-  columns_.most_narrow = cutoff / 2;
+  columns_.max_narrow = cutoff / 2;
   columns_.nx = column_count(lx_, cutoff, columns_.periodic_x, "x");
   columns_.nz = column_count(lz, cutoff, columns_.periodic_z, "z");
   columns_.inverse_width_x = columns_.nx / lx_;
@@ -179,7 +179,7 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.pair_force, "pairs: force of an inter-chunk pair", list.n_inter);
   reserve(list.active, "pairs: active", list.n_pairs - list.n_inter + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
-  reserve(list.slack, "pairs: slack", kLargestChunk > 1 ? list.chunks.n : 0);
+  reserve(list.slack, "pairs: slack", kMaxChunk > 1 ? list.chunks.n : 0);
   reserve(list.expired, "chunks: expired", list.chunks.count());
   Kokkos::deep_copy(list.expired, 1);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);

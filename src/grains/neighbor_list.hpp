@@ -47,7 +47,7 @@ class NeighborList {
   const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
   std::int64_t n_migrated() const { return ranks_ ? ranks_->migrate.n_sent() : 0; }
   /// The way of a grain at rest for which pairs that may touch are looked for [m].
-  Real least_slack() const { return skins_.least() / 100; }
+  Real min_slack() const { return skins_.least() / 100; }
   std::int64_t rebuilds() const { return rebuilds_; }
   /// Wall time of all rebuilds so far.
   double seconds() const { return seconds_; }

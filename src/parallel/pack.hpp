@@ -19,7 +19,7 @@ namespace barchan {
 struct PackLayout {
   // All arrays of a grain fit, as a test of CoupledOverRanks shows; more would not fit a kernel's
   // arguments. However many columns an array has, it is one.
-  static constexpr int kMost = 28;
+  static constexpr int kMax = 28;
   struct Array {
     char* data;
     std::int32_t column_stride;  // from column to column [numbers of eight bytes]
@@ -34,14 +34,14 @@ struct PackLayout {
              static_cast<std::ptrdiff_t>(sizeof(Real)) * column_stride * column;
     }
   };
-  Array array[kMost];
+  Array array[kMax];
   int n = 0, width = 0;  // arrays; numbers of an entry
 
   /// Entries of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on; in
-  /// each of some columns. Throws std::length_error beyond kMost.
+  /// each of some columns. Throws std::length_error beyond kMax.
   void add(void* data, std::size_t stride, std::size_t bytes, std::size_t columns = 1,
            std::size_t column_stride = 0) {
-    if (n == kMost) throw std::length_error("PackLayout: too many arrays");
+    if (n == kMax) throw std::length_error("PackLayout: too many arrays");
     array[n] = {static_cast<char*>(data), static_cast<std::int32_t>(column_stride),
                 static_cast<std::int16_t>(stride), static_cast<std::int8_t>(bytes / sizeof(Real)),
                 static_cast<std::int8_t>(columns)};

@@ -145,7 +145,7 @@ void RunState::count_grains() {
 void FluidStepSums::add(const FluidStepReport& report, double fluid_step, double impulse) {
   ++steps;
   iterations += report.pressure_iterations;
-  most_iterations = std::max<std::int64_t>(most_iterations, report.pressure_iterations);
+  max_iterations = std::max<std::int64_t>(max_iterations, report.pressure_iterations);
   continuity_residual = std::max(continuity_residual, report.continuity_residual / fluid_step);
   courant = std::max(courant, report.courant);
   impulse_on_grains += impulse;
@@ -214,7 +214,7 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["grain_steps_per_second"] = static_cast<double>(grain_steps) / for_rates;
   json["cell_steps_per_second"] = cell_steps(run) / for_rates;
   json["pressure_iterations_mean"] = per_step(run, static_cast<double>(all.iterations));
-  json["pressure_iterations_max"] = all.most_iterations;
+  json["pressure_iterations_max"] = all.max_iterations;
   json["max_cfl"] = all.courant;
   json["max_overlap"] = max_overlap;
   if (run.state.grains) {

@@ -56,7 +56,7 @@ struct RunState {
 
 /// Sums and extremes over fluid steps.
 struct FluidStepSums {
-  std::int64_t steps = 0, iterations = 0, most_iterations = 0;
+  std::int64_t steps = 0, iterations = 0, max_iterations = 0;
   double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
   double impulse_on_grains = 0;                 // of the flow along x [N s]
 

@@ -118,12 +118,12 @@ TEST(ConfigKeys, RangesRefuseWhatTheySay) {
       Config config = full_case();
       return key.read(node, config);
     };
-    const auto [least, most, above_least, below_most] = key.range;
-    EXPECT_EQ(refused(least).has_value(), above_least);
-    EXPECT_EQ(refused(least - std::abs(least) - 1), key.range.text());
-    if (most == Range::infinite) return;
-    EXPECT_EQ(refused(most).has_value(), below_most);
-    EXPECT_EQ(refused(2 * most), key.range.text());
+    const auto [min, max, above_min, below_max] = key.range;
+    EXPECT_EQ(refused(min).has_value(), above_min);
+    EXPECT_EQ(refused(min - std::abs(min) - 1), key.range.text());
+    if (max == Range::infinite) return;
+    EXPECT_EQ(refused(max).has_value(), below_max);
+    EXPECT_EQ(refused(2 * max), key.range.text());
   });
 }
 
