@@ -29,7 +29,7 @@ struct SetSkins {
 };
 
 /// How many skins are not those of a list with these bounds.
-struct CountForeignSkins {
+struct CountSkinsOutOfRange {
   Real least = 0, largest = 0;  // [m]
   Kokkos::View<const GrainKinematics*> grains;
   KOKKOS_FUNCTION void operator()(int g, int& n) const {

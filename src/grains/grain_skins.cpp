@@ -61,10 +61,10 @@ void GrainSkins::set(const GrainState& grains) const {
                                 .from = grains.x_reference});
 }
 
-bool GrainSkins::are_of(const GrainState& grains) const {
+bool GrainSkins::suit(const GrainState& grains) const {
   int n_foreign = 0;
   Kokkos::parallel_reduce("neighbors: foreign skins", items(grains.n),
-                          CountForeignSkins{least_, largest_, grains.kin}, n_foreign);
+                          CountSkinsOutOfRange{least_, largest_, grains.kin}, n_foreign);
   return sum_over(grains.ranks, n_foreign) == 0;
 }
 

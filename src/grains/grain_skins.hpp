@@ -22,7 +22,7 @@ class GrainSkins {
   /// Sets those of a new list, from where the grains are now (x_reference). All ranks together.
   void set(const GrainState& grains) const;
   /// False if any is not within these bounds. All ranks together.
-  bool are_of(const GrainState& grains) const;
+  bool suit(const GrainState& grains) const;
 
  private:
   int rings_ = 2;

@@ -271,7 +271,7 @@ void NeighborList::drop_left(GrainState& grains) {
 
 void NeighborList::restore(GrainState& grains) {
   const int n = grains.n;
-  if (!skins_.are_of(grains)) return rebuild(grains, false);
+  if (!skins_.suit(grains)) return rebuild(grains, false);
   take_room(grains);
   Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
                                               static_cast<std::size_t>(std::max(n, 1)));
