@@ -122,7 +122,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
 
 void ResultsWriter::write_due() {
   const RunClock& clock = run_.clock;
-  Watchdog::beat("writing results", clock.step, clock.time());
+  Watchdog::heartbeat("writing results", clock.step, clock.time());
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
     for (const DuneRow& dune : diagnostics_.find_dunes()) append_row(folder_, dune);
@@ -221,7 +221,7 @@ bool ResultsWriter::restart_due() const {
 
 void ResultsWriter::write_restart() {
   const RunClock& clock = run_.clock;
-  Watchdog::beat("writing a restart file", clock.step, clock.time());
+  Watchdog::heartbeat("writing a restart file", clock.step, clock.time());
   CheckpointWriter file(folder_, clock.step, run_.provenance, run_.ranks);
   save_state(file, run_.state, run_.coupled_step.neighbor_list());
   file.scalar("t", clock.time());

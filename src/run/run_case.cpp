@@ -75,7 +75,7 @@ std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
     if (!told)
       report::info("{} is being computed by {}; waiting", folder.string(),
                    FolderLock::holder_of(folder));
-    Watchdog::beat("waiting for a case that another process runs");
+    Watchdog::heartbeat("waiting for a case that another process runs");
     std::this_thread::sleep_for(500ms);
   }
 }
@@ -160,7 +160,7 @@ void run_locked(const Config& config, const RunOptions& options) {
   const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
   report::stop_log();
   report::info("{}", config.title);
-  Watchdog::beat("setting up");
+  Watchdog::heartbeat("setting up");
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation = as_input([&] { return Simulation(config, options, files); });
   simulation.open_folder();

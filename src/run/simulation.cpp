@@ -79,7 +79,7 @@ Outcome Simulation::loop() {
 
 /// Advances the state, keeps the accounts, and stops a run that has gone wrong.
 void Simulation::one_step() {
-  Watchdog::beat("computing", run_.clock.step + 1, run_.clock.time());
+  Watchdog::heartbeat("computing", run_.clock.step + 1, run_.clock.time());
   accounts_.grain_steps += run_.n_grains * run_.coupled_step.substeps();
   run_.advance();
   {

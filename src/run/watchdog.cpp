@@ -24,13 +24,13 @@ constexpr auto look_interval = std::chrono::milliseconds(250);
 // rest of it is no waiting.
 constexpr double longest_look = 1;
 // Rank k speaks k times this later [s]: the lowest waiting rank ends the others before they speak.
-constexpr double turn = 2;
+constexpr double rank_delay = 2;
 // The others hear of that by SIGTERM, and have this long until they are killed [s].
-constexpr double farewell = 60;
+constexpr double grace_period = 60;
 constexpr auto time_to_abort = std::chrono::seconds(5);
 
 std::mutex mutex;  // of the next
-LongWait now;      // of this rank: a beat sets its seconds back, the watchdog counts them
+LongWait now;      // of this rank: a heartbeat sets its seconds back, the watchdog counts them
 
 /// MPI is not promised calls from two threads at once (that would cost every message), so this one
 /// may get stuck like the main thread. mpirun also ends all ranks when one leaves by itself.
@@ -43,13 +43,13 @@ LongWait now;      // of this rank: a beat sets its seconds back, the watchdog c
   std::_Exit(1);
 }
 
-/// Counts the seconds without a beat, of those in which this process ran.
+/// Counts the seconds without a heartbeat, of those in which this process ran.
 void watch(const std::stop_token& stop, int patience, MPI_Comm communicator) {
   std::unique_lock lock(mutex);
   std::condition_variable_any stopped;
-  const double limit = patience + now.rank * turn;
+  const double limit = patience + now.rank * rank_delay;
   auto last_look = WallClock::now();
-  while (now.seconds < (stop_signal == 0 ? limit : limit + farewell)) {
+  while (now.seconds < (stop_signal == 0 ? limit : limit + grace_period)) {
     stopped.wait_for(lock, stop, look_interval, [] { return false; });
     if (stop.stop_requested()) return;
     now.seconds += std::min(seconds_since(last_look), longest_look);
@@ -88,7 +88,7 @@ Watchdog::Watchdog(int patience, MPI_Comm communicator) {
   });
 }
 
-void Watchdog::beat(const char* doing, std::int64_t step, double time) {
+void Watchdog::heartbeat(const char* doing, std::int64_t step, double time) {
   const std::lock_guard lock(mutex);
   now.doing = doing;
   now.step = step;

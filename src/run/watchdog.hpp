@@ -14,7 +14,7 @@ namespace barchan {
 struct LongWait {
   int rank = 0;
   std::string host;
-  double seconds = 0;              // without a beat
+  double seconds = 0;              // without a heartbeat
   std::string doing = "starting";  // since then
   std::int64_t step = 0;           // fluid step of that, 0: none yet
   double time = 0;                 // simulated, at its beginning [s]
@@ -26,16 +26,16 @@ std::string to_text(const LongWait& wait);
 
 /// A rank that hangs, or dies unseen by MPI (a stuck disk, a lost network, a deadlock), leaves the
 /// others waiting for ever in a collective call. While this object lives, a thread of each rank
-/// looks for beats of its main thread; when none came for `patience`, it says so and ends all ranks
-/// with exit code 1. One rank, or no patience: nothing is started.
+/// looks for heartbeats of its main thread; when none came for `patience`, it says so and ends all
+/// ranks with exit code 1. One rank, or no patience: nothing is started.
 class Watchdog {
  public:
-  /// `patience` in seconds of wall time, longer than anything between two beats; 0: for ever.
+  /// `patience` in seconds of wall time, longer than anything between two heartbeats; 0: for ever.
   Watchdog(int patience, MPI_Comm communicator);
 
   /// The main thread goes on: `doing` completes "while". Cheap enough for every fluid step. `step`,
   /// `time` [s]: see LongWait. As with signals, there is one pulse a program.
-  static void beat(const char* doing, std::int64_t step = 0, double time = 0);
+  static void heartbeat(const char* doing, std::int64_t step = 0, double time = 0);
 
   /// From now on the user is referred to this restart file; empty: to none.
   static void last_good_restart(const std::filesystem::path& file);

@@ -13,7 +13,7 @@ namespace {
 TEST(Watchdog, BeatsKeepItQuietBeyondItsPatience) {
   const Watchdog watchdog(1, MPI_COMM_WORLD);  // would end the program and fail the test
   for (int n = 0; n < 15; ++n) {
-    Watchdog::beat("testing", n, 0.1 * n);
+    Watchdog::heartbeat("testing", n, 0.1 * n);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 }
