@@ -32,7 +32,7 @@ KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3&
 }
 
 /// Position [m], diameter [m], velocity [m/s] and spin [rad/s] of each grain.
-struct SplitGrains {
+struct FrameArrays {
   Kokkos::View<const GrainKinematics*> grains;
   FrameVectors<double> x;
   Kokkos::View<double*> d;

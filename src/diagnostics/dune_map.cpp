@@ -33,7 +33,7 @@ HeightMap::HeightMap(GrainCloud grains, const DuneDomain& domain, const DuneCrit
 void HeightMap::choose_bins(GrainCloud grains, const DuneDomain& domain, double bin_size) {
   double sum = 0.0;
   std::size_t n = 0;
-  for (const CloudGrain& grain : grains) {
+  for (const GrainSample& grain : grains) {
     if (!std::isfinite(grain.d) || grain.d <= 0.0) continue;
     sum += grain.d;
     ++n;

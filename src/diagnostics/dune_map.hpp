@@ -13,12 +13,12 @@
 namespace barchan {
 
 /// What the dunes are found from.
-struct CloudGrain {
+struct GrainSample {
   Vec3 x;            ///< centre [m]
   double d = 0.0;    ///< diameter [m]
   double u_x = 0.0;  ///< streamwise velocity [m/s]
 };
-using GrainCloud = std::span<const CloudGrain>;
+using GrainCloud = std::span<const GrainSample>;
 
 /// Horizontal extent of the domain; the wall that carries the dunes is y = 0.
 struct DuneDomain {

@@ -16,7 +16,7 @@ void ForceMap::sample(double t, GrainCloud grains, std::span<const Vec3> force) 
   const DuneRow& dune = dunes.front();
   if (step_ == 0) {  // kept: grains that leave must not move the bins
     double sum = 0;
-    for (const CloudGrain& grain : grains) sum += grain.d;
+    for (const GrainSample& grain : grains) sum += grain.d;
     step_ = bin_diameters * sum / static_cast<double>(grains.size());
     start_ = t;
   }

@@ -44,9 +44,9 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
 }
 
 /// All grains as the dune analytics take them. All ranks together; empty on ranks other than 0.
-inline std::vector<CloudGrain> gathered_grains(const GrainState& grains) {
+inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
   const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
-  std::vector<CloudGrain> mine;
+  std::vector<GrainSample> mine;
   for (int g = 0; g < grains.n; ++g)
     mine.push_back({.x = kin(g).x, .d = 2 * kin(g).r, .u_x = kin(g).u.x});
   return on_rank_0(grains.ranks, mine);

@@ -87,7 +87,7 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
   const auto n = static_cast<std::size_t>(grains.n);
   const Hyperslab entries = slab_of_entries(n, grains.ranks);
   const Entries range(0, grains.n);
-  const SplitGrains split{.grains = grains.kin,
+  const FrameArrays split{.grains = grains.kin,
                           .x = FrameVectors<double>("output: x", n),
                           .d = Kokkos::View<double*>("output: d", n),
                           .u = FrameVectors<float>("output: u", n),

@@ -51,7 +51,7 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 }
 
 std::vector<DuneRow> RunDiagnostics::find_dunes() {
-  const std::vector<CloudGrain> grains = gathered_grains(*run_.state.grains);
+  const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   if (rank_of(run_.ranks) != 0) return {};
   const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains);
@@ -63,7 +63,7 @@ std::vector<DuneRow> RunDiagnostics::find_dunes() {
 
 std::vector<int> RunDiagnostics::dune_labels() const {
   const GrainState& grains = *run_.state.grains;
-  const std::vector<CloudGrain> all = gathered_grains(grains);
+  const std::vector<GrainSample> all = gathered_grains(grains);
   std::vector<int> labels;
   if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
   return from_rank_0(run_.ranks, labels, grains.n);
@@ -79,7 +79,7 @@ void RunDiagnostics::sample() {
   if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
   if (!force_map_) return;
   const GrainState& grains = *run_.state.grains;
-  const std::vector<CloudGrain> all = gathered_grains(grains);
+  const std::vector<GrainSample> all = gathered_grains(grains);
   const auto mine = Kokkos::create_mirror_view_and_copy(
       Kokkos::HostSpace{}, mean_resultant_force(grains, run_.coupled_step.dt()));
   const auto force =

@@ -20,7 +20,7 @@ inline constexpr double bin = 2.5 * d;  // the resolution that is promised [m]
 inline constexpr double mm = 1e-3;      // [m]
 inline const DuneDomain channel{.length_x = 0.1, .length_z = 0.05};
 
-using Grains = std::vector<CloudGrain>;
+using Grains = std::vector<GrainSample>;
 
 inline Grains moved(Grains grains, double dx, double dz, const DuneDomain& domain = channel) {
   for (auto& [x, diameter, u_x] : grains) {

@@ -26,7 +26,7 @@ TEST(DuneAnalytics, ConeIsItsDiameterAndHasNoHorns) {
 TEST(DuneAnalytics, CentroidIsWeightedByVolume) {
   Grains grains = pile(0.03, 0.02, 5.0 * mm, [](double, double) { return 1.0 * mm; });
   const double before = only_dune(grains).cx;
-  for (CloudGrain& grain : grains) {
+  for (GrainSample& grain : grains) {
     if (grain.x.x > 0.03) grain.d *= 0.5;
   }
   EXPECT_LT(only_dune(grains).cx, before - 1.0 * mm);
@@ -200,7 +200,7 @@ TEST(DuneAnalytics, FluxIsVolumeTimesVelocityOverFootprint) {
   Grains grains = heap(30.0 * mm, 25.0 * mm, 10.0 * mm, 3.0 * mm);
   EXPECT_EQ(only_dune(grains).flux, 0.0);
   // One half moves downstream, the other half as fast upstream; stray grains are not the dune's.
-  for (CloudGrain& grain : grains) {
+  for (GrainSample& grain : grains) {
     const double side = grain.x.z - 25.0 * mm;
     grain.u_x = side > 0.5 * d ? 0.04 : side < -0.5 * d ? -0.02 : 0.0;
   }

@@ -16,7 +16,7 @@ constexpr double d = 2e-4;
 
 /// A cone of 6 mm radius at (x, z) and a force on each grain.
 struct Heap {
-  std::vector<CloudGrain> grains;
+  std::vector<GrainSample> grains;
   std::vector<Vec3> force;
 
   Heap(double x, double z, const DuneDomain& domain) {
