@@ -5,13 +5,13 @@ namespace {
 
 enum Rule { none = 0, required = 1, fixed_by_restart = 2, required_and_fixed = 3 };
 
-/// What `holder` points to, or holds; nullptr if that is absent.
+/// What `parent` points to, or holds; nullptr if that is absent.
 template <class T>
-auto* held(T* holder) {
-  if constexpr (requires { holder->has_value(); }) {
-    return holder != nullptr && *holder ? &**holder : nullptr;
+auto* value_of(T* parent) {
+  if constexpr (requires { parent->has_value(); }) {
+    return parent != nullptr && *parent ? &**parent : nullptr;
   } else {
-    return holder;
+    return parent;
   }
 }
 
@@ -24,7 +24,7 @@ class Keys {
   Keys(Section& section, Get get) : section_(section), get_(get) {
     if constexpr (requires(Config c) { get(c)->emplace(); }) {
       section.prepare = [get](Config& c, bool in_file) {
-        if (auto* holder = get(c); in_file && holder != nullptr) holder->emplace();
+        if (auto* parent = get(c); in_file && parent != nullptr) parent->emplace();
       };
     }
   }
@@ -52,13 +52,13 @@ class Keys {
                Plain<T> value{};
                Mismatch mismatch = convert(node, value);
                if (!mismatch) mismatch = check(value, range);
-               if (!mismatch) held(get(config))->*member = value;
+               if (!mismatch) value_of(get(config))->*member = value;
                return mismatch;
              },
          .text = [get = get_, member](const Config& config) -> std::optional<std::string> {
-           const Struct* holder = held(get(config));
-           if (holder == nullptr) return {};
-           return optional_text(holder->*member);
+           const Struct* parent = value_of(get(config));
+           if (parent == nullptr) return {};
+           return optional_text(parent->*member);
          }});
   }
 
@@ -110,7 +110,7 @@ void add_fluid(Sections& all) {
   key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",
       "its viscosity over its density");
   key("mean_velocity", &F::mean_velocity, between(0, 1e6), "m/s",
-      "bulk velocity along x, held by a body force");
+      "bulk velocity along x, value_of by a body force");
   key("pressure_gradient", &F::pressure_gradient, between(-1e12, 1e12), "Pa/m",
       "driving force along x per volume, instead of `mean_velocity`");
   key("ramp_time", &F::ramp_time, at_least(0), "s",

@@ -1,4 +1,4 @@
-// The table of all keys of a configuration. Reading, checking, writing, the comparison with a
+// The table of all keys of a configuration. ConfigReader, checking, writing, the comparison with a
 // restart and docs/keys.md walk it: a new key is a member in config.hpp and a line in keys.cpp.
 #pragma once
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// If the start `key` is a file: is it of a known kind, and there? Makes its path absolute.
-void resolve_start(Reading& reading, const std::string& key, fs::path& start,
+void resolve_start(ConfigReader& reading, const std::string& key, fs::path& start,
                    const fs::path& folder) {
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
@@ -23,7 +23,7 @@ void resolve_start(Reading& reading, const std::string& key, fs::path& start,
   if (flow && std::count(flow_words.begin(), flow_words.end(), start.string()) > 0) return;
   if (start.extension() != ".h5" && start.extension() != ".toml" &&
       (flow || start.extension() != ".csv")) {
-    return reading.complain(
+    return reading.report_error(
         key, flow ? fmt::format("must be \"{}\" or a file ending in .h5, .toml",
                                 fmt::join(flow_words, "\", \""))
                   : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
@@ -33,9 +33,10 @@ void resolve_start(Reading& reading, const std::string& key, fs::path& start,
   if (const std::string why = not_a_file(path); why.empty()) {
     start = path;
   } else if (fs::exists(path, ignored)) {
-    reading.complain(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
+    reading.report_error(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
   } else {
-    reading.complain(key, fmt::format("must be a file that exists; there is no {}", path.string()));
+    reading.report_error(key,
+                         fmt::format("must be a file that exists; there is no {}", path.string()));
   }
 }
 
@@ -66,24 +67,24 @@ std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& p
 }
 
 /// Reports errors that rest on values as written: one read wrongly would only confuse.
-void report(const std::vector<Finding>& findings, Reading& reading) {
+void report(const std::vector<Finding>& findings, ConfigReader& reading) {
   for (const Finding& finding : findings) {
     const bool doubtful = std::any_of(finding.keys.begin(), finding.keys.end(),
                                       [&](const std::string& key) { return reading.is_bad(key); });
     if (finding.severity == Finding::Severity::error && !doubtful) {
-      reading.contradict(finding.keys.front(), finding.message);
+      reading.report_conflict(finding.keys.front(), finding.message);
     }
   }
 }
 
 /// The case that the start `key` names, if it names one: loaded, and checked against this one.
 Loaded load_start(const Config& config, const std::string& key, const fs::path& start,
-                  Reading& reading, std::vector<fs::path> chain) {
+                  ConfigReader& reading, std::vector<fs::path> chain) {
   Loaded loaded;
   if (start.extension() != ".toml" || reading.is_bad(key)) return loaded;
   chain.push_back(fs::weakly_canonical(config.file));
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(start)) != chain.end()) {
-    reading.contradict(key, "must not lead back to this case");
+    reading.report_conflict(key, "must not lead back to this case");
     return loaded;
   }
   if (const auto text = text_of(start, loaded.problems)) loaded = load(*text, start, {}, chain);
@@ -96,14 +97,14 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
 /// Makes metres of what is given in diameters. `sizes`: of the grains that are poured, here or in
 /// the case that this one starts from; of others [grains] sizes need not be true. `tell`: if none
 /// are known.
-void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeClass>& sizes,
+void resolve_lengths(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes,
                      bool tell) {
   const auto resolve = [&](const char* key, Length& length) {
     if (!length.in_diameters || reading.is_bad(key)) return;
     if (sizes.empty() && tell) {
-      return reading.complain(key,
-                              "must be in metres: diameters are known only of grains that are "
-                              "poured, in this case or in the one it starts from");
+      return reading.report_error(key,
+                                  "must be in metres: diameters are known only of grains that are "
+                                  "poured, in this case or in the one it starts from");
     }
     length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
   };
@@ -120,7 +121,7 @@ void resolve_lengths(Reading& reading, Config& config, const std::vector<SizeCla
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain) {
   Loaded loaded;
-  Reading reading(text, file);
+  ConfigReader reading(text, file);
   const bool parsed = reading.problems().empty();
   reading.set(overrides);
   std::vector<Problem> from_starts;
@@ -137,7 +138,7 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
     loaded.random = (config.fluid && (initial.fluid == "turbulent" || flow.random)) ||
                     (config.grains && (initial.pour || grains.random));
     if (initial.realisation > 1 && !loaded.random && from_starts.empty()) {
-      reading.contradict(
+      reading.report_conflict(
           "initial.realisation",
           "has other random numbers, and this case starts from none: its realisations "
           "would all be the same");
@@ -194,14 +195,14 @@ Config load_config_text(std::string_view text, const fs::path& file,
 }
 
 Config config_as_written(std::string_view resolved, const fs::path& file) {
-  return Reading(resolved, file).read();
+  return ConfigReader(resolved, file).read();
 }
 
 bool is_written_in(const fs::path& file, const Config& config) {
   std::vector<Problem> unreadable;
   const auto text = text_of(file, unreadable);
   if (!text) return false;
-  Reading reading(*text, config.file);
+  ConfigReader reading(*text, config.file);
   return reading.read() == config && !reading.has_bad_keys();
 }
 

@@ -82,14 +82,14 @@ std::string removal(std::string_view dotted, std::string_view value) {
 
 }  // namespace
 
-Reading::Reading(std::string_view text, const std::filesystem::path& file)
+ConfigReader::ConfigReader(std::string_view text, const std::filesystem::path& file)
     : file_(file), tree_(parse_toml(text, file.string(), problems_)) {}
 
-void Reading::set(const std::vector<std::string>& assignments) {
+void ConfigReader::set(const std::vector<std::string>& assignments) {
   for (const std::string& one : assignments) apply_override(tree_, one, problems_);
 }
 
-Config Reading::read() {
+Config ConfigReader::read() {
   Config config;
   config.file = file_;
   for (const Section& section : sections()) read(section, config);
@@ -100,29 +100,30 @@ Config Reading::read() {
   return config;
 }
 
-void Reading::read(const Section& section, Config& config) {
+void ConfigReader::read(const Section& section, Config& config) {
   const Node* node = tree_.find(section.name);
   const bool is_table = node != nullptr && node->table() != nullptr;
   if (section.prepare) section.prepare(config, is_table);
-  if (node == nullptr && section.required) complain(section.name, "required section is missing");
+  if (node == nullptr && section.required)
+    report_error(section.name, "required section is missing");
   if (node != nullptr && !is_table && !section.keys.empty()) {
-    complain(section.name, fmt::format("must be a section, [{}]", section.name));
+    report_error(section.name, fmt::format("must be a section, [{}]", section.name));
   }
   if (!is_table) return;
   for (const Key& key : section.keys) {
     const Node* value = node->find(key.name);
     if (value == nullptr) {
-      if (key.required) complain(key.dotted(), "required key is missing");
+      if (key.required) report_error(key.dotted(), "required key is missing");
     } else if (value->table() == nullptr || !is_section(key.dotted())) {
       if (const Mismatch mismatch = key.read(*value, config)) {
         const std::string gone = removal(key.dotted(), toml_text(*value));
-        complain(key.dotted(), gone.empty() ? "must be " + *mismatch : gone);
+        report_error(key.dotted(), gone.empty() ? "must be " + *mismatch : gone);
       }
     }
   }
 }
 
-void Reading::contradict(const std::string& dotted, const std::string& message) {
+void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {
   const auto [section, name] = split(dotted);
   const Node* node = tree_.find(dotted);
   const Node* around = section.empty() ? nullptr : tree_.find(section);
@@ -133,19 +134,19 @@ void Reading::contradict(const std::string& dotted, const std::string& message) 
   problems_.push_back({where, sentence(section, name, whole, node, message)});
 }
 
-void Reading::complain(const std::string& dotted, const std::string& message) {
-  contradict(dotted, message);
+void ConfigReader::report_error(const std::string& dotted, const std::string& message) {
+  report_conflict(dotted, message);
   bad_.insert(dotted);
 }
 
-bool Reading::is_bad(const std::string& dotted) const {
+bool ConfigReader::is_bad(const std::string& dotted) const {
   for (std::string part = dotted; !part.empty(); part = split(part).first) {
     if (bad_.contains(part)) return true;
   }
   return false;
 }
 
-void Reading::find_unknown(const std::string& section, const Node& node) {
+void ConfigReader::find_unknown(const std::string& section, const Node& node) {
   if (node.table() == nullptr) return;
   const std::vector<std::string> known = names_in(section);
   for (const auto& [name, value] : *node.table()) {
@@ -161,7 +162,8 @@ void Reading::find_unknown(const std::string& section, const Node& node) {
   }
 }
 
-std::string Reading::suggestion(const std::string& section, const std::string& name, bool table) {
+std::string ConfigReader::suggestion(const std::string& section, const std::string& name,
+                                     bool table) {
   const auto elsewhere = [](const std::string& key, const std::string& home) {
     return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
   };

@@ -15,10 +15,10 @@ namespace barchan {
 struct Section;
 
 /// One file that is read, and what is wrong with it.
-class Reading {
+class ConfigReader {
  public:
   /// Parses `text`, which stands in `file`.
-  Reading(std::string_view text, const std::filesystem::path& file);
+  ConfigReader(std::string_view text, const std::filesystem::path& file);
   /// Applies "key=value" assignments in order, before anything is read.
   void set(const std::vector<std::string>& assignments);
 
@@ -27,9 +27,9 @@ class Reading {
 
   /// A complaint about a dotted key or a section, at the line where it was written, else that of
   /// its section, else the file as a whole: "[section] key = value: message".
-  void contradict(const std::string& dotted, const std::string& message);
+  void report_conflict(const std::string& dotted, const std::string& message);
   /// The same; the key is bad from then on.
-  void complain(const std::string& dotted, const std::string& message);
+  void report_error(const std::string& dotted, const std::string& message);
   /// True if `dotted`, or the section it is in, could not be read as meant: nothing is to be
   /// concluded from its value.
   bool is_bad(const std::string& dotted) const;
