@@ -7,8 +7,9 @@
 #include "perf/options.hpp"
 #include "src/config/load.hpp"
 #include "src/fluid/domain.hpp"
-#include "src/output/state_file.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/grain_files.hpp"
+#include "src/initial/initial_state.hpp"
+#include "src/output/grain_state_file.hpp"
 
 namespace barchan {
 

@@ -11,8 +11,8 @@
 #include "perf/options.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/coupling/coupled_step.hpp"
-#include "src/grains/initial_grains.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/grain_files.hpp"
+#include "src/initial/initial_state.hpp"
 
 namespace barchan {
 

@@ -92,7 +92,7 @@ struct SumKickDrift {
   KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
     Real displacement = 0;  // of all grains in a grain step [m]
     for (int g = begin; g < end; ++g) displacement += motion.dt * norm(motion.grains(g).u);
-    const Real n_steps = steps_of_slack(way / (end - begin));
+    const Real n_steps = steps_of_slack(displacement / (end - begin));
     for (int g = begin; g < end; ++g) {
       const Real slack = min_slack + n_steps * motion.dt * norm(motion.grains(g).u);
       pairs.list.slack(g) = slack;

@@ -1,11 +1,10 @@
-#include "src/config/validate.hpp"
+#include "src/config/grain_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
+#include "src/config/derived.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {

@@ -7,6 +7,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
+#include "src/config/derived.hpp"
 #include "src/config/reading.hpp"
 #include "src/config/validate.hpp"
 

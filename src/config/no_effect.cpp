@@ -1,8 +1,8 @@
-// Keys that were changed and can do nothing in the case at hand.
+#include "src/config/no_effect.hpp"
+
 #include <string_view>
 
 #include "src/config/keys.hpp"
-#include "src/config/validate.hpp"
 
 namespace barchan {
 namespace {

@@ -1,10 +1,13 @@
 #include "src/config/validate.hpp"
 
-#include <cmath>
-
 #include <fmt/ranges.h>
 
+#include <cmath>
+
+#include "src/config/derived.hpp"
+#include "src/config/grain_checks.hpp"
 #include "src/config/mesh.hpp"
+#include "src/config/no_effect.hpp"
 
 namespace barchan {
 namespace {

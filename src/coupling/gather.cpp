@@ -86,9 +86,9 @@ CellRange Gather::cells_around(const GrainExtent& grains) const {
 void Gather::reserve_flow_at(int n) {
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
-    reserve_rows(*array, n);
+    reserve_entries(*array, n);
   for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_l, &flow_at_.solid_per_fluid})
-    reserve_rows(*array, n);
+    reserve_entries(*array, n);
 }
 
 void Gather::undo_smoothing(const FluidState& fluid) {

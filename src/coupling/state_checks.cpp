@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/coupling/state_checks.hpp"
+#include "kernels/diagnostics/state_checks.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"

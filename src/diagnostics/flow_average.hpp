@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "kernels/fluid/flow_statistics.hpp"
+#include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/output/output_files.hpp"

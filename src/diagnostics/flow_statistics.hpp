@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/fluid/flow_statistics.hpp"
+#include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/config/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/checkpoint.hpp"

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/diagnostics/contact_forces.hpp"
 #include "kernels/grains/grain_step.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/stable_step.hpp"

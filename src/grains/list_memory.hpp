@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "src/fluid/scratch_memory.hpp"
+#include "src/base/scratch_memory.hpp"
 
 namespace barchan {
 

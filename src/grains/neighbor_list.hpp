@@ -6,7 +6,7 @@
 
 #include "kernels/grains/neighbor_search.hpp"
 #include "src/config/config.hpp"
-#include "src/fluid/scratch_memory.hpp"
+#include "src/base/scratch_memory.hpp"
 #include "src/grains/ghost_grains.hpp"
 #include "src/grains/grain_migration.hpp"
 #include "src/grains/grain_partition.hpp"

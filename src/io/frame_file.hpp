@@ -25,16 +25,6 @@ struct FrameInfo {
 /// The frames of an open result file in order of their number. Throws Hdf5Error.
 std::vector<FrameInfo> list_frames(const Hdf5File& file);
 
-// XDMF, the XML beside an HDF5 file by which ParaView and VisIt open it. `h5_name`: a name in the
-// same folder.
-
-/// Time series on the rectilinear grid of the file; every array of a frame is a cell attribute.
-std::string fields_xdmf(const std::string& h5_name, const std::vector<FrameInfo>& frames);
-
-/// Time series of points; every array but x is a point attribute. Frames without grains are left
-/// out: viewers do not take empty arrays.
-std::string grains_xdmf(const std::string& h5_name, const std::vector<FrameInfo>& frames);
-
 class FrameFile {
  public:
   /// Text for viewers about the frames of a file (fields_xdmf), kept beside it as .xdmf.

@@ -1,4 +1,4 @@
-#include "src/io/frame_file.hpp"
+#include "src/io/xdmf.hpp"
 
 #include <fmt/ranges.h>
 

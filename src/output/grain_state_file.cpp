@@ -1,4 +1,4 @@
-#include "src/output/state_file.hpp"
+#include "src/output/grain_state_file.hpp"
 
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ void load_entries(const CheckpointReader& file, const std::string& name, const V
 }
 
 template <class T>
-using HostRows = Kokkos::View<T*, Kokkos::HostSpace>;
+using HostEntries = Kokkos::View<T*, Kokkos::HostSpace>;
 
 /// A copy on the device, of one entry at least.
 template <class T>
@@ -91,8 +91,8 @@ ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, 
   const std::uint64_t n_all = file.extents("contacts/first")[0];
   for (; begin < end; begin += piece) {
     const std::uint64_t n = std::min(end - begin, piece);
-    const HostRows<std::int64_t> first("first", n), second("second", n);
-    const HostRows<Vec3> xi_t("xi_t", n), rolling("rolling", n);
+    const HostEntries<std::int64_t> first("first", n), second("second", n);
+    const HostEntries<Vec3> xi_t("xi_t", n), rolling("rolling", n);
     load_entries(file, "contacts/first", first, begin, n_all);
     load_entries(file, "contacts/second", second, begin, n_all);
     load_entries(file, "contacts/xi_t", xi_t, begin, n_all);
@@ -183,7 +183,7 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   }
   const Hyperslab entries = slab_of_entries(pairs.size(), s.ranks);
   const auto save = [&](const char* name, const auto& value_of) {
-    const HostRows<decltype(value_of(0))> values(name, pairs.size());
+    const HostEntries<decltype(value_of(0))> values(name, pairs.size());
     std::transform(pairs.begin(), pairs.end(), values.data(), value_of);
     save_entries(file, name, values, entries);
   };

@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "kernels/coupling/frame_values.hpp"
+#include "kernels/diagnostics/frame_values.hpp"
+#include "src/io/xdmf.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -194,7 +195,7 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
   const FrameVectors<float> x("output: track", n);
   const auto kin = grains.kin;
   Kokkos::parallel_for(
-      "output: positions", Rows(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
+      "output: positions", Entries(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
   tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
     write_entries(file, group + "/id", ids_of(grains), "1", entries);
     write_labels(file, group, dunes, entries);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/output/grain_state_file.hpp"
+
 namespace barchan {
 
 namespace {

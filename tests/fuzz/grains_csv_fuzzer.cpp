@@ -1,5 +1,5 @@
 // Bytes as the table of initial.grains.
-#include "src/grains/initial_grains.hpp"
+#include "src/initial/grain_table.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,5 @@
 #include "tests/fuzz/hdf5_files.hpp"
+#include "src/initial/grain_files.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -6,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "src/grains/initial_grains.hpp"
+#include "src/app/info.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/run/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan::fuzz {

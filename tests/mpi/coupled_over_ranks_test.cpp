@@ -10,7 +10,7 @@
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"

@@ -8,8 +8,8 @@
 
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/fluid/initial_flow.hpp"
-#include "src/fluid/map_flow.hpp"
+#include "src/initial/initial_flow.hpp"
+#include "src/initial/map_flow.hpp"
 #include "src/fluid/pressure_solver.hpp"
 #include "tests/support/shared_grid.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/grains/neighbor_list.hpp"
-#include "src/output/state_file.hpp"
+#include "src/output/grain_state_file.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/grain_cases.hpp"
 #include "tests/support/shared_folder.hpp"

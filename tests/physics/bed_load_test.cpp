@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/config/load.hpp"
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 #include "tests/support/packing.hpp"

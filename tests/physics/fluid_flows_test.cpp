@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "kernels/fluid/flow_sums.hpp"
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_errors.hpp"
 #include "tests/support/flow_run.hpp"

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "src/grains/initial_grains.hpp"
+#include "src/initial/grain_files.hpp"
 #include "tests/support/packing.hpp"
 
 namespace barchan {

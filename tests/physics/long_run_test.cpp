@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "src/coupling/state_checks.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/grain_cases.hpp"
 #include "tests/support/measured.hpp"

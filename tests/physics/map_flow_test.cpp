@@ -1,10 +1,10 @@
 // A flow from another mesh of the same box.
-#include "src/fluid/map_flow.hpp"
+#include "src/initial/map_flow.hpp"
 
 #include <gtest/gtest.h>
 
 #include "kernels/fluid/pressure.hpp"
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_run.hpp"
 

@@ -1,7 +1,7 @@
 // Lift, torque and wall drag of the program on one grain, against closed forms.
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"

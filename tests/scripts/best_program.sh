@@ -6,7 +6,7 @@ fail() { echo "best_program: $*" >&2; exit 1; }
 [ "$(uname -m)" = x86_64 ] || exit 77
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
-"${CXX:-g++}" -std=c++20 -O0 -Wall -Wextra -Werror src/run/best_program.cpp -o "$folder/prog"
+"${CXX:-g++}" -std=c++20 -O0 -Wall -Wextra -Werror src/app/best_program.cpp -o "$folder/prog"
 for level in x86-64 x86-64-v3 x86-64-v4; do
   printf '#!/bin/sh\necho %s "$@"\nexit 3\n' "$level" > "$folder/prog.$level"
   chmod +x "$folder/prog.$level"

@@ -19,7 +19,7 @@ STARTERS = {"subprocess." + name for name in ("run", "Popen", "call", "check_cal
 # In C++ nothing starts a program: what runs over ranks, draws or sweeps is started by the launcher. But one line becomes
 # the build of itself that is made for the processor, with the arguments it was given.
 CPP = re.compile(r"\b(system|popen|wordexp|exec[lv]p?e?|posix_spawnp?) *\(")
-BECOMES_ITSELF = ROOT / "src/run/best_program.cpp", "    execv(program.c_str(), argv);"
+BECOMES_ITSELF = ROOT / "src/app/best_program.cpp", "    execv(program.c_str(), argv);"
 # `eval`, and a text for `sh -c` into which something is expanded; "\$@" and '...' are for the inner shell.
 SHELL = re.compile(r"""(^|[;&|(] *|\b(then|do|else) +)eval\b|"""
                    r"""\b(ba|da)?sh +(-[a-z]+ +)*-[a-z]*c +([^ '"]|"([^"\\$`]|\\.)*[$`])""")

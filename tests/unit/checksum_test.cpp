@@ -1,4 +1,5 @@
 // Checksums of arrays: the same over any shares, another one after any change of a value.
+#include "src/initial/grain_files.hpp"
 #include "src/io/checksum.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <random>
 
 #include "src/grains/grain_state.hpp"
-#include "src/grains/initial_grains.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/output/output_files.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "src/run/commands.hpp"
+#include "src/app/command_line.hpp"
 
 #include <gtest/gtest.h>
 

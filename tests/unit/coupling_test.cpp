@@ -3,9 +3,9 @@
 
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/measured.hpp"

@@ -1,14 +1,15 @@
 // What check knows of a case before it is run: its grains, its starts, and how long it will take.
-#include "src/run/estimate.hpp"
+#include "src/app/estimate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
+#include "src/app/check_case.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
-#include "src/run/commands.hpp"
+#include "src/initial/pour.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -4,12 +4,12 @@
 #include <array>
 #include <limits>
 
-#include "src/grains/initial_grains.hpp"
+#include "src/app/info.hpp"
+#include "src/initial/grain_files.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/io/seal.hpp"
-#include "src/run/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

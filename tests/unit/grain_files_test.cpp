@@ -1,4 +1,3 @@
-#include "src/grains/initial_grains.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +5,8 @@
 #include <fstream>
 
 #include "src/grains/grain_state.hpp"
+#include "src/initial/grain_files.hpp"
+#include "src/initial/grain_table.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/output/output_files.hpp"
 #include "tests/support/sanitized.hpp"

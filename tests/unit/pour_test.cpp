@@ -5,11 +5,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
+#include "src/initial/pour.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include "src/config/config.hpp"
-#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "src/app/check_case.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
-#include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/run/pilot.hpp"
+#include "src/app/pilot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "src/coupling/state_checks.hpp"
 #include "src/fluid/domain.hpp"
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/results_writer.hpp"
 

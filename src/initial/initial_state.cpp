@@ -1,4 +1,4 @@
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,15 @@
 #include <numeric>
 
 #include "src/base/errors.hpp"
+#include "src/config/grain_checks.hpp"
 #include "src/config/load.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
-#include "src/fluid/initial_flow.hpp"
-#include "src/fluid/map_flow.hpp"
-#include "src/grains/initial_grains.hpp"
+#include "src/initial/grain_files.hpp"
+#include "src/initial/initial_flow.hpp"
+#include "src/initial/map_flow.hpp"
+#include "src/initial/pour.hpp"
 #include "src/output/state_file.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/run/estimate.hpp"
+#include "src/app/estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,8 @@
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
 #include "src/grains/grain_skins.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
+#include "src/initial/pour.hpp"
 
 namespace barchan {
 

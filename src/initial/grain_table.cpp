@@ -1,4 +1,5 @@
-// Initial grains from a CSV table.
+#include "src/initial/grain_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <utility>
 
 #include "src/base/words.hpp"
-#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

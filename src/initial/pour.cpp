@@ -1,10 +1,11 @@
+#include "src/initial/pour.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
 #include "src/config/derived.hpp"
-#include "src/grains/initial_grains.hpp"
 
 namespace barchan {
 

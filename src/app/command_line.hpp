@@ -1,9 +1,7 @@
-// What the user typed, and the commands run, check and info.
+// What the user typed.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,26 +34,5 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
 
 /// --out, or runs/<name of the case>.
 std::filesystem::path run_folder(const CommandLine& line);
-
-/// [bytes]
-double memory_of_machine();
-
-/// A case from its configuration to its results, and the cases it starts from. Returns the exit
-/// code: 0 done, 3 stopped on request. Throws ConfigError (exit code 2) and std::runtime_error
-/// (exit code 1).
-int run_command(const CommandLine& line);
-
-/// Writes the resolved configuration, its derived numbers, what it will cost and its warnings to
-/// `out`, the first alone with --resolved-only (and then Kokkos need not run); returns the exit
-/// code 0. Throws ConfigError when the case is not valid, InputError when its grains do not suit
-/// it.
-int run_check(const CommandLine& line, std::ostream& out);
-
-/// What a result or restart file holds, and where it came from: several lines. Throws
-/// std::runtime_error with a sentence for the user when it is missing, cut short, or not one of
-/// ours. A file that changed a moment ago may be in the hands of a run: it is tried again for as
-/// long as `patience`.
-std::string describe_file(const std::filesystem::path& path,
-                          std::chrono::milliseconds patience = std::chrono::seconds{1});
 
 }  // namespace barchan

@@ -1,4 +1,5 @@
-// From what the user typed to a CommandLine.
+#include "src/app/command_line.hpp"
+
 #include <sstream>
 
 #include <fmt/format.h>
@@ -6,7 +7,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {

@@ -1,16 +1,17 @@
-// The command run.
+#include "src/app/run_case.hpp"
+
 #include <unistd.h>
 
 #include <thread>
 
+#include "src/app/check_case.hpp"
+#include "src/app/starts.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/validate.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/run/commands.hpp"
 #include "src/run/simulation.hpp"
-#include "src/run/starts.hpp"
 #include "src/run/watchdog.hpp"
 
 namespace barchan {

@@ -1,4 +1,4 @@
-#include "src/fluid/map_flow.hpp"
+#include "src/initial/map_flow.hpp"
 
 #include "kernels/fluid/flow_between_meshes.hpp"
 #include "src/fluid/fluid_solver.hpp"

@@ -1,4 +1,4 @@
-#include "src/run/commands.hpp"
+#include "src/app/info.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "src/run/starts.hpp"
+#include "src/app/starts.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
 #include "src/config/realisation.hpp"
-#include "src/run/initial_state.hpp"
+#include "src/initial/initial_state.hpp"
 
 namespace barchan {
 

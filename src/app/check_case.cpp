@@ -1,15 +1,15 @@
-// The command check.
+#include "src/app/check_case.hpp"
+
 #include <algorithm>
 #include <ostream>
 
+#include "src/app/estimate.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/run/commands.hpp"
-#include "src/run/estimate.hpp"
 
 namespace barchan {
 

@@ -1,4 +1,4 @@
-#include "src/grains/initial_grains.hpp"
+#include "src/initial/grain_files.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/initial/grain_table.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/seal.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/run/pilot.hpp"
-#include "src/run/starts.hpp"
+#include "src/app/pilot.hpp"
+#include "src/app/starts.hpp"
 
 namespace barchan {
 

@@ -10,12 +10,14 @@
 #include <iostream>
 
 #include "barchan_version.hpp"
+#include "src/app/check_case.hpp"
+#include "src/app/info.hpp"
+#include "src/app/run_case.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/base/words.hpp"
 #include "src/config/resolved.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/run/commands.hpp"
 
 namespace barchan {
 namespace {

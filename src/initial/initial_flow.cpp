@@ -1,4 +1,4 @@
-#include "src/fluid/initial_flow.hpp"
+#include "src/initial/initial_flow.hpp"
 
 #include <algorithm>
 #include <array>

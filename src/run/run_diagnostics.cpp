@@ -1,0 +1,88 @@
+#include "src/run/run_diagnostics.hpp"
+
+#include "src/coupling/grain_forces.hpp"
+#include "src/diagnostics/gathered_grains.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/reduce.hpp"
+
+namespace barchan {
+
+namespace {
+
+DuneDomain dune_domain(const Config& config) {
+  const bool grains = config.grains.has_value();
+  return {.length_x = config.size[0],
+          .length_z = config.size[2],
+          .periodic_x = grains && config.grains->boundary_x == GrainBoundaryX::periodic,
+          .periodic_z = grains && config.grains->boundary_z == GrainBoundaryZ::periodic};
+}
+
+}  // namespace
+
+RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_domain(run.config)) {
+  const auto& config = run.config.statistics;
+  if (!config) return;
+  statistics_.emplace(*run.config.fluid, run.state.fluid->grid);
+  if (config->fields) flow_average_.emplace(run.state.fluid->grid);
+  if (config->grain_forces) force_map_.emplace(dune_domain(run.config));
+}
+
+std::vector<DuneRow> RunDiagnostics::find_dunes() {
+  const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
+  largest_dune_.reset();
+  if (rank_of(run_.ranks) != 0) return {};
+  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains);
+  for (const DuneRow& dune : dunes) {
+    if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
+  }
+  return dunes;
+}
+
+std::vector<int> RunDiagnostics::dune_labels() const {
+  const GrainState& grains = *run_.state.grains;
+  const std::vector<GrainSample> all = gathered_grains(grains);
+  std::vector<int> labels;
+  if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
+  return from_rank_0(run_.ranks, labels, grains.n);
+}
+
+bool RunDiagnostics::sample_due() const {
+  const auto& config = run_.config.statistics;
+  return config && run_.clock.time() >= config->start && run_.clock.due(config->interval);
+}
+
+void RunDiagnostics::sample() {
+  statistics_->sample(*run_.state.fluid);
+  if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
+  if (!force_map_) return;
+  const GrainState& grains = *run_.state.grains;
+  const std::vector<GrainSample> all = gathered_grains(grains);
+  const auto mine = Kokkos::create_mirror_view_and_copy(
+      Kokkos::HostSpace{}, mean_resultant_force(grains, run_.coupled_step.dt()));
+  const auto force =
+      on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
+  if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
+}
+
+void RunDiagnostics::write(const std::filesystem::path& folder, const OutputFiles& output) {
+  if (statistics_) statistics_->write(folder / "statistics.csv");
+  if (flow_average_) flow_average_->write(output, run_.clock.time(), run_.clock.step);
+  if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder / "force_map.csv");
+}
+
+void RunDiagnostics::save(CheckpointWriter& file) const {
+  const std::vector<double> dunes = broadcast(tracker_.state(), run_.ranks);
+  file.array("dunes", std::span<const double>(dunes));
+  if (statistics_) statistics_->save(file);
+  if (flow_average_) flow_average_->save(file);
+  if (force_map_) force_map_->save(file);
+}
+
+void RunDiagnostics::load(const CheckpointReader& file) {
+  tracker_.set_state(file.array<double>("dunes"));
+  if (statistics_) statistics_->load(file);
+  if (flow_average_) flow_average_->load(file);
+  if (force_map_) force_map_->load(file);
+}
+
+}  // namespace barchan

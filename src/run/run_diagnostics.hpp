@@ -1,0 +1,46 @@
+// What a run measures as it goes.
+#pragma once
+
+#include "src/diagnostics/dune_analytics.hpp"
+#include "src/diagnostics/flow_average.hpp"
+#include "src/diagnostics/flow_statistics.hpp"
+#include "src/diagnostics/force_map.hpp"
+#include "src/output/output_files.hpp"
+#include "src/run/run_state.hpp"
+
+namespace barchan {
+
+/// The dunes, and means of the flow and of the forces over time. All ranks call every member
+/// together.
+class RunDiagnostics {
+ public:
+  explicit RunDiagnostics(const RunState& run);
+
+  /// The dunes now, in order of label, on rank 0; nothing on others.
+  std::vector<DuneRow> find_dunes();
+  /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
+  /// this step; -1: in none.
+  std::vector<int> dune_labels() const;
+  /// The largest of the dunes last found.
+  const std::optional<DuneRow>& largest_dune() const { return largest_dune_; }
+
+  /// From statistics.start on, every statistics.interval.
+  bool sample_due() const;
+  /// Adds the state of now to the means.
+  void sample();
+  /// statistics.csv, flow_average.h5 and force_map.csv.
+  void write(const std::filesystem::path& folder, const OutputFiles& output);
+
+  void save(CheckpointWriter& file) const;
+  void load(const CheckpointReader& file);
+
+ private:
+  const RunState& run_;
+  DuneTracker tracker_;
+  std::optional<DuneRow> largest_dune_;
+  std::optional<FlowStatistics> statistics_;
+  std::optional<FlowAverage> flow_average_;
+  std::optional<ForceMap> force_map_;
+};
+
+}  // namespace barchan
