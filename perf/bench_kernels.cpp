@@ -14,7 +14,7 @@ namespace barchan {
 
 namespace {
 
-constexpr int n_substeps = 100;  // of the cases below
+constexpr int kNSubsteps = 100;  // of the cases below
 
 using Action = std::function<void()>;
 
@@ -95,7 +95,7 @@ void register_grain_kernels() {
               .prepare = move_grains,
               .unit = "grain-steps",
               .per_unit = pair_force_work,
-              .steps_at_once = n_substeps});
+              .steps_at_once = kNSubsteps});
   const auto add_list_build = [](const std::string& name, const CaseSpec& spec) {
     add_kernel(
         {.name = name,
@@ -114,7 +114,7 @@ void register_grain_kernels() {
               .prepare = move_grains,
               .unit = "grain-steps",
               .per_unit = [](RunningCase&) { return work::integrate(false); },
-              .steps_at_once = n_substeps});
+              .steps_at_once = kNSubsteps});
 }
 
 Action solve_once(RunningCase& c, Real mass, Real diffusion) {

@@ -15,7 +15,7 @@ namespace barchan {
 
 namespace {
 
-constexpr std::array<double, 3> paper_channel{0.4, 0.025, 0.1};  // [m]
+constexpr std::array<double, 3> kPaperChannel{0.4, 0.025, 0.1};  // [m]
 
 /// The same physics in a box that takes milliseconds.
 void shrink(Config& c) {
@@ -38,7 +38,7 @@ CaseSpec sized(CaseSpec spec) {
 CaseSpec grains_alone(const std::string& name, const std::string& heap, double rolling_friction) {
   CaseSpec spec{.name = name, .config = {}, .heap = heap};
   Config& c = spec.config;
-  c.size = paper_channel;
+  c.size = kPaperChannel;
   add_grains(c);
   GrainConfig& grains = *c.grains;
   grains.material.rolling_friction = grains.wall.rolling_friction = rolling_friction;
@@ -56,7 +56,7 @@ CaseSpec ten_heaps() {
 CaseSpec channel_flow(const std::string& name, int mesh) {
   CaseSpec spec{.name = name, .config = {}, .untimed_steps = 20};
   Config& c = spec.config;
-  c.size = paper_channel;
+  c.size = kPaperChannel;
   c.fluid.emplace();
   constexpr double first_cell_height[] = {2.625e-4, 1.75e-4, 1.25e-4};  // as in configs/paper
   c.fluid->cells = {250, 15 * (mesh + 1), 63};
@@ -159,7 +159,7 @@ void RunningCase::put_grains() {
   Heap heap = spec.dune.empty() ? settled_heap(spec.heap)
                                 : Heap{read_grains(spec.dune), spec.dune.string()};
   grains_source = heap.source;
-  if (spec.dune.empty() && config.size != paper_channel) move_into(heap.grains, config.size);
+  if (spec.dune.empty() && config.size != kPaperChannel) move_into(heap.grains, config.size);
   repeat_along_x(heap.grains, spec.heaps_in_a_row, config.size[0]);
   config.size[0] *= spec.heaps_in_a_row;
   state.grains = make_grain_state(heap.grains, config.grains->density);

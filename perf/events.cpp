@@ -13,7 +13,7 @@ using Space = Kokkos_Profiling_SpaceHandle;
 using Clock = std::chrono::steady_clock;
 
 // Kokkos calls bare functions, hence the globals.
-constexpr const char* rebuild_region = "list rebuild";  // as in src/grains/neighbor_list.cpp
+constexpr const char* kRebuildRegion = "list rebuild";  // as in src/grains/neighbor_list.cpp
 EventCounts events;
 bool counting = false;
 std::int64_t bytes_alive = 0;
@@ -21,7 +21,7 @@ std::vector<bool> regions;  // open ones, innermost last: is it a rebuild
 int open_rebuilds = 0;
 
 void on_push(const char* name) {
-  regions.push_back(std::strcmp(name, rebuild_region) == 0);
+  regions.push_back(std::strcmp(name, kRebuildRegion) == 0);
   open_rebuilds += regions.back() ? 1 : 0;
 }
 

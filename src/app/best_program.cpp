@@ -26,12 +26,12 @@ std::array<Level, 3> levels() {
           Level{"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0}, Level{"x86-64", true}};
 }
 
-constexpr const char* asked_for = "BARCHAN_CPU";
+constexpr const char* kAskedFor = "BARCHAN_CPU";
 
 }  // namespace
 
 int main(int, char** argv) {
-  const char* const wanted = std::getenv(asked_for);
+  const char* const wanted = std::getenv(kAskedFor);
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   for (const Level& level : levels()) {
@@ -50,7 +50,7 @@ int main(int, char** argv) {
   std::fprintf(
       stderr,
       "error: the environment variable %s = \"%s\" must be a level that this processor has:",
-      asked_for, wanted);
+      kAskedFor, wanted);
   for (const Level& level : levels())
     if (level.supported) std::fprintf(stderr, " %s", level.name);
   std::fprintf(stderr, "; or unset it\n");

@@ -19,12 +19,12 @@ namespace {
 
 // Measured in runs of the shipped cases (docs/performance.md, Estimates). A grain step of a moving
 // dune is dearer than one at rest: contacts come and go, and are looked for more often.
-constexpr double moving_over_resting = 1.2;
+constexpr double kMovingOverResting = 1.2;
 // Iterations of the pressure equation where grains move.
-constexpr double iterations_of_moving = 4;
+constexpr double kIterationsOfMoving = 4;
 // A line of history.csv with run.json [s], and what frames take on their way to the disk [byte/s].
-constexpr double seconds_per_history_line = 1e-3, bytes_per_second = 1e8;
-constexpr double bytes_of_grain = 100, bytes_of_cell = 56;
+constexpr double kSecondsPerHistoryLine = 1e-3, kBytesPerSecond = 1e8;
+constexpr double kBytesOfGrain = 100, kBytesOfCell = 56;
 
 bool moves(const Config& config) { return config.grains && !config.grains->frozen; }
 
@@ -38,12 +38,12 @@ double output_seconds(const Config& config, double n_grains, const PartSeconds& 
   const auto often = [&](double interval) {
     return interval > 0 ? times(std::max(interval, config.time.fluid_step), end) : 0;
   };
-  double bytes = n_grains * bytes_of_grain * (often(o.grains_interval) + often(o.tracks_interval));
+  double bytes = n_grains * kBytesOfGrain * (often(o.grains_interval) + often(o.tracks_interval));
   if (config.fluid) {
     const auto& [nx, ny, nz] = config.fluid->cells;
-    bytes += bytes_of_cell * nx * ny * nz * often(o.fields_interval);
+    bytes += kBytesOfCell * nx * ny * nz * often(o.fields_interval);
   }
-  double seconds = seconds_per_history_line * often(o.history_interval) + bytes / bytes_per_second +
+  double seconds = kSecondsPerHistoryLine * often(o.history_interval) + bytes / kBytesPerSecond +
                    parts.dunes * often(o.dune_interval);
   if (const auto& s = config.statistics) {
     seconds += parts.sample * times(std::max(s->interval, config.time.fluid_step), end - s->start);
@@ -109,13 +109,13 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
   RunSeconds s;
   const bool moving_flow = moves(config) && config.fluid;
   const double iterations =
-      moving_flow ? std::max(1.0, iterations_of_moving / std::max(1.0, parts.iterations)) : 1;
+      moving_flow ? std::max(1.0, kIterationsOfMoving / std::max(1.0, parts.iterations)) : 1;
   s.flow = steps * (parts.flow + iterations * parts.pressure);
   s.exchange = steps * parts.exchange;
   if (moves(config) && derived.grains) {
-    s.grains = steps * derived.grain_substeps * parts.grain_step *
-                   (moving_flow ? moving_over_resting : 1) +
-               steps * parts.state_checks;
+    s.grains =
+        steps * derived.grain_substeps * parts.grain_step * (moving_flow ? kMovingOverResting : 1) +
+        steps * parts.state_checks;
     // Rebuilds during a grain step: one at most.
     const double rebuilds =
         std::min(rebuild_rate(config, sizes) * config.time.end, steps * derived.grain_substeps);

@@ -13,7 +13,7 @@ namespace barchan {
 namespace {
 
 // In the order of ElementType.
-constexpr const char* type_names[] = {"float32", "float64", "int32", "int64", "other"};
+constexpr const char* kTypeNames[] = {"float32", "float64", "int32", "int64", "other"};
 
 std::string describe_array(const Hdf5File& file, const std::string& path,
                            const std::string& label) {
@@ -22,23 +22,23 @@ std::string describe_array(const Hdf5File& file, const std::string& path,
                                 ? file.attribute<std::string>(path, "units")
                                 : std::string("?");
   return fmt::format("  {:<24} {:<18} {:<8} [{}]\n", label, to_string(info.extents),
-                     type_names[static_cast<int>(info.type)], units);
+                     kTypeNames[static_cast<int>(info.type)], units);
 }
 
 // Deeper than any group of ours: links of a foreign file may lead in circles.
-constexpr int deepest_group = 4;
+constexpr int kDeepestGroup = 4;
 // More than any of our files holds below "/" or "grid": the text stays readable, and within memory.
-constexpr std::size_t longest_listing = 100000;
+constexpr std::size_t kLongestListing = 100000;
 
 /// Arrays below a group, with the groups below it.
 std::string describe_group(const Hdf5File& file, const std::string& group, int depth = 0) {
   std::string text;
   for (const auto& name : file.children(group)) {
-    if (text.size() > longest_listing) return text + "  ...\n";
+    if (text.size() > kLongestListing) return text + "  ...\n";
     const std::string path = group == "/" ? name : group + "/" + name;
     if (!file.is_group(path)) {
       text += describe_array(file, path, path);
-    } else if (depth < deepest_group) {
+    } else if (depth < kDeepestGroup) {
       text += describe_group(file, path, depth + 1);
     } else {
       text += fmt::format("  {:<24} a group, not looked into\n", path);

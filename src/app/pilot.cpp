@@ -15,7 +15,7 @@ namespace barchan {
 
 namespace {
 
-constexpr double max_cells = 1e6, max_grains = 3e5;
+constexpr double kMaxCells = 1e6, kMaxGrains = 3e5;
 
 /// A part of the case that has the same cells and grains: all of it, or a slice across x.
 struct Slice {
@@ -29,7 +29,7 @@ InitialGrains first_grains(const InitialGrains& grains, double length) {
   std::vector<std::size_t> order(grains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t g) { return grains.x[g].x; });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(max_grains)));
+  order.resize(std::min(order.size(), static_cast<std::size_t>(kMaxGrains)));
   InitialGrains first;
   const double start = grains.x[order.front()].x;
   for (const std::size_t g : order) {
@@ -44,13 +44,13 @@ Slice slice_of(const Config& config, const InitialGrains& grains) {
   if (config.fluid) {
     const auto& [nx, ny, nz] = config.fluid->cells;
     const int parts = std::clamp(
-        static_cast<int>(std::ceil(static_cast<double>(nx) * ny * nz / max_cells)), 1, nx / 8 + 1);
+        static_cast<int>(std::ceil(static_cast<double>(nx) * ny * nz / kMaxCells)), 1, nx / 8 + 1);
     slice.config.fluid->cells[0] = nx / parts;
     slice.config.size[0] *= (nx / parts) / static_cast<double>(nx);
     slice.cells_per_cell = static_cast<double>(nx) / (nx / parts);
   }
   const auto n = static_cast<double>(grains.size());
-  if (slice.cells_per_cell > 1 || n > max_grains) {
+  if (slice.cells_per_cell > 1 || n > kMaxGrains) {
     if (n > 0) slice.grains = first_grains(grains, slice.config.size[0]);
     slice.grains_per_grain = n / std::max<double>(1, static_cast<double>(slice.grains.size()));
   }

@@ -26,7 +26,7 @@ State& state() {
   return the_state;
 }
 
-constexpr const char* clear_line = "\r\033[K";
+constexpr const char* kClearLine = "\r\033[K";
 
 /// Whoever reads may go away (`| head`); that must not cost the run.
 void put(std::FILE* stream, std::string_view text) {
@@ -35,7 +35,7 @@ void put(std::FILE* stream, std::string_view text) {
 }
 
 void print(std::FILE* stream, std::string_view text) {
-  if (state().live) std::fputs(clear_line, stdout);
+  if (state().live) std::fputs(kClearLine, stdout);
   state().live = false;
   std::fflush(stdout);  // keeps the two streams in order
   put(stream, fmt::format("{}\n", text));
@@ -55,7 +55,7 @@ void show_live(std::string_view text) {
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1) {
     text = text.substr(0, window.ws_col - 1U);
   }
-  put(stdout, fmt::format("{}{}", clear_line, text));
+  put(stdout, fmt::format("{}{}", kClearLine, text));
   state().live = true;
 }
 
@@ -65,7 +65,7 @@ std::string si_rate(double rate) {
   return fmt::format("{:.1f} k", rate / 1e3);
 }
 
-constexpr auto live_interval = std::chrono::milliseconds(250);
+constexpr auto kLiveInterval = std::chrono::milliseconds(250);
 
 }  // namespace
 
@@ -137,7 +137,7 @@ ProgressLine::~ProgressLine() { finish(); }
 void ProgressLine::update(const Progress& progress) {
   const auto now = Clock::now();
   const bool plain = now - last_plain_ >= plain_interval_;
-  const bool live = terminal_ && !state().quiet && now - last_live_ >= live_interval;
+  const bool live = terminal_ && !state().quiet && now - last_live_ >= kLiveInterval;
   if (state().silent || !(plain || live)) return;
   const double wall = std::chrono::duration<double>(now - start_).count();
   const double done = progress.t - progress.t_start;

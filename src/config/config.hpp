@@ -145,7 +145,7 @@ struct PourConfig {
 };
 
 /// Flows to start from that are not in a file.
-inline constexpr std::array flow_words{"still", "uniform", "turbulent"};
+inline constexpr std::array kFlowWords{"still", "uniform", "turbulent"};
 
 /// [initial]
 struct InitialConfig {

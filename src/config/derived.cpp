@@ -16,10 +16,10 @@ namespace {
 double ceil_tolerant(double x) { return std::ceil(x - 1e-9 * std::max(1.0, x)); }
 
 // Bytes of a cell: the state's 13 numbers, about 30 of work space and two complex transforms.
-constexpr double bytes_per_cell = 8 * (13 + 30 + 4);
+constexpr double kBytesPerCell = 8 * (13 + 30 + 4);
 // Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
 // gathered in.
-constexpr double bytes_per_grain = 1000;
+constexpr double kBytesPerGrain = 1000;
 
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
@@ -191,13 +191,13 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double
   if (config.fluid) {
     derived.fluid = derive_fluid(config);
     const auto cells = static_cast<double>(derived.fluid->cells);
-    derived.memory += bytes_per_cell * cells;
+    derived.memory += kBytesPerCell * cells;
   }
   if (config.grains && !sizes.empty()) {
     derived.grains = derive_grains(config, sizes, derived.fluid);
     if (derived.fluid) compare_cells(config, *derived.fluid, top, *derived.grains);
     const auto count = static_cast<double>(derived.grains->count);
-    derived.memory += bytes_per_grain * count;
+    derived.memory += kBytesPerGrain * count;
   }
   return derived;
 }

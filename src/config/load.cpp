@@ -21,12 +21,12 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
   if (node == nullptr || node->table() != nullptr || reading.is_bad(key)) return;
-  if (flow && std::count(flow_words.begin(), flow_words.end(), start.string()) > 0) return;
+  if (flow && std::count(kFlowWords.begin(), kFlowWords.end(), start.string()) > 0) return;
   if (start.extension() != ".h5" && start.extension() != ".toml" &&
       (flow || start.extension() != ".csv")) {
     return reading.report_error(
         key, flow ? fmt::format("must be \"{}\" or a file ending in .h5, .toml",
-                                fmt::join(flow_words, "\", \""))
+                                fmt::join(kFlowWords, "\", \""))
                   : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
   }
   const fs::path path = fs::absolute(folder / start).lexically_normal();
@@ -52,11 +52,11 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
             const std::vector<fs::path>& chain);
 
 /// Far longer than any case, far shorter than results that are given for one by mistake.
-constexpr std::uintmax_t longest_case = 10'000'000;
+constexpr std::uintmax_t kLongestCase = 10'000'000;
 
 std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& problems) {
   std::string why = not_a_file(file);
-  if (why.empty() && fs::file_size(file) > longest_case) {
+  if (why.empty() && fs::file_size(file) > kLongestCase) {
     why = fmt::format("it is {} MB long, and a case is a few kB of TOML",
                       fs::file_size(file) / 1'000'000);
   }

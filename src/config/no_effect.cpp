@@ -13,9 +13,9 @@ bool is_hertzian(const Config& c) {
   return !c.grains || c.grains->contact_model == ContactModel::hertz_mindlin;
 }
 
-constexpr const char* without_fluid = "must be absent without a [fluid] section";
-constexpr const char* without_grains = "must be absent without a [grains] section";
-constexpr const char* with_springs =
+constexpr const char* kWithoutFluid = "must be absent without a [fluid] section";
+constexpr const char* kWithoutGrains = "must be absent without a [grains] section";
+constexpr const char* kWithSprings =
     "must be absent with contact_model = \"linear\", which has a linear_stiffness";
 
 /// What a key, or all keys of a section, must have to be of any effect.
@@ -27,28 +27,28 @@ struct Need {
 
 // Not here: what a key turns off that is set over a whole case (grains.frozen, a friction of 0, an
 // initial.grains instead of what the case pours).
-constexpr Need needs[] = {
-    {"coupling", "fluid", has_fluid, without_fluid},
-    {"coupling", "grains", has_grains, without_grains},
+constexpr Need kNeeds[] = {
+    {"coupling", "fluid", has_fluid, kWithoutFluid},
+    {"coupling", "grains", has_grains, kWithoutGrains},
     {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
      "must be absent without \"drag\" in coupling.forces"},
-    {"solver", "fluid", has_fluid, without_fluid},
-    {"time.grain_step", "grains", has_grains, without_grains},
+    {"solver", "fluid", has_fluid, kWithoutFluid},
+    {"time.grain_step", "grains", has_grains, kWithoutGrains},
     {"fluid.wale_constant", "fluid.turbulence",
      [](const Config& c) { return c.fluid->turbulence == Turbulence::wale; },
      "must be absent unless turbulence = \"wale\""},
     {"grains.rolling_theta_m", "grains.rolling_model",
      [](const Config& c) { return c.grains->rolling_model == RollingModel::theta_m; },
      "must be absent unless rolling_model = \"theta_m\""},
-    {"grains.youngs_modulus", "grains.contact_model", is_hertzian, with_springs},
-    {"grains.poisson_ratio", "grains.contact_model", is_hertzian, with_springs},
+    {"grains.youngs_modulus", "grains.contact_model", is_hertzian, kWithSprings},
+    {"grains.poisson_ratio", "grains.contact_model", is_hertzian, kWithSprings},
     {"initial.grains.pour.centre", "initial.grains.pour.shape",
      [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },
      "must be absent with shape = \"bed\", which covers the floor"},
-    {"output.fields_interval", "fluid", has_fluid, without_fluid},
-    {"output.dune_interval", "grains", has_grains, without_grains},
-    {"output.grains_interval", "grains", has_grains, without_grains},
-    {"output.tracks_interval", "grains", has_grains, without_grains},
+    {"output.fields_interval", "fluid", has_fluid, kWithoutFluid},
+    {"output.dune_interval", "grains", has_grains, kWithoutGrains},
+    {"output.grains_interval", "grains", has_grains, kWithoutGrains},
+    {"output.tracks_interval", "grains", has_grains, kWithoutGrains},
     {"output.grain_forces", "output.grains_interval",
      [](const Config& c) { return c.grains && c.output.grains_interval > 0; },
      "must be absent without grains.h5, which needs [grains] and a grains_interval above 0"},
@@ -69,7 +69,7 @@ void check_effects(const Config& c, Findings& found) {
   }();
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
-      for (const Need& need : needs) {
+      for (const Need& need : kNeeds) {
         if (need.key != section.name && need.key != key.dotted()) continue;
         const auto text = key.text(c);
         found.error_if(text && text != key.text(unchanged) && !need.met(c),

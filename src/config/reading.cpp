@@ -64,7 +64,7 @@ bool is_section(const std::string& dotted) {
 struct Removed {
   std::string_view key, value, why;  // no value: the key as a whole
 };
-constexpr Removed removed[] = {
+constexpr Removed kRemoved[] = {
     {"coupling.relaxation", "", "the exchange needs none any more; delete this line"},
     {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
     {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
@@ -73,7 +73,7 @@ constexpr Removed removed[] = {
 /// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
 /// never was.
 std::string removal(std::string_view dotted, std::string_view value) {
-  for (const Removed& one : removed) {
+  for (const Removed& one : kRemoved) {
     if (one.key != dotted || one.value != value) continue;
     return fmt::format("was removed after version 0.1.0: {}", one.why);
   }

@@ -42,7 +42,7 @@ Node convert(const toml::node& from, const Location& where) {
   return to;
 }
 
-constexpr int max_parts = 16;  // of a dotted key; ours have four
+constexpr int kMaxParts = 16;  // of a dotted key; ours have four
 
 /// What keeps `text`, which stands in `name`, from the parser: bytes that are no text, or names
 /// nested so deep that they could only exhaust the stack.
@@ -65,7 +65,7 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
       until = c == '#' ? '\n' : c;
     } else if (c == '=' || c == ',' || c == '[' || c == '{') {
       points = 0;
-    } else if (c == '.' && ++points >= max_parts) {
+    } else if (c == '.' && ++points >= kMaxParts) {
       return Problem{{name, line}, "not TOML: a key of so many parts cannot be meant"};
     }
   }
@@ -117,7 +117,7 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
   const std::string_view dotted = assignment.substr(0, equals);
   const Location where{fmt::format("--set {}", printable(dotted, 60)), 0};
   const auto refuse = [&](std::string why) { problems.push_back({where, std::move(why)}); };
-  if (std::count(dotted.begin(), dotted.end(), '.') >= max_parts) {
+  if (std::count(dotted.begin(), dotted.end(), '.') >= kMaxParts) {
     return refuse("unknown key: none has so many parts");
   }
   if (equals == assignment.npos || dotted.empty()) {

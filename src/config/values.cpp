@@ -102,16 +102,16 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
 
 Mismatch convert(const Node& node, ForceSwitches& value) {
   std::vector<std::string_view> names;
-  for (const ForceName& force : force_names) names.push_back(force.name);
+  for (const ForceName& force : kForceNames) names.push_back(force.name);
   const auto* chosen = std::get_if<NodeArray>(&node.value);
   if (chosen == nullptr) return fmt::format("an array of \"{}\"", fmt::join(names, "\", \""));
-  for (const ForceName& force : force_names) value.*force.on = false;
+  for (const ForceName& force : kForceNames) value.*force.on = false;
   for (const Node& element : *chosen) {
     std::size_t at = 0;
     if (const Mismatch mismatch = convert_name(element, names, at)) {
       return fmt::format("an array; {} must be {}", toml_text(element), *mismatch);
     }
-    value.*force_names[at].on = true;
+    value.*kForceNames[at].on = true;
   }
   return {};
 }
@@ -167,7 +167,7 @@ std::string toml_text(const std::vector<SizeClass>& sizes) {
 
 std::string toml_text(const ForceSwitches& forces) {
   std::vector<std::string> names;
-  for (const ForceName& force : force_names) {
+  for (const ForceName& force : kForceNames) {
     if (forces.*force.on) names.push_back(toml_text(force.name));
   }
   return fmt::format("[{}]", fmt::join(names, ", "));
@@ -175,7 +175,7 @@ std::string toml_text(const ForceSwitches& forces) {
 
 std::string all_forces() {
   ForceSwitches all;
-  for (const ForceName& force : force_names) all.*force.on = true;
+  for (const ForceName& force : kForceNames) all.*force.on = true;
   return toml_text(all);
 }
 

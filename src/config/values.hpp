@@ -45,24 +45,24 @@ constexpr auto names_of(VoidFraction) {
 constexpr auto names_of(Preconditioner) { return std::array{"fft"sv, "local_fft"sv}; }
 
 template <class Choice>
-inline constexpr auto choice_names = names_of(Choice{});
+inline constexpr auto kChoiceNames = names_of(Choice{});
 
 // A value added at the end of an enum without its name here fails these.
-static_assert(choice_names<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
-static_assert(choice_names<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
-static_assert(choice_names<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
-static_assert(choice_names<PourShape>.size() == std::size_t(PourShape::bed) + 1);
-static_assert(choice_names<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
-static_assert(choice_names<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
-static_assert(choice_names<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
-static_assert(choice_names<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
+static_assert(kChoiceNames<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
+static_assert(kChoiceNames<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
+static_assert(kChoiceNames<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
+static_assert(kChoiceNames<PourShape>.size() == std::size_t(PourShape::bed) + 1);
+static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
+static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
+static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
+static_assert(kChoiceNames<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
 
 /// The members of coupling.forces, by name.
 struct ForceName {
   std::string_view name;
   bool ForceSwitches::*on;
 };
-inline constexpr std::array<ForceName, 8> force_names{
+inline constexpr std::array<ForceName, 8> kForceNames{
     {{"drag", &ForceSwitches::drag},
      {"pressure_gradient", &ForceSwitches::pressure_gradient},
      {"stress", &ForceSwitches::stress},
@@ -127,7 +127,7 @@ requires std::is_integral_v<T> Mismatch convert(const Node& node, T& value) {
 template <class Choice>
 requires std::is_enum_v<Choice> Mismatch convert(const Node& node, Choice& value) {
   std::size_t at = 0;
-  const Mismatch mismatch = convert_name(node, choice_names<Choice>, at);
+  const Mismatch mismatch = convert_name(node, kChoiceNames<Choice>, at);
   value = static_cast<Choice>(at);
   return mismatch;
 }
@@ -161,7 +161,7 @@ requires std::is_integral_v<T> std::string toml_text(T value) { return fmt::form
 
 template <class Choice>
 requires std::is_enum_v<Choice> std::string toml_text(Choice value) {
-  return toml_text(choice_names<Choice>[static_cast<std::size_t>(value)]);
+  return toml_text(kChoiceNames<Choice>[static_cast<std::size_t>(value)]);
 }
 
 template <class T, std::size_t N>
@@ -207,7 +207,7 @@ Mismatch check(const T& value, const Range& range) {
 template <class T>
 std::string type_text() {
   if constexpr (std::is_enum_v<T>) {
-    return fmt::format("\"{}\"", fmt::join(choice_names<T>, "\", \""));
+    return fmt::format("\"{}\"", fmt::join(kChoiceNames<T>, "\", \""));
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true or false";
   } else if constexpr (std::is_integral_v<T>) {

@@ -24,7 +24,7 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
       .dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
   bound_sums(of_grain, grains.n, fluid, ledger);
   Kokkos::deep_copy(deposits_.sum, 0);
-  using Launch = DepositGrains<runs_on_host ? 128 : 1>;
+  using Launch = DepositGrains<kRunsOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
                        Launch{.of_grain = of_grain,
                               .by_row = exchange_by_row(fluid),

@@ -9,8 +9,8 @@
 namespace barchan {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 double to_period(double x, double length, bool periodic) {
   return periodic ? x - std::floor(x / length) * length : x;
@@ -18,7 +18,7 @@ double to_period(double x, double length, bool periodic) {
 
 /// An interval that starts empty.
 struct Extent {
-  double low = infinity, high = -infinity;
+  double low = kInfinity, high = -kInfinity;
   void include(double a, double b) {
     low = std::min(low, a);
     high = std::max(high, b);
@@ -28,9 +28,9 @@ struct Extent {
 
 /// Of the grains of a region, or of the high ones among them.
 struct Outline {
-  double left_tip = -infinity;   // most downstream edge beside the strip, z < Cz
-  double right_tip = -infinity;  // the same, z > Cz
-  std::map<int, Extent> strip;   // in x, of the grains on the centreline, by column of bins (ux)
+  double left_tip = -kInfinity;   // most downstream edge beside the strip, z < Cz
+  double right_tip = -kInfinity;  // the same, z > Cz
+  std::map<int, Extent> strip;    // in x, of the grains on the centreline, by column of bins (ux)
 };
 
 /// What is collected about one region; coordinates are unwrapped.
@@ -198,7 +198,7 @@ struct DuneMeasurement {
     row.cx = to_period(row.cx, domain.length_x, domain.periodic_x);
     row.cz = to_period(row.cz, domain.length_z, domain.periodic_z);
     row.crest_x = to_period(row.crest_x, domain.length_x, domain.periodic_x);
-    row.celerity = not_known;
+    row.celerity = kNotKnown;
     return row;
   }
 };

@@ -10,7 +10,7 @@ namespace {
 struct Quantity {
   const char *name, *units;
 };
-constexpr Quantity quantities[n_flow_moments] = {
+constexpr Quantity kQuantities[n_flow_moments] = {
     {"u", "m/s"},      {"v", "m/s"},      {"w", "m/s"},      {"p", "Pa"},
     {"alpha_f", "1"},  {"nu_t", "m^2/s"}, {"uu", "m^2/s^2"}, {"vv", "m^2/s^2"},
     {"ww", "m^2/s^2"}, {"uv", "m^2/s^2"}, {"uw", "m^2/s^2"}, {"vw", "m^2/s^2"}};
@@ -62,8 +62,8 @@ std::vector<NamedField> FlowAverage::means() {
                           .first_v = first_[1],
                           .first_w = first_[2],
                           .per_sample = 1 / static_cast<double>(n_samples_)});
-  for (std::size_t q = 0; q < std::size(quantities); ++q) {
-    named.push_back({quantities[q].name, quantities[q].units, &result_[q]});
+  for (std::size_t q = 0; q < std::size(kQuantities); ++q) {
+    named.push_back({kQuantities[q].name, kQuantities[q].units, &result_[q]});
   }
   return named;
 }
@@ -78,7 +78,7 @@ void FlowAverage::write(const OutputFiles& output, double t, std::int64_t step) 
 template <class F>
 void FlowAverage::for_each_saved(const F& f) const {
   const auto each = [&](const std::string& prefix, const auto& fields) {
-    for (std::size_t q = 0; q < fields.size(); ++q) f(prefix + quantities[q].name, fields[q]);
+    for (std::size_t q = 0; q < fields.size(); ++q) f(prefix + kQuantities[q].name, fields[q]);
   };
   each("statistics/sum_", sum_);
   each("statistics/first_", first_);

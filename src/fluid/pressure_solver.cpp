@@ -11,8 +11,8 @@ namespace {
 
 // A dune of 1e5 grains takes 3 iterations to 1e-6, and 4 with two sweeps or with columns hindered
 // below 0.98, where the FFT alone needs 15. More sweeps save none.
-constexpr int sweeps = 3;
-constexpr Real hindered_below = 0.999;
+constexpr int kSweeps = 3;
+constexpr Real kHinderedBelow = 0.999;
 
 Grid flat(Grid grid) {
   grid.ny = 1;
@@ -40,7 +40,7 @@ void LocalCorrection::each_column(const char* label, const Functor& functor) con
 
 void LocalCorrection::update(const FaceVector& c) {
   c_ = c;
-  each_column("local: find columns", FindColumns{c, grid_.ny, hindered_below, {found_}});
+  each_column("local: find columns", FindColumns{c, grid_.ny, kHinderedBelow, {found_}});
   flat_halo_.fill(found_);
   each_column("local: widen", WidenColumns{grid_.ny, {found_}, {height_}});
   flat_halo_.fill(height_);
@@ -50,7 +50,7 @@ void LocalCorrection::update(const FaceVector& c) {
 
 void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
   const int colours = ColumnNeighbors{grid_}.colours();
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int n = 0; n < colours; ++n) {
       const int colour = forward ? n : colours - 1 - n;
       if (grid_.ranks) halo_.fill(z);  // the columns of other ranks

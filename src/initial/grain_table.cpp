@@ -19,9 +19,9 @@ namespace barchan {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> columns{"id", "diameter", "x",  "y",  "z", "vx",
-                                                   "vy", "vz",       "wx", "wy", "wz"};
-constexpr std::size_t n_required = 5;
+constexpr std::array<std::string_view, 11> kColumns{"id", "diameter", "x",  "y",  "z", "vx",
+                                                    "vy", "vz",       "wx", "wy", "wz"};
+constexpr std::size_t kNRequired = 5;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -122,27 +122,27 @@ class CsvReader {
     split_line();
     for (const std::string_view title : fields_) {
       if (title.empty()) fail("column {} has no name", order_.size() + 1);
-      const auto found = std::find(columns.begin(), columns.end(), title);
-      if (found == columns.end()) {
+      const auto found = std::find(kColumns.begin(), kColumns.end(), title);
+      if (found == kColumns.end()) {
         fail("unknown column \"{}\" in the header{}; {}", printable(title, 60), suggestion(title),
              needed);
       }
-      const auto column = static_cast<std::size_t>(found - columns.begin());
+      const auto column = static_cast<std::size_t>(found - kColumns.begin());
       if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
         fail("column \"{}\" appears twice", title);
       }
       order_.push_back(column);
     }
-    for (std::size_t column = 0; column < n_required; ++column) {
+    for (std::size_t column = 0; column < kNRequired; ++column) {
       if (std::find(order_.begin(), order_.end(), column) == order_.end()) {
-        fail("column \"{}\" is missing; needed are id,diameter,x,y,z", columns[column]);
+        fail("column \"{}\" is missing; needed are id,diameter,x,y,z", kColumns[column]);
       }
     }
   }
 
   /// The column that a title in capitals, with its unit or misspelt was meant for.
   static std::string suggestion(std::string_view title) {
-    const std::vector<std::string> names(columns.begin(), columns.end());
+    const std::vector<std::string> names(kColumns.begin(), kColumns.end());
     const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
     std::string close = nearest(word, names);
     if (word == "radius" || word == "r" || word == "d") close = "diameter";
@@ -150,7 +150,7 @@ class CsvReader {
   }
 
   void read_row() {
-    std::array<double, columns.size()> value{};
+    std::array<double, kColumns.size()> value{};
     std::int64_t id = 0;
     split_line();
     const std::size_t n_fields = fields_.size();
@@ -180,16 +180,16 @@ class CsvReader {
     if (field.starts_with('+')) field.remove_prefix(1);  // from_chars knows no plus sign
     const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error == std::errc::result_out_of_range && std::is_integral_v<T>) {
-      fail("{} = {}: must be at most {}", columns[column], printable(field, 60),
+      fail("{} = {}: must be at most {}", kColumns[column], printable(field, 60),
            std::numeric_limits<std::int64_t>::max());
     }
     if (error != std::errc() || stop != field.data() + field.size()) {
-      fail("{} = \"{}\": must be {}{}", columns[column], printable(field, 60),
+      fail("{} = \"{}\": must be {}{}", kColumns[column], printable(field, 60),
            std::is_integral_v<T> ? "a whole number" : "a number",
            field.find_first_of("\"'") != field.npos ? ", without quotes" : "");
     }
     if constexpr (!std::is_integral_v<T>) {
-      if (!std::isfinite(value)) fail("{} = {}: must be finite", columns[column], field);
+      if (!std::isfinite(value)) fail("{} = {}: must be finite", kColumns[column], field);
     }
     return value;
   }

@@ -18,9 +18,9 @@ using std::numbers::pi;
 using HostArray = Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace>;
 using HostRow = Kokkos::View<Real*, Kokkos::HostSpace>;
 
-constexpr double perturbation_rms = 0.1;  // over the bulk velocity
-constexpr int n_vortex_modes = 6;
-constexpr int n_wave_modes = 32;
+constexpr double kPerturbationRms = 0.1;  // over the bulk velocity
+constexpr int kNVortexModes = 6;
+constexpr int kNWaveModes = 32;
 
 /// One Fourier mode of a vector potential: strength * cos(kx x + a) * cos(kz z + b) per component.
 struct Mode {
@@ -67,8 +67,8 @@ std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size
   const double lx = size[0], lz = size[2];
   const int max_x = most(lx, scale, grid.nx_all), max_z = most(lz, 0.5 * scale, grid.nz_all);
   std::vector<Mode> modes;
-  for (int m = 0; m < n_vortex_modes + n_wave_modes; ++m) {
-    const bool vortex = m < n_vortex_modes;
+  for (int m = 0; m < kNVortexModes + kNWaveModes; ++m) {
+    const bool vortex = m < kNVortexModes;
     Mode mode;
     mode.mx = vortex ? 0 : whole(1, max_x);
     mode.mz = vortex ? whole(std::max(1, max_z / 3), max_z) : whole(0, max_z);
@@ -187,7 +187,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
     sum += (u * u + v * v + w * w) * rows.dy(j);
   });
   const double rms = std::sqrt(sum_over(ranks_of(grid), sum) / grid.height_of_all_columns());
-  const double scale = rms > 0 ? perturbation_rms * numbers.bulk_velocity / rms : 0;
+  const double scale = rms > 0 ? kPerturbationRms * numbers.bulk_velocity / rms : 0;
   const HostRow mean = mean_profile(numbers, profile, rows, setup.kinematic_viscosity);
   set_owned(fluid.u.x, grid,
             [&](int i, int j, int k) { return mean(j) + scale * curl.u(i, j, k); });

@@ -15,11 +15,11 @@ namespace barchan {
 
 namespace {
 
-constexpr std::string_view prefix = "restart_";
-constexpr std::string_view ending = ".h5";
+constexpr std::string_view kPrefix = "restart_";
+constexpr std::string_view kEnding = ".h5";
 // Raised when the meaning of stored names changes, so that old files are refused with a sentence.
 // 5: contacts by the ids of their grains; 6: sealed.
-constexpr std::int64_t format_version = 6, first_sealed_format = 6, oldest_format = 5;
+constexpr std::int64_t kFormatVersion = 6, kFirstSealedFormat = 6, kOldestFormat = 5;
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   return std::filesystem::path(target).concat(".tmp");
@@ -28,9 +28,9 @@ std::filesystem::path temporary_of(const std::filesystem::path& target) {
 /// Step of a restart file's name; -1 for any other name.
 std::int64_t step_of(const std::string& name) {
   std::int64_t step = -1;
-  if (!name.starts_with(prefix) || !name.ends_with(ending)) return -1;
-  const char* end = name.data() + name.size() - ending.size();
-  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, step);
+  if (!name.starts_with(kPrefix) || !name.ends_with(kEnding)) return -1;
+  const char* end = name.data() + name.size() - kEnding.size();
+  const auto [stop, error] = std::from_chars(name.data() + kPrefix.size(), end, step);
   return error == std::errc() && stop == end ? step : -1;
 }
 
@@ -91,12 +91,12 @@ std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::pa
 CheckpointWriter::CheckpointWriter(const std::filesystem::path& folder, std::int64_t step,
                                    const Provenance& provenance, MPI_Comm communicator)
     : step_(step),
-      target_(folder / fmt::format("{}{:010}{}", prefix, step, ending)),
+      target_(folder / fmt::format("{}{:010}{}", kPrefix, step, kEnding)),
       file_(temporary_of(target_), Hdf5File::Mode::create_sealable, communicator),
       communicator_(communicator) {
   write_provenance(file_, provenance);
   file_.set_attribute("/", "kind", "restart");
-  file_.set_attribute("/", "format", format_version);
+  file_.set_attribute("/", "format", kFormatVersion);
   file_.set_attribute("/", "step", step);
 }
 
@@ -148,13 +148,13 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
     fail("it is not a restart file");
   }
   const auto format = file_.attribute<std::int64_t>("/", "format");
-  const bool newer = format > format_version;
-  if (newer || format < oldest_format) {
+  const bool newer = format > kFormatVersion;
+  if (newer || format < kOldestFormat) {
     fail(fmt::format("it was written in format {} by {} {}; this version reads {} to {}{}", format,
-                     newer ? "a newer version," : "version", provenance().version, oldest_format,
-                     format_version, newer ? ": take that version" : ""));
+                     newer ? "a newer version," : "version", provenance().version, kOldestFormat,
+                     kFormatVersion, newer ? ": take that version" : ""));
   }
-  if (format >= first_sealed_format && !sealed_)
+  if (format >= kFirstSealedFormat && !sealed_)
     fail("it is damaged: its seal is gone" + instead_of(path()));
 }
 

@@ -7,7 +7,7 @@ namespace barchan {
 
 namespace {
 
-constexpr std::uint64_t golden = 0x9e3779b97f4a7c15, odd = 0xd6e8feb86659fd93;
+constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15, kOdd = 0xd6e8feb86659fd93;
 
 constexpr std::uint64_t fold(std::uint64_t s) { return s ^ (s >> 32U); }
 
@@ -15,10 +15,10 @@ constexpr std::uint64_t fold(std::uint64_t s) { return s ^ (s >> 32U); }
 template <class T>
 std::uint64_t checksum_of_run(std::span<const T> values, std::uint64_t index) {
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
-  std::uint64_t sum = 0, key = index * golden;
+  std::uint64_t sum = 0, key = index * kGolden;
   for (const T value : values) {
-    key += golden;
-    sum += fold(fold(std::bit_cast<Bits>(value) + key) * odd);
+    key += kGolden;
+    sum += fold(fold(std::bit_cast<Bits>(value) + key) * kOdd);
   }
   return sum;
 }

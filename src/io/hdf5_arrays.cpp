@@ -15,7 +15,7 @@ using hdf5::memory_type;
 
 namespace {
 
-constexpr const char* checksum_name = "checksum";
+constexpr const char* kChecksumName = "checksum";
 
 ElementType element_type(hid_t type) {
   const auto size = H5Tget_size(type);
@@ -67,7 +67,7 @@ void Hdf5File::put_checksum(const std::string& name, std::span<const T> values,
     sum = checksum(values, extents, extents, Extents(extents.size(), 0));
   }
   if (parallel_) MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, communicator_);
-  set_attribute(name, checksum_name, static_cast<std::int64_t>(sum));
+  set_attribute(name, kChecksumName, static_cast<std::int64_t>(sum));
 }
 
 template <class T>
@@ -154,9 +154,9 @@ std::vector<T> Hdf5File::read_as(const std::string& name, const ArrayInfo& found
       H5Dread(array.get(), memory_type<T>(), memory.get(), file.get(), H5P_DEFAULT, values.data()),
       name);
   const bool comparable = part == found.extents && found.type == element_type(memory_type<T>());
-  if (!comparable || !has_attribute(name, checksum_name)) return values;
+  if (!comparable || !has_attribute(name, kChecksumName)) return values;
   const auto sum = checksum<T>(values, part, part, Extents(part.size(), 0));
-  if (attribute<std::int64_t>(name, checksum_name) != static_cast<std::int64_t>(sum)) {
+  if (attribute<std::int64_t>(name, kChecksumName) != static_cast<std::int64_t>(sum)) {
     fail(
         "it is damaged: its checksum is not that of what was written (whoever changes values on "
         "purpose deletes the attribute \"checksum\")",

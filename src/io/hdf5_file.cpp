@@ -20,8 +20,8 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 // Room for this many links in the root's first table, and for their names (16 bytes each): while
 // they last, adding a frame rewrites two blocks in place, the names first.
-constexpr unsigned root_links = 2048;
-constexpr std::size_t name_bytes = 16;
+constexpr unsigned kRootLinks = 2048;
+constexpr std::size_t kNameBytes = 16;
 
 Handle access_list(bool parallel, MPI_Comm communicator, std::string* failure) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -48,9 +48,9 @@ Handle group_creation_list() {
 
 Handle creation_list(bool sealable) {
   Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  if (sealable) H5Pset_userblock(list.get(), seal_bytes);
-  H5Pset_sym_k(list.get(), 0, root_links / 2);
-  H5Pset_local_heap_size_hint(list.get(), root_links * name_bytes);
+  if (sealable) H5Pset_userblock(list.get(), kSealBytes);
+  H5Pset_sym_k(list.get(), 0, kRootLinks / 2);
+  H5Pset_local_heap_size_hint(list.get(), kRootLinks * kNameBytes);
   return list;
 }
 

@@ -15,7 +15,7 @@ namespace barchan {
 
 namespace {
 
-constexpr std::string_view mark =
+constexpr std::string_view kMark =
     "sealed by barchan, length and CRC-32 of what follows 512 bytes: ";
 
 /// The seal of all behind its room: a line of text, with zeros up to the room.
@@ -24,7 +24,7 @@ std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
   std::uint64_t length = 0;
   uLong crc = 0;
   in.clear();
-  in.seekg(static_cast<std::streamoff>(seal_bytes));
+  in.seekg(static_cast<std::streamoff>(kSealBytes));
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     const auto got = static_cast<std::size_t>(in.gcount());
@@ -32,8 +32,8 @@ std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
     length += got;
   }
   if (in.bad()) cannot("read", file);
-  std::string text = fmt::format("{}{} {:08x}\n", mark, length, crc);
-  text.resize(seal_bytes, '\0');
+  std::string text = fmt::format("{}{} {:08x}\n", kMark, length, crc);
+  text.resize(kSealBytes, '\0');
   return text;
 }
 
@@ -60,19 +60,19 @@ void seal(const std::filesystem::path& file) {
 bool has_seal(const std::filesystem::path& file) {
   if (!not_a_file(file).empty()) return false;  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
-  return start_of(in, mark.size()) == mark;
+  return start_of(in, kMark.size()) == kMark;
 }
 
 std::string broken_seal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) cannot("read", file);
-  const std::string text = start_of(in, seal_bytes);
+  const std::string text = start_of(in, kSealBytes);
   if (text == seal_of(in, file)) return {};
   std::uint64_t length = 0;  // that was sealed
-  std::from_chars(text.data() + mark.size(), text.data() + text.size(), length);
-  if (const auto size = std::filesystem::file_size(file); size < seal_bytes + length) {
+  std::from_chars(text.data() + kMark.size(), text.data() + text.size(), length);
+  if (const auto size = std::filesystem::file_size(file); size < kSealBytes + length) {
     return fmt::format("it is cut short: {} bytes, of {} that were written", size,
-                       seal_bytes + length);
+                       kSealBytes + length);
   }
   return "it is damaged: its checksum is not that of what was written";
 }

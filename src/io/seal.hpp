@@ -10,7 +10,7 @@ namespace barchan {
 
 /// Bytes at the start of a file that its own format leaves free (an HDF5 user block) for the seal:
 /// a line of text with the length and the CRC-32 (IEEE 802.3) of all that follows them.
-inline constexpr std::size_t seal_bytes = 512;
+inline constexpr std::size_t kSealBytes = 512;
 
 /// True if the file begins as a sealed one, whole or not: only a look at its start. False if it
 /// cannot be read.

@@ -18,7 +18,7 @@ CellRange owned_cells(const BasicGrid<Rows>& grid) {
   return {0, grid.nx, 0, grid.ny, 0, grid.nz};
 }
 
-inline constexpr bool runs_on_host =
+inline constexpr bool kRunsOnHost =
     std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
 
 /// Work items 0..n-1. "Light" makes a device take the functor as the kernel's argument. Kokkos
@@ -32,17 +32,17 @@ namespace launch_detail {
 
 inline Items policy(const CellRange& r) {
   const int rows = (r.j1 - r.j0) * (r.k1 - r.k0);
-  return items(runs_on_host ? rows : rows * (r.i1 - r.i0));
+  return items(kRunsOnHost ? rows : rows * (r.i1 - r.i0));
 }
 
 /// The cells of a work item: a row on the host, a single cell on a device.
 struct CellsOfItem {
   int i0, i1, j, k;
   KOKKOS_FORCEINLINE_FUNCTION CellsOfItem(const CellRange& r, int item) {
-    const int length = runs_on_host ? 1 : r.i1 - r.i0;
+    const int length = kRunsOnHost ? 1 : r.i1 - r.i0;
     const int rows_y = r.j1 - r.j0, row = item / length;
     i0 = r.i0 + item % length;
-    i1 = runs_on_host ? r.i1 : i0 + 1;
+    i1 = kRunsOnHost ? r.i1 : i0 + 1;
     j = r.j0 + row % rows_y;
     k = r.k0 + row / rows_y;
   }
@@ -50,7 +50,7 @@ struct CellsOfItem {
 
 /// A functor within a work item. On the host a local copy: its members stay in registers.
 template <class Functor>
-using Body = std::conditional_t<runs_on_host, const Functor, const Functor&>;
+using Body = std::conditional_t<kRunsOnHost, const Functor, const Functor&>;
 
 template <class Functor>
 struct Loop {

@@ -35,7 +35,7 @@ constexpr Table dune{
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
     "horn_left_2d,horn_right_2d"};
 
-constexpr const char* result_names[] = {"config.toml",       "run.json",
+constexpr const char* kResultNames[] = {"config.toml",       "run.json",
                                         "history.csv",       "dune.csv",
                                         "fields.h5",         "fields.xdmf",
                                         "grains.h5",         "grains.xdmf",
@@ -73,7 +73,7 @@ Provenance make_provenance(const Config& config) {
 
 bool is_result_name(const fs::path& name) {
   const auto known = [](const fs::path& file) {
-    return std::ranges::count(result_names, file) > 0 || is_checkpoint_name(file);
+    return std::ranges::count(kResultNames, file) > 0 || is_checkpoint_name(file);
   };
   return known(name) || (name.extension() == ".tmp" && known(name.stem()));
 }

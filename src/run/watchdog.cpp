@@ -19,15 +19,15 @@ namespace barchan {
 
 namespace {
 
-constexpr auto look_interval = std::chrono::milliseconds(250);
+constexpr auto kLookInterval = std::chrono::milliseconds(250);
 // More than this between two looks [s]: the process was stopped (Ctrl-Z, a suspended job), and the
 // rest of it is no waiting.
-constexpr double longest_look = 1;
+constexpr double kLongestLook = 1;
 // Rank k speaks k times this later [s]: the lowest waiting rank ends the others before they speak.
-constexpr double rank_delay = 2;
+constexpr double kRankDelay = 2;
 // The others hear of that by SIGTERM, and have this long until they are killed [s].
-constexpr double grace_period = 60;
-constexpr auto time_to_abort = std::chrono::seconds(5);
+constexpr double kGracePeriod = 60;
+constexpr auto kTimeToAbort = std::chrono::seconds(5);
 
 std::mutex mutex;  // of the next
 LongWait now;      // of this rank: a heartbeat sets its seconds back, the watchdog counts them
@@ -36,7 +36,7 @@ LongWait now;      // of this rank: a heartbeat sets its seconds back, the watch
 /// may get stuck like the main thread. mpirun also ends all ranks when one leaves by itself.
 [[noreturn]] void end_all(MPI_Comm communicator) {
   std::thread([] {
-    std::this_thread::sleep_for(time_to_abort);
+    std::this_thread::sleep_for(kTimeToAbort);
     std::_Exit(1);
   }).detach();
   MPI_Abort(communicator, 1);
@@ -47,12 +47,12 @@ LongWait now;      // of this rank: a heartbeat sets its seconds back, the watch
 void watch(const std::stop_token& stop, int patience, MPI_Comm communicator) {
   std::unique_lock lock(mutex);
   std::condition_variable_any stopped;
-  const double limit = patience + now.rank * rank_delay;
+  const double limit = patience + now.rank * kRankDelay;
   auto last_look = WallClock::now();
-  while (now.seconds < (stop_signal == 0 ? limit : limit + grace_period)) {
-    stopped.wait_for(lock, stop, look_interval, [] { return false; });
+  while (now.seconds < (stop_signal == 0 ? limit : limit + kGracePeriod)) {
+    stopped.wait_for(lock, stop, kLookInterval, [] { return false; });
     if (stop.stop_requested()) return;
-    now.seconds += std::min(seconds_since(last_look), longest_look);
+    now.seconds += std::min(seconds_since(last_look), kLongestLook);
     last_look = WallClock::now();
   }
   // At once and whole; the locks of the streams may be what the main thread is stuck in.

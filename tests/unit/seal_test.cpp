@@ -20,7 +20,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 TEST(Seal, KnowsTheChecksumOfTheStandard) {
   const TemporaryFolder folder;
   write(folder / "f",
-        std::string(seal_bytes, ' ').append("123456789"));  // CRC-32 check value: cbf43926
+        std::string(kSealBytes, ' ').append("123456789"));  // CRC-32 check value: cbf43926
   seal(folder / "f");
   EXPECT_TRUE(contains(read_text(folder / "f"), ": 9 cbf43926\n"));
   EXPECT_EQ(broken_seal(folder / "f"), "");
@@ -62,11 +62,11 @@ TEST_F(SealedRestart, EveryFlippedBitIsFound) {
   std::mt19937 random(1);
   for (int n = 0; n < 300; ++n) {
     std::string damaged = bytes_;
-    const std::size_t at = seal_bytes + random() % (damaged.size() - seal_bytes);
+    const std::size_t at = kSealBytes + random() % (damaged.size() - kSealBytes);
     damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
     EXPECT_TRUE(contains(refusal(damaged), "damaged")) << at;
   }
-  for (std::size_t at = 0; at < seal_bytes; ++at) {  // the seal itself, and what fills it up
+  for (std::size_t at = 0; at < kSealBytes; ++at) {  // the seal itself, and what fills it up
     std::string damaged = bytes_;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
     EXPECT_NE(refusal(damaged), "") << at;
