@@ -10,6 +10,7 @@
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/output/grain_state_file.hpp"
+#include "src/output/state_file.hpp"
 
 namespace barchan {
 

@@ -9,8 +9,8 @@
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_arrays.hpp"
-#include "src/parallel/reduce.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"
@@ -18,10 +18,10 @@
 namespace barchan {
 namespace {
 
-using testing::by_id;
-using testing::differences;
-using testing::from_all_ranks;
-using testing::numbers_of;
+using test::by_id;
+using test::differences;
+using test::from_all_ranks;
+using test::numbers_of;
 
 bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
 
@@ -77,7 +77,7 @@ struct AtGrains {
 };
 
 Config heap_at_the_seam(VoidFraction points, GrainBoundaryX x) {
-  Config c = testing::coupled_config();
+  Config c = test::coupled_config();
   c.coupling.void_fraction = points;
   c.grains->boundary_x = x;
   c.initial.fluid = "still";
@@ -138,7 +138,7 @@ TEST(CoupledOverRanks, WallsOfTheGrainsKeepTheSolidFractionInside) {
 
 /// Grains near all edges of the pencils and of the domain.
 InitialGrains scattered_grains(const Config& c, int n) {
-  InitialGrains grains = testing::random_grains(n, c.size, 8);
+  InitialGrains grains = test::random_grains(n, c.size, 8);
   for (std::size_t g = 0; g < grains.size(); g += 3) {
     grains.x[g].x = std::round(grains.x[g].x / 0.0012) * 0.0012 + 3e-5 * (grains.x[g].y / 0.006);
     grains.x[g].z = std::round(grains.x[g].z / 0.001) * 0.001 - 3e-5 * (grains.x[g].y / 0.006);
@@ -149,7 +149,7 @@ InitialGrains scattered_grains(const Config& c, int n) {
 /// sum over cells of f times what the grains deposit = sum over grains of what they give times the
 /// f they find: scattering is the adjoint of gathering, over any cuts.
 TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
-  const Config c = testing::coupled_config();
+  const Config c = test::coupled_config();
   for (const int along_x : shapes(c)) {
     SCOPED_TRACE(along_x);
     const auto pencils = Coupled::make_pencils(c, MPI_COMM_WORLD, along_x);
@@ -234,10 +234,10 @@ void twenty_steps(const Config& c) {
   }
 }
 
-TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) { twenty_steps(testing::coupled_config()); }
+TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) { twenty_steps(test::coupled_config()); }
 
 TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
-  Config c = testing::coupled_config();
+  Config c = test::coupled_config();
   c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
   twenty_steps(c);
 }
@@ -246,9 +246,9 @@ TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
 /// agree to 1e-9; from then on they differ no more than one rank does from itself after a grain
 /// has been moved by the last bit of its position.
 TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
-  const Config c = testing::coupled_config();
+  const Config c = test::coupled_config();
   Coupled whole(c), moved(c), shared(c, MPI_COMM_WORLD);
-  testing::move_by_the_last_bit(*moved.state.grains, 100, 101);
+  test::move_by_the_last_bit(*moved.state.grains, 100, 101);
   double worst_share = 0;
   for (int s = 1; s <= 200; ++s) {
     for (Coupled* one : {&whole, &moved, &shared}) one->step.advance(one->state);
@@ -267,7 +267,7 @@ TEST(CoupledOverRanks, TwoHundredStepsAsOnOneRankUntilChaos) {
 
 /// All arrays that a grain can have, and all walls: 200 grains in a box of 6 x 3 x 4 mm.
 Config fullest_case() {
-  Config c = testing::coupled_config();
+  Config c = test::coupled_config();
   c.size = {0.006, 0.003, 0.004};
   c.fluid->cells = {10, 9, 6};
   c.grains->floor = GrainFloor::glued;

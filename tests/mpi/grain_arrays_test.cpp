@@ -16,7 +16,7 @@ constexpr std::array<double, 3> size{0.006, 0.003, 0.005};
 constexpr int n_grains = 3000;
 
 Config box() {
-  Config c = testing::grain_config();
+  Config c = test::grain_config();
   c.size = size;
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->boundary_z = GrainBoundaryZ::periodic;
@@ -53,7 +53,7 @@ struct Marked {
     set_marks(grains);
     for (int round = 0; round < 10; ++round) {
       list.rebuild(grains, false);
-      testing::drift(grains, 6e-5);
+      test::drift(grains, 6e-5);
     }
     list.rebuild(grains, false);
   }
@@ -61,7 +61,7 @@ struct Marked {
   NeighborList list;
 
   static InitialGrains still_along_y() {  // there is no floor
-    InitialGrains grains = testing::random_grains(n_grains, size, 5);
+    InitialGrains grains = test::random_grains(n_grains, size, 5);
     for (Vec3& u : grains.u) u.y = 0;
     return grains;
   }
@@ -114,7 +114,7 @@ TEST(GrainArrays, HistoriesOfAllWallsMigrate) {
   for (int round = 0; round < 10; ++round) {
     list.rebuild(grains, false);
     ASSERT_EQ(wrong_walls(grains, false), 0) << "round " << round;
-    testing::drift(grains, 6e-5);
+    test::drift(grains, 6e-5);
   }
   EXPECT_TRUE(rank_count(MPI_COMM_WORLD) == 1 || sum_over(MPI_COMM_WORLD, list.n_migrated()) > 100);
 }
@@ -151,7 +151,7 @@ GrainState read_back(const std::filesystem::path& file, MPI_Comm ranks) {
 TEST(GrainArrays, AnExtraOneIsInRestartFiles) {
   Marked m;
   m.grains.wall_xi_t = decltype(m.grains.wall_xi_t)("wall xi_t", m.grains.kin.extent(0), 1);
-  const testing::SharedFolder folder;
+  const test::SharedFolder folder;
   CheckpointWriter writer(folder.path(), 1, {}, MPI_COMM_WORLD);
   save_grains(writer, m.grains, m.list);
   const auto file = writer.commit(1);

@@ -11,12 +11,12 @@
 namespace barchan {
 namespace {
 
-using testing::by_id;
-using testing::from_all_ranks;
-using testing::GrainBench;
-using testing::host_copy;
-using testing::numbers_of;
-using testing::SharedGrains;
+using test::by_id;
+using test::from_all_ranks;
+using test::host_copy;
+using test::numbers_of;
+using test::GrainBench;
+using test::SharedGrains;
 
 int n_ranks() { return rank_count(MPI_COMM_WORLD); }
 
@@ -24,7 +24,7 @@ int n_ranks() { return rank_count(MPI_COMM_WORLD); }
 bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
 
 Config box(std::array<double, 3> size) {
-  Config c = testing::grain_config();
+  Config c = test::grain_config();
   c.size = size;
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->boundary_z = GrainBoundaryZ::periodic;
@@ -60,7 +60,7 @@ TEST(GrainsOverRanks, PairsAreThoseOfOneRank) {
   for (const std::array<double, 3> size :
        {std::array<double, 3>{0.01, 0.003, 0.004}, {0.0011, 0.004, 0.02}}) {
     const Config c = box(size);
-    const SharedGrains s(c, testing::random_grains(4000, size, 4));
+    const SharedGrains s(c, test::random_grains(4000, size, 4));
     const auto whole = owned_in(pairs_of(s.whole.state));
     const auto shared = owned_in(from_all_ranks(pairs_of(s.shared.state)));
     ASSERT_GT(whole.size(), 1000u);
@@ -73,7 +73,7 @@ TEST(GrainsOverRanks, PairsAreThoseOfOneRank) {
 // theirs.
 TEST(GrainsOverRanks, PairsOfFastGrainsAreThoseOfOneRank) {
   const std::array<double, 3> size{0.003, 0.003, 0.003};
-  InitialGrains grains = testing::random_grains(5000, size, 5);
+  InitialGrains grains = test::random_grains(5000, size, 5);
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (g % 20 != 0) grains.u[g] = 1e-3 * grains.u[g];
   const SharedGrains s(box(size), grains);
@@ -86,7 +86,7 @@ TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
   Config c = box({0.008, 0.006, 0.005});
   c.grains->floor = GrainFloor::glued;
   c.grains->floor_diameter = 2e-4;
-  SharedGrains s(c, testing::lattice_packing(6000, c.size, 0.5));
+  SharedGrains s(c, test::lattice_packing(6000, c.size, 0.5));
   s.advance(200, 1e-6);  // into contact, the history of which is then there
   s.advance(1, 1e-6);
   const auto off = s.off();
@@ -105,7 +105,7 @@ TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
 /// Grains that fly through each other and through the periodic sides, with marks for histories.
 TEST(GrainsOverRanks, TenThousandMigrationsLoseNothing) {
   const Config c = box({0.006, 0.003, 0.005});
-  InitialGrains grains = testing::random_grains(3000, c.size, 5);
+  InitialGrains grains = test::random_grains(3000, c.size, 5);
   for (Vec3& u : grains.u) u.y = 0;  // there is no floor
   GrainState whole = make_grain_state(grains, 2500);
   GrainState shared = make_grain_state(grains, 2500, MPI_COMM_WORLD);
@@ -117,14 +117,13 @@ TEST(GrainsOverRanks, TenThousandMigrationsLoseNothing) {
   std::int64_t migrated = 0, contacts = 0;
   int round = 0;
   for (; round < 400 && (round < 20 || (n_ranks() > 1 && migrated < 10000)); ++round) {
-    testing::handle_marks(whole, true);
-    testing::handle_marks(shared, true);
-    testing::drift(whole, 6e-5);
-    testing::drift(shared, 6e-5);
+    test::handle_marks(whole, true);
+    test::handle_marks(shared, true);
+    test::drift(whole, 6e-5);
+    test::drift(shared, 6e-5);
     whole_list.rebuild(whole, false);
     shared_list.rebuild(shared, false);
-    ASSERT_EQ(testing::handle_marks(shared, false), 0)
-        << "history of another pair, round " << round;
+    ASSERT_EQ(test::handle_marks(shared, false), 0) << "history of another pair, round " << round;
     const auto kept = owned_in(pairs_of(whole, true));
     ASSERT_EQ(kept, owned_in(from_all_ranks(pairs_of(shared, true)))) << "round " << round;
     contacts += static_cast<std::int64_t>(kept.size());
@@ -145,10 +144,10 @@ TEST(GrainsOverRanks, TenThousandMigrationsLoseNothing) {
 TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
   Config c = box({0.004, 0.004, 0.005});
   c.grains->boundary_x = GrainBoundaryX::exit;
-  const InitialGrains grains = testing::lattice_packing(2000, c.size, 0.8);
+  const InitialGrains grains = test::lattice_packing(2000, c.size, 0.8);
   SharedGrains s(c, grains);
   GrainBench moved(c, grains);
-  testing::move_by_the_last_bit(moved.state, 0, moved.state.n);
+  test::move_by_the_last_bit(moved.state, 0, moved.state.n);
   for (int step = 0; step < 20; ++step) {
     s.advance(25, 4e-6);
     moved.advance(25, 4e-6);
@@ -159,7 +158,7 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
   EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n_left), s.whole.state.n_left);
   const auto off = s.off();
   const auto chaos =
-      testing::differences(by_id(numbers_of(s.whole.state)), by_id(numbers_of(moved.state)));
+      test::differences(by_id(numbers_of(s.whole.state)), by_id(numbers_of(moved.state)));
   for (std::size_t q = 0; q < off.size(); ++q) EXPECT_LT(off[q], std::max(1e-9, chaos[q]));
   if (is_first())
     std::printf("[ measured ] %d ranks: u %.1e; all moved by a bit: %.1e\n", n_ranks(), off[1],
@@ -183,10 +182,10 @@ TEST(GrainsOverRanks, EightWallsAsOnOneRankUntilChaos) {
   c.grains->boundary_z = GrainBoundaryZ::wall;
   c.grains->floor = GrainFloor::glued;
   c.grains->floor_diameter = 2e-4;
-  const InitialGrains grains = testing::lattice_packing(500, c.size, 1.0);
+  const InitialGrains grains = test::lattice_packing(500, c.size, 1.0);
   SharedGrains s(c, grains);
   GrainBench moved(c, grains);
-  testing::move_by_the_last_bit(moved.state, 0, moved.state.n);
+  test::move_by_the_last_bit(moved.state, 0, moved.state.n);
   unsigned touched = 0;
   for (int round = 1; round <= 20; ++round) {
     s.advance(100, 4e-6);
@@ -194,7 +193,7 @@ TEST(GrainsOverRanks, EightWallsAsOnOneRankUntilChaos) {
     touched |= walls_touched(s.whole.state);
     const double off = s.off()[0];
     const double chaos =
-        testing::differences(by_id(numbers_of(s.whole.state)), by_id(numbers_of(moved.state)))[0];
+        test::differences(by_id(numbers_of(s.whole.state)), by_id(numbers_of(moved.state)))[0];
     EXPECT_LT(off, chaos) << "round " << round;
     if (round % 5 == 0 && is_first())
       std::printf("[ measured ] %d ranks, %.1f ms: x %.1e; all moved by a bit: %.1e\n", n_ranks(),
@@ -215,7 +214,7 @@ void move_the_left_ones(const GrainState& grains) {
 TEST(GrainsOverRanks, CutsGiveEqualWorkAndFollowTheGrains) {
   Config c = box({0.02, 0.01, 0.004});
   c.grains->boundary_x = GrainBoundaryX::exit;
-  InitialGrains grains = testing::lattice_packing(6000, {0.006, 0.01, 0.004}, 0.01);
+  InitialGrains grains = test::lattice_packing(6000, {0.006, 0.01, 0.004}, 0.01);
   GrainBench s(c, grains, MPI_COMM_WORLD);
   if (n_ranks() == 1) return;
   const GrainPartition& cuts = *s.solver.list().partition();

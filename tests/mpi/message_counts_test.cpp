@@ -120,7 +120,7 @@ MessageCounts exchange(const Grid& grid) {
 /// Grains of this rank in the pencil of each rank.
 std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& grains) {
   std::vector<int> n(static_cast<std::size_t>(n_ranks()));
-  const auto kin = testing::host_copy(grains.kin);
+  const auto kin = test::host_copy(grains.kin);
   const auto part = [](const BlockPartition& split, Real at, Real spacing) {
     int p = 0;
     while (p + 1 < split.parts && at >= split.begin(p + 1) * spacing) ++p;
@@ -186,7 +186,7 @@ struct SmallCase {
     for (const Field& f : {state.fluid->alpha_f, state.fluid->alpha_f_previous})
       Kokkos::deep_copy(f.storage, Real(1));
     if (with_grains) {
-      const InitialGrains grains = testing::lattice_packing(2500, size, 0);
+      const InitialGrains grains = test::lattice_packing(2500, size, 0);
       state.grains = make_grain_state(grains, config.grains->density, MPI_COMM_WORLD);
     }
     step = std::make_unique<CoupledStep>(config, state);
@@ -249,7 +249,7 @@ TEST(MessageCounts, ACoupledStep) {
 }
 
 Config periodic_box() {
-  Config c = testing::grain_config();
+  Config c = test::grain_config();
   c.size = {0.0108, 0.004, 0.0081};
   c.grains->boundary_x = GrainBoundaryX::periodic;
   return c;
@@ -257,7 +257,7 @@ Config periodic_box() {
 
 TEST(MessageCounts, AListRebuild) {
   const Config c = periodic_box();
-  testing::GrainBench s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  test::GrainBench s(c, test::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
   const MessageCounts before = message_counts();
   s.solver.list().rebuild(s.state, false);
   if (n_ranks() == 1) return expect_equal(since(before), {});
@@ -273,7 +273,7 @@ void move_along_x(const GrainState& grains, Real distance) {
 /// Every grain goes on by one column, some to another rank: 30 numbers each, and no contacts.
 TEST(MessageCounts, AMigration) {
   const Config c = periodic_box();
-  testing::GrainBench s(c, testing::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
+  test::GrainBench s(c, test::lattice_packing(2500, c.size, 0), MPI_COMM_WORLD);
   if (n_ranks() == 1) return;
   const NeighborList& list = s.solver.list();
   move_along_x(s.state, 3e-4);

@@ -12,7 +12,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 constexpr int kGrains = 5000;
 constexpr double kDiameter = 2e-4, kSubmerged = 1500 * 9.81, kDensity = 1000;

@@ -68,7 +68,7 @@ void compare(const Comparison& c) {
   const Profiles dns{test::reference_table(c.dns), "yplus"};
   const double depth = 0.025, nu = 1e-6;
   const double u_star = number(run.rows[0], "y_plus") / number(run.rows[0], "y") * nu;
-  testing::expect_relative("u*", u_star, c.u_star, c.u_star_within);
+  test::expect_relative("u*", u_star, c.u_star, c.u_star_within);
 
   double mean = 0, linear = 0;
   for (const auto& row : run.rows) {
@@ -79,15 +79,15 @@ void compare(const Comparison& c) {
           std::abs(number(row, "U_plus") / test::linear(dns.rows, dns.y_plus, "U", y_plus) - 1));
     linear = std::max(linear, std::abs(number(row, "total_stress") / (u_star * u_star) - (1 - y)));
   }
-  testing::expect_below("largest error of U+ in y+ > 5", mean, c.mean);
-  testing::expect_below("largest error of the total stress", linear, c.total);
+  test::expect_below("largest error of U+ in y+ > 5", mean, c.mean);
+  test::expect_below("largest error of the total stress", linear, c.total);
 
   for (const std::string stress : {"uu", "vv", "ww", "uv", "k"}) {
     const double sign = stress == "uv" ? -1 : 1;
     const Profiles::Peak got = run.peak(stress, sign / (u_star * u_star));
     const Profiles::Peak reference = dns.peak(stress, sign);
-    testing::expect_relative(stress + ", peak", got.value, reference.value, c.peak);
-    testing::expect_relative(stress + ", y+ of the peak", got.y_plus, reference.y_plus, c.place);
+    test::expect_relative(stress + ", peak", got.value, reference.value, c.peak);
+    test::expect_relative(stress + ", y+ of the peak", got.y_plus, reference.y_plus, c.place);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 constexpr Real kDegree = std::numbers::pi / 180;
 

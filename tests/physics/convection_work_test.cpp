@@ -52,8 +52,8 @@ TEST(FluidConvection, DoesNoNetWorkOnAnyMeshBetweenAnyWalls) {
       }
     }
   }
-  testing::expect_below("net work of convection over its magnitude, 60 meshes and walls", worst,
-                        1e-12);
+  test::expect_below("net work of convection over its magnitude, 60 meshes and walls", worst,
+                     1e-12);
 }
 
 }  // namespace

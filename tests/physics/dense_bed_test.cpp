@@ -84,7 +84,7 @@ TEST(DenseBed, SmallDisturbancesDieOutAtEveryFractionAndStep) {
               if (period > 0 && period < 5 * dt) continue;  // no step resolves it
               worst = std::max(worst, growth({alpha, dt, smoothing, period, share, squeezed}));
             }
-  testing::expect_below("growth per step", worst, 1);
+  test::expect_below("growth per step", worst, 1);
   // Grains that take more water along than there is drive it on.
   EXPECT_GT(growth({.alpha = 0.35, .dt = 1e-3, .share = 2, .squeezed = false}), 1.2);
 }
@@ -107,7 +107,7 @@ Config bed_config() {
 /// Median speed of the grains [m/s]: a few that have no contact and drop do not count.
 double median_speed(const test::CoupledRun& run) {
   std::vector<double> speed;
-  const std::vector<testing::GrainRow> rows = run.rows();
+  const std::vector<test::GrainRow> rows = run.rows();
   for (std::size_t id = 1; id < rows.size(); ++id) speed.push_back(norm(rows[id].u));
   std::nth_element(speed.begin(), speed.begin() + 1000, speed.end());
   return speed[1000];
@@ -115,7 +115,7 @@ double median_speed(const test::CoupledRun& run) {
 
 InitialGrains settled_bed(unsigned packing = 1) {
   const Config c = bed_config();
-  return test::settled(c, testing::lattice_packing(2000, c.size, 0.01, packing), 300);
+  return test::settled(c, test::lattice_packing(2000, c.size, 0.01, packing), 300);
 }
 
 TEST(DenseBed, ABedAtRestInStillWaterStaysAtRest) {
@@ -132,7 +132,7 @@ TEST(DenseBed, ABedAtRestInStillWaterStaysAtRest) {
   }
   std::sort(speeds.begin(), speeds.end());
   // A hundredth of the fall velocity; the points of the grains cross cells.
-  testing::expect_below("median speed, median of five packings [m/s]", speeds[2], 2e-4);
+  test::expect_below("median speed, median of five packings [m/s]", speeds[2], 2e-4);
 }
 
 /// The bed is elastic in shear, and water flows over it. Pushed along the stream it swings; the
@@ -148,7 +148,7 @@ TEST(DenseBed, ASwingingBedComesToRest) {
     for (int n = 0; n < steps; ++n) {
       bed.advance(1);
       double mean = 0;
-      const std::vector<testing::GrainRow> rows = bed.rows();
+      const std::vector<test::GrainRow> rows = bed.rows();
       for (std::size_t id = 1; id < rows.size(); ++id) mean += rows[id].u.x / 2000;
       sum += mean * mean;
     }
@@ -160,7 +160,7 @@ TEST(DenseBed, ASwingingBedComesToRest) {
   std::printf("[ measured ] mean velocity of the bed: pushed %.2e, after 0.05 s %.2e m/s\n", pushed,
               left);
   EXPECT_GT(pushed, 5e-4);
-  testing::expect_below("speed of the bed after 0.05 s over that at first", left / pushed, 0.02);
+  test::expect_below("speed of the bed after 0.05 s over that at first", left / pushed, 0.02);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 using std::numbers::pi;
 using test::FlowRun;
 

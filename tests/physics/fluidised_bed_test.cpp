@@ -131,7 +131,7 @@ Reading read(const FreeBed& bed, double superficial, double time) {
     // Above the bed the water is clear: its velocity is the superficial one.
     out.superficial += test::mean_of_columns(f.u.x, f.grid, f.grid.nx - 2, f.grid.nx) / samples;
     out.drop += 1000 * f.drive * bed.length() / samples;
-    for (const Vec3& force : testing::HostGrains(*run.state.grains).wall_forces()) {
+    for (const Vec3& force : test::HostGrains(*run.state.grains).wall_forces()) {
       out.plate += force.x / bed.area() / samples;
     }
   }
@@ -153,8 +153,8 @@ Readings read_both(const FreeBed& bed, double time) {
   const Places& x = r.packed.bed;
   EXPECT_LT(r.packed.drop, 0.9 * bed.weight());
   EXPECT_GT(FreeBed::height(r.fluidised.bed), FreeBed::height(x) + 0.1 * kDiameter);
-  testing::expect_relative("onset of fluidisation [m/s]", r.onset(),
-                           ergun_onset(bed.mean_fraction(x)), 0.05);
+  test::expect_relative("onset of fluidisation [m/s]", r.onset(), ergun_onset(bed.mean_fraction(x)),
+                        0.05);
   return r;
 }
 
@@ -163,8 +163,8 @@ Readings read_both(const FreeBed& bed, double time) {
 TEST(FluidisedBed, NightlyLiftsOffAtErgunsVelocityAndThenCarriesItsWeight) {
   const FreeBed bed({.across = 6, .high = 115, .pitch = 1.05, .columns = 2});
   const Readings r = read_both(bed, 0.22);
-  testing::expect_relative("drop of the fluidised bed, submerged weight [Pa]", r.fluidised.drop,
-                           bed.weight(), 0.01);
+  test::expect_relative("drop of the fluidised bed, submerged weight [Pa]", r.fluidised.drop,
+                        bed.weight(), 0.01);
 }
 
 /// In a lower bed, with what the plate still carries.
@@ -172,8 +172,8 @@ TEST(FluidisedBed, ColumnLiftsOffAtErgunsVelocityAndWaterAndPlateCarryIt) {
   const FreeBed bed({.across = 4, .high = 60, .pitch = 1.03, .columns = 1});
   const Readings r = read_both(bed, 0.08);
   for (const Reading& q : {r.packed, r.fluidised}) {
-    testing::expect_relative("drop and support by the plate, submerged weight [Pa]",
-                             q.drop + q.plate, bed.weight(), 0.01);
+    test::expect_relative("drop and support by the plate, submerged weight [Pa]", q.drop + q.plate,
+                          bed.weight(), 0.01);
   }
 }
 

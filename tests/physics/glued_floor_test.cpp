@@ -9,7 +9,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 constexpr Real kG = 9.81;            // [m/s^2]
 constexpr Real kGluedRadius = 1e-4;  // [m]

@@ -9,7 +9,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 // --- Central impacts through the solver: a pair head-on, or a grain on a wall.
 

@@ -6,7 +6,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 /// A pair that starts to touch at t = 0 and stays in contact: state of grain 1 at 0.6 contact times
 /// after n steps. Sticking (mu = 10), so that the contact is smooth.

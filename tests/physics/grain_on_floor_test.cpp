@@ -8,7 +8,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 constexpr Real kG = 9.81;  // [m/s^2]
 

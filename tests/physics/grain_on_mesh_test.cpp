@@ -26,7 +26,7 @@ template <class Velocity>
 CoupledRun held_grain(Config c, const Vec3& x, const Velocity& u) {
   c.grains->frozen = true;
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, x);
+  test::add_grain(grain, kDiameter, x);
   CoupledRun run(c, grain);
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid,
@@ -63,7 +63,7 @@ Range along(const Vec3& from, const Vec3& to, const Value& value) {
 }
 
 void check(const char* what, const Range& r) {
-  testing::expect_below(std::string("variation of the drag, ") + what, r.variation(), 0.05);
+  test::expect_below(std::string("variation of the drag, ") + what, r.variation(), 0.05);
 }
 
 TEST(GrainOnMesh, DragIsSteadyAcrossCellsInUniformFlow) {
@@ -98,7 +98,7 @@ TEST(GrainOnMesh, AsCfdemReadsTheFlowItIsThatOfTheCentres) {
   c.coupling.exchange = Exchange::interpolated;
   const auto read = [&](const auto& flow) {
     const CoupledRun run = held_grain(c, on_a_face, flow);
-    return testing::host_copy(run.state.grains->fluid.u_f)(0).x;
+    return test::host_copy(run.state.grains->fluid.u_f)(0).x;
   };
   EXPECT_NEAR(read(zigzag), u, 1e-14);
   c.coupling.void_fraction = VoidFraction::cfdem_faithful;
@@ -114,7 +114,7 @@ TEST(GrainOnMesh, DragIsSteadyOnAFreeGrain) {
     Config c = paper_mesh();
     c.grains->gravity = {9.81, 0, 0};
     InitialGrains grain;
-    testing::add_grain(grain, kDiameter, {0.5 * kDx, height, 2.3 * kDz});
+    test::add_grain(grain, kDiameter, {0.5 * kDx, height, 2.3 * kDz});
     CoupledRun run(c, grain);
     Range drag;
     for (int n = 1; n <= 700; ++n) {
@@ -135,7 +135,7 @@ struct Momentum {
 Momentum momentum(const CoupledRun& run) {
   const FluidState& f = *run.state.fluid;
   const Grid grid = f.grid;
-  const GrainKinematics grain = testing::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics grain = test::host_copy(run.state.grains->kin)(0);
   return {1000 * grid.dx * grid.dz *
               sum_each_cell("test: momentum", grid, FlowRate{grid, f.u.x, f.alpha_f}),
           grain.m * grain.u.x};
@@ -169,7 +169,7 @@ TEST(GrainOnMesh, MomentumIsConserved) {
   Config c = paper_mesh();
   c.grains->gravity = {9.81, 0, 0};
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {0.7 * kDx, 6e-4, 2.3 * kDz}, {0.05, -0.002, 0.01});
+  test::add_grain(grain, kDiameter, {0.7 * kDx, 6e-4, 2.3 * kDz}, {0.05, -0.002, 0.01});
   CoupledRun run(c, grain);
   const double weight = 1500 * test::volume_of(kDiameter) * 9.81, dt = c.time.fluid_step;
   const Momentum start = momentum(run);
@@ -189,11 +189,10 @@ TEST(GrainOnMesh, MomentumIsConserved) {
     last = now;
   }
   const double given = weight * steps * dt;
-  testing::expect_below(
-      "momentum that neither exchange nor shared forces explain, over the weight's",
-      unexplained / (weight * dt), 1e-9);
-  testing::expect_relative("momentum of all parts, impulse of the weight [N s]",
-                           last.total() - start.total(), given, 1e-3);
+  test::expect_below("momentum that neither exchange nor shared forces explain, over the weight's",
+                     unexplained / (weight * dt), 1e-9);
+  test::expect_relative("momentum of all parts, impulse of the weight [N s]",
+                        last.total() - start.total(), given, 1e-3);
 }
 
 // --- The forces in the output against Newton's second law: without contacts the resultant is what
@@ -203,7 +202,7 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
   c.grains->gravity = {2, -9.81, 0.5};
   c.grains->boundary_z = GrainBoundaryZ::periodic;
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {1.3e-3, 3e-3, 2e-3}, {0.04, -0.01, 0.02});
+  test::add_grain(grain, kDiameter, {1.3e-3, 3e-3, 2e-3}, {0.04, -0.01, 0.02});
   CoupledRun run(c, grain);
   const double volume = test::volume_of(kDiameter), m = 2500 * volume;
   const double weight = (2500 - displaced_density) * volume * -9.81;
@@ -215,14 +214,14 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
     const Vec3 total = test::force_on_first(run, "force_total");
     worst = std::max(worst, norm(total - rate) / norm(rate));
     if (displaced_density == 0) continue;
-    const Vec3 mean = testing::host_copy(mean_resultant_force(*run.state.grains, run.step.dt()))(0);
+    const Vec3 mean = test::host_copy(mean_resultant_force(*run.state.grains, run.step.dt()))(0);
     EXPECT_LT(norm(mean - rate), 1e-12 * norm(rate)) << what;
     const double parts = weight + test::force_on_first(run, "force_drag").y +
                          test::force_on_first(run, "force_added_mass").y;
     if (!c.fluid) worst_parts = std::max(worst_parts, std::abs(parts - total.y) / norm(rate));
   }
-  testing::expect_below(std::string("resultant force, m du/dt, ") + what, worst, 1e-10);
-  testing::expect_below(std::string("its parts, ") + what, worst_parts, 1e-10);
+  test::expect_below(std::string("resultant force, m du/dt, ") + what, worst, 1e-10);
+  test::expect_below(std::string("its parts, ") + what, worst_parts, 1e-10);
 }
 
 TEST(ResultantForce, IsWhatMovesTheGrain) {

@@ -9,7 +9,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 constexpr int kGrains = 1000;
 constexpr Real kCentre = 0.008;  // of the column [m]

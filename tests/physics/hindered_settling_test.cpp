@@ -32,8 +32,8 @@ InitialGrains staggered_lattice(int across, int high, double a) {
   for (int row = 0; row < rows; ++row) {
     const double shift = std::fmod(row * 0.6180339887498949, 1.0);  // golden ratio: evenly spread
     for (int j = 0; j < high; ++j) {
-      testing::add_grain(grains, kDiameter,
-                         a * Vec3{row % across + 0.5, j + 0.5 + shift, row / across + 0.5});
+      test::add_grain(grains, kDiameter,
+                      a * Vec3{row % across + 0.5, j + 0.5 + shift, row / across + 0.5});
     }
   }
   return grains;
@@ -71,9 +71,9 @@ void check(const char* name, DragLaw code, const Law& law, double alpha) {
                                           {"force_balance", reference},
                                           {"alone", kAlone}});
   const std::string claim = std::string(name) + ", alpha " + std::to_string(alpha);
-  testing::expect_relative(claim + ", force balance [m/s]", measured, reference, 0.02);
-  testing::print_measured(claim + ", Richardson-Zaki exponent",
-                          std::log(measured / kAlone) / std::log(alpha), 3.821568, 1);
+  test::expect_relative(claim + ", force balance [m/s]", measured, reference, 0.02);
+  test::print_measured(claim + ", Richardson-Zaki exponent",
+                       std::log(measured / kAlone) / std::log(alpha), 3.821568, 1);
 }
 
 /// Gidaspow's law jumps at 0.8: Wen-Yu just above, Ergun just below.

@@ -30,8 +30,8 @@ struct Pairs {
 
 /// Every pair of grains is looked at; those that touch must be in the list.
 Pairs against_all_pairs(const GrainState& s, const PeriodicBox& box) {
-  const auto kin = testing::host_copy(s.kin);
-  const auto i = testing::host_copy(s.list.i), j = testing::host_copy(s.list.j);
+  const auto kin = test::host_copy(s.kin);
+  const auto i = test::host_copy(s.list.i), j = test::host_copy(s.list.j);
   std::set<std::pair<int, int>> listed;
   for (int p = 0; p < s.list.n_pairs; ++p) listed.insert(std::minmax(i(p), j(p)));
   Pairs pairs;
@@ -48,7 +48,7 @@ Pairs against_all_pairs(const GrainState& s, const PeriodicBox& box) {
 /// A heap of 500 grains under a fast flow, around and around in a short channel: 100 grain steps a
 /// fluid step.
 Config moving_heap() {
-  Config c = testing::coupled_config();
+  Config c = test::coupled_config();
   c.size = {0.012, 0.006, 0.009};
   c.fluid->cells = {10, 14, 9};
   c.fluid->mean_velocity = 0.35;
@@ -61,7 +61,7 @@ Config moving_heap() {
 }
 
 Real mean_speed(const GrainState& s) {
-  const auto kin = testing::host_copy(s.kin);
+  const auto kin = test::host_copy(s.kin);
   Real sum = 0;
   for (int g = 0; g < s.n; ++g) sum += kin(g).u.x;
   return sum / s.n;
@@ -104,12 +104,12 @@ void a_long_run(std::int64_t grain_steps) {
       pairs.touching, pairs.missed);
   EXPECT_EQ(pairs.missed, 0u);
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
-  testing::expect_below("growth of memory after a tenth of the run",
-                        testing::kSanitized ? 0 : growth, 0.01);
+  test::expect_below("growth of memory after a tenth of the run", test::kSanitized ? 0 : growth,
+                     0.01);
   // Each step rounds its sums to some 1e-15 of what it exchanges, and adds them to sums that grow.
-  testing::expect_below("ledger, over what was exchanged", ledger_error / given, 1e-13);
-  testing::expect_below("deposited volume over the grains' - 1", e.at("largest_volume_mismatch"),
-                        1e-13);
+  test::expect_below("ledger, over what was exchanged", ledger_error / given, 1e-13);
+  test::expect_below("deposited volume over the grains' - 1", e.at("largest_volume_mismatch"),
+                     1e-13);
   EXPECT_EQ(state.grains->n, 500);
   EXPECT_GT(displacement, 0.002 * static_cast<double>(steps) * config.time.fluid_step)
       << "the heap is meant to move";

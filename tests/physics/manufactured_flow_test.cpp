@@ -12,7 +12,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 using test::FlowErrors;
 using test::ManufacturedFlow;
 

@@ -71,10 +71,9 @@ void check_ergun(const Bed& bed) {
                                    {"smoothing", bed.smoothing},
                                    {"gradient", measured},
                                    {"ergun", ergun}});
-  testing::expect_relative("Ergun, alpha " + std::to_string(bed.alpha) + " [Pa/m]", measured, ergun,
-                           0.03);
-  testing::print_measured("superficial velocity over its target", superficial / bed.superficial, 1,
-                          1);
+  test::expect_relative("Ergun, alpha " + std::to_string(bed.alpha) + " [Pa/m]", measured, ergun,
+                        0.03);
+  test::print_measured("superficial velocity over its target", superficial / bed.superficial, 1, 1);
 }
 
 /// Grains placed in a steady flow through themselves, as after a run that held them, feel from the
@@ -86,9 +85,9 @@ TEST(PackedBed, ANewRunGoesOnInASteadyFlow) {
   again.run.state.fluid = steady.run.state.fluid;
   again.run.fill_ghosts();
   again.run.advance(1);
-  testing::expect_relative("impulse on the bed in the first step of a new run [N s]",
-                           again.run.step.exchange().given_to_grains.x,
-                           steady.run.step.exchange().given_to_grains.x, 0.05);
+  test::expect_relative("impulse on the bed in the first step of a new run [N s]",
+                        again.run.step.exchange().given_to_grains.x,
+                        steady.run.step.exchange().given_to_grains.x, 0.05);
 }
 
 TEST(PackedBed, PressureDropIsErguns) {
@@ -119,9 +118,9 @@ TEST(PackedBed, ShallowBedResistsAsErgunWhateverTheFractionIsSmoothedOver) {
       Bed bed{0.4, superficial, diameters * kDiameter, 14};
       const std::string what =
           fmt::format("by row, {} m/s, smoothed over {} d", superficial, diameters);
-      testing::expect_relative("drop over Ergun's, " + what, drop_over_ergun(bed), 1, 0.05);
+      test::expect_relative("drop over Ergun's, " + what, drop_over_ergun(bed), 1, 0.05);
       bed.exchange = Exchange::smoothed;
-      testing::print_measured("the same with the exchange smoothed", drop_over_ergun(bed), 1, 1);
+      test::print_measured("the same with the exchange smoothed", drop_over_ergun(bed), 1, 1);
     }
   }
 }
@@ -134,11 +133,11 @@ Lift lift_in_bed(const Bed& bed) {
   FrozenBed frozen(bed);
   frozen.run.advance(60);
   const FluidState& f = *frozen.run.state.fluid;
-  const auto rows = testing::host_copy(frozen.run.state.grains->kin);
+  const auto rows = test::host_copy(frozen.run.state.grains->kin);
   double force = 0, weight = 0;
   for (const NamedForce& part : frozen.run.forces()) {
     if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
-    const auto values = testing::host_copy(part.values);
+    const auto values = test::host_copy(part.values);
     for (std::size_t g = 0; g < rows.extent(0); ++g) {
       if (std::abs(rows(g).x.x / f.grid.dx - 14) < 2) force += values(g).x;
     }
@@ -163,7 +162,7 @@ TEST(PackedBed, LiftReachesTheWeightAtErgunsOnset) {
   for (const auto& row : test::reference_table("seed_grain_derived_numbers.csv")) {
     if (test::number(row, "d") == kDiameter) reference = test::number(row, "umf_ergun");
   }
-  testing::expect_relative("onset of fluidisation [m/s]", onset, reference, 0.05);
+  test::expect_relative("onset of fluidisation [m/s]", onset, reference, 0.05);
 }
 
 /// A bed that floats without touching anything: once the drive carries it, it is its submerged
@@ -181,8 +180,8 @@ TEST(PackedBed, FloatingBedTakesItsSubmergedWeight) {
     run.advance();
     drop += 1000 * run.state.fluid->drive / 40;
   }
-  testing::expect_relative("drop of a floating bed, submerged weight [Pa/m]", drop,
-                           (1 - alpha) * 1500 * 9.81, 0.01);
+  test::expect_relative("drop of a floating bed, submerged weight [Pa/m]", drop,
+                        (1 - alpha) * 1500 * 9.81, 0.01);
 }
 
 }  // namespace

@@ -286,15 +286,15 @@ TEST(FluidPressureDirect, RandomFractionsAgreeWithASparseFactorisation) {
       worst = std::max(worst, disagreement(random_mixture(grid, seed), seed + 1, kind));
     }
   }
-  testing::expect_below(
-      "pressure with random alpha against a sparse factorisation, over the largest", worst, 1e-9);
+  test::expect_below("pressure with random alpha against a sparse factorisation, over the largest",
+                     worst, 1e-9);
 }
 
 TEST(FluidPressure, AgreesWithADirectSparseSolveOfAHeap) {
   const Mixture m = heap(test::stretched_grid({12, 7, 9}, {0.05, 0.025, 0.036}, 1e-3));
   for (const Preconditioner kind : {Preconditioner::local_fft, Preconditioner::fft}) {
-    testing::expect_below("pressure in a heap against a sparse factorisation, over the largest",
-                          disagreement(m, 8, kind), 1e-9);
+    test::expect_below("pressure in a heap against a sparse factorisation, over the largest",
+                       disagreement(m, 8, kind), 1e-9);
   }
 }
 

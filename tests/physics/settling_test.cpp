@@ -30,8 +30,8 @@ Outcome settle(Config config, const Sphere& s, double times) {
   config.grains->density = s.rho_p;
   InitialGrains grain;
   // Off the symmetry planes of the cells, so that interpolation takes part.
-  testing::add_grain(grain, s.d,
-                     {0.413 * config.size[0], 0.937 * config.size[1], 0.571 * config.size[2]});
+  test::add_grain(grain, s.d,
+                  {0.413 * config.size[0], 0.937 * config.size[1], 0.571 * config.size[2]});
   CoupledRun run(config, grain);
   SettlingSphere exact(s.d, s.rho_p, s.water);
   Outcome out;
@@ -82,9 +82,9 @@ Config in_flowing_water(const Sphere& s, double cell, double step) {
 }
 
 void check(const std::string& what, const Outcome& got, double reference, double tolerance) {
-  testing::expect_relative(what + ", terminal velocity [m/s]", got.terminal, reference, tolerance);
-  testing::expect_below(what + ", transient", got.transient_error, 0.01);
-  testing::expect_below(what + ", sideways [m/s]", got.sideways, 1e-5);
+  test::expect_relative(what + ", terminal velocity [m/s]", got.terminal, reference, tolerance);
+  test::expect_below(what + ", transient", got.transient_error, 0.01);
+  test::expect_below(what + ", sideways [m/s]", got.sideways, 1e-5);
 }
 
 /// Each of Table II's grains, or of ten Cate's spheres.

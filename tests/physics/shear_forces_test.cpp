@@ -1,7 +1,7 @@
 // Lift, torque and wall drag of the program on one grain, against closed forms.
 #include "kernels/fluid/flow_sums.hpp"
-#include "src/parallel/reduce.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
@@ -38,14 +38,14 @@ ForceSwitches only(bool ForceSwitches::*force) {
 TEST(FluidTorque, SpinsDownInStillWater) {
   InitialGrains grain;
   const Vec3 spin{100, -200, 300};  // Re_r = 15
-  testing::add_grain(grain, kDiameter, {2e-3, 2e-3, 2e-3}, {}, spin);
+  test::add_grain(grain, kDiameter, {2e-3, 2e-3, 2e-3}, {}, spin);
   CoupledRun run(box(only(&ForceSwitches::torque)), grain);
   run.advance(20);
   const Vec3 left = run.rows()[1].omega;
   const double expected = std::exp(-20 * 2.5e-4 / kSpinTime);
-  testing::expect_relative("spin left after 3 tau, x", left.x / spin.x, expected, 2e-3);
-  testing::expect_relative("spin left after 3 tau, y", left.y / spin.y, expected, 2e-3);
-  testing::expect_relative("spin left after 3 tau, z", left.z / spin.z, expected, 2e-3);
+  test::expect_relative("spin left after 3 tau, x", left.x / spin.x, expected, 2e-3);
+  test::expect_relative("spin left after 3 tau, y", left.y / spin.y, expected, 2e-3);
+  test::expect_relative("spin left after 3 tau, z", left.z / spin.z, expected, 2e-3);
 }
 
 // Dennis, Singh & Ingham (1980) at Re_r = 1000 to 300: I dw/dt = -C_r (rho/2) a^5 w^2.
@@ -53,7 +53,7 @@ TEST(FluidTorque, SpinsDownFasterAtHighSpeed) {
   Config c = box(only(&ForceSwitches::torque));
   InitialGrains grain;
   const double d = 1e-3, start = 1000e-6 / (d * d);
-  testing::add_grain(grain, d, {2e-3, 2e-3, 2e-3}, {}, {0, 0, start});
+  test::add_grain(grain, d, {2e-3, 2e-3, 2e-3}, {}, {0, 0, start});
   CoupledRun run(c, grain);
   const int steps = 80;
   run.advance(steps);
@@ -63,7 +63,7 @@ TEST(FluidTorque, SpinsDownFasterAtHighSpeed) {
     const double re = d * d * w / 1e-6, c_r = 12.9 / std::sqrt(re) + 128.4 / re;
     w -= h * c_r * 500 * std::pow(d / 2, 5) * w * w / inertia;
   }
-  testing::expect_relative("fast spin left", run.rows()[1].omega.z / start, w / start, 2e-3);
+  test::expect_relative("fast spin left", run.rows()[1].omega.z / start, w / start, 2e-3);
 }
 
 /// Steady Couette flow u = shear y between the floor and a lid, and a grain in it.
@@ -83,33 +83,33 @@ void set_shear(CoupledRun& run, double shear) {
 TEST(FluidTorque, SpinBecomesHalfTheVorticity) {
   const double shear = 256;
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {2e-3, 1.7e-3, 2e-3});
+  test::add_grain(grain, kDiameter, {2e-3, 1.7e-3, 2e-3});
   Config c = couette(only(&ForceSwitches::torque), shear);
   c.coupling.smoothing_length = 2e-3;  // the flow hardly has to go round the grain
   CoupledRun run(c, grain);
   set_shear(run, shear);
   run.advance(20);
   const double rise = 1 - std::exp(-20 * 2.5e-4 / kSpinTime);
-  testing::expect_relative("spin over half the vorticity, after 3 tau",
-                           run.rows()[1].omega.z / (-shear / 2), rise, 2e-3);
+  test::expect_relative("spin over half the vorticity, after 3 tau",
+                        run.rows()[1].omega.z / (-shear / 2), rise, 2e-3);
   run.advance(100);
-  testing::expect_relative("spin over half the vorticity, at last",
-                           run.rows()[1].omega.z / (-shear / 2), 1, 1e-4);
+  test::expect_relative("spin over half the vorticity, at last",
+                        run.rows()[1].omega.z / (-shear / 2), 1, 1e-4);
 }
 
 // The couple on the grains is not given to the fluid. As a stress it would be 3 (1 - alpha_f) mu
 // |w/2 - omega| at a grain: at most 1.5 (1 - alpha_f) of the viscous stress mu |w| unless a contact
 // turns the grain against the flow.
 TEST(FluidTorque, WhatTheFluidIsSparedIsAPartOfTheViscousStress) {
-  Config c = testing::coupled_config();
+  Config c = test::coupled_config();
   c.coupling.forces.torque = true;
   CoupledRun run(c, make_initial_state(c, {}));
   run.advance(200);
   const GrainState& grains = *run.state.grains;
   const test::HostGrid h(run.state.fluid->grid);
   const test::HostField alpha = test::to_host(run.state.fluid->alpha_f);
-  const auto kin = testing::host_copy(grains.kin);
-  const auto omega_f = testing::host_copy(grains.fluid.omega_f);
+  const auto kin = test::host_copy(grains.kin);
+  const auto omega_f = test::host_copy(grains.fluid.omega_f);
   double spared = 0, viscous = 0, solid = 0;
   for (int g = 0; g < grains.n; ++g) {
     const double s =
@@ -119,8 +119,8 @@ TEST(FluidTorque, WhatTheFluidIsSparedIsAPartOfTheViscousStress) {
     solid += s;
   }
   std::printf("[ measured ] solid fraction at the grains %.3f\n", solid / grains.n);
-  testing::expect_below("stress of the couples over the viscous stress, at the grains",
-                        spared / viscous, 1.5 * solid / grains.n);
+  test::expect_below("stress of the couples over the viscous stress, at the grains",
+                     spared / viscous, 1.5 * solid / grains.n);
 }
 
 // --- A grain that lies on the floor of the paper's first mesh, in linear shear.
@@ -136,7 +136,7 @@ CoupledRun on_the_floor(double shear, const ForceSwitches& forces) {
   c.coupling.forces = forces;
   c.grains->frozen = true;
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {3.3 * kDx, kDiameter / 2, 4.1 * kDz});
+  test::add_grain(grain, kDiameter, {3.3 * kDx, kDiameter / 2, 4.1 * kDz});
   CoupledRun run(c, grain);
   set_shear(run, shear);
   run.advance();
@@ -154,11 +154,11 @@ TEST(GrainOnFloor, LiftAndDragAreThoseOfLinearShear) {
     const double c_l = 3.663 / std::pow(re * re + 0.1173, 0.22);
     const double c_d = 1.7005 * 24 / re * (1 + 0.104 * std::pow(re, 0.753));
     const std::string at = " at Re " + std::to_string(re).substr(0, 5);
-    testing::expect_relative("lift" + at, test::force_on_first(run, "force_lift").y, c_l * dynamic,
-                             1e-6);
+    test::expect_relative("lift" + at, test::force_on_first(run, "force_lift").y, c_l * dynamic,
+                          1e-6);
     // The grain itself fills 8e-4 of the volume around it, which adds 0.2 % (alpha_f^-2.65).
-    testing::expect_relative("drag" + at, test::force_on_first(run, "force_drag").x, c_d * dynamic,
-                             5e-3);
+    test::expect_relative("drag" + at, test::force_on_first(run, "force_drag").x, c_d * dynamic,
+                          5e-3);
     EXPECT_LT(std::abs(test::force_on_first(run, "force_lift").x), 1e-6 * c_l * dynamic);
   }
 }
@@ -167,8 +167,8 @@ TEST(GrainOnFloor, HasNoLiftWithoutTheSwitch) {
   CoupledRun run = on_the_floor(256, {});
   EXPECT_TRUE(std::isnan(test::force_on_first(run, "force_lift").y)) << "there is no such array";
   const double alone = test::schiller_naumann_force(256 * kDiameter / 2, kDiameter);
-  testing::expect_relative("drag without the floor's part",
-                           test::force_on_first(run, "force_drag").x, alone, 0.01);
+  test::expect_relative("drag without the floor's part", test::force_on_first(run, "force_drag").x,
+                        alone, 0.01);
 }
 
 /// The same drag over its reference after half a second in which the grain slows the flow around
@@ -186,7 +186,7 @@ double drag_in_own_wake(double cell, Exchange exchange, double reference) {
   c.coupling.forces.wall_drag = true;
   c.grains->frozen = true;
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {0.43 * length, kDiameter / 2, 0.52 * length});
+  test::add_grain(grain, kDiameter, {0.43 * length, kDiameter / 2, 0.52 * length});
   CoupledRun run(c, grain);
   set_shear(run, shear);
   run.advance(2000);
@@ -201,7 +201,7 @@ TEST(GrainOnFloor, FeelsTheFlowThatItSlows) {
     char claim[100];
     std::snprintf(claim, sizeof claim, "drag in its own wake, cells of %.1f mm, %s", 1e3 * cell,
                   exchange == Exchange::by_row ? "by row" : "smoothed");
-    testing::expect_relative(claim, drag_in_own_wake(cell, exchange, known), 1, tolerance);
+    test::expect_relative(claim, drag_in_own_wake(cell, exchange, known), 1, tolerance);
   };
   check(1.6e-3, Exchange::by_row, 0.05);  // the paper's cells
   check(8e-4, Exchange::by_row, 0.1);
@@ -217,7 +217,7 @@ TEST(GrainOnFloor, FeelsTheFlowThatItSlows) {
 
 double momentum_along_z(const CoupledRun& run) {
   const FluidState& f = *run.state.fluid;
-  const GrainKinematics grain = testing::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics grain = test::host_copy(run.state.grains->kin)(0);
   const Grid grid = f.grid;
   const ConstFieldRef w = f.u.z, alpha = f.alpha_f;
   const double fluid = sum_each_cell(
@@ -230,7 +230,7 @@ double momentum_along_z(const CoupledRun& run) {
 /// What the momentum of both along z changes by over 40 steps, over the impulse of the lift.
 double lost_along_z(const Config& c, double& impulse, double& of_grain) {
   InitialGrains grain;
-  testing::add_grain(grain, kDiameter, {2.1e-3, 1.8e-3, 1.3e-3}, {0.1, 0, 0});
+  test::add_grain(grain, kDiameter, {2.1e-3, 1.8e-3, 1.3e-3}, {0.1, 0, 0});
   CoupledRun run(c, grain);
   const test::HostGrid h(run.state.fluid->grid);
   test::set_field(run.state.fluid->u.x, run.state.fluid->grid, [&](int, int, int k) {
@@ -243,7 +243,7 @@ double lost_along_z(const Config& c, double& impulse, double& of_grain) {
     run.advance();
     impulse += 2.5e-4 * test::force_on_first(run, "force_lift").z;
   }
-  const GrainKinematics after = testing::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics after = test::host_copy(run.state.grains->kin)(0);
   of_grain = after.m * after.u.z;
   return std::abs((momentum_along_z(run) - before) / impulse);
 }
@@ -253,15 +253,15 @@ TEST(Lift, IsTakenFromTheFluid) {
   c.coupling.smoothing_length = 2e-3;
   c.coupling.exchange = Exchange::smoothed;
   double impulse = 0, of_grain = 0;
-  testing::expect_below("momentum of both that lift changes, smoothed",
-                        lost_along_z(c, impulse, of_grain), 1e-4);
-  testing::expect_relative("momentum of the grain along z, impulse of the lift", of_grain, impulse,
-                           1e-9);
+  test::expect_below("momentum of both that lift changes, smoothed",
+                     lost_along_z(c, impulse, of_grain), 1e-4);
+  test::expect_relative("momentum of the grain along z, impulse of the lift", of_grain, impulse,
+                        1e-9);
   // By row the share of the stress is not smoothed: here the grain gets it.
   c.coupling.exchange = Exchange::by_row;
   c.coupling.forces.stress = c.coupling.forces.pressure_gradient = true;
-  testing::expect_below("momentum of both that lift changes, by row",
-                        lost_along_z(c, impulse, of_grain), 1e-4);
+  test::expect_below("momentum of both that lift changes, by row",
+                     lost_along_z(c, impulse, of_grain), 1e-4);
 }
 
 }  // namespace

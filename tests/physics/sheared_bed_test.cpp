@@ -80,7 +80,7 @@ InitialGrains random_bed(int repeats_z = kRepeats, double step = 1) {
       const double x = kPatch * uniform(), z = kPatch * uniform();
       for (int a = 0; a < kRepeats * repeats_z; ++a) {
         const Vec3 at{x + kPatch * (a % kRepeats), y, z + kPatch * (a / kRepeats)};
-        if (layer < 3 || at.z < step) testing::add_grain(grains, kDiameter, at);
+        if (layer < 3 || at.z < step) test::add_grain(grains, kDiameter, at);
       }
     }
   }
@@ -112,11 +112,11 @@ Layers program(Exchange exchange, int rows, double smoothing, double lid) {
   });
   Layers result{.slowest = *std::min_element(row.begin(), row.end())};
   result.stress = kMu * (lid - row.back()) / (kHeight / rows / 2);
-  const auto kin = testing::host_copy(run.state.grains->kin);
+  const auto kin = test::host_copy(run.state.grains->kin);
   std::array<double, kLayers> count{};
   for (const NamedForce& force : run.forces()) {
     if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
-    const auto values = testing::host_copy(force.values);
+    const auto values = test::host_copy(force.values);
     for (std::size_t g = 0; g < values.extent(0); ++g) {
       const auto layer = std::size_t(std::min(kin(g).x.y / kDiameter, kLayers - 0.5));
       result.force[layer] += values(g).x / (kWeight * test::volume_of(kDiameter));
@@ -148,13 +148,13 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
       const std::string what =
           fmt::format("{} rows, smoothed over {:.1f} d", rows, smoothing / kDiameter);
       print(what, bed);
-      testing::expect_below("row that flows backwards over the lid, " + what, -bed.slowest / lid,
-                            1e-8);
-      testing::expect_below("layer pushed upstream over its weight, " + what,
-                            -*std::min_element(bed.force.begin(), bed.force.end()), 1e-4);
-      testing::expect_relative("force on the top layer over the stress, " + what,
-                               bed.force.back() / bed.stress, column.force.back() / column.stress,
-                               0.2);
+      test::expect_below("row that flows backwards over the lid, " + what, -bed.slowest / lid,
+                         1e-8);
+      test::expect_below("layer pushed upstream over its weight, " + what,
+                         -*std::min_element(bed.force.begin(), bed.force.end()), 1e-4);
+      test::expect_relative("force on the top layer over the stress, " + what,
+                            bed.force.back() / bed.stress, column.force.back() / column.stress,
+                            0.2);
     }
   }
 }
@@ -180,13 +180,13 @@ TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
     });
     for (const NamedForce& force : run.forces()) {
       if (force.name != "force_drag") continue;
-      const auto values = testing::host_copy(force.values);
+      const auto values = test::host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) least = std::min(least, values(g).x);
     }
     const std::string what = fmt::format(", smoothed over {:.1f} d", smoothing / kDiameter);
-    testing::expect_below("water that flows backwards over the lid" + what, -slowest / lid, 1e-8);
-    testing::expect_below("grain dragged upstream over its weight" + what,
-                          -least / (kWeight * test::volume_of(kDiameter)), 1e-4);
+    test::expect_below("water that flows backwards over the lid" + what, -slowest / lid, 1e-8);
+    test::expect_below("grain dragged upstream over its weight" + what,
+                       -least / (kWeight * test::volume_of(kDiameter)), 1e-4);
     EXPECT_GT(most, 0.1 * lid) << "there is no step";
   }
 }
@@ -202,19 +202,19 @@ TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
     double on_grains = 0;
     for (const NamedForce& force : run.forces()) {
       if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
-      const auto values = testing::host_copy(force.values);
+      const auto values = test::host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) on_grains += values(g).x;
     }
     const double u_star = run.step.fluid_solver()->friction_velocity(*run.state.fluid);
     const double floor = 1000 * u_star * u_star * kWidth * kWidth;
     const std::string what = fmt::format(", smoothed over {:.1f} d", smoothing / kDiameter);
-    testing::expect_relative("force on grains and floor over the drive" + what,
-                             (on_grains + floor) / (gradient * kWidth * kHeight * kWidth), 1, 1e-6);
+    test::expect_relative("force on grains and floor over the drive" + what,
+                          (on_grains + floor) / (gradient * kWidth * kHeight * kWidth), 1, 1e-6);
     EXPECT_GT(floor, 0);
-    testing::expect_relative("that force in the accounts" + what,
-                             run.step.impulse_on_grains().x / c.time.fluid_step, on_grains, 1e-9);
-    testing::expect_below("pressure and stress: grains against flow" + what,
-                          run.step.ledger().entries().at("largest_flow_force_mismatch"), 1e-10);
+    test::expect_relative("that force in the accounts" + what,
+                          run.step.impulse_on_grains().x / c.time.fluid_step, on_grains, 1e-9);
+    test::expect_below("pressure and stress: grains against flow" + what,
+                       run.step.ledger().entries().at("largest_flow_force_mismatch"), 1e-10);
   }
 }
 

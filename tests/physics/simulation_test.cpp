@@ -13,7 +13,7 @@
 namespace barchan {
 namespace {
 
-using testing::coupled_config;
+using test::coupled_config;
 
 /// Runs `config` in `folder` and returns its final restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,

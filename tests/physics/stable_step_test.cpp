@@ -8,7 +8,7 @@
 namespace barchan {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 /// Amplitude of an oscillator after 2,000 steps over that at first, in the order of the grain
 /// steps.

@@ -175,7 +175,7 @@ TEST(VoidFractionOverlap, ErrorFallsAsDiameterOverCellSize) {
     }
     test::save_result("void_fraction_overlap",
                       {{"cell_over_d", ratio}, {"mean", mean}, {"worst", worst}});
-    if (last > 0) testing::expect_order("share in wrong cells", last, mean, 1, 0.25);
+    if (last > 0) test::expect_order("share in wrong cells", last, mean, 1, 0.25);
     last = mean;
   }
 }
@@ -209,8 +209,7 @@ TEST(VoidFractionOverlap, BordersAndCornersChangeNothing) {
     const Vec3 at_corner = Vec3{0, 0, 0} + offset;
     corner += misplaced(cells.deposited(at_corner, r), exact(at_corner, r));
   }
-  testing::expect_relative("misplaced share around a node, across a period", periodic, inside,
-                           1e-6);
+  test::expect_relative("misplaced share around a node, across a period", periodic, inside, 1e-6);
   EXPECT_LT(wall, inside) << "two cells in one: what is misplaced between them does not count";
   EXPECT_LT(corner, inside);
 }
@@ -225,7 +224,7 @@ TEST(SmoothingKernel, IntegralAndVariance) {
   config.grains->frozen = true;
   InitialGrains grain;
   const double at = (n / 2 + 0.5) * h;
-  testing::add_grain(grain, d, {at, at, at});
+  test::add_grain(grain, d, {at, at, at});
   const test::CoupledRun run(config, grain);
   const auto alpha = test::to_host(run.state.fluid->alpha_f);
   double sum = 0;
@@ -236,9 +235,9 @@ TEST(SmoothingKernel, IntegralAndVariance) {
     sum += solid;
     second += solid * Vec3{square(i), square(j), square(k)};
   });
-  testing::expect_relative("integral of the smoothed volume", sum, test::volume_of(d), 1e-12);
+  test::expect_relative("integral of the smoothed volume", sum, test::volume_of(d), 1e-12);
   for (const double v : {second.x, second.y, second.z}) {
-    testing::expect_relative("variance of the smoothing", v / sum, 2 * length * length, 0.02);
+    test::expect_relative("variance of the smoothing", v / sum, 2 * length * length, 0.02);
   }
 }
 

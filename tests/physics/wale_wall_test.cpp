@@ -52,7 +52,7 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   check([=](double x, double y, double) { return Vec3{a * y, a * x, 0}; }, strain);
   check([=](double, double y, double z) { return Vec3{0, a * z, a * y}; }, strain);
   check([=](double x, double, double z) { return Vec3{a * z, 0, a * x}; }, strain);
-  testing::expect_below("WALE at rest, in shear, strain, rotation", worst, 1e-14);
+  test::expect_below("WALE at rest, in shear, strain, rotation", worst, 1e-14);
   EXPECT_NEAR(strain, 0.0870, 5e-5);
   EXPECT_NEAR(rotation, 0.9036, 5e-5);
 }
@@ -91,8 +91,8 @@ TEST(WaleOnGrid, EddyViscosityGrowsWithTheCubeOfTheWallDistance) {
     const double x = std::log(h.y(j)), y = std::log(mean);
     n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
-  testing::expect_absolute("slope of log nu_t against log y in y+ < 5",
-                           (n * sxy - sx * sy) / (n * sxx - sx * sx), 3, 0.15);
+  test::expect_absolute("slope of log nu_t against log y in y+ < 5",
+                        (n * sxy - sx * sy) / (n * sxx - sx * sx), 3, 0.15);
 }
 
 }  // namespace

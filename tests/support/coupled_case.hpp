@@ -4,10 +4,10 @@
 #include "src/config/load.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 inline Config coupled_config() {
   return load_config(std::filesystem::path(BARCHAN_SOURCE_DIR) / "tests/support/small_dune.toml");
 }
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

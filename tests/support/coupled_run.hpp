@@ -52,7 +52,7 @@ struct CoupledRun {
   void advance(int n = 1) {
     for (int s = 0; s < n; ++s) step.advance(state);
   }
-  std::vector<testing::GrainRow> rows() const { return testing::rows_by_id(*state.grains); }
+  std::vector<test::GrainRow> rows() const { return test::rows_by_id(*state.grains); }
   /// After the flow was set by hand.
   void fill_ghosts() { step.fluid_solver()->fill_ghosts(*state.fluid); }
   /// On the grains in the last step.
@@ -77,15 +77,15 @@ inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
   CoupledRun pour(c, loose);
   pour.advance(steps);
   InitialGrains grains;
-  const auto kin = testing::host_copy(pour.state.grains->kin);
-  for (int g = 0; g < pour.state.grains->n; ++g) testing::add_grain(grains, 2 * kin(g).r, kin(g).x);
+  const auto kin = test::host_copy(pour.state.grains->kin);
+  for (int g = 0; g < pour.state.grains->n; ++g) test::add_grain(grains, 2 * kin(g).r, kin(g).x);
   return grains;
 }
 
 /// A named force on the grain in row 0 of the last step [N].
 inline Vec3 force_on_first(CoupledRun& run, const std::string& name) {
   for (const NamedForce& f : run.forces()) {
-    if (f.name == name) return testing::host_copy(f.values)(0);
+    if (f.name == name) return test::host_copy(f.values)(0);
   }
   return {NAN, NAN, NAN};
 }

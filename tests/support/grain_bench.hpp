@@ -8,7 +8,7 @@
 #include "tests/support/measured.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 /// A case with its solver: list, contacts and integrator as in a run.
 struct GrainBench {
@@ -67,4 +67,4 @@ inline std::vector<Real> numbers(const std::vector<std::string>& cells, std::siz
   return values;
 }
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

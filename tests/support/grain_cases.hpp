@@ -6,7 +6,7 @@
 
 #include "src/grains/grain_solver.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 /// A copy on the host.
 template <class View>
@@ -112,4 +112,4 @@ inline int handle_marks(const GrainState& s, bool write) {
   return wrong;
 }
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

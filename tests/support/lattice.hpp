@@ -19,7 +19,7 @@ inline InitialGrains cubic_lattice(std::array<int, 3> n, double spacing, double 
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
-        testing::add_grain(grains, d, corner + spacing * Vec3{i + 0.5, j + 0.5, k + 0.5});
+        test::add_grain(grains, d, corner + spacing * Vec3{i + 0.5, j + 0.5, k + 0.5});
       }
   return grains;
 }

@@ -10,7 +10,7 @@
 
 #include "kernels/math/vec3.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 inline void print_measured(const std::string& claim, Real value, Real reference, Real tolerance) {
   std::printf("[ measured ] %s: %.7g (reference %.7g, tolerance %.2g)\n", claim.c_str(), value,
@@ -40,4 +40,4 @@ inline void expect_order(const std::string& claim, Real coarse, Real fine, Real 
   expect_absolute("order, " + claim, std::log2(coarse / fine), order, tolerance);
 }
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

@@ -6,7 +6,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 /// n grains of 0.15 to 0.25 mm on a lattice 0.27 mm wide from the floor up, with random velocities
 /// of at most `speed` per component [m/s].
@@ -65,7 +65,7 @@ struct HostGrains {
   }
   Real kinetic_energy() const {
     Real sum = 0;
-    for (int g = 0; g < n; ++g) sum += testing::kinetic_energy(kin(g));
+    for (int g = 0; g < n; ++g) sum += test::kinetic_energy(kin(g));
     return sum;
   }
 
@@ -88,4 +88,4 @@ inline void set_viscous_damping(GrainState& s, Real time) {
       "test: viscous damping", s.n, KOKKOS_LAMBDA(int p) { beta(p) = rate * kin(p).m; });
 }
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

@@ -1,7 +1,7 @@
 // Whether a sanitizer is in this build: it takes time and memory that are not the program's.
 #pragma once
 
-namespace barchan::testing {
+namespace barchan::test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
@@ -9,4 +9,4 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

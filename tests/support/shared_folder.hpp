@@ -9,7 +9,7 @@
 #include "src/parallel/communicator.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 /// A folder that rank 0 makes and all ranks know.
 class SharedFolder {
@@ -33,4 +33,4 @@ class SharedFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

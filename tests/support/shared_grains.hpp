@@ -9,7 +9,7 @@
 #include "src/diagnostics/gathered_grains.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace barchan::testing {
+namespace barchan::test {
 
 /// The numbers of all ranks, one rank after the other.
 inline std::vector<double> from_all_ranks(const std::vector<double>& mine) {
@@ -84,4 +84,4 @@ struct SharedGrains {
   GrainBench whole, shared;
 };
 
-}  // namespace barchan::testing
+}  // namespace barchan::test

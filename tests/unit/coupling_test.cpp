@@ -4,8 +4,8 @@
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
 #include "src/initial/initial_flow.hpp"
-#include "src/parallel/reduce.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/measured.hpp"
@@ -13,7 +13,7 @@
 namespace barchan {
 namespace {
 
-using testing::coupled_config;
+using test::coupled_config;
 
 struct Coupled : test::CoupledRun {
   explicit Coupled(const Config& c) : CoupledRun(c, make_initial_state(c, {})) {}
@@ -23,7 +23,7 @@ GrainExchange exchange_of_first(const ExchangeOfGrain& of) {
   const Kokkos::View<GrainExchange*> result("test: exchange", 1);
   Kokkos::parallel_for(
       "test: exchange", 1, KOKKOS_LAMBDA(int g) { result(g) = of(g); });
-  return testing::host_copy(result)(0);
+  return test::host_copy(result)(0);
 }
 
 // What one grain gives the fluid: what it got of it in the grain steps, and what acts all along.
@@ -52,8 +52,8 @@ TEST(Coupling, LedgerClosesToRoundOff) {
   Coupled c(coupled_config());
   c.advance(30);
   const auto& entries = c.step.ledger().entries();
-  testing::expect_below("ledger, volume", entries.at("largest_volume_mismatch"), 1e-12);
-  testing::expect_below("ledger, momentum", entries.at("largest_exchange_mismatch"), 1e-10);
+  test::expect_below("ledger, volume", entries.at("largest_volume_mismatch"), 1e-12);
+  test::expect_below("ledger, momentum", entries.at("largest_exchange_mismatch"), 1e-10);
   EXPECT_GT(entries.at("impulse_given_to_grains_x"), 0) << "the flow pushes the grains along";
 }
 
@@ -117,12 +117,12 @@ test::CoupledRun grain_in_a_corner(bool images, Exchange exchange = Exchange::by
   c.grains->boundary_z = images ? GrainBoundaryZ::periodic : GrainBoundaryZ::wall;
   InitialGrains grains;
   const Vec3 x{1.2e-4, 5e-4, 1.3e-4};
-  testing::add_grain(grains, 2e-4, x);
+  test::add_grain(grains, 2e-4, x);
   if (images) {
     const double lx = c.size[0], lz = c.size[2];
-    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, x.z});
-    testing::add_grain(grains, 2e-4, {x.x, x.y, lz - x.z});
-    testing::add_grain(grains, 2e-4, {lx - x.x, x.y, lz - x.z});
+    test::add_grain(grains, 2e-4, {lx - x.x, x.y, x.z});
+    test::add_grain(grains, 2e-4, {x.x, x.y, lz - x.z});
+    test::add_grain(grains, 2e-4, {lx - x.x, x.y, lz - x.z});
   }
   return {c, grains};
 }
@@ -183,11 +183,11 @@ TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   constexpr double h = 3e-4;
   const Config c = test::water_box({6, 4, 6}, {6 * h, 4 * h, 6 * h});
   InitialGrains grains;
-  testing::add_grain(grains, 2e-4, {3.9 * h, 2 * h, 2.1 * h});
+  test::add_grain(grains, 2e-4, {3.9 * h, 2 * h, 2.1 * h});
   test::CoupledRun run(c, grains);
   const ExchangeOnFaces exchange = exchange_of(run);
   const auto x = test::to_host(exchange.conductance_x), z = test::to_host(exchange.conductance_z);
-  const double beta = testing::host_copy(run.state.grains->fluid.beta)(0);
+  const double beta = test::host_copy(run.state.grains->fluid.beta)(0);
   const double expected = 1e-4 * beta * 19 * 10 / 29 / 29 / (h * h * h);
   test::for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
     EXPECT_NEAR(x(i, j, k), i == 4 && j == 2 && k == 2 ? expected : 0, 1e-12 * expected);
@@ -298,7 +298,7 @@ double thrown(bool uniform_start) {
   c.fluid->mean_velocity = 0.2;
   c.coupling.drag = DragLaw::none;
   InitialGrains grain;
-  testing::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
+  test::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
   test::CoupledRun run(c, grain);
   if (uniform_start) set_uniform_flow(c, *run.state.fluid);
   run.fill_ghosts();
@@ -342,12 +342,12 @@ TEST(Coupling, PartsOfTheForceAddUp) {
     c.advance(5);
     const auto forces = c.forces();
     ASSERT_EQ(forces.size(), 8u);
-    const auto kin = testing::host_copy(c.state.grains->kin);
-    const auto contact = testing::host_copy(c.state.grains->contact_force);
+    const auto kin = test::host_copy(c.state.grains->kin);
+    const auto contact = test::host_copy(c.state.grains->contact_force);
     const auto n = static_cast<std::size_t>(c.state.grains->n);
     std::vector<Vec3> of_contacts(n), of_all(n), total(n);
     for (const NamedForce& f : forces) {
-      const auto values = testing::host_copy(f.values);
+      const auto values = test::host_copy(f.values);
       for (std::size_t g = 0; g < n; ++g) {
         if (f.name.starts_with("force_contact")) of_contacts[g] += values(g);
         (f.name == "force_total" ? total : of_all)[g] += values(g);

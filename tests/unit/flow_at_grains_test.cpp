@@ -13,7 +13,7 @@ test::CoupledRun held_grain(const Vec3& x) {
   Config config = test::water_box({4, 6, 4}, {4 * kCell, 6 * kCell, 4 * kCell});
   config.grains->frozen = true;
   InitialGrains grain;
-  testing::add_grain(grain, 2e-4, x);
+  test::add_grain(grain, 2e-4, x);
   return {config, grain};
 }
 
@@ -50,7 +50,7 @@ TEST(FlowAtGrains, ByRowVerticalVelocityIsThatAtTheCentre) {
   test::CoupledRun run = held_grain({1.7e-3, 2.3e-3, 2.2e-3});
   set(run.state.fluid->u.y, run, [](int, int j, int) { return 3.0 * j * kCell; });
   run.advance();
-  EXPECT_NEAR(testing::host_copy(run.state.grains->fluid.u_f)(0).y / (3.0 * 2.3e-3), 1, 1e-12);
+  EXPECT_NEAR(test::host_copy(run.state.grains->fluid.u_f)(0).y / (3.0 * 2.3e-3), 1, 1e-12);
 }
 
 }  // namespace

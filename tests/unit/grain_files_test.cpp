@@ -133,7 +133,7 @@ TEST(GrainFiles, AHundredThousandRowsAreQuick) {
   const auto grains = parse(text);
   const double seconds = cpu_seconds() - start;
   EXPECT_EQ(grains.size(), 100000u);
-  EXPECT_LT(testing::kSanitized ? 0 : seconds, 0.3);  // about 0.03 s
+  EXPECT_LT(test::kSanitized ? 0 : seconds, 0.3);  // about 0.03 s
 }
 
 GrainState two_grains() {

@@ -11,12 +11,12 @@
 namespace barchan {
 namespace {
 
-using testing::add_grain;
-using testing::grain_config;
-using testing::GrainBench;
-using testing::host_copy;
-using testing::rows_by_id;
-using testing::set_weight;
+using test::add_grain;
+using test::grain_config;
+using test::host_copy;
+using test::rows_by_id;
+using test::set_weight;
+using test::GrainBench;
 
 TEST(GrainSolver, FreeFallIsExact) {
   InitialGrains g;
@@ -202,7 +202,7 @@ TEST(GrainSolver, HeldGrainsBrakeTheirShareOfFluid) {
 /// 1,200 grains of a gas that collide within milliseconds, in a box of 3 mm.
 InitialGrains gas() {
   InitialGrains g;
-  testing::Uniform uniform(2);
+  test::Uniform uniform(2);
   const auto u = [&uniform] { return uniform() - 0.5; };
   for (int n = 0; n < 1200; ++n) {
     add_grain(g, 2e-4, {2.1e-4 * (n % 12 + 1), 2.1e-4 * (n / 144 + 1), 2.1e-4 * (n / 12 % 12 + 1)},

@@ -9,11 +9,11 @@
 namespace barchan {
 namespace {
 
-using testing::drift;
-using testing::grain_config;
-using testing::handle_marks;
-using testing::host_copy;
-using testing::random_grains;
+using test::drift;
+using test::grain_config;
+using test::handle_marks;
+using test::host_copy;
+using test::random_grains;
 using PairSet = std::set<std::pair<std::int64_t, std::int64_t>>;
 
 /// Pairs (by id) of the list; fails on a pair listed twice.

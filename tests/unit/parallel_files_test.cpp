@@ -37,7 +37,7 @@ GrainState grains_of(int rank) {
 
 TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   const int ranks = rank_count(world), rank = rank_of(world);
-  const testing::SharedFolder folder;
+  const test::SharedFolder folder;
   const Decomposition pencils(world, nx * ranks, nz);
   const auto n = static_cast<std::size_t>(rank);
   const std::vector<double> all = on_rank_0(world, std::vector<double>(n, rank));
@@ -72,7 +72,7 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
 TEST(ParallelFiles, ARestartFileHoldsTheSharesOfAllRanks) {
   const auto ranks = static_cast<std::uint64_t>(rank_count(world));
   const auto rank = static_cast<std::uint64_t>(rank_of(world));
-  const testing::SharedFolder folder;
+  const test::SharedFolder folder;
   const std::vector<double> mine(2, static_cast<double>(rank));
   CheckpointWriter writer(folder.path(), 5, {}, world);
   writer.scalar("t", 0.25);

@@ -8,10 +8,10 @@
 namespace barchan {
 namespace {
 
-using testing::add_grain;
-using testing::grain_config;
-using testing::GrainBench;
-using testing::host_copy;
+using test::add_grain;
+using test::grain_config;
+using test::host_copy;
+using test::GrainBench;
 
 /// Two unequal grains side by side along x, at rest but for their spins about z.
 struct SoftPair {
