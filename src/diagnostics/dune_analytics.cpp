@@ -26,36 +26,36 @@ double slope(const Samples& samples) {
 
 }  // namespace
 
-std::vector<DuneRow> DuneTracker::update(double t, GrainCloud grains) {
+std::vector<DuneRecord> DuneTracker::update(double t, GrainCloud grains) {
   const auto n_grains = static_cast<std::int64_t>(grains.size());
-  std::vector<DuneRow> rows = find_dunes(grains, domain_, criteria_).rows;
+  std::vector<DuneRecord> records = find_dunes(grains, domain_, criteria_).records;
   if (n_initial_ < 0) n_initial_ = n_grains;
   n_lost_ = n_initial_ - n_grains;
   forget(t);
 
-  const std::vector<int> track_of_row = match(rows);
+  const std::vector<int> track_of_record = match(records);
   for (Track& track : tracks_) track.missed = true;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (track_of_row[i] < 0) tracks_.push_back({.label = next_label_++});
-    Track& track = track_of_row[i] < 0 ? tracks_.back() : tracks_[track_of_row[i]];
-    extend(track, t, rows[i]);
-    rows[i].t = t;
-    rows[i].dune = track.label;
-    rows[i].celerity = slope(track.samples);
-    rows[i].n_lost = n_lost_;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (track_of_record[i] < 0) tracks_.push_back({.label = next_label_++});
+    Track& track = track_of_record[i] < 0 ? tracks_.back() : tracks_[track_of_record[i]];
+    extend(track, t, records[i]);
+    records[i].t = t;
+    records[i].dune = track.label;
+    records[i].celerity = slope(track.samples);
+    records[i].n_lost = n_lost_;
   }
-  std::sort(rows.begin(), rows.end(),
-            [](const DuneRow& a, const DuneRow& b) { return a.dune < b.dune; });
-  return rows;
+  std::sort(records.begin(), records.end(),
+            [](const DuneRecord& a, const DuneRecord& b) { return a.dune < b.dune; });
+  return records;
 }
 
 std::vector<int> DuneTracker::labels(GrainCloud grains) const {
   const Dunes dunes = find_dunes(grains, domain_, criteria_);
-  std::vector<int> label_of_row = match(dunes.rows);
+  std::vector<int> label_of_record = match(dunes.records);
   int next_label = next_label_;
-  for (int& track : label_of_row) track = track < 0 ? next_label++ : tracks_[track].label;
+  for (int& track : label_of_record) track = track < 0 ? next_label++ : tracks_[track].label;
   std::vector<int> labels = dunes.of_grain;
-  for (int& row : labels) row = row < 0 ? -1 : label_of_row[row];
+  for (int& record : labels) record = record < 0 ? -1 : label_of_record[record];
   return labels;
 }
 
@@ -70,38 +70,38 @@ void DuneTracker::forget(double t) {
   });
 }
 
-/// For each row the index of its track, -1 for a new dune: nearest pairs first.
-std::vector<int> DuneTracker::match(const std::vector<DuneRow>& rows) const {
+/// For each record the index of its track, -1 for a new dune: nearest pairs first.
+std::vector<int> DuneTracker::match(const std::vector<DuneRecord>& records) const {
   struct Pair {
     double distance;
-    int track, row;
+    int track, record;
   };
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
       const Track& track = tracks_[k];
-      const double d = std::hypot(domain_.nearest_x(rows[i].cx - track.x),
-                                  domain_.nearest_z(rows[i].cz - track.z));
+      const double d = std::hypot(domain_.nearest_x(records[i].cx - track.x),
+                                  domain_.nearest_z(records[i].cz - track.z));
       if (d <= track.reach) pairs.push_back({d, static_cast<int>(k), static_cast<int>(i)});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
-  std::vector<int> track_of_row(rows.size(), -1);
+  std::vector<int> track_of_record(records.size(), -1);
   std::vector<char> taken(tracks_.size(), 0);
   for (const Pair& pair : pairs) {
-    if (taken[pair.track] || track_of_row[pair.row] >= 0) continue;
+    if (taken[pair.track] || track_of_record[pair.record] >= 0) continue;
     taken[pair.track] = 1;
-    track_of_row[pair.row] = pair.track;
+    track_of_record[pair.record] = pair.track;
   }
-  return track_of_row;
+  return track_of_record;
 }
 
-void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
-  double x = row.cx;
+void DuneTracker::extend(Track& track, double t, const DuneRecord& record) const {
+  double x = record.cx;
   if (!track.samples.empty()) {
     const double last = track.samples.back().x;
-    x = last + domain_.nearest_x(row.cx - last);
+    x = last + domain_.nearest_x(record.cx - last);
   }
   track.samples.push_back({t, x});
   // The sample before the last stays even when it is older than the window. The tolerance keeps
@@ -109,9 +109,9 @@ void DuneTracker::extend(Track& track, double t, const DuneRow& row) const {
   const double oldest = t - criteria_.celerity_window * (1.0 + 1e-9);
   while (track.samples.size() > 2 && track.samples.front().t < oldest) track.samples.pop_front();
   track.missed = false;
-  track.x = row.cx;
-  track.z = row.cz;
-  track.reach = std::max(row.w, row.l);
+  track.x = record.cx;
+  track.z = record.cz;
+  track.reach = std::max(record.w, record.l);
 }
 
 std::vector<double> DuneTracker::state() const {

@@ -21,9 +21,9 @@ class DuneTracker {
   explicit DuneTracker(const DuneDomain& domain, const DuneCriteria& criteria = {})
       : domain_(domain), criteria_(criteria) {}
 
-  /// One row per dune, in order of label. Times must not go back further than a restart does:
+  /// One record per dune, in order of label. Times must not go back further than a restart does:
   /// samples at or after t are forgotten. The first call fixes the initial number of grains.
-  std::vector<DuneRow> update(double t, GrainCloud grains);
+  std::vector<DuneRecord> update(double t, GrainCloud grains);
 
   /// Of each grain the label that its dune would get in an update now, and has if that was the last
   /// one; -1: in no dune.
@@ -46,8 +46,8 @@ class DuneTracker {
   };
 
   void forget(double t);
-  [[nodiscard]] std::vector<int> match(const std::vector<DuneRow>& rows) const;
-  void extend(Track& track, double t, const DuneRow& row) const;
+  [[nodiscard]] std::vector<int> match(const std::vector<DuneRecord>& records) const;
+  void extend(Track& track, double t, const DuneRecord& record) const;
 
   DuneDomain domain_;
   DuneCriteria criteria_;

@@ -35,7 +35,7 @@ struct Outline {
 
 /// What is collected about one region; coordinates are unwrapped.
 struct Region {
-  DuneRow row;
+  DuneRecord record;
   int n_bins = 0;
   double crest_height = 0.0;  // on the centreline
   double crest_weight = 0.0;  // sum of weights behind crest_x
@@ -57,20 +57,21 @@ struct DuneMeasurement {
     collect_outlines();
     std::vector<int> dunes;  // the regions that are dunes, largest first
     for (int i = 0; i < map.n_regions; ++i) {
-      if (regions[i].row.n_grains >= criteria.min_grains) dunes.push_back(i);
+      if (regions[i].record.n_grains >= criteria.min_grains) dunes.push_back(i);
     }
-    std::stable_sort(dunes.begin(), dunes.end(),
-                     [&](int a, int b) { return regions[a].row.volume > regions[b].row.volume; });
+    std::stable_sort(dunes.begin(), dunes.end(), [&](int a, int b) {
+      return regions[a].record.volume > regions[b].record.volume;
+    });
     Dunes found;
-    std::vector<int> row_of_region(regions.size(), -1);
+    std::vector<int> record_of_region(regions.size(), -1);
     for (const int region : dunes) {
-      row_of_region[region] = static_cast<int>(found.rows.size());
-      found.rows.push_back(finish(regions[region]));
-      found.rows.back().dune = row_of_region[region];
+      record_of_region[region] = static_cast<int>(found.records.size());
+      found.records.push_back(finish(regions[region]));
+      found.records.back().dune = record_of_region[region];
     }
     for (std::size_t p = 0; p < grains.size(); ++p) {
       const int region = map.region_of(p);
-      found.of_grain.push_back(region < 0 ? -1 : row_of_region[region]);
+      found.of_grain.push_back(region < 0 ? -1 : record_of_region[region]);
     }
     return found;
   }
@@ -97,30 +98,30 @@ struct DuneMeasurement {
   }
   [[nodiscard]] bool in_strip(double z, const Region& region) const {
     const double half_width = criteria.centreline_half_width * map.mean_diameter;
-    return std::abs(z - region.row.cz) < half_width;
+    return std::abs(z - region.record.cz) < half_width;
   }
 
   /// Number, volume, centroid, extents.
   void sum_grains() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
       const double d = grains[p].d, volume = std::numbers::pi / 6.0 * d * d * d;
-      DuneRow& row = region.row;
-      ++row.n_grains;
-      row.volume += volume;
-      row.cx += volume * x;
-      row.cy += volume * grains[p].x.y;
-      row.cz += volume * z;
-      row.flux += volume * grains[p].u_x;
+      DuneRecord& record = region.record;
+      ++record.n_grains;
+      record.volume += volume;
+      record.cx += volume * x;
+      record.cy += volume * grains[p].x.y;
+      record.cz += volume * z;
+      record.flux += volume * grains[p].u_x;
       region.x.include(x - 0.5 * d, x + 0.5 * d);
       region.z.include(z - 0.5 * d, z + 0.5 * d);
     });
     for_each_bin([](std::size_t, Region& region, double, double) { ++region.n_bins; });
     const double bin_area = map.bin_x * map.bin_z;
     for (Region& region : regions) {
-      region.row.flux /= region.n_bins * bin_area;
-      region.row.cx /= region.row.volume;
-      region.row.cy /= region.row.volume;
-      region.row.cz /= region.row.volume;
+      region.record.flux /= region.n_bins * bin_area;
+      region.record.cx /= region.record.volume;
+      region.record.cy /= region.record.volume;
+      region.record.cz /= region.record.volume;
     }
   }
 
@@ -129,7 +130,7 @@ struct DuneMeasurement {
   void find_crests() {
     for_each_bin([&](std::size_t b, Region& region, double, double z) {
       surface[b] = map.smoothed_surface(map.bins[b]);
-      region.row.h = std::max(region.row.h, surface[b]);
+      region.record.h = std::max(region.record.h, surface[b]);
       if (in_strip(z, region)) region.crest_height = std::max(region.crest_height, surface[b]);
     });
     for_each_bin([&](std::size_t b, Region& region, double x, double z) {
@@ -137,11 +138,11 @@ struct DuneMeasurement {
       const double weight = surface[b] - (region.crest_height - band);
       if (weight <= 0.0 || !in_strip(z, region)) return;
       region.crest_weight += weight;
-      region.row.crest_x += weight * x;
+      region.record.crest_x += weight * x;
     });
     for (Region& region : regions) {
-      DuneRow& row = region.row;
-      row.crest_x = region.crest_weight > 0.0 ? row.crest_x / region.crest_weight : row.cx;
+      DuneRecord& record = region.record;
+      record.crest_x = region.crest_weight > 0.0 ? record.crest_x / region.crest_weight : record.cx;
     }
   }
 
@@ -154,7 +155,7 @@ struct DuneMeasurement {
         if (in_strip(z, region)) {
           outline.strip[map.bins[bin].ux].include(x - radius, x + radius);
         } else {
-          double& tip = z < region.row.cz ? outline.left_tip : outline.right_tip;
+          double& tip = z < region.record.cz ? outline.left_tip : outline.right_tip;
           tip = std::max(tip, x + radius);
         }
       };
@@ -177,29 +178,29 @@ struct DuneMeasurement {
     return line;
   }
 
-  [[nodiscard]] DuneRow finish(const Region& region) const {
-    DuneRow row = region.row;
+  [[nodiscard]] DuneRecord finish(const Region& region) const {
+    DuneRecord record = region.record;
     if (region.all.strip.empty()) {
-      row.l = region.x.size();
+      record.l = region.x.size();
     } else {
-      const Extent line = centreline(region.all.strip, row.crest_x);
-      row.l = line.size();
-      row.horn_left = std::max(0.0, region.all.left_tip - line.high);
-      row.horn_right = std::max(0.0, region.all.right_tip - line.high);
+      const Extent line = centreline(region.all.strip, record.crest_x);
+      record.l = line.size();
+      record.horn_left = std::max(0.0, region.all.left_tip - line.high);
+      record.horn_right = std::max(0.0, region.all.right_tip - line.high);
     }
     if (!region.high.strip.empty()) {
-      const double lee_foot = centreline(region.high.strip, row.crest_x).high;
-      row.horn_left_2d = std::max(0.0, region.high.left_tip - lee_foot);
-      row.horn_right_2d = std::max(0.0, region.high.right_tip - lee_foot);
+      const double lee_foot = centreline(region.high.strip, record.crest_x).high;
+      record.horn_left_2d = std::max(0.0, region.high.left_tip - lee_foot);
+      record.horn_right_2d = std::max(0.0, region.high.right_tip - lee_foot);
     }
-    row.w = region.z.size();
-    if (domain.periodic_z) row.w = std::min(row.w, domain.length_z);
-    if (domain.periodic_x) row.l = std::min(row.l, domain.length_x);
-    row.cx = to_period(row.cx, domain.length_x, domain.periodic_x);
-    row.cz = to_period(row.cz, domain.length_z, domain.periodic_z);
-    row.crest_x = to_period(row.crest_x, domain.length_x, domain.periodic_x);
-    row.celerity = kNotKnown;
-    return row;
+    record.w = region.z.size();
+    if (domain.periodic_z) record.w = std::min(record.w, domain.length_z);
+    if (domain.periodic_x) record.l = std::min(record.l, domain.length_x);
+    record.cx = to_period(record.cx, domain.length_x, domain.periodic_x);
+    record.cz = to_period(record.cz, domain.length_z, domain.periodic_z);
+    record.crest_x = to_period(record.crest_x, domain.length_x, domain.periodic_x);
+    record.celerity = kNotKnown;
+    return record;
   }
 };
 

@@ -7,10 +7,10 @@
 
 namespace barchan {
 
-/// One line of dune.csv.
-struct DuneRow {
-  double t = 0;  // [s]
-  int dune = 0;  // 0 is the largest
+/// One line of dune.csv (dune_table.hpp).
+struct DuneRecord {
+  double t = 0;           // [s]
+  std::int64_t dune = 0;  // label; 0 is the largest
   std::int64_t n_grains = 0;
   double w = 0, l = 0, h = 0;            // width, length along the centreline, height [m]
   double cx = 0, cy = 0, cz = 0;         // centroid [m]
@@ -25,11 +25,11 @@ struct DuneRow {
 
 /// The dunes of one time.
 struct Dunes {
-  std::vector<DuneRow> rows;
-  std::vector<int> of_grain;  // index into rows; -1: in no dune
+  std::vector<DuneRecord> records;
+  std::vector<int> of_grain;  // index into records; -1: in no dune
 };
 
-/// Finds the dunes in the grains and measures each; rows in descending order of volume, labelled
+/// Finds the dunes in the grains and measures each; records in descending order of volume, labelled
 /// 0, 1, ... in that order; celerity not a number, n_lost zero, t zero.
 ///
 /// Directions: x along the flow, y up, z across. Looking downstream with y up, +z is to the right

@@ -44,38 +44,31 @@ FlowStatisticsTable FlowStatistics::table() const {
   for (int j = 0; j < grid_.ny; ++j) {
     const double u = mean(j, Q::u), w = mean(j, Q::w);
     const auto below = static_cast<std::size_t>(j) + 1;  // the first entry is a ghost face
-    StatisticsRow row;
+    StatisticsRecord row;
     row.y = (faces(below) + faces(below + 1)) / 2;
     row.u = u;
+    row.y_plus = row.y * table.u_star / viscosity_;
+    row.u_plus = table.u_star > 0 ? u / table.u_star : 0.0;
     row.uu = mean(j, Q::uu) - u * u;
     row.ww = mean(j, Q::ww) - w * w;
     row.vv = at_centre(j, Q::vv);
     row.uv = at_centre(j, Q::uv);  // the mean of v is zero: nothing passes the floor
+    row.k = (row.uu + row.vv + row.ww) / 2;
     row.viscous = at_centre(j, Q::viscous);
     row.subgrid = at_centre(j, Q::stress) - row.viscous;
     row.total = at_centre(j, Q::stress) - row.uv;
     row.p = mean(j, Q::p);
     row.nu_t = mean(j, Q::nu_t);
-    table.rows.push_back(row);
+    row.n_samples = n_samples_;
+    table.lines.push_back(row);
   }
   return table;
 }
 
 void FlowStatistics::write(const std::filesystem::path& file) const {
   if (n_samples_ == 0) return;
-  const FlowStatisticsTable t = table();
-  std::string text =
-      "y,y_plus,U,U_plus,uu,vv,ww,uv,k,viscous_stress,subgrid_stress,total_stress,p,nu_t,n_"
-      "samples\n";
-  for (const StatisticsRow& r : t.rows) {
-    text += fmt::format("{:.9g},{:.6g},{:.9g},{:.6g}", r.y, r.y * t.u_star / viscosity_, r.u,
-                        t.u_star > 0 ? r.u / t.u_star : 0.0);
-    for (const double value : {r.uu, r.vv, r.ww, r.uv, (r.uu + r.vv + r.ww) / 2, r.viscous,
-                               r.subgrid, r.total, r.p, r.nu_t}) {
-      text += fmt::format(",{:.9g}", value);
-    }
-    text += fmt::format(",{}\n", n_samples_);
-  }
+  std::string text = kStatisticsTable.header() + "\n";
+  for (const StatisticsRecord& line : table().lines) text += kStatisticsTable.line(line);
   if (rank_of(grid_) == 0) write_atomically(file, text);
 }
 

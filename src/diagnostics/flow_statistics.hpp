@@ -1,28 +1,54 @@
 // Turbulence statistics over planes of constant height and time (statistics.csv).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/config/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/output/csv_table.hpp"
 
 namespace barchan {
 
 /// One line of statistics.csv, at the centre of a row of cells; what lives on y-faces is the mean
 /// of the row's two. Stresses are kinematic [m^2/s^2]; a prime is the deviation from the plane's
 /// mean over all samples.
-struct StatisticsRow {
-  double y = 0, u = 0;                         // [m], [m/s]
-  double uu = 0, vv = 0, ww = 0, uv = 0;       // resolved <u'u'>, <v'v'>, <w'w'>, <u'v'>
-  double viscous = 0, subgrid = 0, total = 0;  // nu dU/dy, subgrid, both less <u'v'>
-  double p = 0, nu_t = 0;                      // [Pa], [m^2/s]
+struct StatisticsRecord {
+  double y = 0, y_plus = 0, u = 0, u_plus = 0;  // [m], y u_star/nu, [m/s], u/u_star
+  double uu = 0, vv = 0, ww = 0, uv = 0;        // resolved <u'u'>, <v'v'>, <w'w'>, <u'v'>
+  double viscous = 0, subgrid = 0, total = 0;   // nu dU/dy, subgrid, both less <u'v'>
+  double k = 0;                                 // (uu + vv + ww)/2
+  double p = 0, nu_t = 0;                       // [Pa], [m^2/s]
+  std::int64_t n_samples = 0;
 };
+inline constexpr std::array kStatisticsColumns = [] {
+  using S = StatisticsRecord;
+  return std::to_array<Column<S>>({
+      {"y", "m", &S::y, "height"},
+      {"y_plus", "-", &S::y_plus, "y u_star/nu with u_star of the mean stress at the floor", 6},
+      {"U", "m/s", &S::u, "mean velocity along x"},
+      {"U_plus", "-", &S::u_plus, "U over u_star", 6},
+      {"uu", "m2/s2", &S::uu, "resolved <u'u'>"},
+      {"vv", "m2/s2", &S::vv, "resolved <v'v'>"},
+      {"ww", "m2/s2", &S::ww, "resolved <w'w'>"},
+      {"uv", "m2/s2", &S::uv, "resolved <u'v'>, as the scheme transports it"},
+      {"k", "m2/s2", &S::k, "(uu + vv + ww)/2"},
+      {"viscous_stress", "m2/s2", &S::viscous, "nu dU/dy"},
+      {"subgrid_stress", "m2/s2", &S::subgrid, "the subgrid part"},
+      {"total_stress", "m2/s2", &S::total,
+       "both minus <u'v'>; falls linearly over the height in a steady flow"},
+      {"p", "Pa", &S::p, "mean pressure without its driving part"},
+      {"nu_t", "m2/s", &S::nu_t, "mean eddy viscosity"},
+      {"n_samples", "-", &S::n_samples, "instants averaged"},
+  });
+}();
+inline constexpr CsvTable<StatisticsRecord> kStatisticsTable{"statistics.csv", kStatisticsColumns};
 
 struct FlowStatisticsTable {
   double u_star = 0;  // of the mean shear at the floor [m/s]
-  std::vector<StatisticsRow> rows;
+  std::vector<StatisticsRecord> lines;
 };
 
 class FlowStatistics {

@@ -11,9 +11,9 @@
 namespace barchan {
 
 void ForceMap::sample(double t, GrainCloud grains, std::span<const Vec3> force) {
-  const std::vector<DuneRow> dunes = find_dunes(grains, domain_).rows;
+  const std::vector<DuneRecord> dunes = find_dunes(grains, domain_).records;
   if (dunes.empty()) return;
-  const DuneRow& dune = dunes.front();
+  const DuneRecord& dune = dunes.front();
   if (step_ == 0) {  // kept: grains that leave must not move the bins
     double sum = 0;
     for (const GrainSample& grain : grains) sum += grain.d;

@@ -51,7 +51,7 @@ void ResultsWriter::write_due() {
   Watchdog::heartbeat("writing results", clock.step, clock.time());
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
-    for (const DuneRow& dune : diagnostics_.find_dunes()) append_row(folder_, dune);
+    for (const DuneRecord& dune : diagnostics_.find_dunes()) append_record(folder_, dune);
   }
   if (diagnostics_.sample_due()) {
     const PhaseTimer timer(accounts_.phases, "analytics");
@@ -86,7 +86,7 @@ double ResultsWriter::check_grain_step() {
 
 void ResultsWriter::write_history() {
   const FluidStepSums& interval = accounts_.interval;
-  HistoryRow row;
+  HistoryRecord row;
   row.t = run_.clock.time();
   row.step = run_.clock.step;
   if (run_.state.fluid) {
@@ -114,7 +114,7 @@ void ResultsWriter::write_history() {
     row.grain_flux = volume_flow(grains) / area;
     if (interval.steps > 0) row.stress_on_grains = interval.impulse_on_grains / (seconds * area);
   }
-  if (rank_of(run_.ranks) == 0) append_row(folder_, row);
+  if (rank_of(run_.ranks) == 0) append_record(folder_, row);
   accounts_.interval = {};
 }
 

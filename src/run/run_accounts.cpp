@@ -96,7 +96,7 @@ void RunAccounts::load(const CheckpointReader& file) {
               .impulse_on_grains = numbers[4]};
 }
 
-Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRow>& dune) const {
+Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRecord>& dune) const {
   const double seconds = std::max(seconds_since(start), 1e-9);
   Progress p;
   p.t = run.clock.time();

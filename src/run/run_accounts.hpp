@@ -36,7 +36,7 @@ struct RunAccounts {
   /// The interval in restart files; those of earlier versions have none.
   void save(CheckpointWriter& file) const;
   void load(const CheckpointReader& file);
-  Progress progress(const RunState& run, const std::optional<DuneRow>& largest_dune) const;
+  Progress progress(const RunState& run, const std::optional<DuneRecord>& largest_dune) const;
   /// run.json. `status`: "running", "done", "stopped" or "failed"; `message`: why it stopped or
   /// failed. Wall seconds of phases are per fluid step, what is communicated is of this rank.
   nlohmann::ordered_json summary(const RunState& run, const std::string& status,

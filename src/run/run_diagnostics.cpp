@@ -27,12 +27,12 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
   if (config->grain_forces) force_map_.emplace(dune_domain(run.config));
 }
 
-std::vector<DuneRow> RunDiagnostics::find_dunes() {
+std::vector<DuneRecord> RunDiagnostics::find_dunes() {
   const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   if (rank_of(run_.ranks) != 0) return {};
-  const std::vector<DuneRow> dunes = tracker_.update(run_.clock.time(), grains);
-  for (const DuneRow& dune : dunes) {
+  const std::vector<DuneRecord> dunes = tracker_.update(run_.clock.time(), grains);
+  for (const DuneRecord& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
   return dunes;

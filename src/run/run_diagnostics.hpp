@@ -17,12 +17,12 @@ class RunDiagnostics {
   explicit RunDiagnostics(const RunState& run);
 
   /// The dunes now, in order of label, on rank 0; nothing on others.
-  std::vector<DuneRow> find_dunes();
+  std::vector<DuneRecord> find_dunes();
   /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
   /// this step; -1: in none.
   std::vector<int> dune_labels() const;
   /// The largest of the dunes last found.
-  const std::optional<DuneRow>& largest_dune() const { return largest_dune_; }
+  const std::optional<DuneRecord>& largest_dune() const { return largest_dune_; }
 
   /// From statistics.start on, every statistics.interval.
   bool sample_due() const;
@@ -37,7 +37,7 @@ class RunDiagnostics {
  private:
   const RunState& run_;
   DuneTracker tracker_;
-  std::optional<DuneRow> largest_dune_;
+  std::optional<DuneRecord> largest_dune_;
   std::optional<FlowStatistics> statistics_;
   std::optional<FlowAverage> flow_average_;
   std::optional<ForceMap> force_map_;

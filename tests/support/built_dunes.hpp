@@ -78,17 +78,17 @@ inline Grains slab_with_arms(double left, double right) {
   });
 }
 
-inline std::vector<DuneRow> measure_dunes(const Grains& grains,
-                                          const DuneDomain& domain = channel) {
-  return find_dunes(grains, domain).rows;
+inline std::vector<DuneRecord> measure_dunes(const Grains& grains,
+                                             const DuneDomain& domain = channel) {
+  return find_dunes(grains, domain).records;
 }
-inline DuneRow only_dune(const Grains& grains, const DuneDomain& domain = channel) {
-  const std::vector<DuneRow> rows = measure_dunes(grains, domain);
+inline DuneRecord only_dune(const Grains& grains, const DuneDomain& domain = channel) {
+  const std::vector<DuneRecord> rows = measure_dunes(grains, domain);
   EXPECT_EQ(rows.size(), 1u);
-  return rows.empty() ? DuneRow{} : rows.front();
+  return rows.empty() ? DuneRecord{} : rows.front();
 }
 
-inline void expect_same_shape(const DuneRow& a, const DuneRow& b, double tolerance) {
+inline void expect_same_shape(const DuneRecord& a, const DuneRecord& b, double tolerance) {
   EXPECT_EQ(a.n_grains, b.n_grains);
   EXPECT_NEAR(a.w, b.w, tolerance);
   EXPECT_NEAR(a.l, b.l, tolerance);

@@ -8,7 +8,7 @@ using namespace test;
 
 TEST(DuneAnalytics, ConeIsItsDiameterAndHasNoHorns) {
   Grains grains = heap(0.03, 0.02, 13.0 * mm, 3.0 * mm);
-  const DuneRow dune = only_dune(grains);
+  const DuneRecord dune = only_dune(grains);
   EXPECT_NEAR(dune.w, 26.0 * mm, bin);
   EXPECT_NEAR(dune.l, 26.0 * mm, bin);
   EXPECT_NEAR(dune.h, 3.0 * mm, bin);
@@ -34,7 +34,7 @@ TEST(DuneAnalytics, CentroidIsWeightedByVolume) {
 
 TEST(DuneAnalytics, CrescentHornsReachTheTips) {
   const double offset = 8.0 * mm;
-  const DuneRow dune = only_dune(pile(0.04, 0.025, 10.0 * mm, crescent(offset)));
+  const DuneRecord dune = only_dune(pile(0.04, 0.025, 10.0 * mm, crescent(offset)));
   // The circles meet at x = offset / 2; the lee foot on the centreline is at offset - 10 mm.
   const double horn = 0.5 * offset - (offset - 10.0 * mm);
   EXPECT_NEAR(dune.horn_left, horn, bin);
@@ -47,11 +47,11 @@ TEST(DuneAnalytics, CrescentHornsReachTheTips) {
 
 /// Horns by height reach as far, to the bin that the median takes from a tip.
 TEST(DuneAnalytics, HornsByHeightReachTheTipsToo) {
-  const DuneRow dune = only_dune(slab_with_arms(3.0 * mm, 9.0 * mm));
+  const DuneRecord dune = only_dune(slab_with_arms(3.0 * mm, 9.0 * mm));
   EXPECT_NEAR(dune.horn_left_2d, 3.0 * mm, bin);
   EXPECT_NEAR(dune.horn_right_2d, 9.0 * mm, bin);
   // A slope of 0.3 is two diameters high 1.3 mm behind its outline, on the lee (0.6) half of that.
-  const DuneRow pointed = only_dune(pile(0.04, 0.025, 10.0 * mm, crescent(8.0 * mm)));
+  const DuneRecord pointed = only_dune(pile(0.04, 0.025, 10.0 * mm, crescent(8.0 * mm)));
   EXPECT_LT(pointed.horn_left_2d, pointed.horn_left - bin);
   EXPECT_GT(pointed.horn_left_2d, pointed.horn_left - 3.0 * mm);
   EXPECT_EQ(only_dune(heap(0.03, 0.02, 13.0 * mm, 3.0 * mm)).horn_left_2d, 0.0);
@@ -65,7 +65,7 @@ TEST(DuneAnalytics, StreaksOfSingleGrainsAreNoHornsByHeight) {
     return std::abs(z) > 7.0 * mm && std::abs(z) < 8.5 * mm && x > tip && x < tip + 2.5 * mm ? d / 2
                                                                                              : 0.0;
   });
-  const DuneRow clean = only_dune(dune), streaky = only_dune(dune + streaks);
+  const DuneRecord clean = only_dune(dune), streaky = only_dune(dune + streaks);
   EXPECT_GT(streaky.n_grains, clean.n_grains + 100);
   EXPECT_NEAR(streaky.horn_left, clean.horn_left + 2.4 * mm, bin);
   EXPECT_NEAR(streaky.horn_right, clean.horn_right + 2.4 * mm, bin);
@@ -80,7 +80,7 @@ TEST(DuneAnalytics, ACarpetAtTheFootDoesNotShortenHornsByHeight) {
   const Grains carpet = pile(0.04, 0.025, 20.0 * mm, [](double x, double z) {
     return std::abs(z) < 4.0 * mm && x > 2.5 * mm && x < 5.5 * mm ? d / 2 : 0.0;
   });
-  const DuneRow clean = only_dune(dune), carpeted = only_dune(dune + carpet);
+  const DuneRecord clean = only_dune(dune), carpeted = only_dune(dune + carpet);
   EXPECT_LT(carpeted.horn_left, clean.horn_left - 2.0 * mm);
   EXPECT_NEAR(carpeted.horn_left_2d, clean.horn_left_2d, bin / 2);
   EXPECT_NEAR(carpeted.horn_right_2d, clean.horn_right_2d, bin / 2);
@@ -88,7 +88,7 @@ TEST(DuneAnalytics, ACarpetAtTheFootDoesNotShortenHornsByHeight) {
 
 TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
-  const DuneRow dune = only_dune(grains);
+  const DuneRecord dune = only_dune(grains);
   // On this lattice all of them are whole numbers of grains, from edge to edge.
   EXPECT_NEAR(dune.horn_left, 15 * d, 1e-9);
   EXPECT_NEAR(dune.horn_right, 45 * d, 1e-9);
@@ -100,11 +100,11 @@ TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
 
 TEST(DuneAnalytics, SandBetweenTheHornsIsNotLength) {
   const Grains dune = slab_with_arms(9.0 * mm, 9.0 * mm);
-  const DuneRow clean = only_dune(dune);
+  const DuneRecord clean = only_dune(dune);
   const Grains bar_between_the_tips = pile(0.04, 0.025, 20.0 * mm, [](double x, double z) {
     return x > 9.5 * mm && x < 11.5 * mm && std::abs(z) < 6.0 * mm ? 1.0 * mm : 0.0;
   });
-  const DuneRow joined = only_dune(dune + bar_between_the_tips);
+  const DuneRecord joined = only_dune(dune + bar_between_the_tips);
   EXPECT_NEAR(joined.l, clean.l, 1e-9);
   EXPECT_NEAR(joined.horn_left, 9.0 * mm, bin);
 }
@@ -120,7 +120,7 @@ TEST(DuneAnalytics, ADenseLayerOfOneGrainIsNoDune) {
 }
 
 TEST(DuneAnalytics, TwoDunesAreOrderedBySize) {
-  const std::vector<DuneRow> rows =
+  const std::vector<DuneRecord> rows =
       measure_dunes(heap(0.03, 0.025, 4.0 * mm, 1.5 * mm) + heap(0.06, 0.025, 8.0 * mm, 2.5 * mm));
   ASSERT_EQ(rows.size(), 2u);
   for (const std::size_t i : {0, 1}) {
@@ -132,7 +132,7 @@ TEST(DuneAnalytics, TwoDunesAreOrderedBySize) {
 
 TEST(DuneAnalytics, StrayGrainsNeitherEnlargeNorBridge) {
   Grains grains = heap(0.02, 0.025, 8.0 * mm, 2.5 * mm) + heap(0.04, 0.025, 8.0 * mm, 2.5 * mm);
-  const std::vector<DuneRow> clean = measure_dunes(grains);
+  const std::vector<DuneRecord> clean = measure_dunes(grains);
   ASSERT_EQ(clean.size(), 2u);
   // A sparse carpet: a tenth of the wall covered outside the dunes, a few grains in flight.
   std::mt19937 random(7);
@@ -143,9 +143,9 @@ TEST(DuneAnalytics, StrayGrainsNeitherEnlargeNorBridge) {
         std::hypot(x - 0.02, z - 0.025) < 8.0 * mm || std::hypot(x - 0.04, z - 0.025) < 8.0 * mm;
     if (!on_dune) grains.push_back({{x, p % 20 == 0 ? 5.0 * mm * uniform(random) : 0.5 * d, z}, d});
   }
-  const std::vector<DuneRow> rows = measure_dunes(grains);
+  const std::vector<DuneRecord> rows = measure_dunes(grains);
   ASSERT_EQ(rows.size(), 2u);
-  for (const DuneRow& row : rows) {
+  for (const DuneRecord& row : rows) {
     EXPECT_NEAR(row.w, 16.0 * mm, 2.0 * bin);
     EXPECT_NEAR(row.l, 16.0 * mm, 2.0 * bin);
     EXPECT_NEAR(row.h, clean[0].h, 1e-9);
@@ -154,8 +154,8 @@ TEST(DuneAnalytics, StrayGrainsNeitherEnlargeNorBridge) {
 
 TEST(DuneAnalytics, FlyingGrainsDoNotRaiseTheCrest) {
   Grains grains = heap(0.03, 0.02, 13.0 * mm, 3.0 * mm);
-  const DuneRow before = only_dune(grains);
-  const DuneRow after =
+  const DuneRecord before = only_dune(grains);
+  const DuneRecord after =
       only_dune(grains + Grains{{{0.03, 6.0 * mm, 0.02}, d}, {{0.035, 5.0 * mm, 0.02}, d}});
   EXPECT_NEAR(after.h, before.h, d);
   EXPECT_NEAR(after.crest_x, before.crest_x, bin);
@@ -163,15 +163,15 @@ TEST(DuneAnalytics, FlyingGrainsDoNotRaiseTheCrest) {
 
 TEST(DuneAnalytics, DuneAcrossThePeriodicBoundaryIsOneDune) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
-  const DuneRow inside = only_dune(grains);
+  const DuneRecord inside = only_dune(grains);
   const DuneDomain both{.length_x = 0.1, .length_z = 0.05, .periodic_x = true};
   // Whole bins, so that the same grains share a bin before and after.
   const double half_x = 100 * 0.1 / 200, half_z = 50 * 0.05 / 100;
-  const DuneRow across_z = only_dune(moved(grains, 0.0, half_z));
+  const DuneRecord across_z = only_dune(moved(grains, 0.0, half_z));
   expect_same_shape(across_z, inside, 1e-9);
   EXPECT_NEAR(across_z.cz, std::fmod(inside.cz + half_z, channel.length_z), 1e-9);
   EXPECT_NEAR(across_z.crest_x, inside.crest_x, 1e-9);
-  const DuneRow across_x = only_dune(moved(grains, half_x + 0.01, half_z, both), both);
+  const DuneRecord across_x = only_dune(moved(grains, half_x + 0.01, half_z, both), both);
   expect_same_shape(across_x, inside, 1e-9);
   EXPECT_NEAR(across_x.cx, std::fmod(inside.cx + half_x + 0.01, 0.1), 1e-9);
 }
@@ -179,7 +179,7 @@ TEST(DuneAnalytics, DuneAcrossThePeriodicBoundaryIsOneDune) {
 TEST(DuneAnalytics, RidgeAcrossThePeriodIsAsWideAsTheDomain) {
   Grains grains = pile(0.05, 0.025, 25.0 * mm,
                        [](double x, double) { return std::abs(x) < 5.0 * mm ? 1.0 * mm : 0.0; });
-  const DuneRow ridge = only_dune(grains);
+  const DuneRecord ridge = only_dune(grains);
   EXPECT_NEAR(ridge.w, channel.length_z, bin);
   EXPECT_LE(ridge.w, channel.length_z);
   EXPECT_NEAR(ridge.l, 10.0 * mm, bin);
@@ -188,7 +188,7 @@ TEST(DuneAnalytics, RidgeAcrossThePeriodIsAsWideAsTheDomain) {
 TEST(DuneAnalytics, ErrorStaysBelowABinAtAnyPositionOnTheBins) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
   for (int i = 0; i < 10; ++i) {
-    const DuneRow dune = only_dune(moved(grains, 0.1 * i * bin, 0.13 * i * bin));
+    const DuneRecord dune = only_dune(moved(grains, 0.1 * i * bin, 0.13 * i * bin));
     EXPECT_NEAR(dune.l, 5.0 * mm, bin);
     EXPECT_NEAR(dune.w, 20.0 * mm, bin);
     EXPECT_NEAR(dune.horn_left, 3.0 * mm, bin);
@@ -208,7 +208,7 @@ TEST(DuneAnalytics, FluxIsVolumeTimesVelocityOverFootprint) {
     for (int k = 0; k < 20; ++k)
       grains.push_back({{(60.0 + i) * mm, 0.5 * d, (15.0 + k) * mm}, d, 9.0});
   }
-  const DuneRow dune = only_dune(grains);
+  const DuneRecord dune = only_dune(grains);
   const double area = std::numbers::pi * 10.0 * mm * 10.0 * mm;
   // Half of the grains less the centre line; the footprint is known to within the rim of bins.
   EXPECT_NEAR(dune.flux, dune.volume * 0.01 / area, 0.1 * dune.volume * 0.01 / area);
@@ -225,7 +225,7 @@ TEST(DuneAnalytics, NothingGivesNothing) {
 
 TEST(DuneAnalytics, OddInputIsHandled) {
   Grains grains = heap(0.03, 0.02, 4.0 * mm, 1.5 * mm);
-  const DuneRow clean = only_dune(grains);
+  const DuneRecord clean = only_dune(grains);
   const Grains odd{{{std::nan(""), d, d}, d}, {{1e30, d, d}, d}};
   expect_same_shape(only_dune(grains + odd), clean, 1e-12);
   EXPECT_THROW(measure_dunes({{{d, d, d}, 0.0}}), std::invalid_argument);

@@ -10,7 +10,7 @@ TEST(DuneTracker, TranslationGivesCelerityAndLabelsStay) {
   const Grains small = heap(0.02, 0.025, 4.0 * mm, 1.5 * mm);
   const Grains large = heap(0.05, 0.025, 8.0 * mm, 2.5 * mm);
   DuneTracker tracker(channel);
-  std::vector<DuneRow> rows;
+  std::vector<DuneRecord> rows;
   for (int step = 0; step <= 30; ++step) {
     const double t = 0.1 * step;  // the small one is faster and crosses the edge in z
     rows = tracker.update(
@@ -70,7 +70,7 @@ TEST(DuneTracker, GrainsBearTheLabelOfTheirDune) {
   DuneTracker tracker(channel);
   tracker.update(0.0, first);
   const std::vector<int> labels = tracker.labels(both);  // the second is new, and larger
-  const std::vector<DuneRow> rows = tracker.update(0.1, both);
+  const std::vector<DuneRecord> rows = tracker.update(0.1, both);
   EXPECT_EQ(tracker.labels(both), labels);
   ASSERT_EQ(labels.size(), both.size());
   EXPECT_EQ(labels.back(), -1);
@@ -95,8 +95,8 @@ TEST(DuneTracker, RestoredStateContinuesTheSame) {
     straight.update(0.3 * step, moved(grains, 0.3 * mm * step * step, 0.0));
   resumed.set_state(straight.state());
   const Grains later = moved(grains, 9.0 * mm, 0.0);
-  const DuneRow a = straight.update(1.5, later).at(0);
-  const DuneRow b = resumed.update(1.5, later).at(0);
+  const DuneRecord a = straight.update(1.5, later).at(0);
+  const DuneRecord b = resumed.update(1.5, later).at(0);
   EXPECT_EQ(a.celerity, b.celerity);
   EXPECT_EQ(a.dune, b.dune);
   EXPECT_EQ(straight.state(), resumed.state());

@@ -47,7 +47,7 @@ TEST(FlowStatistics, MeansAndStressesOfAWavyShear) {
   // u and v meet at the edges: the mean of two neighbours of a cosine is less than the cosine.
   const double averaging = std::cos(pi / 16) * std::cos(flow.ahead);
   for (int j = 2; j < 8; ++j) {
-    const StatisticsRow& row = table.rows[static_cast<std::size_t>(j)];
+    const StatisticsRecord& row = table.lines[static_cast<std::size_t>(j)];
     EXPECT_NEAR(row.y, h.y(j), 1e-15);
     EXPECT_NEAR(row.u, 8 * h.y(j), 1e-14);
     EXPECT_NEAR(row.uu, a * a / 2, 1e-14);
@@ -67,7 +67,7 @@ TEST(FlowStatistics, FluctuationsAreAgainstTheMeanOfAllSamples) {
     FluidSolver(flow.config, flow.grid).fill_ghosts(flow.fluid);
     flow.statistics.sample(flow.fluid);
   }
-  const StatisticsRow row = flow.statistics.table().rows[5];
+  const StatisticsRecord row = flow.statistics.table().lines[5];
   EXPECT_NEAR(row.u, 0.2, 1e-14);
   EXPECT_NEAR(row.uu, 0.01, 1e-14);
 }

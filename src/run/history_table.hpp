@@ -1,0 +1,58 @@
+// history.csv: what a run is like as it goes.
+#pragma once
+
+#include <array>
+
+#include "src/output/csv_table.hpp"
+
+namespace barchan {
+
+/// One line. A new column is a member here and a line in kHistoryColumns; docs/conventions.md has
+/// the meanings (a test compares).
+struct HistoryRecord {
+  double t = 0;  // [s]
+  std::int64_t step = 0;
+  double u_star = 0;                                          // from the wall shear [m/s]
+  double bulk_velocity = 0;                                   // [m/s]
+  double pressure_gradient = 0;                               // driving [Pa/m]
+  double fluid_kinetic_energy = 0, grain_kinetic_energy = 0;  // [J]
+  double cfl = 0;
+  double continuity_residual = 0;  // largest of the interval [1/s]
+  double pressure_iterations = 0;  // mean of the interval
+  std::int64_t n_grains = 0, n_contacts = 0;
+  double max_overlap = 0;             // over the mean diameter of the pair
+  double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
+  double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
+  double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
+};
+
+inline constexpr std::array kHistoryColumns = [] {
+  using H = HistoryRecord;
+  return std::to_array<Column<H>>({
+      {"t", "s", &H::t, "time", 10},
+      {"step", "-", &H::step, "fluid step"},
+      {"u_star", "m/s", &H::u_star, "sqrt(nu abs(mean dU/dy)) over the no-slip walls"},
+      {"bulk_velocity", "m/s", &H::bulk_velocity, "sum(alpha_f u V)/sum(alpha_f V)"},
+      {"pressure_gradient", "Pa/m", &H::pressure_gradient,
+       "driving gradient rho_f f of the last step"},
+      {"fluid_kinetic_energy", "J", &H::fluid_kinetic_energy, "sum(rho_f alpha_f u^2 V)/2"},
+      {"grain_kinetic_energy", "J", &H::grain_kinetic_energy, "of all grains, with their spin"},
+      {"cfl", "-", &H::cfl, "largest of the interval, dt (u/dx + v/dy + w/dz)", 6},
+      {"continuity_residual", "1/s", &H::continuity_residual,
+       "largest of the interval, abs(div(alpha_f u) + d(alpha_f)/dt)", 6},
+      {"pressure_iterations", "-", &H::pressure_iterations, "mean of the interval", 4},
+      {"n_grains", "-", &H::n_grains, "grains inside"},
+      {"n_contacts", "-", &H::n_contacts, "grain-grain pairs that touch"},
+      {"max_overlap", "-", &H::max_overlap,
+       "largest overlap of a pair over the sum of its radii, at this time", 6},
+      {"grain_flux", "m2/s", &H::grain_flux,
+       "sum of V_p u_x over all grains, over the floor's area, at this time"},
+      {"stress_on_grains", "Pa", &H::stress_on_grains,
+       "force of the flow along x on all grains, over the floor's area; mean of the interval"},
+      {"grain_step_over_stable", "-", &H::grain_step_over_stable,
+       "grain step over the longest [stable one](numerics.md#stable-grain-step), at this time", 4},
+  });
+}();
+inline constexpr CsvTable<HistoryRecord> kHistoryTable{"history.csv", kHistoryColumns};
+
+}  // namespace barchan
