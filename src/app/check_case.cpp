@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "src/app/estimate.hpp"
+#include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
@@ -47,10 +48,11 @@ int run_check(const CommandLine& line, std::ostream& out) {
   Derived derived = derive(config, ahead.sizes, top_of(ahead));
   if (derived.grains) derived.grains->as_poured = !ahead.grains;
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
-  if (derived.memory < memory_of_machine())
+  if (memory_of_case(config, ahead.sizes) < memory_of_machine())
     cost = as_input([&] { return estimate(config, folder, ahead); });
   out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
-  out << "\n# What follows from it\n\n" << to_text(derived) << cost;
+  out << "\n# What follows from it\n\n"
+      << to_text(derived) << memory_line(config, ahead.sizes) << cost;
   const auto warnings = config_warnings(config, ahead.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << warning << '\n';

@@ -7,9 +7,6 @@
 
 namespace barchan {
 
-/// [bytes]
-double memory_of_machine();
-
 /// Writes the resolved configuration, its derived numbers, what it will cost and its warnings to
 /// `out`, the first alone with --resolved-only (and then Kokkos need not run); returns the exit
 /// code 0. Throws ConfigError when the case is not valid, InputError when its grains do not suit

@@ -1,10 +1,8 @@
 #include "src/app/run_case.hpp"
 
-#include <unistd.h>
-
 #include <thread>
 
-#include "src/app/check_case.hpp"
+#include "src/app/memory.hpp"
 #include "src/app/starts.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
@@ -25,7 +23,7 @@ struct Stopped {};
 
 /// What follows from the case, and what looks wrong in it.
 void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
-  report::info("{}", to_text(derive(config, sizes)));
+  report::info("{}", to_text(derive(config, sizes)) + memory_line(config, sizes));
   for (const Finding& f : validate(config, sizes)) {
     if (f.severity == Finding::Severity::warning) report::warn("{}: {}", f.keys.front(), f.message);
   }
@@ -138,17 +136,6 @@ InitialFiles start_files(const Config& config, const fs::path& folder) {
   return files;
 }
 
-/// Refuses what this machine cannot hold, before it is asked for the memory.
-void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
-  const double need = derive(config, sizes).memory / rank_count(MPI_COMM_WORLD);
-  const double have = memory_of_machine();
-  if (need <= have) return;
-  throw InputError(fmt::format(
-      "{}: this case needs about {:.3g} GB a rank, and this machine has {:.3g} GB: take fewer "
-      "fluid.cells or grains, or more ranks on more machines",
-      config.file.string(), need / 1e9, have / 1e9));
-}
-
 /// A case in a folder that this process has locked.
 void run_locked(const Config& config, const RunOptions& options) {
   const auto sizes =
@@ -197,11 +184,6 @@ void run_one(const Config& config, const RunOptions& options, bool overwrite) {
 }
 
 }  // namespace
-
-double memory_of_machine() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
 
 fs::path run_folder(const CommandLine& line) {
   return line.out.value_or(fs::path("runs") / line.file.stem());

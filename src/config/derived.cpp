@@ -15,12 +15,6 @@ namespace {
 /// (100.00000000000001).
 double ceil_tolerant(double x) { return std::ceil(x - 1e-9 * std::max(1.0, x)); }
 
-// Bytes of a cell: the state's 13 numbers, about 30 of work space and two complex transforms.
-constexpr double kBytesPerCell = 8 * (13 + 30 + 4);
-// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
-// gathered in.
-constexpr double kBytesPerGrain = 1000;
-
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
   const double nu = fluid.kinematic_viscosity;
@@ -188,16 +182,10 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double
   derived.fluid_steps = fluid_steps(config.time);
   derived.grain_substeps = grain_substeps(config.time);
   derived.grain_step = true_grain_step(config.time);
-  if (config.fluid) {
-    derived.fluid = derive_fluid(config);
-    const auto cells = static_cast<double>(derived.fluid->cells);
-    derived.memory += kBytesPerCell * cells;
-  }
+  if (config.fluid) derived.fluid = derive_fluid(config);
   if (config.grains && !sizes.empty()) {
     derived.grains = derive_grains(config, sizes, derived.fluid);
     if (derived.fluid) compare_cells(config, *derived.fluid, top, *derived.grains);
-    const auto count = static_cast<double>(derived.grains->count);
-    derived.memory += kBytesPerGrain * count;
   }
   return derived;
 }
@@ -266,7 +254,6 @@ std::string to_text(const Derived& derived) {
                          derived.grain_substeps == 1 ? "" : "s", derived.grain_step);
   }
   line(text, "steps", "{}", steps);
-  line(text, "memory", "about {:.0f} MB", std::max(1.0, derived.memory / 1e6));
   return text;
 }
 

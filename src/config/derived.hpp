@@ -83,7 +83,6 @@ struct Derived {
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
   bool by_row = true;                  // exchanges_by_row
-  double memory = 0;                   // [bytes], estimate
 };
 
 /// `sizes` as from known_sizes; may be empty. `config` must have passed validate. `top`: highest

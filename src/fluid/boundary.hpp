@@ -3,6 +3,7 @@
 
 #include "kernels/fluid/boundary_values.hpp"
 #include "src/config/config.hpp"
+#include "src/fluid/fluid_fields.hpp"
 #include "src/parallel/halo.hpp"
 #include "src/parallel/launch.hpp"
 
@@ -37,6 +38,13 @@ class Boundary {
   void fill_velocity(FaceVector& u) const { fill(u, top_velocity_); }
   /// A rate of change of the velocity: walls do not accelerate.
   void fill_acceleration(FaceVector& du_dt) const { fill(du_dt, 0); }
+  /// A field of the flow, by its line in fluid_fields.hpp.
+  void fill(Field& f, Ghosts ghosts) const {
+    fill(f, ghosts == Ghosts::eddy_viscosity ? FieldKind::eddy_viscosity : FieldKind::scalar);
+  }
+  void fill(FaceVector& f, Ghosts ghosts) const {
+    fill(f, ghosts == Ghosts::velocity ? top_velocity_ : 0);
+  }
   /// Only x and z, for face vectors that no wall rule applies to.
   void fill_periodic(FaceVector& f) const {
     for (Field* component : {&f.x, &f.y, &f.z}) halo_.fill(*component);

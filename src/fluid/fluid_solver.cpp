@@ -39,12 +39,9 @@ void fill_fraction_ghosts(const Boundary& boundary, FluidState& fluid) {
 }  // namespace
 
 void fill_ghosts(const Boundary& boundary, FluidState& fluid) {
-  boundary.fill_velocity(fluid.u);
-  boundary.fill_acceleration(fluid.du_dt);
-  boundary.fill(fluid.p, FieldKind::scalar);
-  boundary.fill(fluid.p_previous, FieldKind::scalar);
-  fill_fraction_ghosts(boundary, fluid);
-  boundary.fill(fluid.nu_t, FieldKind::eddy_viscosity);
+  for_each_fluid_field(fluid, [&](auto& member, const FluidField& field) {
+    if (field.ghosts != Ghosts::none) boundary.fill(member, field.ghosts);
+  });
 }
 
 Real bulk_velocity(const FluidState& fluid) {

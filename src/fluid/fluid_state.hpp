@@ -1,12 +1,15 @@
 // Everything the fluid remembers from one step to the next.
 #pragma once
 
-#include "src/parallel/grid.hpp"
+#include <string>
+#include <type_traits>
+
+#include "src/fluid/fluid_fields.hpp"
 
 namespace barchan {
 
-/// Volume-averaged flow on the staggered grid. u is the interstitial velocity.
-/// Ghosts of u, p, alpha_f and nu_t are valid between steps.
+/// Volume-averaged flow on the staggered grid; its fields are listed in fluid_fields.hpp. Ghosts of
+/// u, p, alpha_f and nu_t are valid between steps.
 struct FluidState {
   Grid grid;
   FaceVector u;              // interstitial fluid velocity [m/s]
@@ -25,23 +28,37 @@ struct FluidState {
 };
 
 /// Zero everywhere.
-inline FaceVector make_faces(const char* label, const Grid& grid) {
+inline FaceVector make_faces(const std::string& label, const Grid& grid) {
   return {Field(label, grid), Field(label, grid), Field(label, grid)};
 }
 
-/// Zero everywhere, alpha_f one.
+/// Calls action(field, suffix of its name) for a field, or for each component of a face vector.
+template <class Action>
+void for_each_component(const Field& f, const Action& action) {
+  action(f, "");
+}
+template <class Action>
+void for_each_component(const FaceVector& f, const Action& action) {
+  action(f.x, "_x");
+  action(f.y, "_y");
+  action(f.z, "_z");
+}
+
+/// Every field as it is at rest.
 inline FluidState make_fluid_state(const Grid& grid) {
-  FluidState s{.grid = grid,
-               .u = make_faces("fluid: u", grid),
-               .p = Field("fluid: p", grid),
-               .p_previous = Field("fluid: p previous", grid),
-               .alpha_f = Field("fluid: alpha_f", grid),
-               .alpha_f_previous = Field("fluid: alpha_f previous", grid),
-               .nu_t = Field("fluid: nu_t", grid),
-               .rate_previous = make_faces("fluid: rate", grid),
-               .du_dt = make_faces("fluid: du/dt", grid)};
-  Kokkos::deep_copy(s.alpha_f.storage, Real(1));
-  Kokkos::deep_copy(s.alpha_f_previous.storage, Real(1));
+  FluidState s;
+  s.grid = grid;
+  for_each_fluid_field(s, [&](auto& member, const FluidField& field) {
+    const std::string label = std::string("fluid: ") + field.name;
+    if constexpr (std::is_same_v<decltype(member), FaceVector&>) {
+      member = make_faces(label, grid);
+    } else {
+      member = Field(label, grid);
+    }
+    for_each_component(member, [&](const Field& f, const char*) {
+      if (field.at_rest != 0) Kokkos::deep_copy(f.storage, field.at_rest);
+    });
+  });
   return s;
 }
 

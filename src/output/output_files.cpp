@@ -52,10 +52,12 @@ class FieldWriter {
     average(name, {.face = field, .out = values_}, units);
   }
 
-  void velocity(const FaceVector& u) {
-    average("u", {.face = u.x, .di = 1, .out = values_}, "m/s");
-    average("v", {.face = u.y, .dj = 1, .out = values_}, "m/s");
-    average("w", {.face = u.z, .dk = 1, .out = values_}, "m/s");
+  /// The velocity is u, v and w; of others the components are name_x, name_y and name_z.
+  void centred(const std::string& name, const FaceVector& faces, const std::string& units) {
+    const bool velocity = name == "u";
+    average(velocity ? "u" : name + "_x", {.face = faces.x, .di = 1, .out = values_}, units);
+    average(velocity ? "v" : name + "_y", {.face = faces.y, .dj = 1, .out = values_}, units);
+    average(velocity ? "w" : name + "_z", {.face = faces.z, .dk = 1, .out = values_}, units);
   }
 
  private:
@@ -132,10 +134,9 @@ void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int6
   const auto preamble = [&](Hdf5File& file) { write_grid(file, fluid.grid); };
   frames.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     FieldWriter writer(file, group, fluid.grid);
-    writer.velocity(fluid.u);
-    writer.centred("p", fluid.p, "Pa");
-    writer.centred("alpha_f", fluid.alpha_f, "1");
-    writer.centred("nu_t", fluid.nu_t, "m^2/s");
+    for_each_fluid_field(fluid, [&](const auto& member, const FluidField& field) {
+      if ((field.uses & kInFrame) != 0) writer.centred(field.name, member, field.unit);
+    });
   });
 }
 

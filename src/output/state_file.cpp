@@ -22,22 +22,15 @@ struct Written {
       : begin(first == 0 ? 0 : 1), count((first + n == n_all ? n + 2 : n + 1) - begin) {}
 };
 
-/// Calls f(name, field) for every field of the flow that the next step reads.
+/// Calls f(name, field) for every field of the flow that restart files have.
 template <class F>
 void for_each_field(const FluidState& s, const F& f) {
-  const auto faces = [&](const std::string& name, const FaceVector& v) {
-    f(name + "_x", v.x);
-    f(name + "_y", v.y);
-    f(name + "_z", v.z);
-  };
-  faces("fluid/u", s.u);
-  faces("fluid/rate_previous", s.rate_previous);
-  faces("fluid/du_dt", s.du_dt);
-  f("fluid/p", s.p);
-  f("fluid/p_previous", s.p_previous);
-  f("fluid/alpha_f", s.alpha_f);
-  f("fluid/alpha_f_previous", s.alpha_f_previous);
-  f("fluid/nu_t", s.nu_t);
+  for_each_fluid_field(s, [&](const auto& member, const FluidField& field) {
+    if ((field.uses & kInRestart) == 0) return;
+    for_each_component(member, [&](const Field& one, const char* component) {
+      f(std::string("fluid/") + field.name + component, one);
+    });
+  });
 }
 
 /// The numbers of the flow that the next step reads, besides has_history.

@@ -230,13 +230,13 @@ TEST(Coupling, PressureConvergesAndContinuityHolds) {
 /// Values of all fields of a flow, ghosts that are not kept left out.
 std::vector<Real> owned_values(const FluidState& fluid) {
   std::vector<Real> values;
-  for (const Field& f : {fluid.u.x, fluid.u.y, fluid.u.z, fluid.p, fluid.p_previous, fluid.nu_t,
-                         fluid.rate_previous.x, fluid.rate_previous.y, fluid.rate_previous.z,
-                         fluid.du_dt.x, fluid.du_dt.y, fluid.du_dt.z}) {
-    const auto host = test::to_host(f);
-    test::for_owned_cells(fluid.grid,
-                          [&](int i, int j, int k) { values.push_back(host(i, j, k)); });
-  }
+  for_each_fluid_field(fluid, [&](const auto& member, const FluidField&) {
+    for_each_component(member, [&](const Field& f, const char*) {
+      const auto host = test::to_host(f);
+      test::for_owned_cells(fluid.grid,
+                            [&](int i, int j, int k) { values.push_back(host(i, j, k)); });
+    });
+  });
   return values;
 }
 

@@ -109,9 +109,5 @@ TEST(Derived, ASecondWallHalvesTheDepthAndNoWallHasNoFriction) {
   EXPECT_EQ(derive(c, {}).fluid->u_star, 0.0);
 }
 
-TEST(Derived, MemoryGrowsWithGrains) {
-  EXPECT_GT(derive(paper_case(), table_2).memory, derive(paper_case(), {}).memory);
-}
-
 }  // namespace
 }  // namespace barchan

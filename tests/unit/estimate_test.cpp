@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "src/app/check_case.hpp"
+#include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/load.hpp"
 #include "src/initial/pour.hpp"
@@ -28,6 +29,14 @@ Config dune() {
   c.output = {
       .history_interval = 0, .dune_interval = 0, .grains_interval = 0, .fields_interval = 0};
   return c;
+}
+
+TEST(Memory, GrowsWithCellsAndGrains) {
+  Config c = dune();
+  // 14 numbers of the state, 30 of work space and two complex transforms of 32,000 cells.
+  EXPECT_DOUBLE_EQ(memory_of_case(c, {}), 8 * (14 + 30 + 4) * 32000.0);
+  EXPECT_DOUBLE_EQ(memory_of_case(c, kSizes) - memory_of_case(c, {}), 1000 * 1000.0);
+  EXPECT_EQ(memory_line(c, {}), "  memory                  about 12 MB\n");
 }
 
 TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {

@@ -1,0 +1,63 @@
+#include "src/app/memory.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "src/base/errors.hpp"
+#include "src/fluid/fluid_state.hpp"
+#include "src/parallel/communicator.hpp"
+
+namespace barchan {
+
+namespace {
+
+// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
+// gathered in.
+constexpr double kBytesPerGrain = 1000;
+
+/// Of a cell: the state, about 30 numbers of work space and two complex transforms.
+double bytes_per_cell() {
+  int numbers = 30 + 4;
+  for_each_fluid_field(FluidState(), [&](const auto& member, const FluidField&) {
+    for_each_component(member, [&](const Field&, const char*) { ++numbers; });
+  });
+  return 8 * numbers;
+}
+
+}  // namespace
+
+double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes) {
+  double bytes = 0;
+  if (config.fluid) {
+    const auto& [nx, ny, nz] = config.fluid->cells;
+    bytes += bytes_per_cell() * nx * ny * nz;
+  }
+  if (config.grains) {
+    for (const SizeClass& size : sizes) bytes += kBytesPerGrain * static_cast<double>(size.count);
+  }
+  return bytes;
+}
+
+std::string memory_line(const Config& config, const std::vector<SizeClass>& sizes) {
+  return fmt::format("  {:<24}about {:.0f} MB\n", "memory",
+                     std::max(1.0, memory_of_case(config, sizes) / 1e6));
+}
+
+double memory_of_machine() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+void check_memory(const Config& config, const std::vector<SizeClass>& sizes) {
+  const double need = memory_of_case(config, sizes) / rank_count(MPI_COMM_WORLD);
+  const double have = memory_of_machine();
+  if (need <= have) return;
+  throw InputError(fmt::format(
+      "{}: this case needs about {:.3g} GB a rank, and this machine has {:.3g} GB: take fewer "
+      "fluid.cells or grains, or more ranks on more machines",
+      config.file.string(), need / 1e9, have / 1e9));
+}
+
+}  // namespace barchan

@@ -1,0 +1,23 @@
+// What a case needs of memory, and what this machine has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/config/config.hpp"
+
+namespace barchan {
+
+/// About, of all ranks together [bytes]. `sizes`: of its grains.
+double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes);
+
+/// The line about it beside those of to_text(Derived).
+std::string memory_line(const Config& config, const std::vector<SizeClass>& sizes);
+
+/// [bytes]
+double memory_of_machine();
+
+/// Refuses what this machine cannot hold, before it is asked for the memory. Throws InputError.
+void check_memory(const Config& config, const std::vector<SizeClass>& sizes);
+
+}  // namespace barchan
