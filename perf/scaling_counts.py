@@ -278,7 +278,7 @@ def cuts(columns, ranks):
 
 
 def owner_of(start, place):
-    """GrainOwners::of_place()."""
+    """GrainOwners::of_code()."""
     return np.searchsorted(start, place, side="right") - 1
 
 

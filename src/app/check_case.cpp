@@ -36,20 +36,21 @@ double top_of(const GrainsAhead& ahead) {
 }  // namespace
 
 int run_check(const CommandLine& line, std::ostream& out) {
-  const Config config = load_config(line.file, line.overrides);
+  const Case the_case = load_case(line.file, line.overrides);
+  const Config& config = the_case.config;
   if (line.resolved_only) {
     out << to_toml(config);
     return 0;
   }
   const std::filesystem::path folder = run_folder(line);
-  const GrainsAhead ahead = grains_ahead(config, folder);
-  for (const StartCase& start : missing_starts(config, folder))
-    grains_ahead(start.config, start.folder);  // throws if the run of a start would
+  const GrainsAhead ahead = grains_ahead(the_case, folder);
+  for (const StartCase& start : missing_starts(the_case, folder))
+    grains_ahead(start.realised, start.folder);  // throws if the run of a start would
   Derived derived = derive(config, ahead.sizes, top_of(ahead));
   if (derived.grains) derived.grains->as_poured = !ahead.grains;
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
   if (memory_of_case(config, ahead.sizes) < memory_of_machine())
-    cost = as_input([&] { return estimate(config, folder, ahead); });
+    cost = as_input([&] { return estimate(the_case, folder, ahead); });
   out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
   out << "\n# What follows from it\n\n"
       << to_text(derived) << memory_line(config, ahead.sizes) << cost;

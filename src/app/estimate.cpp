@@ -126,16 +126,18 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
   return s;
 }
 
-std::string estimate(const Config& config, const std::filesystem::path& folder,
+std::string estimate(const Case& the_case, const std::filesystem::path& folder,
                      const GrainsAhead& ahead) {
-  const auto missing = missing_starts(config, folder);
+  const Config& config = the_case.config;
+  const auto missing = missing_starts(the_case, folder);
   const double budget = 1.5 / (2 + static_cast<double>(missing.size()));
   const RunSeconds here = timed(config, ahead, 2 * budget);
   const int threads = Kokkos::DefaultExecutionSpace().concurrency();
   std::string text = fmt::format("  {:<24}{} on {} thread{}, timed just now ({})\n", "wall time",
                                  about(here.all()), threads, threads == 1 ? "" : "s", shares(here));
   for (const StartCase& start : missing) {
-    const RunSeconds before = timed(start.config, grains_ahead(start.config, start.folder), budget);
+    const RunSeconds before =
+        timed(start.realised.config, grains_ahead(start.realised, start.folder), budget);
     text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
                         start.folder.filename().string());
   }

@@ -26,7 +26,7 @@ double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes);
 /// Lines for a terminal: what the case takes on this machine, timed for about a second, and the
 /// starts that are missing beside `folder`. `ahead`: its grains. Kokkos must run; all ranks
 /// together.
-std::string estimate(const Config& config, const std::filesystem::path& folder,
+std::string estimate(const Case& the_case, const std::filesystem::path& folder,
                      const GrainsAhead& ahead);
 
 }  // namespace barchan

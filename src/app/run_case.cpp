@@ -29,8 +29,8 @@ void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
   }
 }
 
-fs::path start_file(const fs::path& source, const fs::path& beside, int realisation);
-void run_locked(const Config& config, const RunOptions& options);
+fs::path start_file(const Case& source, const fs::path& beside, int realisation);
+void run_locked(const Case& the_case, const RunOptions& options);
 
 /// Throws InputError on all ranks if `check` does so on rank 0, which looks at the disk for all.
 template <class Check>
@@ -93,31 +93,30 @@ void set_aside(const fs::path& folder) {
 }
 
 /// Runs a start, or goes on with it, unless somebody else has done so while we waited.
-void make_start(const fs::path& source, const fs::path& beside, int realisation) {
+void make_start(const Case& source, const fs::path& beside, int realisation) {
   for (;;) {
     const StartCase start = start_case(source, beside, realisation);
-    check_place(start.config, {.folder = start.folder, .restart = start.earlier.restart});
+    check_place(start.realised.config, {.folder = start.folder, .restart = start.earlier.restart});
     const auto lock = wait_for_lock(start.folder);
-    const auto& [first, config, folder, earlier] = start_case(source, beside, realisation);
+    const auto& [first, realised, folder, earlier] = start_case(source, beside, realisation);
     // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
     if (broadcast(!earlier.same && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
       set_aside(folder);
       continue;
     }
-    report::info("first the case it starts from: {} -> {}", config.title, folder.string());
+    report::info("first the case it starts from: {} -> {}", first.config.title, folder.string());
     auto restart = earlier.same ? earlier.restart : std::nullopt;
-    if (!restart && config.time.end > first.time.end)  // the same flow some time later
+    if (!restart &&
+        realised.config.time.end > first.config.time.end)  // the same flow some time later
       restart = start_file(source, beside, realisation - 1);
-    run_locked(config, {.folder = folder, .restart = restart});
+    run_locked(realised, {.folder = folder, .restart = restart});
     return;
   }
 }
 
-/// The file a case starts from. Where that is the last state of another case, in a .toml, that case
-/// is run in the same realisation, or run to its end, if the state is missing.
-fs::path start_file(const fs::path& source, const fs::path& beside, int realisation) {
-  if (source.extension() != ".toml") return source.extension().empty() ? fs::path() : source;
+/// The last state of a case, which is run in this realisation, or to its end, if it is missing.
+fs::path start_file(const Case& source, const fs::path& beside, int realisation) {
   const bool done = start_case(source, beside, realisation).earlier.done();
   if (!broadcast(done, MPI_COMM_WORLD)) make_start(source, beside, realisation);
   const StartCase start = start_case(source, beside, realisation);
@@ -127,25 +126,32 @@ fs::path start_file(const fs::path& source, const fs::path& beside, int realisat
 }
 
 /// The files a case starts from; what is missing of them is run.
-InitialFiles start_files(const Config& config, const fs::path& folder) {
+InitialFiles start_files(const Case& the_case, const fs::path& folder) {
   const fs::path beside = fs::absolute(folder).parent_path();
+  const Config& config = the_case.config;
+  const InitialConfig& initial = config.initial;
+  const auto file = [&](const fs::path& source, const std::shared_ptr<const Case>& start) {
+    if (start) return start_file(*start, beside, initial.realisation);
+    return source.extension().empty() ? fs::path() : source;
+  };
   InitialFiles files;
-  const InitialConfig& start = config.initial;
-  if (config.fluid) files.fluid = start_file(start.fluid, beside, start.realisation);
-  if (config.grains) files.grains = start_file(start.grains, beside, start.realisation);
+  if (config.fluid) files.fluid = file(initial.fluid, the_case.flow_start);
+  if (config.grains) files.grains = file(initial.grains, the_case.grain_start);
   return files;
 }
 
 /// A case in a folder that this process has locked.
-void run_locked(const Config& config, const RunOptions& options) {
+void run_locked(const Case& the_case, const RunOptions& options) {
+  const Config& config = the_case.config;
   const auto sizes =
-      options.restart ? known_sizes(config) : grains_ahead(config, options.folder).sizes;
+      options.restart ? the_case.sizes : grains_ahead(the_case, options.folder).sizes;
   check_memory(config, sizes);
   check_on_root([&] {
     check_is_ours(config, options.folder);
     if (options.restart) check_results_go_on(options.folder);
   });
-  const InitialFiles files = options.restart ? InitialFiles{} : start_files(config, options.folder);
+  const InitialFiles files =
+      options.restart ? InitialFiles{} : start_files(the_case, options.folder);
   report::stop_log();
   report::info("{}", config.title);
   Watchdog::heartbeat("setting up");
@@ -164,7 +170,8 @@ void run_locked(const Config& config, const RunOptions& options) {
 
 /// The case that was asked for, unless its results are there. Nothing that took time is removed
 /// unless the user said so.
-void run_one(const Config& config, const RunOptions& options, bool overwrite) {
+void run_one(const Case& the_case, const RunOptions& options, bool overwrite) {
+  const Config& config = the_case.config;
   const fs::path& folder = options.folder;
   check_place(config, options);
   const auto lock = try_to_lock(folder);
@@ -180,7 +187,7 @@ void run_one(const Config& config, const RunOptions& options, bool overwrite) {
     }
     check_on_root([&] { check_overwrites_nothing(earlier, folder); });
   }
-  run_locked(config, options);
+  run_locked(the_case, options);
 }
 
 }  // namespace
@@ -191,19 +198,20 @@ fs::path run_folder(const CommandLine& line) {
 
 int run_command(const CommandLine& line) {
   const Watchdog watchdog(line.patience, MPI_COMM_WORLD);
-  const Config config = load_config(line.file, line.overrides);
+  const Case the_case = load_case(line.file, line.overrides);
+  const Config& config = the_case.config;
   if (line.dry_run) {
     report::info("{}", config.title);
-    show_numbers(config, grains_ahead(config, run_folder(line)).sizes);
+    show_numbers(config, grains_ahead(the_case, run_folder(line)).sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }
   const RunOptions options{.folder = run_folder(line), .restart = line.restart};
   try {
     if (line.starts_only) {
-      start_files(config, options.folder);
+      start_files(the_case, options.folder);
     } else {
-      run_one(config, options, line.overwrite);
+      run_one(the_case, options, line.overwrite);
       report::info("results in {}", options.folder.string());
     }
     return 0;

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "src/base/errors.hpp"
-#include "src/config/load.hpp"
 #include "src/config/realisation.hpp"
 #include "src/initial/initial_state.hpp"
 
@@ -26,18 +25,19 @@ std::vector<SizeClass> sizes_of(const InitialGrains& grains) {
   return sizes;
 }
 
-void add_missing(const Config& config, const fs::path& folder, std::vector<StartCase>& missing) {
-  const auto add = [&](const fs::path& source) {
-    if (source.extension() != ".toml") return;
-    StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
+void add_missing(const Case& the_case, const fs::path& folder, std::vector<StartCase>& missing) {
+  const Config& config = the_case.config;
+  const auto add = [&](const std::shared_ptr<const Case>& source) {
+    if (!source) return;
+    StartCase start = start_case(*source, folder_beside(folder), config.initial.realisation);
     const bool known = std::ranges::any_of(
         missing, [&](const StartCase& other) { return other.folder == start.folder; });
     if (known || start.earlier.done()) return;
-    if (!start.earlier.same) add_missing(start.config, start.folder, missing);
+    if (!start.earlier.same) add_missing(start.realised, start.folder, missing);
     missing.push_back(std::move(start));
   };
-  if (config.fluid) add(config.initial.fluid);
-  if (config.grains) add(config.initial.grains);
+  if (config.fluid) add(the_case.flow_start);
+  if (config.grains) add(the_case.grain_start);
 }
 
 GrainsAhead grains_in(const fs::path& file, const Config& config) {
@@ -50,23 +50,26 @@ GrainsAhead grains_in(const fs::path& file, const Config& config) {
 
 }  // namespace
 
-StartCase start_case(const fs::path& source, const fs::path& beside, int realisation) {
-  StartCase start;
-  start.first = load_config(source);
-  start.config = realisation_of(start.first, realisation);
-  const std::string other = start.config == start.first ? "" : fmt::format("-r{}", realisation);
-  start.folder = beside / (source.stem().string() + other);
-  start.earlier = earlier_run(start.config, start.folder);
+StartCase start_case(const Case& source, const fs::path& beside, int realisation) {
+  StartCase start{.first = source,
+                  .realised = realisation_of(source, realisation),
+                  .folder = {},
+                  .earlier = {}};
+  const Config &first = start.first.config, &config = start.realised.config;
+  const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
+  start.folder = beside / (first.file.stem().string() + other);
+  start.earlier = earlier_run(config, start.folder);
   return start;
 }
 
-std::vector<StartCase> missing_starts(const Config& config, const fs::path& folder) {
+std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& folder) {
   std::vector<StartCase> missing;
-  add_missing(config, folder, missing);
+  add_missing(the_case, folder, missing);
   return missing;
 }
 
-GrainsAhead grains_ahead(const Config& config, const fs::path& folder) {
+GrainsAhead grains_ahead(const Case& the_case, const fs::path& folder) {
+  const Config& config = the_case.config;
   if (!config.grains) return {};
   if (config.initial.pour) {
     GrainsAhead ahead;
@@ -76,10 +79,11 @@ GrainsAhead grains_ahead(const Config& config, const fs::path& folder) {
     return ahead;
   }
   const fs::path& source = config.initial.grains;
-  if (source.extension() != ".toml") return grains_in(source, config);
-  const StartCase start = start_case(source, folder_beside(folder), config.initial.realisation);
+  if (!the_case.grain_start) return grains_in(source, config);
+  const StartCase start =
+      start_case(*the_case.grain_start, folder_beside(folder), config.initial.realisation);
   if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
-  GrainsAhead ahead = grains_ahead(start.config, start.folder);
+  GrainsAhead ahead = grains_ahead(start.realised, start.folder);
   check_sizes(ahead.sizes, config, source);
   return ahead;
 }

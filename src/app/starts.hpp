@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/config/config.hpp"
+#include "src/config/load.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/run/folder_checks.hpp"
 
@@ -14,19 +14,17 @@ namespace barchan {
 
 /// A case that another one starts from, [initial] fluid or grains = a .toml.
 struct StartCase {
-  Config first;   // as it stands in its file
-  Config config;  // in the realisation that is asked for
+  Case first;     // as it stands in its file
+  Case realised;  // in the realisation that is asked for
   std::filesystem::path folder;
   EarlierRun earlier;  // what is in the folder
 };
 
-/// The start `source`, a .toml, in a realisation. Its folder is in `beside`, that of the run.
-/// Throws ConfigError.
-StartCase start_case(const std::filesystem::path& source, const std::filesystem::path& beside,
-                     int realisation);
+/// A start in a realisation. Its folder is in `beside`, that of the run.
+StartCase start_case(const Case& source, const std::filesystem::path& beside, int realisation);
 
 /// The starts whose results are missing, in the order in which a run in `folder` would make them.
-std::vector<StartCase> missing_starts(const Config& config, const std::filesystem::path& folder);
+std::vector<StartCase> missing_starts(const Case& the_case, const std::filesystem::path& folder);
 
 /// The grains that a run will start with, as far as they are known before it.
 struct GrainsAhead {
@@ -39,6 +37,6 @@ struct GrainsAhead {
 /// Reads the table or the results that initial.grains names, and checks that the grains fit the
 /// case as a run does. Of a start that has no results yet: what that one starts with. Throws
 /// InputError.
-GrainsAhead grains_ahead(const Config& config, const std::filesystem::path& folder);
+GrainsAhead grains_ahead(const Case& the_case, const std::filesystem::path& folder);
 
 }  // namespace barchan

@@ -85,7 +85,7 @@ struct Derived {
   bool by_row = true;                  // exchanges_by_row
 };
 
-/// `sizes` as from known_sizes; may be empty. `config` must have passed validate. `top`: highest
+/// `sizes` as of the Case; may be empty. `config` must have passed validate. `top`: highest
 /// point of the grains [m], 0: not known.
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top = 0);
 

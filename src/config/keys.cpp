@@ -110,7 +110,7 @@ void add_fluid(Sections& all) {
   key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",
       "its viscosity over its density");
   key("mean_velocity", &F::mean_velocity, between(0, 1e6), "m/s",
-      "bulk velocity along x, value_of by a body force");
+      "bulk velocity along x, held by a body force");
   key("pressure_gradient", &F::pressure_gradient, between(-1e12, 1e12), "Pa/m",
       "driving force along x per volume, instead of `mean_velocity`");
   key("ramp_time", &F::ramp_time, at_least(0), "s",

@@ -42,10 +42,8 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
 }
 
 struct Loaded {
-  Config config;
-  std::vector<SizeClass> sizes;   // of the grains, if known
+  Case result;
   std::vector<Problem> problems;  // of this file, then of those it starts from
-  bool random = false;            // random numbers are drawn for its start, or for one behind it
 };
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
@@ -79,8 +77,10 @@ void report(const std::vector<Finding>& findings, ConfigReader& reading) {
 }
 
 /// The case that the start `key` names, if it names one: loaded, and checked against this one.
+/// `same`: it was loaded before, and its problems are told.
 Loaded load_start(const Config& config, const std::string& key, const fs::path& start,
-                  ConfigReader& reading, std::vector<fs::path> chain) {
+                  ConfigReader& reading, std::vector<fs::path> chain,
+                  const Loaded* same = nullptr) {
   Loaded loaded;
   if (start.extension() != ".toml" || reading.is_bad(key)) return loaded;
   chain.push_back(fs::weakly_canonical(config.file));
@@ -88,9 +88,13 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
     reading.report_conflict(key, "must not lead back to this case");
     return loaded;
   }
-  if (const auto text = text_of(start, loaded.problems)) loaded = load(*text, start, {}, chain);
-  if (loaded.problems.empty()) {
-    report(check_start(config, loaded.config, key == "initial.fluid"), reading);
+  if (same != nullptr) {
+    loaded.result = same->result;
+  } else if (const auto text = text_of(start, loaded.problems)) {
+    loaded = load(*text, start, {}, chain);
+  }
+  if (loaded.problems.empty() && (same == nullptr || same->problems.empty())) {
+    report(check_start(config, loaded.result.config, key == "initial.fluid"), reading);
   }
   return loaded;
 }
@@ -127,29 +131,35 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
   reading.set(overrides);
   std::vector<Problem> from_starts;
   if (parsed) {
-    Config& config = loaded.config = reading.read();
+    Config& config = loaded.result.config = reading.read();
+    std::vector<SizeClass>& sizes = loaded.result.sizes;
     InitialConfig& initial = config.initial;
     resolve_start(reading, "initial.fluid", initial.fluid, file.parent_path());
     resolve_start(reading, "initial.grains", initial.grains, file.parent_path());
     Loaded flow = load_start(config, "initial.fluid", initial.fluid, reading, chain);
-    Loaded grains = load_start(config, "initial.grains", initial.grains, reading, chain);
-    if (initial.fluid == initial.grains) grains.problems.clear();  // one case: its problems once
+    const bool one_for_both = initial.fluid == initial.grains && !reading.is_bad("initial.fluid");
+    Loaded grains = load_start(config, "initial.grains", initial.grains, reading, chain,
+                               one_for_both ? &flow : nullptr);
     from_starts = std::move(flow.problems);
     from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
-    loaded.random = (config.fluid && (initial.fluid == "turbulent" || flow.random)) ||
-                    (config.grains && (initial.pour || grains.random));
-    if (initial.realisation > 1 && !loaded.random && from_starts.empty()) {
+    loaded.result.random = (config.fluid && (initial.fluid == "turbulent" || flow.result.random)) ||
+                           (config.grains && (initial.pour || grains.result.random));
+    if (initial.realisation > 1 && !loaded.result.random && from_starts.empty()) {
       reading.report_conflict(
           "initial.realisation",
           "has other random numbers, and this case starts from none: its realisations "
           "would all be the same");
     }
-    if (config.grains) loaded.sizes = config.grains->sizes;
-    if (loaded.sizes.empty()) loaded.sizes = grains.sizes;
+    if (config.grains) sizes = config.grains->sizes;
+    if (sizes.empty()) sizes = grains.result.sizes;
     const bool pours = config.grains && initial.pour;
-    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.sizes,
+    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.result.sizes,
                     from_starts.empty());
-    report(validate(config, loaded.sizes), reading);
+    report(validate(config, sizes), reading);
+    if (initial.fluid.extension() == ".toml")
+      loaded.result.flow_start = std::make_shared<const Case>(std::move(flow.result));
+    if (initial.grains.extension() == ".toml")
+      loaded.result.grain_start = std::make_shared<const Case>(std::move(grains.result));
   }
   loaded.problems = std::move(reading.problems());
   const auto by_line = [](const Problem& a, const Problem& b) {
@@ -161,8 +171,8 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
 }
 
 /// Throws if there is any problem.
-Loaded checked(Loaded loaded) {
-  if (loaded.problems.empty()) return loaded;
+Case checked(Loaded loaded) {
+  if (loaded.problems.empty()) return std::move(loaded.result);
   constexpr std::size_t max_told = 30;  // of what is no case at all there may be any number
   const std::size_t count = loaded.problems.size();
   std::vector<std::string> lines;
@@ -175,24 +185,29 @@ Loaded checked(Loaded loaded) {
   throw ConfigError(std::move(lines));
 }
 
-Loaded load_file(const fs::path& file, const std::vector<std::string>& overrides) {
-  Loaded nothing;
-  const auto text = text_of(file, nothing.problems);
-  return checked(text ? load(*text, file, overrides, {}) : nothing);
-}
-
 }  // namespace
 
 ConfigError::ConfigError(std::vector<std::string> lines)
     : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
 
+Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
+  Loaded nothing;
+  const auto text = text_of(file, nothing.problems);
+  return checked(text ? load(*text, file, overrides, {}) : std::move(nothing));
+}
+
+Case load_case_text(std::string_view text, const fs::path& file,
+                    const std::vector<std::string>& overrides) {
+  return checked(load(text, file, overrides, {}));
+}
+
 Config load_config(const fs::path& file, const std::vector<std::string>& overrides) {
-  return load_file(file, overrides).config;
+  return load_case(file, overrides).config;
 }
 
 Config load_config_text(std::string_view text, const fs::path& file,
                         const std::vector<std::string>& overrides) {
-  return checked(load(text, file, overrides, {})).config;
+  return load_case_text(text, file, overrides).config;
 }
 
 Config config_as_written(std::string_view resolved, const fs::path& file) {
@@ -205,19 +220,6 @@ bool is_written_in(const fs::path& file, const Config& config) {
   if (!text) return false;
   ConfigReader reading(*text, config.file);
   return reading.read() == config && !reading.has_bad_keys();
-}
-
-bool is_random(const fs::path& start) {
-  return start == "turbulent" || (start.extension() == ".toml" && load_file(start, {}).random);
-}
-
-std::vector<SizeClass> known_sizes(const Config& config) {
-  if (!config.grains || !config.grains->sizes.empty()) {
-    return config.grains ? config.grains->sizes : std::vector<SizeClass>{};
-  }
-  const fs::path start = config.initial.grains;
-  if (start.extension() != ".toml") return {};
-  return load_file(start, {}).sizes;
 }
 
 }  // namespace barchan

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,14 +23,29 @@ class ConfigError : public InputError {
   std::vector<std::string> lines_;
 };
 
+/// A case and the cases that it starts from, read once and handed on.
+struct Case {
+  Config config;
+  std::vector<SizeClass>
+      sizes;            // of the grains; empty when a .csv or .h5 decides, or there are none
+  bool random = false;  // its start, or one behind it, draws random numbers: turbulent
+                        // flow or poured grains
+  std::shared_ptr<const Case> flow_start,
+      grain_start;  // initial.fluid, .grains where they are cases
+};
+
 /// Reads and validates a case. `overrides`: "key=value" as after --set, applied in order before
 /// anything is checked; paths in them too are relative to the folder of the file. A case that this
 /// one starts from ([initial], a .toml) is checked along with it, as it stands in its own file.
 /// Throws ConfigError.
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// Of a text, as if it stood in `file` (which need not exist).
+Case load_case_text(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides = {});
+
+/// The same where nobody asks for what it starts from.
 Config load_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
-
-/// The same for a text, as if it stood in `file` (which need not exist).
 Config load_config_text(std::string_view text, const std::filesystem::path& file,
                         const std::vector<std::string>& overrides = {});
 
@@ -39,13 +55,5 @@ Config config_as_written(std::string_view resolved, const std::filesystem::path&
 
 /// True if `file`, a config.toml, says exactly `config`, in whatever words.
 bool is_written_in(const std::filesystem::path& file, const Config& config);
-
-/// True if a start, as in [initial], draws random numbers: turbulent flow, or a case with that or
-/// with poured grains somewhere behind it. Throws ConfigError.
-bool is_random(const std::filesystem::path& start);
-
-/// The size classes of the grains: grains.sizes or, when empty, those of the case that
-/// initial.grains names; empty when a .csv or .h5 decides. Throws ConfigError.
-std::vector<SizeClass> known_sizes(const Config& config);
 
 }  // namespace barchan

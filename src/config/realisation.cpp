@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "src/config/derived.hpp"
-#include "src/config/load.hpp"
 
 namespace barchan {
 
@@ -18,15 +17,14 @@ double turnover(const Config& config) {
 
 }  // namespace
 
-Config realisation_of(const Config& config, int realisation) {
-  Config other = config;
-  const InitialConfig& start = config.initial;
-  const bool random_grains = config.grains && (start.pour || is_random(start.grains));
+Case realisation_of(const Case& the_case, int realisation) {
+  Case other = the_case;
   if (realisation == 1) return other;
-  if (config.fluid && !config.grains && start.fluid == "turbulent") {
-    other.time.end += (realisation - 1) * turnover(config);
-  } else if (random_grains || (config.fluid && is_random(start.fluid))) {
-    other.initial.realisation = realisation;
+  Config& config = other.config;
+  if (config.fluid && !config.grains && config.initial.fluid == "turbulent") {
+    config.time.end += (realisation - 1) * turnover(config);
+  } else if (other.random) {
+    config.initial.realisation = realisation;
   }
   return other;
 }

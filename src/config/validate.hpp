@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-/// Everything found. `sizes`: of the grains when known (known_sizes); with none, what depends on
+/// Everything found. `sizes`: of the grains when known (Case::sizes); with none, what depends on
 /// grain size is not checked: call check_grain_sizes once the grains are there.
 std::vector<Finding> validate(const Config& config, const std::vector<SizeClass>& sizes);
 

@@ -28,7 +28,7 @@ struct FluidState {
 };
 
 /// Zero everywhere.
-inline FaceVector make_faces(const std::string& label, const Grid& grid) {
+inline FaceVector make_faces(const char* label, const Grid& grid) {
   return {Field(label, grid), Field(label, grid), Field(label, grid)};
 }
 
@@ -51,9 +51,9 @@ inline FluidState make_fluid_state(const Grid& grid) {
   for_each_fluid_field(s, [&](auto& member, const FluidField& field) {
     const std::string label = std::string("fluid: ") + field.name;
     if constexpr (std::is_same_v<decltype(member), FaceVector&>) {
-      member = make_faces(label, grid);
+      member = make_faces(label.c_str(), grid);
     } else {
-      member = Field(label, grid);
+      member = Field(label.c_str(), grid);
     }
     for_each_component(member, [&](const Field& f, const char*) {
       if (field.at_rest != 0) Kokkos::deep_copy(f.storage, field.at_rest);

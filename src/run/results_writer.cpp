@@ -11,6 +11,7 @@
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/run/history_table.hpp"
 #include "src/run/watchdog.hpp"
 
 namespace barchan {

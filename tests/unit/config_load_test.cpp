@@ -311,7 +311,7 @@ TEST_F(ConfigStart, SizesComeFromTheCaseItStartsFrom) {
   const std::string path = write("case.toml", moved + "[initial]\ngrains = \"heap.toml\"\n");
   const Config c = load_config(path);
   EXPECT_TRUE(c.grains->sizes.empty());
-  EXPECT_EQ(known_sizes(c), (std::vector<SizeClass>{{0.2e-3, 100}}));
+  EXPECT_EQ(load_case(path).sizes, (std::vector<SizeClass>{{0.2e-3, 100}}));
   EXPECT_DOUBLE_EQ(load_config(path, {"grains.skin=0.1 d"}).grains->skin, 0.2e-4);
   // and a grain step too long for those sizes is an error of this case
   const Lines lines = load(path, {"time.grain_step=1e-4"});

@@ -22,8 +22,8 @@ bool says(const Lines& lines, const std::string& text) {
 }
 
 Lines warnings(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Config config = load_config_text(text, "case.toml", overrides);
-  return config_warnings(config, known_sizes(config));
+  const Case the_case = load_case_text(text, "case.toml", overrides);
+  return config_warnings(the_case.config, the_case.sizes);
 }
 
 TEST(ConfigValidate, TheCoupledCaseIsClean) {
@@ -164,7 +164,8 @@ TEST(ConfigValidate, WarnsOfWhatWillDisappoint) {
   const std::string fluid = fluid_case("mean_velocity = 0.2\n"), both = coupled_case();
   EXPECT_TRUE(says(warnings(fluid, {"fluid.cells=[30, 4, 8]"}), "has 4 rows over a no-slip floor"));
   EXPECT_TRUE(says(warnings(both, {"coupling.forces=[]"}), "the flow does not move the grains"));
-  EXPECT_TRUE(says(warnings(both, {"grains.density=900", "time.grain_step=1e-6"}), "the grains float"));
+  EXPECT_TRUE(
+      says(warnings(both, {"grains.density=900", "time.grain_step=1e-6"}), "the grains float"));
   EXPECT_TRUE(says(warnings(both, {"fluid.mean_velocity=0.15"}), "expect no bed load"));
   EXPECT_TRUE(says(warnings(fluid, {"output.history_interval=0", "output.fields_interval=0"}),
                    "leaves nothing but its last state"));

@@ -119,7 +119,7 @@ class GrainsAheadTest : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
   }
   GrainsAhead ahead(const std::string& name) const {
-    return grains_ahead(load_config(folder_ / name), folder_ / "runs/case");
+    return grains_ahead(load_case(folder_ / name), folder_ / "runs/case");
   }
 
   const TemporaryFolder folder_;
@@ -142,16 +142,16 @@ TEST_F(GrainsAheadTest, ATableThatTheRunWouldRefuseIsRefused) {
 }
 
 TEST_F(GrainsAheadTest, OfAStartThoseThatItPoursUntilItHasResults) {
-  const Config config = load_config(folder_ / "after.toml");
+  const Case the_case = load_case(folder_ / "after.toml");
   GrainsAhead grains = ahead("after.toml");
   EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{2e-4, 30}}));
   EXPECT_FALSE(grains.grains.has_value());
   EXPECT_EQ(grains.poured_in.title, "t");
-  const auto missing = missing_starts(config, folder_ / "runs/case");
+  const auto missing = missing_starts(the_case, folder_ / "runs/case");
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_EQ(missing[0].folder.filename(), "poured");
-  Simulation(missing[0].config, {.folder = missing[0].folder, .restart = {}}, {}).run();
-  EXPECT_TRUE(missing_starts(config, folder_ / "runs/case").empty());
+  Simulation(missing[0].realised.config, {.folder = missing[0].folder, .restart = {}}, {}).run();
+  EXPECT_TRUE(missing_starts(the_case, folder_ / "runs/case").empty());
   grains = ahead("after.toml");
   ASSERT_TRUE(grains.grains.has_value());
   EXPECT_EQ(grains.grains->size(), 30u);
@@ -160,10 +160,11 @@ TEST_F(GrainsAheadTest, OfAStartThoseThatItPoursUntilItHasResults) {
 // Times differ from hour to hour; a factor of five is what no hour makes of a right estimate.
 TEST(Estimate, IsNearWhatTheRunTakes) {
   const TemporaryFolder folder;
-  const Config config =
-      load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml",
-                  {"time.end=0.1", "output.history_interval=0.05", "output.grains_interval=0.05"});
-  const GrainsAhead ahead = grains_ahead(config, folder / "run");
+  const Case the_case =
+      load_case(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml",
+                {"time.end=0.1", "output.history_interval=0.05", "output.grains_interval=0.05"});
+  const Config& config = the_case.config;
+  const GrainsAhead ahead = grains_ahead(the_case, folder / "run");
   const auto pilot = packed_grains(*config.initial.pour, config.grains->sizes, config.size);
   const double estimated = run_seconds(config, ahead.sizes, time_parts(config, pilot, 0.2)).all();
   Simulation simulation(config, {.folder = folder / "run", .restart = {}}, {});
@@ -177,8 +178,9 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
 // In its first steps this flow goes wrong over grains that are held.
 TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
   const TemporaryFolder folder;
-  const Config config = load_config(BARCHAN_SOURCE_DIR "/configs/validation/laminar-bed.toml");
-  const std::string said = estimate(config, folder / "run", grains_ahead(config, folder / "run"));
+  const Case the_case = load_case(BARCHAN_SOURCE_DIR "/configs/validation/laminar-bed.toml");
+  const std::string said =
+      estimate(the_case, folder / "run", grains_ahead(the_case, folder / "run"));
   EXPECT_TRUE(contains(said, "timed just now")) << said;
 }
 

@@ -51,8 +51,8 @@ TEST(ShippedConfigs, LoadAndComeBack) {
 
 TEST(ShippedConfigs, OnlyWarnOfThePapersGrainStepAndRows) {
   for (const auto& file : shipped()) {
-    const Config config = load_config(file);
-    for (const std::string& warning : config_warnings(config, known_sizes(config))) {
+    const Case the_case = load_case(file);
+    for (const std::string& warning : config_warnings(the_case.config, the_case.sizes)) {
       const auto folder = file.parent_path().filename();
       const bool published = folder == "paper" || folder == "validation";
       const bool expected = warning.find("Rayleigh") != warning.npos ||
