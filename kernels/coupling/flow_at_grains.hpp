@@ -18,18 +18,19 @@ struct FluidForces {
   bool lift = false, torque = false, wall_drag = false;  // GatherShear; a factor of the drag
 };
 
-/// Force of the pressure gradient on a volume of grain, on faces: -grad p + rho f e_x [N/m^3] (Lima
+/// Force of the pressure gradient on a volume of grain, on faces: -grad p + rho f [N/m^3] (Lima
 /// et al. 2022, B9).
 struct PressureForceDensity {
   GridRef grid;
   ConstFieldRef p;
-  Real rho_f = 0, drive = 0;
+  Real rho_f = 0;
+  Vec2 drive;  // f [m/s^2]
   FaceRef force;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    force.x(i, j, k) = -(ddx_at_xface(grid, p, i, j, k) - rho_f * drive);
+    force.x(i, j, k) = -(ddx_at_xface(grid, p, i, j, k) - rho_f * drive.x);
     force.y(i, j, k) = -ddy_at_yface(grid, p, i, j, k);
-    force.z(i, j, k) = -ddz_at_zface(grid, p, i, j, k);
+    force.z(i, j, k) = -(ddz_at_zface(grid, p, i, j, k) - rho_f * drive.z);
   }
 };
 

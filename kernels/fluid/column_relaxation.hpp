@@ -89,7 +89,7 @@ struct ColumnEquations {
   }
 };
 
-/// 1/(D_j - E_j^2 pivot_{j-1}) of every row of a column.
+/// 1/(D_j - E_j^2 pivot_{j-1}) of every row of a column; 0 for a cell whose faces are all closed.
 struct FactoriseColumn {
   ColumnEquations equations;
   ColumnHeights height;
@@ -98,7 +98,8 @@ struct FactoriseColumn {
     Real before = 0;
     for (int j = 0; j < height(i, k); ++j) {
       const Real e = equations.coupling(i, j, k);
-      before = 1 / (equations.diagonal(i, j, k) - e * e * before);
+      const Real diagonal = equations.diagonal(i, j, k);
+      before = diagonal > 0 ? 1 / (diagonal - e * e * before) : 0;
       pivot(i, j, k) = before;
     }
   }

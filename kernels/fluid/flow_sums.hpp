@@ -23,6 +23,26 @@ struct FlowRate {
   }
 };
 
+/// The same on z-faces.
+struct FlowRateAcross {
+  GridRef grid;
+  ConstFieldRef w, alpha;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return cell_to_zface(alpha, i, j, k) * w(i, j, k) * grid.dy(j);
+  }
+};
+
+/// Courant number of a velocity [-].
+struct Courant {
+  GridRef grid;
+  ConstFaceRef u;
+  Real dt;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return courant_number({u.x(i, j, k), u.y(i, j, k), u.z(i, j, k)},
+                          {grid.dx, grid.dy_centre(j), grid.dz}, dt);
+  }
+};
+
 /// Largest velocity along x or z [m/s].
 struct FastestAlong {
   ConstFaceRef u;

@@ -120,6 +120,9 @@ struct ExchangeOnFaces {
   Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
 };
 
+/// Whether the fluid fraction is one everywhere, so that nobody reads it.
+enum class Fraction { uniform, variable };
+
 /// Weights of the explicit terms, now and one step ago, times dt [s].
 struct AdamsBashforth {
   Real now = 0, before = 0;
@@ -180,8 +183,8 @@ struct Predict {
   }
 };
 
-/// No flow through the lid, and none behind the floor, which is read though it does not count: for
-/// all i and k, those of ghosts, too.
+/// Sets the flux through the lid to zero, and all of it below the floor, where the stencil of the
+/// lowest cells reads it: for all i and k, those of ghosts, too.
 struct CloseFaces {
   FaceRef flux;
   FieldRef v_star;

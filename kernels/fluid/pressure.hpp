@@ -112,9 +112,9 @@ struct Subtract {
 };
 
 /// b = -(rho / dt) [div(alpha u) + (alpha - alpha_before) / dt] of -div(c grad p) = b [Pa/m^2],
-/// with the drive (force per mass times dt) already in the x velocity through c.
-/// Without grains alpha is one and c is not looked at.
-template <bool with_grains>
+/// with the drive along x (force per mass times dt) added through c.
+/// Where the fraction is uniform, alpha is one and c is not looked at.
+template <Fraction fraction>
 struct PressureSource {
   GridRef grid;
   ConstFaceRef u;
@@ -125,7 +125,7 @@ struct PressureSource {
   FieldRef b;
 
   KOKKOS_FORCEINLINE_FUNCTION Real continuity(int i, int j, int k) const {
-    if constexpr (!with_grains) return div_at_cell(grid, u, i, j, k);
+    if constexpr (fraction == Fraction::uniform) return div_at_cell(grid, u, i, j, k);
     const auto x = [&](int ii) {
       return cell_to_xface(alpha, ii, j, k) * u.x(ii, j, k) + drive_dt * c.x(ii, j, k);
     };
@@ -140,9 +140,9 @@ struct PressureSource {
 };
 
 /// |div(alpha u) + d(alpha)/dt| dt: what a step leaves of the continuity equation [-].
-template <bool with_grains>
+template <Fraction fraction>
 struct ContinuityResidual {
-  PressureSource<with_grains> source;
+  PressureSource<fraction> source;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return Kokkos::abs(source.continuity(i, j, k)) * source.dt;
   }

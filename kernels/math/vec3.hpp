@@ -17,6 +17,11 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real fma(Real a, Real b, Real c) {
 #endif
 }
 
+/// Along the floor: x along the flow, z across.
+struct Vec2 {
+  Real x = 0, z = 0;
+};
+
 /// Cartesian vector; x along the flow, y up, z across.
 struct Vec3 {
   Real x = 0, y = 0, z = 0;

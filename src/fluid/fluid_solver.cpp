@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kernels/fluid/closed_faces.hpp"
 #include "kernels/fluid/drag_between_rows.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
@@ -23,6 +24,8 @@ FaceVector make_faces_in_one_piece(const char* label, const Grid& grid) {
   };
   return {component(0), component(1), component(2)};
 }
+
+bool is_variable(Fraction fraction) { return fraction == Fraction::variable; }
 
 /// Weights of the explicit terms times dt; exact for rates linear in time also if dt changes.
 AdamsBashforth weights(const FluidState& fluid, Real dt) {
@@ -44,38 +47,49 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid) {
   });
 }
 
-Real bulk_velocity(const FluidState& fluid) {
-  const Grid& grid = fluid.grid;
-  const Real flow =
-      sum_each_cell("fluid: flow rate", grid, FlowRate{grid, fluid.u.x, fluid.alpha_f});
-  return flow / sum_each_cell("fluid: volume", grid, HeightSum{grid, fluid.alpha_f});
-}
-
 FluidSolver::FluidSolver(const Config& config, const Grid& grid)
+    : FluidSolver(config, grid, config.grains ? Fraction::variable : Fraction::uniform) {}
+
+FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fraction)
     : config_(config.fluid.value()),
+      fraction_(fraction),
+      drive_(config_),
       tolerance_(config.solver.pressure_tolerance),
       grid_(grid),
       boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
       u_star_(make_faces_in_one_piece("fluid: u star", grid)),
-      flux_(config.grains ? make_faces_in_one_piece("fluid: alpha u", grid) : FaceVector{}),
-      mobility_(config.grains ? make_faces_in_one_piece("fluid: mobility", grid) : FaceVector{}),
+      flux_(is_variable(fraction) ? make_faces_in_one_piece("fluid: alpha u", grid) : FaceVector{}),
+      mobility_(is_variable(fraction) ? make_faces_in_one_piece("fluid: mobility", grid)
+                                      : FaceVector{}),
       source_("fluid: pressure source", grid),
       c_w_delta_("fluid: filter width", grid.ny) {
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
 }
 
+void FluidSolver::close_faces(const FaceVector& open) {
+  open_ = open;
+  boundary_.fill_periodic(*open_);
+}
+
+void FluidSolver::close(FaceVector& f) const {
+  if (open_) for_each_cell("fluid: close faces", grid_, CloseFacesOf{*open_, f});
+}
+
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
-  if (exchange != nullptr) fill_fraction_ghosts(boundary_, fluid);
-  if (fluid.time == 0) fluid.bulk_at_start = bulk_velocity(fluid);
-  update_eddy_viscosity(fluid);                    // nu_t
-  predict(fluid, exchange, dt);                    // u*
-  choose_drive(fluid, exchange, dt);               // f that gives the wanted bulk velocity
-  solve_pressure(fluid, exchange != nullptr, dt);  // p
-  correct(fluid, exchange != nullptr, dt);         // u, du/dt
+  if (is_variable(fraction_)) fill_fraction_ghosts(boundary_, fluid);
+  if (fluid.time == 0)
+    fluid.bulk_at_start = {bulk_velocity(fluid),
+                           drive_.along_z() ? bulk_velocity_across(fluid) : 0};
+  update_eddy_viscosity(fluid);  // nu_t
+  predict(fluid, exchange, dt);  // u*
+  update_mobility(fluid);        // c of the pressure equation
+  drive(fluid, dt);              // f that gives the wanted bulk velocity
+  solve_pressure(fluid, dt);     // p
+  correct(fluid, dt);            // u, du/dt
   fluid.has_history = true;
   fluid.dt_previous = dt;
   fluid.time += dt;
@@ -90,10 +104,9 @@ void FluidSolver::remove_divergence(FluidState& fluid) {
   Kokkos::deep_copy(u_star_.x.storage, fluid.u.x.storage);
   Kokkos::deep_copy(u_star_.y.storage, fluid.u.y.storage);
   Kokkos::deep_copy(u_star_.z.storage, fluid.u.z.storage);
-  const bool with_grains = mobility_.x.storage.size() > 0;
-  if (with_grains) update_mobility(work);
-  solve_pressure(work, with_grains, 1);
-  correct(work, with_grains, 1);
+  update_mobility(work);
+  solve_pressure(work, 1);
+  correct(work, 1);
 }
 
 void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
@@ -113,32 +126,36 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
   boundary_.fill_periodic(flux_);
 }
 
+template <bool with_exchange>
+void FluidSolver::predict(FluidState& fluid, const FaceVector& flux, const Field& stress_share,
+                          const FaceVector& impulse, Real dt) {
+  flow_.rate.x = sum_each_cell(
+      "fluid: predict", grid_,
+      Predict<with_exchange>{.grid = grid_,
+                             .convection = {grid_, fluid.u, flux},
+                             .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
+                             .stress_share = stress_share,
+                             .alpha_new = fluid.alpha_f,
+                             .rate = fluid.rate_previous,
+                             .u_star = u_star_,
+                             .impulse = impulse,
+                             .weight = weights(fluid, dt),
+                             .inv_density = 1 / config_.density});
+}
+
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const auto run = [&](auto with_exchange, const FaceVector& flux, const Field& stress_share,
-                       const ExchangeOnFaces& on_faces) {
-    flow_rate_ =
-        sum_each_cell("fluid: predict", grid_,
-                      Predict<decltype(with_exchange)::value>{
-                          .grid = grid_,
-                          .convection = {grid_, fluid.u, flux},
-                          .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-                          .stress_share = stress_share,
-                          .alpha_new = fluid.alpha_f,
-                          .rate = fluid.rate_previous,
-                          .u_star = u_star_,
-                          .impulse = on_faces.impulse,
-                          .weight = weights(fluid, dt),
-                          .inv_density = 1 / config_.density});
-  };
-  if (exchange == nullptr) {
-    run(std::false_type{}, fluid.u, fluid.alpha_f, {});
-  } else {
-    update_mass_flux(fluid);
+  if (is_variable(fraction_)) update_mass_flux(fluid);
+  if (exchange != nullptr) {
     const bool shared = exchange->stress_share.storage.size() > 0;
-    run(std::true_type{}, flux_, shared ? exchange->stress_share : fluid.alpha_f_previous,
-        *exchange);
+    predict<true>(fluid, flux_, shared ? exchange->stress_share : fluid.alpha_f_previous,
+                  exchange->impulse, dt);
     drag_between_rows(fluid, *exchange);
+  } else if (is_variable(fraction_)) {
+    predict<false>(fluid, flux_, fluid.alpha_f_previous, {}, dt);
+  } else {
+    predict<false>(fluid, fluid.u, fluid.alpha_f, {}, dt);
   }
+  close(u_star_);
 }
 
 /// Moves momentum within columns alone, so the flow rate stays.
@@ -158,49 +175,60 @@ void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFac
   }
 }
 
-/// Returns the flow rate per unit of drive times dt.
-Real FluidSolver::update_mobility(const FluidState& fluid) {
-  const Real response =
-      sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
-  boundary_.fill_periodic(mobility_);
-  return response;
+Vec2 FluidSolver::flow_rate(const FaceVector& u, const FluidState& fluid) const {
+  const auto x = [&] {
+    return sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, u.x, fluid.alpha_f});
+  };
+  const auto z = [&] {
+    return sum_each_cell("fluid: flow rate across", grid_,
+                         FlowRateAcross{grid_, u.z, fluid.alpha_f});
+  };
+  return {x(), drive_.along_z() ? z() : 0};
 }
 
-void FluidSolver::choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  Real drive_response = grid_.height_of_all_columns();
-  fluid_height_ = drive_response;
-  if (exchange != nullptr) {
-    drive_response = update_mobility(fluid);
-    fluid_height_ = sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
+/// c, and how much a force along x and z adds to the flow.
+void FluidSolver::update_mobility(const FluidState& fluid) {
+  flow_.height = grid_.height_of_all_columns();
+  flow_.response = {flow_.height, flow_.height};
+  if (!is_variable(fraction_)) return;
+  flow_.response.x =
+      sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
+  close(mobility_);
+  boundary_.fill_periodic(mobility_);
+  const auto response = [&](const Field& c) {
+    return sum_each_cell("fluid: mobility", grid_, HeightSum{grid_, c});
+  };
+  if (open_) flow_.response.x = response(mobility_.x);
+  if (drive_.along_z()) flow_.response.z = response(mobility_.z);
+  flow_.height = open_ ? flow_.response.x
+                       : sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
+}
+
+/// Along x the force is added where the pressure is; across, it is added to u* here.
+void FluidSolver::drive(FluidState& fluid, Real dt) {
+  if (open_ || drive_.along_z()) {
+    const Vec2 rate = flow_rate(u_star_, fluid);
+    flow_.rate = {open_ ? rate.x : flow_.rate.x, rate.z};
   }
-  if (config_.pressure_gradient) {
-    fluid.drive = *config_.pressure_gradient / config_.density;
-  } else if (config_.mean_velocity != 0) {
-    const Real share =
-        config_.ramp_time > 0 ? std::min(Real(1), fluid.time / config_.ramp_time) : Real(1);
-    const Real bulk = fluid.bulk_at_start + share * (config_.mean_velocity - fluid.bulk_at_start);
-    // A bed takes part of what the drive gives, as the pressure drop over it does; about what it
-    // took last.
-    const Real wanted = bulk * fluid_height_ + fluid.flow_missed;
-    fluid.drive = (wanted - flow_rate_) / (drive_response * dt);
-  } else {
-    fluid.drive = 0;
-  }
-  report_.drive = fluid.drive;
-  flow_rate_ += fluid.drive * dt * drive_response;
-  report_.bulk_velocity = flow_rate_ / fluid_height_;
+  fluid.drive = report_.drive = drive_.force(fluid, flow_, dt);
+  flow_.rate.x += fluid.drive.x * dt * flow_.response.x;
+  flow_.rate.z += fluid.drive.z * dt * flow_.response.z;
+  report_.bulk_velocity = {flow_.rate.x / flow_.height, flow_.rate.z / flow_.height};
+  if (!drive_.along_z()) return;
+  for_each_cell("fluid: drive across", grid_, DriveAcross{u_star_.z, fluid.drive.z * dt});
+  close(u_star_);
 }
 
 /// Total pressure: every step solves for all of it. p_previous becomes the last one.
-void FluidSolver::solve_pressure(FluidState& fluid, bool coupled, Real dt) {
+void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   const ScopedSeconds timer(report_.seconds_pressure);
   std::swap(fluid.p, fluid.p_previous);
   boundary_.halo().fill(u_star_.x);
   boundary_.halo().fill(u_star_.z);
   PressureReport solved;
-  if (!coupled) {
+  if (!is_variable(fraction_)) {
     for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<false>(u_star_, fluid, fluid.drive, dt));
+                  pressure_source<Fraction::uniform>(u_star_, fluid, fluid.drive.x, dt));
     solved = pressure_.solve_uniform(source_, fluid.p);
   } else {
     if (fluid.has_history) {
@@ -210,7 +238,7 @@ void FluidSolver::solve_pressure(FluidState& fluid, bool coupled, Real dt) {
       Kokkos::deep_copy(fluid.p.storage, fluid.p_previous.storage);
     }
     for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<true>(u_star_, fluid, fluid.drive, dt));
+                  pressure_source<Fraction::variable>(u_star_, fluid, fluid.drive.x, dt));
     solved = pressure_.solve(mobility_, source_, fluid.p, tolerance_);
   }
   report_.pressure_iterations = solved.iterations;
@@ -218,66 +246,48 @@ void FluidSolver::solve_pressure(FluidState& fluid, bool coupled, Real dt) {
   boundary_.fill(fluid.p, FieldKind::scalar);
 }
 
-template <bool with_grains>
-PressureSource<with_grains> FluidSolver::pressure_source(const FaceVector& u,
-                                                         const FluidState& fluid, Real drive,
-                                                         Real dt) {
+template <Fraction fraction>
+PressureSource<fraction> FluidSolver::pressure_source(const FaceVector& u, const FluidState& fluid,
+                                                      Real drive_x, Real dt) {
   return {.grid = grid_,
           .u = u,
           .alpha = fluid.alpha_f,
-          .alpha_before = with_grains ? fluid.alpha_f_previous : fluid.alpha_f,
-          .c = with_grains ? mobility_ : u,
-          .drive_dt = drive * dt,
+          .alpha_before = is_variable(fraction) ? fluid.alpha_f_previous : fluid.alpha_f,
+          .c = is_variable(fraction) ? mobility_ : u,
+          .drive_dt = drive_x * dt,
           .density = config_.density,
           .dt = dt,
           .b = source_};
 }
 
-void FluidSolver::correct(FluidState& fluid, bool coupled, Real dt) {
+void FluidSolver::correct(FluidState& fluid, Real dt) {
   report_.courant = max_each_cell("fluid: correct velocity", grid_,
                                   CorrectVelocity{.grid = grid_,
                                                   .u_star = u_star_,
                                                   .p = fluid.p,
                                                   .inv_density = 1 / config_.density,
-                                                  .drive_dt = fluid.drive * dt,
+                                                  .drive_dt = fluid.drive.x * dt,
                                                   .dt = dt,
                                                   .u = fluid.u,
                                                   .du_dt = fluid.du_dt});
+  if (open_) {
+    close(fluid.u), close(fluid.du_dt);
+    report_.courant = max_each_cell("fluid: Courant number", grid_, Courant{grid_, fluid.u, dt});
+  }
   boundary_.fill_velocity(fluid.u);
   const auto residual = [&](const auto& continuity) {
     report_.continuity_residual = max_each_cell("fluid: continuity", grid_, continuity);
   };
-  if (!coupled) {
-    residual(ContinuityResidual<false>{pressure_source<false>(fluid.u, fluid, 0, dt)});
-    return;
+  if (!is_variable(fraction_)) {
+    using Residual = ContinuityResidual<Fraction::uniform>;
+    return residual(Residual{pressure_source<Fraction::uniform>(fluid.u, fluid, 0, dt)});
   }
   boundary_.fill_acceleration(fluid.du_dt);
-  residual(ContinuityResidual<true>{pressure_source<true>(fluid.u, fluid, 0, dt)});
-  const Real flow =
-      sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, fluid.u.x, fluid.alpha_f});
-  fluid.flow_missed = flow_rate_ - flow;
-  report_.bulk_velocity = flow / fluid_height_;
-}
-
-Real FluidSolver::friction_velocity(const FluidState& fluid) const {
-  int walls = 0;
-  Real slope = 0;  // sum over the walls of the mean [1/s]
-  const auto add = [&](WallFlow wall, int row, Real u_wall) {
-    if (wall != WallFlow::no_slip) return;
-    const WallShear shear{.grid = grid_, .u = fluid.u.x, .row = row, .u_wall = u_wall};
-    slope += std::abs(sum_each_cell("fluid: wall shear", grid_, shear)) /
-             (Real(grid_.nx_all) * grid_.nz_all);
-    ++walls;
-  };
-  add(config_.bottom, 0, 0);
-  add(config_.top, grid_.ny - 1, config_.top_velocity);
-  return walls == 0 ? 0 : std::sqrt(config_.kinematic_viscosity * slope / walls);
-}
-
-Real FluidSolver::kinetic_energy(const FluidState& fluid) const {
-  return config_.density * grid_.dx * grid_.dz *
-         sum_each_cell("fluid: kinetic energy", grid_,
-                       KineticEnergy{grid_, fluid.u, fluid.alpha_f});
+  using Residual = ContinuityResidual<Fraction::variable>;
+  residual(Residual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)});
+  const Vec2 flow = flow_rate(fluid.u, fluid);
+  fluid.flow_missed = {flow_.rate.x - flow.x, flow_.rate.z - flow.z};
+  report_.bulk_velocity = {flow.x / flow_.height, flow.z / flow_.height};
 }
 
 }  // namespace barchan

@@ -3,10 +3,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "kernels/fluid/pressure.hpp"
 #include "src/fluid/boundary.hpp"
+#include "src/fluid/drive.hpp"
+#include "src/fluid/flow_measures.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/fluid/pressure_solver.hpp"
 
@@ -19,30 +23,35 @@ struct FluidStepReport {
   // gave back by leaving: a periodic box of incompressible fluid has nowhere to take it from.
   Real continuity_residual = 0;
   Real courant = 0;           // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
-  Real drive = 0;             // body force per unit mass [m/s^2]
-  Real bulk_velocity = 0;     // sum(alpha u V) / sum(alpha V) after the step [m/s]
+  Vec2 drive;                 // body force per unit mass [m/s^2]
+  Vec2 bulk_velocity;         // sum(alpha u V) / sum(alpha V) after the step [m/s]
   Real seconds_pressure = 0;  // wall time in the pressure equation
 };
 
 /// Makes all ghosts of a state valid.
 void fill_ghosts(const Boundary& boundary, FluidState& fluid);
 
-/// sum(alpha u V) / sum(alpha V) [m/s].
-Real bulk_velocity(const FluidState& fluid);
-
 /// Solves, with alpha the fluid fraction and u the interstitial velocity,
 ///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
-///                                    + alpha f e_x + exchange / rho,
+///                                    + alpha f + exchange / rho,
 ///   d(alpha)/dt + div(alpha u) = 0.
 /// Adams-Bashforth for convection and stress; the drag between rows is implicit. One pressure
 /// correction projects exactly, up to the tolerance of the pressure equation.
 class FluidSolver {
  public:
+  /// The fraction of a case with grains is variable.
   FluidSolver(const Config& config, const Grid& grid);
+  FluidSolver(const Config& config, const Grid& grid, Fraction fraction);
 
-  /// One step. fluid.alpha_f holds the new fluid fraction and alpha_f_previous the old one in the
-  /// owned cells. Without exchange alpha_f must be one; with it the configuration has grains. On
-  /// return all ghosts are valid.
+  /// Another drive than that of the case.
+  void set_drive(Drive drive) { drive_ = std::move(drive); }
+  /// Closes faces for good: `open` is 1 in the owned cells where water may pass, 0 where it may not
+  /// (closed_faces.hpp). The fraction must be variable, and the flow through these faces zero.
+  void close_faces(const FaceVector& open);
+
+  /// One step. Of a variable fraction fluid.alpha_f holds the new one and alpha_f_previous the old
+  /// one in the owned cells; a uniform one is one. `exchange`: with the grains, if there are any;
+  /// the fraction is then variable. On return all ghosts are valid.
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
 
   /// Makes all ghosts valid, to be called after a state was set or read.
@@ -52,10 +61,12 @@ class FluidSolver {
   /// fluid fraction held. Pressure and history stay. Ghosts of the velocity are valid on return.
   void remove_divergence(FluidState& fluid);
 
-  /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
-  Real friction_velocity(const FluidState& fluid) const;
-  /// sum(rho alpha |u|^2 V) / 2 [J].
-  Real kinetic_energy(const FluidState& fluid) const;
+  Real friction_velocity(const FluidState& fluid) const {
+    return barchan::friction_velocity(fluid, config_);
+  }
+  Real kinetic_energy(const FluidState& fluid) const {
+    return barchan::kinetic_energy(fluid, config_.density);
+  }
 
   /// What holds nothing between two calls of advance() of a solver with grains: scratch memory for
   /// the coupling and the neighbour list.
@@ -77,16 +88,24 @@ class FluidSolver {
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  template <bool with_exchange>
+  void predict(FluidState& fluid, const FaceVector& flux, const Field& stress_share,
+               const FaceVector& impulse, Real dt);
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
-  Real update_mobility(const FluidState& fluid);
-  void choose_drive(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
-  void solve_pressure(FluidState& fluid, bool coupled, Real dt);
-  void correct(FluidState& fluid, bool coupled, Real dt);
-  template <bool with_grains>
-  PressureSource<with_grains> pressure_source(const FaceVector& u, const FluidState& fluid,
-                                              Real drive, Real dt);
+  void update_mobility(const FluidState& fluid);
+  void drive(FluidState& fluid, Real dt);
+  void solve_pressure(FluidState& fluid, Real dt);
+  void correct(FluidState& fluid, Real dt);
+  template <Fraction fraction>
+  PressureSource<fraction> pressure_source(const FaceVector& u, const FluidState& fluid,
+                                           Real drive_x, Real dt);
+  /// Nothing where no face is closed.
+  void close(FaceVector& f) const;
+  Vec2 flow_rate(const FaceVector& u, const FluidState& fluid) const;
 
   FluidConfig config_;
+  Fraction fraction_;
+  Drive drive_;
   Real tolerance_;  // of the pressure equation
   Grid grid_;
   Boundary boundary_;
@@ -95,8 +114,8 @@ class FluidSolver {
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  Real flow_rate_ = 0;     // sum of alpha u*_x dy over faces, then with the drive [m^2/s]
-  Real fluid_height_ = 0;  // sum of alpha dy over x-faces [m]
+  std::optional<FaceVector> open_;       // where faces are closed
+  DrivenFlow flow_;                      // its rate is that with the drive after drive()
   FluidStepReport report_;
 };
 

@@ -19,12 +19,12 @@ struct FluidState {
   Field nu_t;                // eddy viscosity [m^2/s]
   FaceVector rate_previous;  // -div(alpha u u) + alpha div(tau)/rho at n-1 [m/s^2]
   FaceVector du_dt;          // change of u over the last step divided by it [m/s^2]
-  Real drive = 0;            // driving body force per unit mass along x [m/s^2]
+  Vec2 drive;                // driving body force per unit mass [m/s^2]
   bool has_history = false;  // rate_previous and p_previous hold a step for Adams-Bashforth
   Real dt_previous = 0;      // length of that step [s]
   Real time = 0;             // since the start [s]
-  Real bulk_at_start = 0;    // bulk velocity a ramp of the drive starts from [m/s]
-  Real flow_missed = 0;  // flow rate by which the last projection missed that of the drive [m^2/s]
+  Vec2 bulk_at_start;        // bulk velocity a ramp of the drive starts from [m/s]
+  Vec2 flow_missed;  // flow rate by which the last projection missed that of the drive [m^2/s]
 };
 
 /// Zero everywhere.

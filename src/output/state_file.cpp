@@ -33,13 +33,19 @@ void for_each_field(const FluidState& s, const F& f) {
   });
 }
 
-/// The numbers of the flow that the next step reads, besides has_history.
-constexpr std::pair<const char*, Real FluidState::*> numbers[] = {
-    {"fluid/drive", &FluidState::drive},
-    {"fluid/dt_previous", &FluidState::dt_previous},
-    {"fluid/time", &FluidState::time},
-    {"fluid/bulk_at_start", &FluidState::bulk_at_start},
-    {"fluid/flow_missed", &FluidState::flow_missed}};
+/// Calls f(name, number, whether it must be there) for the numbers of the flow that the next step
+/// reads, besides has_history. Those along z are there only where they are not zero.
+template <class State, class F>
+void for_each_number(State&& s, const F& f) {
+  f("fluid/drive", s.drive.x, true);
+  f("fluid/dt_previous", s.dt_previous, true);
+  f("fluid/time", s.time, true);
+  f("fluid/bulk_at_start", s.bulk_at_start.x, true);
+  f("fluid/flow_missed", s.flow_missed.x, true);
+  f("fluid/drive_z", s.drive.z, false);
+  f("fluid/bulk_at_start_z", s.bulk_at_start.z, false);
+  f("fluid/flow_missed_z", s.flow_missed.z, false);
+}
 
 }  // namespace
 
@@ -80,7 +86,9 @@ void save_state(CheckpointWriter& file, const SystemState& state, const Neighbor
     const FluidState& s = *state.fluid;
     for_each_field(
         s, [&](const std::string& name, const Field& f) { save_field(file, name, s.grid, f); });
-    for (const auto& [name, number] : numbers) file.scalar(name, s.*number);
+    for_each_number(s, [&](const char* name, Real number, bool always) {
+      if (always || number != 0) file.scalar(name, number);
+    });
     file.scalar("fluid/has_history", std::int64_t{s.has_history});
   }
   if (state.grains) save_grains(file, *state.grains, *list);
@@ -90,7 +98,9 @@ void load_flow(const CheckpointReader& file, FluidState& fluid) {
   for_each_field(fluid, [&](const std::string& name, const Field& f) {
     load_field(file, name, fluid.grid, f);
   });
-  for (const auto& [name, number] : numbers) fluid.*number = file.real(name);
+  for_each_number(fluid, [&](const char* name, Real& number, bool always) {
+    number = always || file.has(name) ? file.real(name) : 0;
+  });
   fluid.has_history = file.integer("fluid/has_history") != 0;
 }
 

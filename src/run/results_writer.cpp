@@ -95,7 +95,7 @@ void ResultsWriter::write_history() {
     const FluidSolver& solver = *run_.coupled_step.fluid_solver();
     row.u_star = solver.friction_velocity(fluid);
     row.bulk_velocity = bulk_velocity(fluid);
-    row.pressure_gradient = fluid.drive * run_.config.fluid->density;
+    row.pressure_gradient = fluid.drive.x * run_.config.fluid->density;
     row.fluid_kinetic_energy = solver.kinetic_energy(fluid);
     row.cfl = interval.courant;
     row.continuity_residual = interval.continuity_residual;

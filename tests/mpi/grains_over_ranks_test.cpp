@@ -13,9 +13,9 @@ namespace {
 
 using test::by_id;
 using test::from_all_ranks;
+using test::GrainBench;
 using test::host_copy;
 using test::numbers_of;
-using test::GrainBench;
 using test::SharedGrains;
 
 int n_ranks() { return rank_count(MPI_COMM_WORLD); }

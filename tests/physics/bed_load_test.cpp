@@ -41,7 +41,7 @@ FluidState developed_flow(Config c, const InitialGrains& grains, double seconds)
   const int n_steps = static_cast<int>(std::lround(seconds / c.time.fluid_step));
   for (int n = 1; n <= n_steps; ++n) {
     run.advance();
-    drive += kDensity * flow.drive;
+    drive += kDensity * flow.drive.x;
     if (n % (n_steps / 4) > 0) continue;
     std::printf("[ measured ] bed held, up to %.2f s: drive %.4g Pa/m\n", n * c.time.fluid_step,
                 drive / (n_steps / 4));
@@ -87,7 +87,7 @@ class FlatBed : test::CoupledRun {
     seen.time = steps * dt;
     for (int s = 0; s < steps; ++s) {
       advance();
-      impulse += kDensity * state.fluid->drive * (config.size[1] - depth) * dt;
+      impulse += kDensity * state.fluid->drive.x * (config.size[1] - depth) * dt;
       const auto kin = host_copy(state.grains->kin);
       const auto id = host_copy(state.grains->id);
       for (int g = 0; g < state.grains->n; ++g) {

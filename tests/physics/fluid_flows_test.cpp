@@ -117,7 +117,7 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
     run.advance(dt, &exchange);
     EXPECT_LT(run.report.continuity_residual, 1e-6);
     // The drive learns in two steps what the projection takes of it.
-    EXPECT_NEAR(run.report.bulk_velocity / 0.28, 1, s <= 2 ? 0.005 : 1e-4) << s;
+    EXPECT_NEAR(run.report.bulk_velocity.x / 0.28, 1, s <= 2 ? 0.005 : 1e-4) << s;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(FluidFlow, AHinderedFlowConservesMassAndKeepsItsBulkVelocity) {
     run.advance(5e-4, &exchange);
     EXPECT_LT(run.report.continuity_residual, 1e-6);
     // The drive learns what the block takes of it: 8e-5 would stay, did it not.
-    EXPECT_NEAR(run.report.bulk_velocity / 0.28, 1, s <= 5 ? 0.01 : 1e-5) << s;
+    EXPECT_NEAR(run.report.bulk_velocity.x / 0.28, 1, s <= 5 ? 0.01 : 1e-5) << s;
   }
 }
 
@@ -196,7 +196,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   run.solver.fill_ghosts(fluid);
   EXPECT_NEAR(bulk_velocity(fluid), 0.28, 1e-14);
   Field rest("rest", run.grid);
-  const ContinuityResidual<false> residual{
+  const ContinuityResidual<Fraction::uniform> residual{
       {run.grid, fluid.u, fluid.alpha_f, fluid.alpha_f, fluid.u, 0, 1, 1e-3, rest}};
   EXPECT_LT(max_each_cell("test", run.grid, residual), 1e-14);
   const auto of_seed = [&](int seed) {
@@ -269,7 +269,7 @@ ChannelErrors half_channel(int rows) {
   for (int s = static_cast<int>(1.2 * kViscousTime / dt); s >= 0; --s) run.advance(dt);
   EXPECT_NEAR(bulk_velocity(run.fluid), kVelocity, 1e-14);
   const double drive = 3 * kNu * kVelocity / (kHeight * kHeight);
-  return {std::abs(run.report.drive / drive - 1), run.friction_error(std::sqrt(drive * kHeight)),
+  return {std::abs(run.report.drive.x / drive - 1), run.friction_error(std::sqrt(drive * kHeight)),
           run.profile_error([&](double y) { return drive / (2 * kNu) * y * (2 * kHeight - y); },
                             kVelocity)};
 }

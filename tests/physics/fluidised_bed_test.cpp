@@ -130,7 +130,7 @@ Reading read(const FreeBed& bed, double superficial, double time) {
     const FluidState& f = *run.state.fluid;
     // Above the bed the water is clear: its velocity is the superficial one.
     out.superficial += test::mean_of_columns(f.u.x, f.grid, f.grid.nx - 2, f.grid.nx) / samples;
-    out.drop += 1000 * f.drive * bed.length() / samples;
+    out.drop += 1000 * f.drive.x * bed.length() / samples;
     for (const Vec3& force : test::HostGrains(*run.state.grains).wall_forces()) {
       out.plate += force.x / bed.area() / samples;
     }

@@ -22,15 +22,15 @@ Config mesh(std::array<int, 3> cells, double first) {
 double divergence(const FlowRun& run) {
   Field rest("rest", run.grid);
   return max_each_cell("test", run.grid,
-                       ContinuityResidual<true>{{.grid = run.grid,
-                                                 .u = run.fluid.u,
-                                                 .alpha = run.fluid.alpha_f,
-                                                 .alpha_before = run.fluid.alpha_f,
-                                                 .c = run.fluid.u,
-                                                 .drive_dt = 0,
-                                                 .density = 1,
-                                                 .dt = 1,
-                                                 .b = rest}});
+                       ContinuityResidual<Fraction::variable>{{.grid = run.grid,
+                                                               .u = run.fluid.u,
+                                                               .alpha = run.fluid.alpha_f,
+                                                               .alpha_before = run.fluid.alpha_f,
+                                                               .c = run.fluid.u,
+                                                               .drive_dt = 0,
+                                                               .density = 1,
+                                                               .dt = 1,
+                                                               .b = rest}});
 }
 
 double largest_difference(const Field& a, const Field& b, const Grid& grid) {

@@ -47,7 +47,7 @@ struct FrozenBed {
   double gradient(int i0, int i1) const {
     const FluidState& f = *run.state.fluid;
     const auto p = [&](int i) { return test::mean_of_columns(f.p, f.grid, i, i + 1); };
-    return 1000 * f.drive - (p(i1) - p(i0)) / ((i1 - i0) * f.grid.dx);
+    return 1000 * f.drive.x - (p(i1) - p(i0)) / ((i1 - i0) * f.grid.dx);
   }
 };
 
@@ -106,7 +106,7 @@ double drop_over_ergun(const Bed& bed) {
   const double superficial =
       test::mean_of_columns(f.u.x, f.grid, 0, 1) * test::mean_of_columns(f.alpha_f, f.grid, 0, 1);
   const double height = 2 * (bed.last - FrozenBed::kFirst) * frozen.spacing;
-  return 1000 * f.drive * f.grid.lx /
+  return 1000 * f.drive.x * f.grid.lx /
          (height * test::ergun_gradient(bed.alpha, superficial, kDiameter));
 }
 
@@ -178,7 +178,7 @@ TEST(PackedBed, FloatingBedTakesItsSubmergedWeight) {
   double drop = 0;
   for (int n = 0; n < 40; ++n) {
     run.advance();
-    drop += 1000 * run.state.fluid->drive / 40;
+    drop += 1000 * run.state.fluid->drive.x / 40;
   }
   test::expect_relative("drop of a floating bed, submerged weight [Pa/m]", drop,
                         (1 - alpha) * 1500 * 9.81, 0.01);

@@ -15,11 +15,13 @@ struct FlowRun {
   FluidStepReport report;  // of the last step
 
   explicit FlowRun(const Config& c)
+      : FlowRun(c, c.grains ? Fraction::variable : Fraction::uniform) {}
+  FlowRun(const Config& c, Fraction fraction)
       : config(c),
         grid(make_grid(c)),
         h(grid),
         fluid(make_fluid_state(grid)),
-        solver(config, grid) {}
+        solver(config, grid, fraction) {}
 
   /// The velocity along x in the owned cells, and all ghosts.
   template <class Value>

@@ -1,6 +1,6 @@
 // Checksums of arrays: the same over any shares, another one after any change of a value.
-#include "src/initial/grain_files.hpp"
 #include "src/io/checksum.hpp"
+#include "src/initial/grain_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "src/fluid/boundary.hpp"
+#include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/output/output_files.hpp"

@@ -11,6 +11,8 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/stopwatch.hpp"
 #include "src/config/resolved.hpp"
+#include "src/diagnostics/dune_table.hpp"
+#include "src/run/history_table.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -26,7 +28,7 @@ const std::string dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
     "horn_left_2d,horn_right_2d\n";
 
-HistoryRecord history_row(double t) {
+HistoryRecord history_record(double t) {
   return {.t = t, .step = 400, .u_star = 0.0168, .n_grains = 99999};
 }
 
@@ -75,7 +77,7 @@ TEST(AtomicFile, SaysWhatItCannotReach) {
 TEST(RunFolder, WritesTablesInTheDocumentedFormat) {
   const TemporaryFolder folder;
   const auto run = prepare_folder(folder / "runs/x", {});
-  append_record(run, history_row(0.1));
+  append_record(run, history_record(0.1));
   DuneRecord dune;
   dune.t = 0.1;
   dune.n_grains = 3000;
@@ -94,13 +96,13 @@ TEST(RunFolder, ARestartCutsTheTables) {
   const TemporaryFolder folder;
   const auto table = folder / "history.csv";
   prepare_folder(folder.path(), {});
-  for (int n = 1; n <= 10; ++n) append_record(folder.path(), history_row(n * (1.0 / 3.0)));
+  for (int n = 1; n <= 10; ++n) append_record(folder.path(), history_record(n * (1.0 / 3.0)));
   std::ofstream(table, std::ios::app) << "3.66,40";  // killed while writing
   prepare_folder(folder.path(), 5 * (1.0 / 3.0));
   const std::string text = read_text(table);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 5);
   EXPECT_NE(text.find("\n1.666666667,"), std::string::npos);
-  append_record(folder.path(), history_row(2.0));
+  append_record(folder.path(), history_record(2.0));
   EXPECT_TRUE(read_text(table).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0\n"));
 }
 
@@ -150,7 +152,7 @@ TEST(RunFolder, ProblemsNameTheFile) {
       << text;
   const auto run = prepare_folder(folder / "run", {});
   const FileSizeLimit full(history_header.size() + 10);
-  EXPECT_EQ(message_of([&] { append_record(run, history_row(0.5)); }),
+  EXPECT_EQ(message_of([&] { append_record(run, history_record(0.5)); }),
             "cannot write " + (run / "history.csv").string() + ": File too large");
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 using test::add_grain;
 using test::grain_config;
-using test::host_copy;
 using test::GrainBench;
+using test::host_copy;
 
 /// Two unequal grains side by side along x, at rest but for their spins about z.
 struct SoftPair {

@@ -1,0 +1,50 @@
+// What drives the flow: the bulk velocity that it is to have, and the body force that gives it.
+#pragma once
+
+#include <vector>
+
+#include "kernels/math/vec3.hpp"
+#include "src/config/config.hpp"
+#include "src/fluid/fluid_state.hpp"
+
+namespace barchan {
+
+/// The flow of a step before the drive acts. Sums over x-faces and z-faces.
+struct DrivenFlow {
+  Vec2 rate;      // of alpha u* dy [m^2/s]
+  Vec2 response;  // rate per force and time: of c dy, c the mobility [m]
+  Real height;    // of alpha dy, over cells [m]
+};
+
+/// A force per mass along x and z, the same everywhere. The flow then has the wanted bulk velocity
+/// sum(alpha u V)/sum(alpha V) before the projection.
+class Drive {
+ public:
+  /// A bulk velocity [m/s] at a time [s].
+  struct Target {
+    Real t;
+    Vec2 velocity;
+  };
+
+  /// Of a case: a bulk velocity along x, held or reached over fluid.ramp_time; a given pressure
+  /// gradient; or none.
+  explicit Drive(const FluidConfig& config);
+  /// Bulk velocities at ascending times, linear between them and constant beyond.
+  explicit Drive(std::vector<Target> schedule);
+
+  /// Whether it ever acts along z. If not, nothing is computed for it.
+  bool along_z() const { return along_z_; }
+  /// The bulk velocity wanted at t [m/s], of a flow that began with `at_start`.
+  Vec2 target(Real t, const Vec2& at_start) const;
+  /// The force per mass over a step of dt [m/s^2].
+  Vec2 force(const FluidState& fluid, const DrivenFlow& flow, Real dt) const;
+
+ private:
+  enum class Kind { none, gradient, velocity, schedule } kind_ = Kind::none;
+  Real force_x_ = 0;  // of a given gradient [m/s^2]
+  Real velocity_x_ = 0, ramp_time_ = 0;
+  std::vector<Target> schedule_;
+  bool along_z_ = false;
+};
+
+}  // namespace barchan

@@ -1,0 +1,19 @@
+// What is measured of a flow for reports.
+#pragma once
+
+#include "src/config/config.hpp"
+#include "src/fluid/fluid_state.hpp"
+
+namespace barchan {
+
+/// sum(alpha u V) / sum(alpha V) along x [m/s].
+Real bulk_velocity(const FluidState& fluid);
+/// The same along z.
+Real bulk_velocity_across(const FluidState& fluid);
+
+/// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
+Real friction_velocity(const FluidState& fluid, const FluidConfig& config);
+/// sum(rho alpha |u|^2 V) / 2 [J].
+Real kinetic_energy(const FluidState& fluid, Real density);
+
+}  // namespace barchan
