@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/grains/grain.hpp"
+#include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {

@@ -1,25 +1,10 @@
 // The contact law on a block of contacts at once, between grains or of grains with walls.
 #pragma once
 
-#include <type_traits>
-
-#include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/law_table.hpp"
 #include "kernels/grains/tile.hpp"
 
 namespace barchan {
-
-/// The law of one kind of contact and its grain step.
-template <class StiffnessLaw, class RollingLaw>
-struct ContactLaw {
-  using Stiffness = StiffnessLaw;
-  using Rolling = RollingLaw;
-  static constexpr bool kRolls = !std::is_same_v<Rolling, NoRolling>;
-
-  Stiffness stiffness;
-  Rolling rolling;
-  Friction friction;
-  Real dt = 0;  // [s]
-};
 
 /// Geometry, relative motion and history of contacts in, forces and history out. Each contact goes
 /// through the same full vectors, so its result does not depend on its place in the block. The
@@ -39,11 +24,16 @@ struct ContactTile {
   AosTile n_cross_f_t;                          // result [N]
   alignas(64) Real r_eff[kTile], m_eff[kTile];  // [m], [kg]
   alignas(64) Real k_n[kTile], k_t[kTile], gamma_n[kTile], gamma_t[kTile];  // [N/m], [kg/s]
+  std::uint8_t law_of[Law::kMany ? kTile : 1];  // entry in the table of laws; of one kind not used
   SoaTile new_force, new_n_cross_f_t, new_xi_t, new_rolling;
 
   /// n contacts in whole vectors; the block has room for so many.
   KOKKOS_FORCEINLINE_FUNCTION static int whole_vectors(int n) {
     return (n + kVector - 1) / kVector * kVector;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION int entry(const Law& law, int q) const {
+    return law.table.at(law_of[Law::kMany ? q : 0]);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store(int q, const ContactPair& pair) {
@@ -67,7 +57,7 @@ struct ContactTile {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION void find_stiffness(const Law& law, int q) {
-    const ContactStiffness k = law.stiffness(r_eff[q], m_eff[q], normal.w[q]);
+    const ContactStiffness k = law.table.stiffness[entry(law, q)](r_eff[q], m_eff[q], normal.w[q]);
     k_n[q] = k.k_n, k_t[q] = k.k_t, gamma_n[q] = k.gamma_n, gamma_t[q] = k.gamma_t;
   }
   KOKKOS_FORCEINLINE_FUNCTION void find_force(const Law& law, int q) {
@@ -85,7 +75,7 @@ struct ContactTile {
     const ContactResult result = contact_force(
         ContactStiffness{
             .k_n = k_n[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
-        law.rolling, law.friction, pair, history, law.dt);
+        law.rolling, law.table.friction[entry(law, q)], pair, history, law.dt);
     const Real on = delta_n > 0 ? 1 : 0;
     new_force.store(q, on * result.force, delta_n);
     new_n_cross_f_t.store(q, on * result.n_cross_f_t, 0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/grains/half_kick.hpp"
+#include "kernels/grains/list_validity.hpp"
 #include "kernels/grains/tile.hpp"
 
 namespace barchan {
@@ -77,7 +78,7 @@ struct GrainMotion {
     if constexpr (effect != FluidEffect::none) fluid.impulse(g) += impulse;
     s.new_x.store(q, x, radius), s.new_u.store(q, u, mass), s.new_omega.store(q, omega, skin);
     s.excess[q] = excess_over_skin(x - x_reference(g), skin);
-    if constexpr (kMaxChunk == 1 || moves == Moves::into_first) return 0;
+    if constexpr (!kOnHost || moves == Moves::into_first) return 0;
     slack(g) -= dt * norm(u);
     return slack(g) >= 0 ? 0 : 1;
   }

@@ -5,6 +5,7 @@
 #include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/pair_forces.hpp"
 #include "kernels/grains/wall_contact.hpp"
+#include "kernels/math/prefetch.hpp"
 
 namespace barchan {
 
@@ -36,7 +37,7 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
     add_pair_force<rolls>(list, p, 1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
   for (int s = list.incoming_first(begin); s < list.incoming_first(end); ++s) {
-    if constexpr (kMaxChunk > 1) fetch_pair_force(list, s + 8);
+    if constexpr (kOnHost) fetch_pair_force(list, s + 8);
     const int slot = list.incoming(s), g = list.j(slot);
     add_pair_force<rolls>(list, slot, -1, grains(g).r, sums[place_in_chunk(g, begin)]);
   }
@@ -62,11 +63,11 @@ struct SumKickDrift {
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kMaxChunk];
     sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
-    if constexpr (kMaxChunk > 1) {
+    if constexpr (kOnHost) {
       if (pairs.list.expired(chunk)) find_active(chunk, begin, end);
       pairs.add_inner(chunk, sums);
     }
-    const auto is_near = [&](int g) { return kMaxChunk == 1 || pairs.list.near_wall(g) != 0; };
+    const auto is_near = [&](int g) { return !kOnHost || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
     if (last) keep(begin, end, sums);
     bool expired = false;

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "kernels/grains/law_table.hpp"
+#include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/search_columns.hpp"
 
 namespace barchan {
@@ -190,6 +192,7 @@ struct FillPairs {
   ContactHistory history;
   Kokkos::View<const int*> old_entry;
   Kokkos::View<const std::int64_t*> id;
+  Kokkos::View<const std::uint8_t*> kind;  // of the grains; empty: one
   bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
@@ -199,6 +202,7 @@ struct FillPairs {
       const int slot = list.chunks.contain_both(i, j) ? intra++ : inter++;
       list.i(slot) = i;
       list.j(slot) = j;
+      if (list.has_laws()) list.law(slot) = law_entry(kind(i), kind(j));
       remember(slot, i, j);
     };
     if (n > kNoted) {

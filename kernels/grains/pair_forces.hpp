@@ -4,6 +4,9 @@
 
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_tile.hpp"
+#include "kernels/grains/list_validity.hpp"
+#include "kernels/grains/pair_list.hpp"
+#include "kernels/math/prefetch.hpp"
 
 namespace barchan {
 
@@ -144,6 +147,7 @@ struct PairForces {
     s.omega_a.store(q, a.omega_skin()), s.omega_b.store(q, b.omega_skin());
     s.r_a[q] = a.r, s.r_b[q] = b.r, s.m_a[q] = a.m, s.m_b[q] = b.m;
     s.contacts.xi_t.store(q, vec4(list.xi_t(p)));
+    if constexpr (Law::kMany) s.contacts.law_of[q] = list.law(p);
     if constexpr (Law::Rolling::has_history) s.contacts.rolling.store(q, vec4(list.rolling(p)));
   }
 

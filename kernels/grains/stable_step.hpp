@@ -3,7 +3,8 @@
 #pragma once
 
 #include "kernels/grains/contact_geometry.hpp"
-#include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/law_table.hpp"
+#include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
@@ -23,9 +24,9 @@ inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
 /// Adds up the tangential springs and dashpots of the contacts of each grain, which gives the step
 /// within some 10 % of that of all grains together (docs/numerics.md); reduces the shortest step of
 /// any contact alone [s].
-template <class Stiffness>
+template <class Laws>
 struct TangentialOfPairs {
-  Stiffness law;
+  Laws laws;  // a LawTable
   PeriodicBox box;
   PairList list;
   Kokkos::View<const GrainKinematics*> grains;
@@ -37,7 +38,8 @@ struct TangentialOfPairs {
     const Real overlap = a.r + b.r - norm(box.nearest_image(a.x - b.x));
     if (!(overlap > 0)) return;
     const EffectivePair effective = effective_pair(a.r, b.r, a.m, b.m);
-    const ContactStiffness k = law(effective.r, effective.m, overlap);
+    const int entry = laws.at(list.has_laws() ? list.law(p) : std::uint8_t{0});
+    const ContactStiffness k = laws.stiffness[entry](effective.r, effective.m, overlap);
     add(i, k);
     add(j, k);
     const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
@@ -52,15 +54,18 @@ struct TangentialOfPairs {
 };
 
 /// Adds the walls; reduces the shortest step of all grains [s].
-template <class Stiffness>
+template <class Laws>
 struct StableStepOfGrains {
-  Stiffness law;
+  Laws laws;  // a LawTable, of the walls
   WallShapes walls;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
+  Kokkos::View<const std::uint8_t*> kind;  // empty: one
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);
+    const auto& law =
+        laws.stiffness[laws.at(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0})];
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
     for (int w = 0; w < walls.n; ++w) {

@@ -2,12 +2,13 @@
 // CPU.
 #pragma once
 
+#include "kernels/grains/chunks.hpp"
 #include "kernels/grains/grain.hpp"
 
 namespace barchan {
 
 /// Of a block: enough to fill vectors, small enough for the L1 cache; on a GPU one.
-inline constexpr int kTile = kMaxChunk > 1 ? 32 : 1;
+inline constexpr int kTile = kOnHost ? 32 : 1;
 
 /// How many of a block there are from `begin` on: a constant on a GPU, so that it keeps the block
 /// in registers.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "kernels/grains/chunks.hpp"
 #include "kernels/grains/contact_tile.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
@@ -16,7 +17,8 @@ struct Walls {
   Kokkos::View<const GrainKinematics*> grains;
   // (grain, history of the wall): [m], [N m]; torque of rolling springs alone
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;
-  Kokkos::View<std::uint8_t*> touching;  // bit w: grain touches wall w
+  Kokkos::View<std::uint8_t*> touching;    // bit w: grain touches wall w
+  Kokkos::View<const std::uint8_t*> kind;  // of the grains; empty: one
 
   /// Contacts side by side: of which grain, with which wall, at which arm [m].
   struct Tile {
@@ -74,6 +76,7 @@ struct Walls {
                          .omega_difference = grain.omega,
                          .r_eff = shapes.effective_radius(w, grain.r),
                          .m_eff = grain.m});
+    if constexpr (Law::kMany) s.contacts.law_of[q] = law_entry(kind(g), 0);
     s.contacts.xi_t.store(q, vec4(touched ? xi_t(g, h) : Vec3{}));
     if constexpr (Law::Rolling::has_history) {
       s.contacts.rolling.store(q, vec4(touched ? torque(g, h) : Vec3{}));

@@ -21,6 +21,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.id,               "id",               "1",    always,     kRestart | kGhosts);
   add(s.kin,              "kin",              "SI",   always,     kRestart | kGhosts | kGatherReads |
                                                                kDepositReads);
+  add(s.kind,             "kind",             "1",    by_solver,  kRestart | kGhosts);
   add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
   add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
   add(s.x_reference,      "x_reference",      "m",    always,     kRestart);
@@ -40,7 +41,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(e.stress_force,     "stress_force",     "N",    with_flow,  kGatherWrites);
   add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
   add(e.lift,             "lift",             "N",    with_lift,  kGatherWrites | kDepositReads);
-  add(f.omega_f,           "omega_f",           "rad/s", with_torque, kGatherWrites);
+  add(f.omega_f,          "omega_f",          "rad/s", with_torque, kGatherWrites);
   add(f.beta_r,           "beta_r",           "N m s", with_torque, kGatherWrites);
   // clang-format on
   for (auto& x : s.extra) add(x.values, x.name.c_str(), x.unit.c_str(), always, x.uses);

@@ -15,22 +15,11 @@ namespace barchan {
 
 namespace {
 
-StiffnessLaw make_law(const GrainConfig& grains, const Material& a, const Material& b) {
-  const Real damping = damping_ratio(b.restitution);
-  if (grains.contact_model == ContactModel::linear) {
-    return LinearSpring{.k_n = grains.linear_stiffness, .damping = damping};
-  }
-  const Elastic first{.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio};
-  const Elastic second{.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio};
-  return HertzMindlin{.e_eff = effective_youngs_modulus(first, second),
-                      .g_eff = effective_shear_modulus(first, second),
-                      .damping = damping};
-}
-
-RollingLaw make_rolling(const GrainConfig& grains) {
-  if (grains.material.rolling_friction == 0 && grains.wall.rolling_friction == 0) {
-    return NoRolling{};  // every model vanishes with mu_r
-  }
+RollingLaw make_rolling(const GrainConfig& grains, const GrainKinds& kinds) {
+  bool rolls = grains.wall.rolling_friction != 0;
+  for (const Material& m : kinds.material) rolls = rolls || m.rolling_friction != 0;
+  for (const auto& [pair, m] : kinds.unlike) rolls = rolls || m.rolling_friction != 0;
+  if (!rolls) return NoRolling{};  // every model vanishes with mu_r
   switch (grains.rolling_model) {
     case RollingModel::epsd2:
       return Epsd2{};
@@ -42,12 +31,6 @@ RollingLaw make_rolling(const GrainConfig& grains) {
       break;
   }
   return NoRolling{};
-}
-
-Friction friction_of(const Material& m, CoulombLimit limit) {
-  return {.sliding = m.sliding_friction,
-          .rolling = m.rolling_friction,
-          .dashpot_in_limit = limit == CoulombLimit::total ? 1.0 : 0.0};
 }
 
 int tiles_of(int n) { return (n + kTile - 1) / kTile; }
@@ -71,12 +54,15 @@ void add_wall(WallShapes& walls, const Plane& plane, int history) {
 }
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains)
+    : GrainSolver(config, grains, {.material = {config.grains->material}, .unlike = {}}) {}
+
+GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds)
     : list_(config, grains.r_max, grains.ranks),
-      pair_law_(make_law(*config.grains, config.grains->material, config.grains->material)),
-      wall_law_(make_law(*config.grains, config.grains->material, config.grains->wall)),
-      rolling_(make_rolling(*config.grains)),
-      pair_friction_(friction_of(config.grains->material, config.grains->coulomb_limit)),
-      wall_friction_(friction_of(config.grains->wall, config.grains->coulomb_limit)) {
+      many_kinds_(kinds.count() > 1),
+      pair_laws_(laws_of_pairs(*config.grains, kinds)),
+      wall_laws_(laws_of_walls(*config.grains, kinds)),
+      rolling_(make_rolling(*config.grains, kinds)) {
+  list_.with_laws = many_kinds_;
   add_walls(config, grains.r_max);
   using WallHistory = decltype(grains.wall_xi_t);
   const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
@@ -128,39 +114,59 @@ void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
                           max_excess(0));
 }
 
+/// Calls launch(laws of pairs, laws of walls) with the tables of this case: of one kind, one law.
+template <class Launch>
+void GrainSolver::with_laws(const Launch& launch) const {
+  std::visit(
+      [&](const auto& pairs) {
+        const auto& walls = std::get<std::decay_t<decltype(pairs)>>(wall_laws_);
+        if (many_kinds_) {
+          launch(pairs, walls);
+        } else {
+          launch(only_law(pairs), only_law(walls));
+        }
+      },
+      pair_laws_);
+}
+
 /// Grain step s: forces at the new positions and second half kick, then, unless it is the last one,
 /// the first half kick and drift of the next one.
 void GrainSolver::grain_step(const GrainState& grains, int s, bool last, Real dt) {
-  const auto launch = [&](const auto& stiffness, const auto& rolling) {
-    using Stiffness = std::decay_t<decltype(stiffness)>;
-    using Law = ContactLaw<Stiffness, std::decay_t<decltype(rolling)>>;
-    const PairForces<Law> pairs{
-        .law = {.stiffness = stiffness, .rolling = rolling, .friction = pair_friction_, .dt = dt},
-        .box = list_.box(),
-        .validity = {.excess = excess_, .before = element(s)},
-        .grains = grains.kin,
-        .list = grains.list,
-        .keep_force = list_.with_force && last};
-    Kokkos::parallel_for("grains: inter-chunk pairs", items(tiles_of(grains.list.n_inter)), pairs);
-    const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
-                                .pairs = pairs,
-                                .walls = {.shapes = walls_,
-                                          .law = {.stiffness = std::get<Stiffness>(wall_law_),
-                                                  .rolling = rolling,
-                                                  .friction = wall_friction_,
-                                                  .dt = dt},
-                                          .grains = grains.kin,
-                                          .xi_t = grains.wall_xi_t,
-                                          .torque = grains.wall_torque,
-                                          .touching = grains.wall_touching},
-                                .contact_force = grains.contact_force,
-                                .contact_torque = grains.contact_torque,
-                                .last = last,
-                                .min_slack = list_.min_slack()};
-    Kokkos::parallel_reduce("grains: intra-chunk pairs, sum, kick and drift",
-                            items(grains.list.chunks.count()), sum, max_excess(s + 1));
-  };
-  std::visit(launch, pair_law_, rolling_);
+  with_laws([&](const auto& of_pairs, const auto& of_walls) {
+    std::visit(
+        [&](const auto& rolling) { launch(grains, of_pairs, of_walls, rolling, s, last, dt); },
+        rolling_);
+  });
+}
+
+template <class Stiffness, bool many, class Rolling>
+void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, many>& of_pairs,
+                         const LawTable<Stiffness, many>& of_walls, const Rolling& rolling, int s,
+                         bool last, Real dt) {
+  using Law = ContactLaw<Stiffness, Rolling, many>;
+  const PairForces<Law> pairs{.law = {.table = of_pairs, .rolling = rolling, .dt = dt},
+                              .box = list_.box(),
+                              .validity = {.excess = excess_, .before = element(s)},
+                              .grains = grains.kin,
+                              .list = grains.list,
+                              .keep_force = list_.with_force && last};
+  Kokkos::parallel_for("grains: inter-chunk pairs", items(tiles_of(grains.list.n_inter)), pairs);
+  const Walls<Law> walls{.shapes = walls_,
+                         .law = {.table = of_walls, .rolling = rolling, .dt = dt},
+                         .grains = grains.kin,
+                         .xi_t = grains.wall_xi_t,
+                         .torque = grains.wall_torque,
+                         .touching = grains.wall_touching,
+                         .kind = grains.kind};
+  const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
+                              .pairs = pairs,
+                              .walls = walls,
+                              .contact_force = grains.contact_force,
+                              .contact_torque = grains.contact_torque,
+                              .last = last,
+                              .min_slack = list_.min_slack()};
+  Kokkos::parallel_reduce("grains: intra-chunk pairs, sum, kick and drift",
+                          items(grains.list.chunks.count()), sum, max_excess(s + 1));
 }
 
 void GrainSolver::rebuild(GrainState& grains, int s) {
@@ -224,26 +230,28 @@ void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Ve
 
 Real GrainSolver::stable_step(const GrainState& grains) const {
   Real of_pairs = std::numeric_limits<Real>::infinity(), of_grains = of_pairs;
-  if (pair_friction_.sliding == 0 && wall_friction_.sliding == 0) return of_pairs;
   const Kokkos::View<Real* [2]> sums("tangential sums", static_cast<std::size_t>(grains.n));
-  const auto find = [&](const auto& law) {
-    using Stiffness = std::decay_t<decltype(law)>;
+  bool slides = false;
+  with_laws([&]<class Laws>(const Laws& pairs, const Laws& walls) {
+    for (const Laws* laws : {&pairs, &walls})
+      for (const Friction& friction : laws->friction) slides = slides || friction.sliding != 0;
+    if (!slides) return;
     Kokkos::parallel_reduce("grains: tangential stiffness of pairs", items(grains.list.n_pairs),
-                            TangentialOfPairs<Stiffness>{.law = law,
-                                                         .box = list_.box(),
-                                                         .list = grains.list,
-                                                         .grains = grains.kin,
-                                                         .sums = sums},
+                            TangentialOfPairs<Laws>{.laws = pairs,
+                                                    .box = list_.box(),
+                                                    .list = grains.list,
+                                                    .grains = grains.kin,
+                                                    .sums = sums},
                             Kokkos::Min<Real>(of_pairs));
     Kokkos::parallel_reduce("grains: stable step", items(grains.n),
-                            StableStepOfGrains<Stiffness>{.law = std::get<Stiffness>(wall_law_),
-                                                          .walls = walls_,
-                                                          .grains = grains.kin,
-                                                          .sums = sums},
+                            StableStepOfGrains<Laws>{.laws = walls,
+                                                     .walls = walls_,
+                                                     .grains = grains.kin,
+                                                     .sums = sums,
+                                                     .kind = grains.kind},
                             Kokkos::Min<Real>(of_grains));
-  };
-  std::visit(find, pair_law_);
-  return -max_over(grains.ranks, -std::min(of_pairs, of_grains));
+  });
+  return slides ? -max_over(grains.ranks, -std::min(of_pairs, of_grains)) : of_pairs;
 }
 
 ContactSummary GrainSolver::contacts(const GrainState& grains) const {

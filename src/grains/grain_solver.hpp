@@ -4,13 +4,12 @@
 #include <variant>
 
 #include "kernels/grains/contact_geometry.hpp"
-#include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/wall_shapes.hpp"
+#include "src/grains/grain_kinds.hpp"
 #include "src/grains/neighbor_list.hpp"
 
 namespace barchan {
 
-using StiffnessLaw = std::variant<HertzMindlin, LinearSpring>;
 using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
 
 /// What the contacts look like now.
@@ -29,6 +28,8 @@ class GrainSolver {
   /// Sets up laws, walls and their history. Then call start() or, for entries read from a restart,
   /// list().restore().
   GrainSolver(const Config& config, GrainState& grains);
+  /// Of several kinds, that GrainState::kind holds; the material of the case is then not used.
+  GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds);
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }
 
@@ -65,16 +66,22 @@ class GrainSolver {
   void add_walls(const Config& config, Real r_max);
   void kick_and_drift(const GrainState& grains, Real dt);
   void grain_step(const GrainState& grains, int s, bool last, Real dt);
+  template <class Stiffness, bool many, class Rolling>
+  void launch(const GrainState& grains, const LawTable<Stiffness, many>& of_pairs,
+              const LawTable<Stiffness, many>& of_walls, const Rolling& rolling, int s, bool last,
+              Real dt);
+  template <class Launch>
+  void with_laws(const Launch& launch) const;
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
   NeighborList list_;
-  StiffnessLaw pair_law_, wall_law_;
+  bool many_kinds_;
+  LawTables pair_laws_, wall_laws_;
   RollingLaw rolling_;
-  Friction pair_friction_, wall_friction_;
   WallShapes walls_;
-  int ahead_ = kMaxChunk > 1 ? 1 : 16;
+  int ahead_ = kOnHost ? 1 : 16;
   // Largest squared displacement beyond the skin of a grain as a grain step begins [m^2].
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/pair_list.hpp"
 #include "src/config/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
@@ -56,6 +57,7 @@ struct GrainState {
   MPI_Comm ranks = MPI_COMM_SELF;                        // that share the grains
   Kokkos::View<GrainKinematics*> kin;                    // position, velocity, spin, radius, mass
   Kokkos::View<std::int64_t*> id;                        // never reused
+  Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                   // constant over one fluid step

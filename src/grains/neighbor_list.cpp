@@ -179,11 +179,12 @@ void NeighborList::reserve_pairs(PairList& list) const {
   reserve(list.pair_force, "pairs: force of an inter-chunk pair", list.n_inter);
   reserve(list.active, "pairs: active", list.n_pairs - list.n_inter + 1);
   reserve(list.n_active, "chunks: active pairs", list.chunks.count());
-  reserve(list.slack, "pairs: slack", kMaxChunk > 1 ? list.chunks.n : 0);
+  reserve(list.slack, "pairs: slack", kOnHost ? list.chunks.n : 0);
   reserve(list.expired, "chunks: expired", list.chunks.count());
   Kokkos::deep_copy(list.expired, 1);
   reserve(list.xi_t, "pairs: xi_t", list.n_pairs);
   reserve(list.touching, "pairs: touching", list.n_pairs);
+  if (with_laws) reserve(list.law, "pairs: law", list.n_pairs);
   if (with_rolling) reserve(list.rolling, "pairs: rolling", list.n_pairs);
   if (with_force) reserve(list.force, "pairs: force", list.n_pairs);
 }
@@ -236,6 +237,7 @@ void NeighborList::search(GrainState& grains) {
                                  .history = history_,
                                  .old_entry = entry_,
                                  .id = grains.id,
+                                 .kind = grains.kind,
                                  .has_history = has_history_});
   has_history_ = false;
   register_others(list, n);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "kernels/grains/neighbor_search.hpp"
-#include "src/config/config.hpp"
 #include "src/base/scratch_memory.hpp"
+#include "src/config/config.hpp"
 #include "src/grains/ghost_grains.hpp"
 #include "src/grains/grain_migration.hpp"
 #include "src/grains/grain_partition.hpp"
@@ -55,6 +55,7 @@ class NeighborList {
   /// goes, for what they need only until they return.
   void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
   bool with_rolling = false;  // keep a rolling torque per pair
+  bool with_laws = false;     // kinds of grains: each pair has its law
   bool with_force = false;    // keep the force of each pair in the last grain step
   const PeriodicBox& box() const { return box_; }
 

@@ -1,0 +1,21 @@
+// A sphere.
+#pragma once
+
+#include <numbers>
+
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+/// Volume of a sphere [m^3]; radius [m].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_volume(Real radius) {
+  return Real(4) / 3 * std::numbers::pi_v<Real> * radius * radius * radius;
+}
+static_assert(sphere_volume(0.5) > 0.523598 && sphere_volume(0.5) < 0.523599);  // pi d^3 / 6
+
+/// Moment of inertia of a solid sphere about its centre, 2/5 m r^2 [kg m^2].
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_inertia(Real mass, Real radius) {
+  return Real(0.4) * mass * radius * radius;
+}
+
+}  // namespace barchan

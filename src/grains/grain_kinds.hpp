@@ -1,0 +1,42 @@
+// Kinds of grains: their materials, and the laws of their contacts.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kernels/grains/law_table.hpp"
+#include "src/config/config.hpp"
+
+namespace barchan {
+
+/// Materials of the kinds of grains, at most kMaxKinds. A case has one; GrainState::kind says which
+/// each grain is of.
+struct GrainKinds {
+  std::vector<Material> material;  // of each: elastic constants, and its contacts with its own kind
+  std::map<std::pair<int, int>, Material> unlike;  // restitution, friction of (a, b), a < b
+
+  int count() const { return static_cast<int>(material.size()); }
+  /// Restitution and friction of a contact. Throws std::out_of_range for an unlike pair that has
+  /// none.
+  const Material& contact(int a, int b) const {
+    if (a == b) return material[static_cast<std::size_t>(a)];
+    return unlike.at(std::minmax(a, b));
+  }
+};
+
+using LawTables = std::variant<LawTable<HertzMindlin, true>, LawTable<LinearSpring, true>>;
+
+/// Laws of the contacts of all kinds with each other.
+LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds);
+/// And with the walls, under law_entry(kind, 0).
+LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds);
+
+/// The first entry alone.
+template <class Stiffness>
+LawTable<Stiffness, false> only_law(const LawTable<Stiffness, true>& table) {
+  return {.stiffness = {table.stiffness[0]}, .friction = {table.friction[0]}};
+}
+
+}  // namespace barchan
