@@ -1,71 +1,9 @@
 #include "src/config/keys.hpp"
 
+#include "src/config/key_builder.hpp"
+
 namespace barchan {
 namespace {
-
-enum Rule { none = 0, required = 1, fixed_by_restart = 2, required_and_fixed = 3 };
-
-/// What `parent` points to, or holds; nullptr if that is absent.
-template <class T>
-auto* value_of(T* parent) {
-  if constexpr (requires { parent->has_value(); }) {
-    return parent != nullptr && *parent ? &**parent : nullptr;
-  } else {
-    return parent;
-  }
-}
-
-/// Adds keys to a section, one a call. `Get`: from a Config to a pointer to the struct with the
-/// members, nullptr where that is absent, or to the std::optional of it: then the section is there
-/// when the file has it.
-template <class Get>
-class Keys {
- public:
-  Keys(Section& section, Get get) : section_(section), get_(get) {
-    if constexpr (requires(Config c) { get(c)->emplace(); }) {
-      section.prepare = [get](Config& c, bool in_file) {
-        if (auto* parent = get(c); in_file && parent != nullptr) parent->emplace();
-      };
-    }
-  }
-
-  template <class Struct, class T>
-  void operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
-    (*this)(name, member, any, "", meaning, rule);
-  }
-
-  template <class Struct, class T>
-  void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
-                  const char* meaning, Rule rule = none) {
-    if ((rule & required) != 0 && !section_.prepare) section_.required = true;
-    section_.keys.push_back(
-        {.section = section_.name,
-         .name = name,
-         .type = type_text<Plain<T>>(),
-         .range = range,
-         .unit = unit,
-         .meaning = meaning,
-         .required = (rule & required) != 0,
-         .fixed_by_restart = (rule & fixed_by_restart) != 0,
-         .read =
-             [get = get_, member, range](const Node& node, Config& config) {
-               Plain<T> value{};
-               Mismatch mismatch = convert(node, value);
-               if (!mismatch) mismatch = check(value, range);
-               if (!mismatch) value_of(get(config))->*member = value;
-               return mismatch;
-             },
-         .text = [get = get_, member](const Config& config) -> std::optional<std::string> {
-           const Struct* parent = value_of(get(config));
-           if (parent == nullptr) return {};
-           return optional_text(parent->*member);
-         }});
-  }
-
- private:
-  Section& section_;
-  Get get_;
-};
 
 Section& add(Sections& all, const char* name, const char* meaning) {
   return all.emplace_back(Section{name, meaning});

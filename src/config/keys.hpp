@@ -36,6 +36,12 @@ struct Section {
   /// Called before the keys are read: gives the section, if the file has it, its defaults.
   std::function<void(Config&, bool in_file)> prepare = {};
   std::vector<Key> keys = {};
+
+  /// Of a section that may be written many times, [[name]]: adds an entry of defaults to its list,
+  /// whose last entry the keys read; and the configuration with each entry alone.
+  std::function<void(Config&)> append = {};
+  std::function<std::vector<Config>(const Config&)> each = {};
+  bool repeated() const { return append != nullptr; }
 };
 
 /// In the order in which they are written.

@@ -40,25 +40,8 @@ std::string sentence(const std::string& section, const std::string& name, bool i
                      shown_key(name), node == nullptr ? "" : " = " + toml_text(*node), message);
 }
 
-/// What may stand in a section ("": the file): its keys and the sections in it.
-std::vector<std::string> names_in(const std::string& path) {
-  std::vector<std::string> names;
-  for (const Section& section : sections()) {
-    const auto [outer, name] = split(section.name);
-    if (outer == path) names.push_back(name);
-    if (section.name != path) continue;
-    for (const Key& key : section.keys) names.push_back(key.name);
-  }
-  return names;
-}
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_section(const std::string& dotted) {
-  return std::any_of(sections().begin(), sections().end(),
-                     [&](const Section& section) { return section.name == dotted; });
 }
 
 struct Removed {
@@ -82,8 +65,26 @@ std::string removal(std::string_view dotted, std::string_view value) {
 
 }  // namespace
 
-ConfigReader::ConfigReader(std::string_view text, const std::filesystem::path& file)
-    : file_(file), tree_(parse_toml(text, file.string(), problems_)) {}
+ConfigReader::ConfigReader(std::string_view text, const std::filesystem::path& file,
+                           const Sections& table)
+    : table_(table), file_(file), tree_(parse_toml(text, file.string(), problems_)) {}
+
+/// What may stand in a section ("": the file): its keys and the sections in it.
+std::vector<std::string> ConfigReader::names_in(const std::string& path) const {
+  std::vector<std::string> names;
+  for (const Section& section : table_) {
+    const auto [outer, name] = split(section.name);
+    if (outer == path) names.push_back(name);
+    if (section.name != path) continue;
+    for (const Key& key : section.keys) names.push_back(key.name);
+  }
+  return names;
+}
+
+bool ConfigReader::is_section(const std::string& dotted) const {
+  return std::ranges::any_of(table_,
+                             [&](const Section& section) { return section.name == dotted; });
+}
 
 void ConfigReader::set(const std::vector<std::string>& assignments) {
   for (const std::string& one : assignments) apply_override(tree_, one, problems_);
@@ -92,10 +93,17 @@ void ConfigReader::set(const std::vector<std::string>& assignments) {
 Config ConfigReader::read() {
   Config config;
   config.file = file_;
-  for (const Section& section : sections()) read(section, config);
+  for (const Section& section : table_) read(section, config);
   find_unknown("", tree_);
-  for (const Section& section : sections()) {
-    if (const Node* node = tree_.find(section.name)) find_unknown(section.name, *node);
+  for (const Section& section : table_) {
+    const Node* node = tree_.find(section.name);
+    if (node == nullptr) continue;
+    const auto* list = std::get_if<NodeArray>(&node->value);
+    if (section.repeated() && list != nullptr) {
+      for (const Node& entry : *list) find_unknown(section.name, entry);
+    } else {
+      find_unknown(section.name, *node);
+    }
   }
   return config;
 }
@@ -106,32 +114,57 @@ void ConfigReader::read(const Section& section, Config& config) {
   if (section.prepare) section.prepare(config, is_table);
   if (node == nullptr && section.required)
     report_error(section.name, "required section is missing");
+  if (node != nullptr && section.repeated()) return read_list(section, *node, config);
   if (node != nullptr && !is_table && !section.keys.empty()) {
     report_error(section.name, fmt::format("must be a section, [{}]", section.name));
   }
-  if (!is_table) return;
+  if (is_table) read_keys(section, *node, config);
+}
+
+/// A section that may be written many times.
+void ConfigReader::read_list(const Section& section, const Node& node, Config& config) {
+  const auto* list = std::get_if<NodeArray>(&node.value);
+  if (list == nullptr || !std::ranges::all_of(*list, [](const Node& n) { return n.table(); })) {
+    return report_error(section.name,
+                        fmt::format("must be sections, [[{}]] for each of them", section.name));
+  }
+  for (const Node& entry : *list) {
+    section.append(config);
+    read_keys(section, entry, config);
+  }
+}
+
+void ConfigReader::read_keys(const Section& section, const Node& table, Config& config) {
+  const auto bad = [&](const Key& key, const Node* value, const std::string& message) {
+    report_at(value, &table, key.dotted(), message);
+    bad_.insert(key.dotted());
+  };
   for (const Key& key : section.keys) {
-    const Node* value = node->find(key.name);
+    const Node* value = table.find(key.name);
     if (value == nullptr) {
-      if (key.required) report_error(key.dotted(), "required key is missing");
+      if (key.required) bad(key, nullptr, "required key is missing");
     } else if (value->table() == nullptr || !is_section(key.dotted())) {
       if (const Mismatch mismatch = key.read(*value, config)) {
         const std::string gone = removal(key.dotted(), toml_text(*value));
-        report_error(key.dotted(), gone.empty() ? "must be " + *mismatch : gone);
+        bad(key, value, gone.empty() ? "must be " + *mismatch : gone);
       }
     }
   }
 }
 
-void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {
+void ConfigReader::report_at(const Node* node, const Node* around, const std::string& dotted,
+                             const std::string& message) {
   const auto [section, name] = split(dotted);
-  const Node* node = tree_.find(dotted);
-  const Node* around = section.empty() ? nullptr : tree_.find(section);
   const Location where = node != nullptr     ? node->where
                          : around != nullptr ? around->where
                                              : Location{file_.string(), 0};
   const bool whole = section.empty() && (node == nullptr || node->table() != nullptr);
   problems_.push_back({where, sentence(section, name, whole, node, message)});
+}
+
+void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {
+  const std::string section = split(dotted).first;
+  report_at(tree_.find(dotted), section.empty() ? nullptr : tree_.find(section), dotted, message);
 }
 
 void ConfigReader::report_error(const std::string& dotted, const std::string& message) {
@@ -168,7 +201,7 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
     return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
   };
   if (!table) {
-    for (const Section& other : sections()) {
+    for (const Section& other : table_) {
       if (contains(names_in(other.name), name)) return elsewhere(name, other.name);
     }
   }
@@ -178,7 +211,7 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
     return fmt::format(" (did you mean \"{}\"?)", close);
   }
   if (table) return {};
-  for (const Section& other : sections()) {
+  for (const Section& other : table_) {
     const std::string near = nearest(name, names_in(other.name));
     if (!near.empty()) return elsewhere(near, other.name);
   }

@@ -13,12 +13,15 @@
 namespace barchan {
 
 struct Section;
+using Sections = std::vector<Section>;
+const Sections& sections();
 
 /// One file that is read, and what is wrong with it.
 class ConfigReader {
  public:
   /// Parses `text`, which stands in `file`.
-  ConfigReader(std::string_view text, const std::filesystem::path& file);
+  ConfigReader(std::string_view text, const std::filesystem::path& file,
+               const Sections& table = sections());
   /// Applies "key=value" assignments in order, before anything is read.
   void set(const std::vector<std::string>& assignments);
 
@@ -41,9 +44,16 @@ class ConfigReader {
 
  private:
   void read(const Section& section, Config& config);
+  void read_list(const Section& section, const Node& node, Config& config);
+  void read_keys(const Section& section, const Node& table, Config& config);
+  void report_at(const Node* node, const Node* around, const std::string& dotted,
+                 const std::string& message);
+  std::vector<std::string> names_in(const std::string& path) const;
+  bool is_section(const std::string& dotted) const;
   void find_unknown(const std::string& section, const Node& node);
   std::string suggestion(const std::string& section, const std::string& name, bool table);
 
+  const Sections& table_;
   std::filesystem::path file_;
   std::vector<Problem> problems_;
   Node tree_;

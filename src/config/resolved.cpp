@@ -1,26 +1,45 @@
 #include "src/config/resolved.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
 
 #include "src/config/keys.hpp"
 
 namespace barchan {
 namespace {
 
-/// The keys in which two cases differ.
-std::vector<const Key*> differences(const Config& a, const Config& b, bool fixed_by_restart) {
-  std::vector<const Key*> keys;
-  for (const Section& section : sections()) {
-    for (const Key& key : section.keys) {
-      if (key.fixed_by_restart == fixed_by_restart && key.text(a) != key.text(b))
-        keys.push_back(&key);
-    }
-  }
-  return keys;
+/// The value of a key; of a section that is there many times, those of all of them.
+std::optional<std::string> text_of(const Section& section, const Key& key, const Config& config) {
+  if (!section.repeated()) return key.text(config);
+  std::vector<std::string> texts;
+  for (const Config& one : section.each(config)) texts.push_back(key.text(one).value_or("absent"));
+  if (texts.empty()) return {};
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-std::string shown(const Key& key, const Config& config) {
-  return key.text(config).value_or("absent");
+struct Difference {
+  const Key* key;
+  std::string here, there;
+};
+
+/// The keys in which two cases differ.
+std::vector<Difference> differences(const Config& a, const Config& b, const Sections& table,
+                                    bool fixed_by_restart) {
+  std::vector<Difference> found;
+  for (const Section& section : table) {
+    for (const Key& key : section.keys) {
+      const auto here = text_of(section, key, a), there = text_of(section, key, b);
+      if (key.fixed_by_restart != fixed_by_restart || here == there) continue;
+      found.push_back({&key, here.value_or("absent"), there.value_or("absent")});
+    }
+  }
+  return found;
+}
+
+/// As it stands in a file.
+std::string title_of(const Section& section) {
+  return fmt::format(section.repeated() ? "[[{}]]" : "[{}]", section.name);
 }
 
 /// Type, choices or range, as in "number, above 0 and at most 1".
@@ -43,20 +62,27 @@ std::string row(const Key& key, const Config& defaults) {
 
 }  // namespace
 
-std::string to_toml(const Config& config) {
+std::string to_toml(const Config& config, const Sections& table) {
   std::string text;
-  for (const Section& section : sections()) {
+  const auto add = [&text](const Section& section, const std::string& title, const Config& c) {
     std::string lines;
     for (const Key& key : section.keys) {
-      if (const auto value = key.text(config)) lines += fmt::format("{} = {}\n", key.name, *value);
+      if (const auto value = key.text(c)) lines += fmt::format("{} = {}\n", key.name, *value);
     }
-    if (lines.empty()) continue;
-    text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name, lines);
+    if (!lines.empty()) text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", title, lines);
+  };
+  for (const Section& section : table) {
+    if (section.repeated()) {
+      for (const Config& one : section.each(config)) add(section, title_of(section), one);
+    } else {
+      add(section, title_of(section), config);
+    }
   }
   return text;
 }
 
-std::vector<std::string> restart_conflicts(const Config& config, const Config& written) {
+std::vector<std::string> restart_conflicts(const Config& config, const Config& written,
+                                           const Sections& table) {
   std::vector<std::string> conflicts;
   const auto section = [&](const char* name, bool here, bool there) {
     if (here == there) return;
@@ -66,23 +92,20 @@ std::vector<std::string> restart_conflicts(const Config& config, const Config& w
   section("[fluid]", config.fluid.has_value(), written.fluid.has_value());
   section("[grains]", config.grains.has_value(), written.grains.has_value());
   if (!conflicts.empty()) return conflicts;
-  for (const Key* key : differences(config, written, true)) {
-    conflicts.push_back(fmt::format("{} = {}: it was written with {}", key->dotted(),
-                                    shown(*key, config), shown(*key, written)));
-  }
+  for (const auto& [key, here, there] : differences(config, written, table, true))
+    conflicts.push_back(fmt::format("{} = {}: it was written with {}", key->dotted(), here, there));
   return conflicts;
 }
 
-std::vector<std::string> changed_keys(const Config& config, const Config& written) {
+std::vector<std::string> changed_keys(const Config& config, const Config& written,
+                                      const Sections& table) {
   std::vector<std::string> keys;
-  for (const Key* key : differences(config, written, false)) {
-    keys.push_back(
-        fmt::format("{} {} -> {}", key->dotted(), shown(*key, written), shown(*key, config)));
-  }
+  for (const auto& [key, here, there] : differences(config, written, table, false))
+    keys.push_back(fmt::format("{} {} -> {}", key->dotted(), there, here));
   return keys;
 }
 
-std::string keys_page() {
+std::string keys_page(const Sections& table) {
   std::string page =
       "# Keys of a case\n\n"
       "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
@@ -93,10 +116,11 @@ std::string keys_page() {
       "by number, of the grains\nthat are poured here or in the case that this one starts from; "
       "`check` prints it in metres.\n";
   Config defaults;
-  for (const Section& section : sections()) {
+  for (const Section& section : table) {
+    if (section.repeated()) section.append(defaults);
     if (section.prepare) section.prepare(defaults, true);
     if (section.keys.empty()) continue;
-    page += fmt::format("\n## [{}]\n\n{}{}.\n\n", section.name, section.meaning,
+    page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
                         section.required ? " (required)" : "");
     page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
     for (const Key& key : section.keys) page += row(key, defaults);

@@ -33,10 +33,10 @@ Config dune() {
 
 TEST(Memory, GrowsWithCellsAndGrains) {
   Config c = dune();
-  // 14 numbers of the state, 30 of work space and two complex transforms of 32,000 cells.
-  EXPECT_DOUBLE_EQ(memory_of_case(c, {}), 8 * (14 + 30 + 4) * 32000.0);
+  // 14 numbers of the state, 30 of work space and two complex transforms of 16,000 cells.
+  EXPECT_DOUBLE_EQ(memory_of_case(c, {}), 8 * (14 + 30 + 4) * 16000.0);
   EXPECT_DOUBLE_EQ(memory_of_case(c, kSizes) - memory_of_case(c, {}), 1000 * 1000.0);
-  EXPECT_EQ(memory_line(c, {}), "  memory                  about 12 MB\n");
+  EXPECT_EQ(memory_line(c, {}), "  memory                  about 6 MB\n");
 }
 
 TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {

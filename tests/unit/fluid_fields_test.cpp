@@ -57,7 +57,8 @@ TEST(FluidFields, AllOfTheTableAreAllocatedRestartedAndShown) {
   OutputFiles(folder.path(), {}, {}).write_fields(*there.fluid, 0, 0);
   std::set<std::string> written;
   const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
-  for (const auto& [name, info] : list_frames(file).at(0).arrays) written.insert(name);
+  const std::vector<FrameInfo> frames = list_frames(file);
+  for (const auto& [name, info] : frames.at(0).arrays) written.insert(name);
   EXPECT_EQ(written, in_frames);
 }
 
