@@ -1,8 +1,9 @@
-# Everything the library links, collected in BARCHAN_LIBRARIES. All headers come in as SYSTEM.
+# Everything the library links, collected in BARCHAN_LIBRARIES. All headers come in as SYSTEM. The installed package
+# includes this file, too: targets made here are imported, so that they are found anew there.
 set(MPI_CXX_SKIP_MPICXX ON)  # the C interface only: MPI's C++ bindings are gone from the standard
 find_package(MPI REQUIRED COMPONENTS CXX)
 
-include(cmake/kokkos.cmake)
+include("${CMAKE_CURRENT_LIST_DIR}/kokkos.cmake")
 
 # Parallel HDF5, C interface. By pkg-config where it can: CMake's own search runs HDF5's compiler
 # wrapper, which fails in a folder with a space in its name.
@@ -24,16 +25,16 @@ else()
 endif()
 
 # Fourier transforms: cuFFT where Kokkos has CUDA, else FFTW.
-add_library(barchan_fft INTERFACE)
+add_library(barchan::fft INTERFACE IMPORTED)
 if(Kokkos_ENABLE_CUDA)
   find_package(CUDAToolkit REQUIRED)
-  target_link_libraries(barchan_fft INTERFACE CUDA::cufft)
+  target_link_libraries(barchan::fft INTERFACE CUDA::cufft)
 else()
   # FFTW ships no CMake package that can be relied on; FFTW3_ROOT is honoured by find_*.
   find_path(FFTW3_INCLUDE_DIR fftw3.h REQUIRED)
   find_library(FFTW3_LIBRARY fftw3 REQUIRED)
-  target_include_directories(barchan_fft SYSTEM INTERFACE "${FFTW3_INCLUDE_DIR}")
-  target_link_libraries(barchan_fft INTERFACE "${FFTW3_LIBRARY}")
+  target_include_directories(barchan::fft SYSTEM INTERFACE "${FFTW3_INCLUDE_DIR}")
+  target_link_libraries(barchan::fft INTERFACE "${FFTW3_LIBRARY}")
 endif()
 
 find_package(CLI11 REQUIRED)
@@ -43,12 +44,12 @@ find_package(ZLIB REQUIRED)
 # toml++ is headers, and where it is packaged so also a library that spares compiling the parser.
 find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
 find_library(TOMLPLUSPLUS_LIBRARY tomlplusplus)
-add_library(barchan_toml INTERFACE)
-target_include_directories(barchan_toml SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
+add_library(barchan::toml INTERFACE IMPORTED)
+target_include_directories(barchan::toml SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
 if(TOMLPLUSPLUS_LIBRARY)
-  target_compile_definitions(barchan_toml INTERFACE TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
-  target_link_libraries(barchan_toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
+  target_compile_definitions(barchan::toml INTERFACE TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
+  target_link_libraries(barchan::toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
 endif()
 
-set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan_fft CLI11::CLI11 fmt::fmt
-    nlohmann_json::nlohmann_json ZLIB::ZLIB barchan_toml)
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan::fft CLI11::CLI11 fmt::fmt
+    nlohmann_json::nlohmann_json ZLIB::ZLIB barchan::toml)

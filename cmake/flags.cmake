@@ -1,6 +1,6 @@
 # Compile options of our own code, carried by barchan_flags.
 add_library(barchan_flags INTERFACE)
-target_include_directories(barchan_flags INTERFACE "${CMAKE_SOURCE_DIR}")
+target_include_directories(barchan_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
 # In place of what CMake takes by itself (with NDEBUG, which would drop checks of Kokkos); what a user gives stays.
 macro(barchan_flags_of config cmakes_own ours)
@@ -23,12 +23,14 @@ target_compile_options(barchan_flags INTERFACE -fno-math-errno -fno-trapping-mat
 target_compile_options(barchan_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wconversion)
 if(NOT Kokkos_ENABLE_CUDA)
-  target_compile_options(barchan_flags INTERFACE -Wpedantic -Werror)
+  target_compile_options(barchan_flags INTERFACE -Wpedantic)
 else()
-  # Warnings are errors here, too; but the intermediate code that nvcc hands to the host compiler is
-  # not pedantic and has parentheses of its own. No fused multiply-add, as above.
-  target_compile_options(barchan_flags INTERFACE --Werror=all-warnings --fmad=false
-    -Wno-parentheses)
+  # The intermediate code that nvcc hands to the host compiler is not pedantic and has parentheses of
+  # its own. No fused multiply-add, as above.
+  target_compile_options(barchan_flags INTERFACE --fmad=false -Wno-parentheses)
+  if(CMAKE_COMPILE_WARNING_AS_ERROR)  # of nvcc's front end
+    target_compile_options(barchan_flags INTERFACE --Werror=all-warnings)
+  endif()
   # fmt 9 halves it for nvcc.
   target_compile_definitions(barchan_flags INTERFACE FMT_USE_CONSTEXPR=1)
 endif()
@@ -42,7 +44,8 @@ if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   target_compile_options(barchan_flags INTERFACE -Wno-unknown-pragmas -Wno-sign-conversion
     -Wno-deprecated-declarations)
 endif()
-if(BARCHAN_NATIVE)
+# Where Kokkos was built for a processor, its flags come with it.
+if(BARCHAN_ENABLE_NATIVE AND NOT Kokkos_ARCH MATCHES "NATIVE|AMD|ARM|ZEN|SKX|KNL|HSW|BDW|ICX|SPR|POWER|A64FX|APPLE")
   target_compile_options(barchan_flags INTERFACE -march=native)
   # Full vectors of AVX-512: compilers take halves of them for the sake of the clock of older processors.
   include(CheckCXXCompilerFlag)
@@ -61,7 +64,7 @@ if(BARCHAN_SANITIZE)
     # How OpenMP and Kokkos order the threads, in words that the thread sanitizer knows.
     add_library(barchan_sanitize OBJECT tests/support/tsan_openmp.cpp)
     target_compile_options(barchan_flags INTERFACE -g1
-      "SHELL:-include \"${CMAKE_SOURCE_DIR}/tests/support/tsan_fence.hpp\"")
+      "SHELL:-include \"${PROJECT_SOURCE_DIR}/tests/support/tsan_fence.hpp\"")
   else()
     add_library(barchan_sanitize OBJECT tests/support/keep_libraries.cpp)
     target_compile_definitions(barchan_flags INTERFACE KOKKOS_ENABLE_DEBUG_BOUNDS_CHECK)

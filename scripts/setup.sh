@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Brings the machine to where the project builds: Debian packages by apt, and Kokkos.
-# scripts/setup.sh [--quiet]     --quiet: say nothing when there is nothing to do
-# Installs only what is missing, upgrades nothing, needs no network when all is there.
+# scripts/setup.sh [--quiet]     --quiet: say nothing when there is nothing to do, and ask nothing
+# Installs only what is missing, upgrades nothing, needs no network when all is there. Who is not root is asked before
+# sudo is called, or told the command.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 deps="${BARCHAN_DEPS:-$root/build/deps}"
@@ -27,9 +28,13 @@ missing_packages() {  # one name a line; a package that was removed but configur
 }
 
 apt_install() {
-  local as_root=()
+  local as_root=() answer=""
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo > /dev/null || die "please install these packages as root: $*"
+    say "packages are missing. As root: apt-get install --no-install-recommends $*" >&2
+    command -v sudo > /dev/null || die "nothing was installed"
+    [ "$quiet" = no ] && [ -t 0 ] || die "nothing was installed; ./barchan setup does it with sudo, if you agree"
+    read -r -p "barchan setup: run this with sudo now? [y/N] " answer
+    [[ $answer == [yY]* ]] || die "nothing was installed"
     as_root=(sudo)
   fi
   as_root+=(env DEBIAN_FRONTEND=noninteractive)

@@ -39,7 +39,8 @@ std::vector<Difference> differences(const Config& a, const Config& b, const Sect
 
 /// As it stands in a file.
 std::string title_of(const Section& section) {
-  return fmt::format(section.repeated() ? "[[{}]]" : "[{}]", section.name);
+  return section.repeated() ? fmt::format("[[{}]]", section.name)
+                            : fmt::format("[{}]", section.name);
 }
 
 /// Type, choices or range, as in "number, above 0 and at most 1".

@@ -124,7 +124,7 @@ def build():
     environment = os.environ | {"GIT_CEILING_DIRECTORIES": str(WORK)}
     with (WORK / "build.log").open("w") as log:
         for command in (
-            ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARCHAN_BENCH=OFF"]
+            ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARCHAN_ENABLE_BENCHMARKS=OFF"]
             + ([f"-DKokkos_DIR={found[1]}"] if found else []),
             ["cmake", "--build", BUILD, "--target", "unit_tests", "physics_tests", "mpi_tests"],
         ):

@@ -16,7 +16,7 @@ expect() {
 
 expect 0 "configs/quickstart.toml"
 expect 0 "configs/quickstart.toml" --help
-expect 2 "did you mean 'run'" rnu
+expect 2 "there are run, check" rnu
 expect 2 "unknown command 'frobnicate'" frobnicate
 expect 2 "--ranks needs a number" run case.toml --ranks none
 expect 2 "--threads needs a number" run case.toml --threads=0
