@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dune_shape import BIN, HALF_WIDTH, main_dune
+from dune_shape import BIN, HALF_WIDTH
 from height_map import HeightMap
 from run_folder import Grains, NotInRun
-from tracks import bed_of
+from tracks import tracks
 
 
 @dataclass
@@ -26,8 +26,8 @@ class Outline:
 
 def main_outline(run):
     """Of the main dune in the last frame of grains.h5; sand between the horns is not of it."""
-    grains, bed = run.grains(-1), bed_of(run)
-    dune = main_dune(grains, bed)
+    grains, bed = run.grains(-1), tracks(run).bed
+    dune = tracks(run).main_dune(grains)
     if dune is None or not np.isfinite(dune.lee_foot):
         raise NotInRun("needs a dune with grains on its centreline in the last frame of grains.h5")
     rows = dune.rows

@@ -1,8 +1,8 @@
-"""The shape of one dune, measured as the program does for dune.csv, from the grains that it labels so.
+"""One dune among the grains of a frame: which they are, where its lee foot is and which of them are horns.
 
-The same centreline and crest as src/diagnostics/dune_shape.cpp (definitions in docs/conventions.md), so
-that what is said about single grains, e.g. that one lies in a horn, agrees with the lengths in dune.csv.
-Lengths in m, angles from +x. Criteria are in mean grain diameters.
+Its size, crest and horns are those that the program has written to dune.csv (definitions in docs/conventions.md).
+What dune.csv lacks is found here with the same centreline, so that grains that lie in a horn are those that make its
+length. Lengths in m, angles from +x. Criteria are in mean grain diameters.
 """
 
 from dataclasses import dataclass
@@ -37,9 +37,9 @@ class Bed:
 class Dune:
     """One dune: `rows` (n) of its grains in the frame, their x, z (n) [m] with periodic images undone.
 
-    centroid (3), size, crest and horns as in dune.csv [m]. `lee_foot` is the downstream end of the
-    centreline, +infinity when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0.
-    `surface` is that of its grains.
+    Centroid (3) [m]; size, crest and horns are of dune.csv [m]. `lee_foot` is the downstream end of the centreline,
+    +infinity when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0. `surface` is that of its
+    grains.
     """
 
     rows: np.ndarray
@@ -65,10 +65,14 @@ def main_rows(grains):
     return np.nonzero(grains.dune == MAIN)[0]
 
 
-def main_dune(grains, bed):
-    """The main dune of a frame, None while there is none."""
+def main_dune(grains, bed, table):
+    """The main dune of a frame, None while there is none. `table`: its columns of dune.csv, of which the line nearest
+    in time counts."""
     rows = main_rows(grains)
-    return measure(grains, rows, bed) if len(rows) else None
+    if not len(rows):
+        return None
+    line = int(np.argmin(abs(table["t"] - grains.time)))
+    return find(grains, rows, bed, {name: float(column[line]) for name, column in table.items()})
 
 
 def in_one_piece(x, length):
@@ -80,35 +84,22 @@ def in_one_piece(x, length):
     return x if widest == len(x) - 1 else np.where(x > ordered[widest], x - length, x)
 
 
-def measure(grains, rows, bed):
+def find(grains, rows, bed, size):
+    """The dune of these rows, `size` its line of dune.csv."""
     x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
             for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
     diameter = float(grains.d.mean())
     bins = [length / max(1, int(length / (BIN * diameter))) for length in bed.lengths]
     radius = 0.5 * grains.d[rows]
     centroid = np.average([x, grains.x[rows, 1], z], axis=1, weights=radius**3)
-    half_width = HALF_WIDTH * diameter
-    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
-    H, crest_x = find_crest(surface, centroid, half_width)
-    strip = abs(z - centroid[2]) < half_width
+    crest_x = centroid[0] + bed.nearest(np.array([size["crest_x"] - centroid[0], 0.0, 0.0]))[0]
+    strip = abs(z - centroid[2]) < HALF_WIDTH * diameter
     line = centreline(x[strip], radius[strip], bins[0], crest_x)
-    L = (line if line else (np.min(x - radius), np.max(x + radius)))
     foot = line[1] if line else np.inf
     side = np.where(strip | (x + radius <= foot), 0, np.where(z < centroid[2], -1, 1))
-    left, right = (np.max((x + radius)[side == s], initial=foot) - foot if line else 0.0 for s in (-1, 1))
-    W, L = np.max(z + radius) - np.min(z - radius), L[1] - L[0]
-    W, L = (min(size, length) if periodic else size
-            for size, length, periodic in zip((W, L), bed.lengths[::-1], bed.periodic[::-1]))
-    return Dune(rows, x, z, centroid, W, L, H, crest_x, foot, left, right, side, surface)
-
-
-def find_crest(surface, centroid, half_width):
-    """H, and crest_x on the centreline [m]."""
-    strip = abs(surface.z - centroid[2]) < half_width
-    crest = np.max(surface.h[strip], initial=0.0)
-    band = max(0.05 * crest, 0.5 * half_width / HALF_WIDTH)
-    weight = np.where(strip, surface.h - (crest - band), 0.0).clip(0)
-    return surface.h.max(), float(np.average(surface.x, weights=weight)) if weight.any() else centroid[0]
+    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
+    return Dune(rows, x, z, centroid, size["W"], size["L"], size["H"], float(crest_x), foot, size["horn_left"],
+                size["horn_right"], side, surface)
 
 
 def centreline(x, radius, bin_x, crest_x):

@@ -6,7 +6,7 @@ Definitions: docs/conventions.md, "Slopes and transport". SI units, angles in de
 import numpy as np
 
 import grain_fluxes
-from dune_shape import HALF_WIDTH, main_dune
+from dune_shape import HALF_WIDTH
 from horn_lengths import SECOND
 from run_folder import NotInRun
 from slip_face import asymmetry, slopes
@@ -68,10 +68,10 @@ def migration(run, table):
 
 def measure_shares(run):
     """{t, saltation, rolling, creep} of the frames of grains.h5; None where they lack velocities or labels."""
-    bed, rows = tracks(run).bed, []
+    source, rows = tracks(run), []
     for index in range(len(run.grain_file.frames) if run.grain_file else 0):
         grains = run.grains(index)
-        dune = main_dune(grains, bed) if grains.u is not None and grains.dune is not None else None
+        dune = source.main_dune(grains) if grains.u is not None and grains.dune is not None else None
         if dune is not None:
             rows.append((grains.time, *grain_fluxes.shares(grains, dune)))
     return dict(zip(("t", *grain_fluxes.KINDS), np.array(rows).T)) if rows else None

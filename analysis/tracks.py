@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from dune_shape import Bed, main_dune
+from dune_shape import MAIN, Bed, main_dune
 from run_folder import Grains, NotInRun, PlotError
 
 
@@ -67,4 +67,6 @@ class Tracks:
 
     def main_dune(self, grains):
         """The run's main dune, None while there is none."""
-        return main_dune(grains, self.bed)
+        if not self.run.dunes or MAIN not in self.run.dunes:
+            raise NotInRun("needs dune.csv with the main dune")
+        return main_dune(grains, self.bed, self.run.dunes[MAIN])

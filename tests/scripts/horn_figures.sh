@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Horn grains, their origins and the force map of synthetic runs in which all of these are known: a dune
-# along the axes, turned, across the periodic boundaries, with and without tracks.h5 and dune.csv.
+# along the axes, turned, across the periodic boundaries, with and without tracks.h5.
 set -u
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
@@ -26,7 +26,7 @@ check "$dir/turned" shape origins numbers map
 refused "force_map needs a frame with forces between t = 7 s and 8 s" "$dir/turned" force-map --from 7 --to 8
 refused "fig12 needs a dune with horns: none is longer than 2.5 grain diameters up to t = 1 s" "$dir/turned" fig12 --time 1
 
-make_run "$dir/alone" --angle -5 --seam --without table
+make_run "$dir/alone" --angle -5 --seam
 plot 0 "$dir/alone" horns force-map --from 0 --to 1
 quiet
 plot 0 "$dir/alone" sectors
@@ -37,6 +37,9 @@ rm "$dir/alone/grains.h5"
 refused 'no figure "fig_14"' "$dir/alone" fig-14
 refused "fig13 needs force_map.csv, or grains.h5 with force_total" "$dir/alone" fig13
 refused "horns needs grains.h5 with at least one frame" "$dir/alone" horns
+
+make_run "$dir/tableless" --without table
+refused "horns needs dune.csv with the main dune" "$dir/tableless" horns
 
 make_run "$dir/old" --without dune --tracks
 refused "horns needs frames that say which dune each grain is of (output.dune_interval > 0); runs of an earlier version" "$dir/old" horns

@@ -103,8 +103,8 @@ def program_map(run):
 
 
 def shape(run):
-    """W, L, H, horns and centroid found in the grains, turned and across the seams, against dune.csv, which
-    make_horn_run.py wrote from the blocks alone; and so are the curves of the morphology figure."""
+    """The grains found in the horns, turned and across the seams, reach as far from the lee foot that is found as
+    dune.csv says, which make_horn_run.py wrote from the blocks alone; and the curves of the morphology figure."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "analysis"))
     from run_folder import RunFolder
     from tracks import Tracks
@@ -113,7 +113,10 @@ def shape(run):
     for index, row in enumerate(table[table["dune"] == 0]):
         dune = tracks.main_dune(tracks.read(index))
         for name in ("W", "L", "H", "horn_left", "horn_right"):
-            same(f"{name} at {row['t']} s", getattr(dune, name), row[name], 1e-8)  # single precision
+            same(f"{name} at {row['t']} s", getattr(dune, name), row[name], 0)
+        for side, name in ((-1, "horn_left"), (1, "horn_right")):
+            tip = np.max(dune.x[dune.side == side] + 0.5 * D, initial=dune.lee_foot)
+            same(f"reach of {name} at {row['t']} s", tip - dune.lee_foot, row[name], 1e-8)  # single precision
         for axis, name in enumerate(("Cx", "Cy", "Cz")):
             difference = tracks.bed.nearest(dune.centroid - [row["Cx"], row["Cy"], row["Cz"]])[axis]
             same(f"{name} at {row['t']} s", difference, 0.0, 1e-8)
