@@ -1,10 +1,14 @@
 # cmake --install: the program, and the package Barchan with barchan::kernels (headers) and barchan::core (all but
 # the program). A user's own code: find_package(Barchan), #include <barchan/kernels/grains/contact_law.hpp>.
 include(CMakePackageConfigHelpers)
+# A Kokkos that is not of the system stays where it is. (CMake does not count a folder in our own build as such.)
+set(install_rpath INSTALL_RPATH_USE_LINK_PATH ON INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
+set_target_properties(barchan PROPERTIES ${install_rpath})
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Barchan")
 
 install(TARGETS barchan RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 foreach(level IN LISTS BARCHAN_LEVELS)
+  set_target_properties(barchan.${level} PROPERTIES ${install_rpath})
   install(TARGETS barchan.${level} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endforeach()
 install(TARGETS barchan_core barchan_kernels EXPORT BarchanTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")

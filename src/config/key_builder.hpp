@@ -42,7 +42,8 @@ class Keys {
   template <class Struct, class T>
   void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
                   const char* meaning, Rule rule = none) {
-    if ((rule & required) != 0 && !section_.prepare) section_.required = true;
+    if ((rule & required) != 0 && !section_.prepare && !section_.repeated())
+      section_.required = true;
     section_.keys.push_back(
         {.section = section_.name,
          .name = name,

@@ -29,7 +29,12 @@ Node convert(const toml::node& from, const Location& where) {
       to.value = std::move(table);
     } else if constexpr (toml::is_array<Kind>) {
       NodeArray elements;
-      for (const auto& element : node) elements.push_back(convert(element, where));
+      for (const auto& element : node) {
+        Location here = where;  // each [[section]] has a line of its own
+        if (here.line != 0 && element.is_table())
+          here.line = static_cast<int>(element.source().begin.line);
+        elements.push_back(convert(element, here));
+      }
       to.value = std::move(elements);
     } else if constexpr (toml::is_chronological<Kind>) {
       std::ostringstream written;

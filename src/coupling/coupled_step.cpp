@@ -44,7 +44,7 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
         FluidSideGrains(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic,
                         config.coupling.forces);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
-    grains_->list().use_scratch(ScratchMemory(fluid_->idle().for_anything()));
+    grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
   } else if (config.grains->ambient) {
     add_fluid(*state.grains);
     still_.rho_f = still_.weight.displaced = config.grains->ambient->density;

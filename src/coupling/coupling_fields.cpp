@@ -4,7 +4,7 @@ namespace barchan {
 
 CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
     : on_faces{make_faces("exchange impulse", at.grid)} {
-  const FluidSolver::Idle idle = solver.idle();
+  const FluidSolver::Scratch idle = solver.scratch();
   const auto& [flux, u_star] = idle.faces;
   pressure_on_faces = stress_on_faces = flux;
   convective = u_star;

@@ -70,16 +70,16 @@ class FluidSolver {
 
   /// What holds nothing between two calls of advance() of a solver with grains: scratch memory for
   /// the coupling and the neighbour list.
-  struct Idle {
+  struct Scratch {
     FaceVector faces[2];
     std::array<Field, 3> cells;  // for finite values: the solver multiplies some of them with zero
     /// Those that may be left with any bits.
-    std::vector<Field> for_anything() const {
+    std::vector<Field> of_any_bits() const {
       const auto& [a, b] = faces;
       return {a.x, a.y, a.z, b.x, b.y, b.z};
     }
   };
-  Idle idle() const { return {{flux_, u_star_}, pressure_.idle_fields()}; }
+  Scratch scratch() const { return {{flux_, u_star_}, pressure_.scratch_fields()}; }
 
   const Boundary& boundary() const { return boundary_; }
   const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }

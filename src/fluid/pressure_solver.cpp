@@ -9,10 +9,10 @@ namespace barchan {
 
 namespace {
 
-// A dune of 1e5 grains takes 3 iterations to 1e-6, and 4 with two sweeps or with columns hindered
+// A dune of 1e5 grains takes 3 iterations to 1e-6, and 4 with two sweeps or with columns obstructed
 // below 0.98, where the FFT alone needs 15. More sweeps save none.
 constexpr int kSweeps = 3;
-constexpr Real kHinderedBelow = 0.999;
+constexpr Real kObstructedBelow = 0.999;
 
 Grid flat(Grid grid) {
   grid.ny = 1;
@@ -26,11 +26,11 @@ LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
       halo_(halo),
       flat_(flat(grid)),
       flat_halo_(flat_),
-      found_("local: hindered", flat_),
-      height_("local: columns", flat_),
-      around_("local: around", flat_),
+      mask_("local: obstructed", flat_),
+      mask_1_("local: columns", flat_),
+      mask_2_("local: around", flat_),
       pivot_("local: pivot", grid),
-      copy_("local: copy of r", grid),
+      saved_r_("local: copy of r", grid),
       local_("local: correction", grid) {}
 
 template <class Functor>
@@ -40,12 +40,12 @@ void LocalCorrection::each_column(const char* label, const Functor& functor) con
 
 void LocalCorrection::update(const FaceVector& c) {
   c_ = c;
-  each_column("local: find columns", FindColumns{c, grid_.ny, kHinderedBelow, {found_}});
-  flat_halo_.fill(found_);
-  each_column("local: widen", WidenColumns{grid_.ny, {found_}, {height_}});
-  flat_halo_.fill(height_);
-  each_column("local: widen", WidenColumns{grid_.ny, {height_}, {around_}});
-  each_column("local: factorise", FactoriseColumn{{grid_, c}, {height_}, pivot_});
+  each_column("local: find columns", FindColumns{c, grid_.ny, kObstructedBelow, {mask_}});
+  flat_halo_.fill(mask_);
+  each_column("local: widen", WidenColumns{grid_.ny, {mask_}, {mask_1_}});
+  flat_halo_.fill(mask_1_);
+  each_column("local: widen", WidenColumns{grid_.ny, {mask_1_}, {mask_2_}});
+  each_column("local: factorise", FactoriseColumn{{grid_, c}, {mask_1_}, pivot_});
 }
 
 void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
@@ -55,7 +55,7 @@ void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
       const int colour = forward ? n : colours - 1 - n;
       if (grid_.ranks) halo_.fill(z);  // the columns of other ranks
       each_column("local: relax", RelaxColumns{.equations = {grid_, c_},
-                                               .height = {height_},
+                                               .height = {mask_1_},
                                                .pivot = pivot_,
                                                .r = r,
                                                .z = z,
@@ -67,9 +67,9 @@ void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
 void LocalCorrection::apply(const PoissonFft& poisson, Field& r, Field& z) {
   relax(r, local_, true);
   halo_.fill(local_);
-  each_column("local: subtract", SubtractLocal{grid_, c_, {around_}, local_, r, copy_});
+  each_column("local: subtract", SubtractLocal{grid_, c_, {mask_2_}, local_, r, saved_r_});
   poisson.solve(r, z);
-  each_column("local: add", AddLocal{{around_}, copy_, local_, r, z});
+  each_column("local: add", AddLocal{{mask_2_}, saved_r_, local_, r, z});
   relax(r, z, false);
 }
 
@@ -81,8 +81,8 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       poisson_(grid, std::move(fft), 0, 1),
       local_(grid, halo),
       z_("pressure: z", grid),
-      direction_("pressure: direction", grid),
-      image_("pressure: image", grid) {}
+      d_("pressure: direction", grid),
+      a_d_("pressure: image", grid) {}
 
 void PressureSolver::remove_mean(Field& f) {
   const Real height = grid_.height_of_all_columns();
@@ -93,33 +93,32 @@ void PressureSolver::remove_mean(Field& f) {
 /// z = M^-1 r.
 void PressureSolver::precondition() {
   if (config_.preconditioner == Preconditioner::local_fft) {
-    local_.apply(poisson_, residual_, z_);
+    local_.apply(poisson_, r_, z_);
   } else {
-    poisson_.solve(residual_, z_);
+    poisson_.solve(r_, z_);
   }
 }
 
 PressureReport PressureSolver::solve(const FaceVector& c, Field& b, Field& p, Real tolerance) {
   remove_mean(b);
-  residual_ = b;
+  r_ = b;
   if (config_.preconditioner == Preconditioner::local_fft) local_.update(c);
   const Real bb = sum_each_cell("pressure: norm of b", grid_, InnerProduct{grid_, b, b});
   halo_.fill(p);
-  Real rr = sum_each_cell("pressure: residual", grid_, InitialResidual{grid_, c, p, residual_});
+  Real rr = sum_each_cell("pressure: residual", grid_, InitialResidual{grid_, c, p, r_});
   const Real enough = tolerance * tolerance * bb;
   Real rz_before = 0;
   PressureReport report;
   while (rr > enough && report.iterations < config_.max_iterations) {
     precondition();
-    const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, residual_, z_});
+    const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, r_, z_});
     const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
-    for_each_cell("pressure: direction", grid_, Combine{1, z_, b_factor, direction_});
-    halo_.fill(direction_);
+    for_each_cell("pressure: direction", grid_, Combine{1, z_, b_factor, d_});
+    halo_.fill(d_);
     const Real curvature =
-        sum_each_cell("pressure: operator", grid_, ApplyOperator{grid_, c, direction_, image_});
+        sum_each_cell("pressure: operator", grid_, ApplyOperator{grid_, c, d_, a_d_});
     const Real a = rz / curvature;
-    rr = sum_each_cell("pressure: advance", grid_,
-                       AdvanceIterate{grid_, direction_, image_, p, residual_, a});
+    rr = sum_each_cell("pressure: advance", grid_, AdvanceIterate{grid_, d_, a_d_, p, r_, a});
     rz_before = rz;
     ++report.iterations;
   }

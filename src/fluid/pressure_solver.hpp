@@ -36,8 +36,8 @@ class LocalCorrection {
   FaceVector c_;
   Grid flat_;  // one row of cells
   Halo flat_halo_;
-  Field found_, height_, around_;  // ColumnHeights: hindered; one layer more; and another
-  Field pivot_, copy_;
+  Field mask_, mask_1_, mask_2_;  // ColumnHeights: obstructed; one layer more; two
+  Field pivot_, saved_r_;
   Field local_;  // zero between two calls of apply()
 };
 
@@ -61,7 +61,7 @@ class PressureSolver {
   PressureReport solve_uniform(const Field& b, Field& p);
 
   /// Fields that hold nothing between two solves.
-  std::array<Field, 3> idle_fields() const { return {z_, direction_, image_}; }
+  std::array<Field, 3> scratch_fields() const { return {z_, d_, a_d_}; }
 
  private:
   void precondition();
@@ -72,7 +72,7 @@ class PressureSolver {
   SolverConfig config_;
   PoissonFft poisson_;
   LocalCorrection local_;
-  Field residual_, z_, direction_, image_;  // r, M^-1 r, d, A d
+  Field r_, z_, d_, a_d_;  // residual, M^-1 r, direction, A d
 };
 
 }  // namespace barchan

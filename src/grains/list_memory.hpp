@@ -23,6 +23,14 @@ void reserve(View& view, const char* label, int n) {
   if (view.extent_int(0) < std::max(n, 1)) view = uninitialized<View>(label, with_slack(n));
 }
 
+/// The memory of a view that is no longer needed, as n entries of another one: must be large
+/// enough.
+template <class View, class Before>
+View used_as(const Before& memory, int n) {
+  return View(reinterpret_cast<typename View::value_type*>(memory.data()),
+              static_cast<std::size_t>(n));
+}
+
 /// Scratch memory if there is enough, else as reserve() does.
 template <class T>
 void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* label, int n) {

@@ -54,19 +54,19 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
   if (rank_count(ranks) > 1) ranks_ = std::make_unique<Ranks>(ranks);
 }
 
-void NeighborList::take_room(const GrainState& grains) {
-  idle_.free_all();
+void NeighborList::take_memory(const GrainState& grains) {
+  scratch_.free_all();
   const int n = grains.n + grains.n_ghosts;
-  take_scratch(idle_, entry_, "entry in the contact history", n + 1);
-  take_scratch(idle_, room_, "room of a rebuild", n);
-  take_scratch(idle_, key_room_, "keys of a rebuild", 2 * n);
-  take_scratch(idle_, occupied_.of_grain, "column of grain", n);
+  take_scratch(scratch_, entry_, "entry in the contact history", n + 1);
+  take_scratch(scratch_, grain_memory_, "room of a rebuild", n);
+  take_scratch(scratch_, key_memory_, "keys of a rebuild", 2 * n);
+  take_scratch(scratch_, occupied_.of_grain, "column of grain", n);
 }
 
 /// Those that came from other ranks, and ghosts, may need more.
-void NeighborList::reserve_room(int n) {
-  reserve(room_, "room of a rebuild", n);
-  reserve(key_room_, "keys of a rebuild", 2 * n);
+void NeighborList::reserve_memory(int n) {
+  reserve(grain_memory_, "room of a rebuild", n);
+  reserve(key_memory_, "keys of a rebuild", 2 * n);
   reserve(occupied_.of_grain, "column of grain", n);
 }
 
@@ -100,12 +100,13 @@ void NeighborList::collect_history(const GrainState& grains) {
   const PairList& list = grains.list;
   const int n = grains.n;
   const GrainsWithHistory with_history{.list = list, .id = grains.id, .both = ranks_ != nullptr};
-  take_scratch(idle_, history_.first, "contact history: first", n + 1);
+  take_scratch(scratch_, history_.first, "contact history: first", n + 1);
   Kokkos::deep_copy(history_.first, 0);
   Kokkos::parallel_for("neighbors: count contacts", list.n_pairs,
                        CountContacts{.grains = with_history, .count = history_.first});
-  const int n_contacts = counts_to_offsets(history_.first, n);
-  const auto take = [&](auto& array) { take_scratch(idle_, array, "contact history", n_contacts); };
+  const auto take = [&, n_contacts = counts_to_offsets(history_.first, n)](auto& array) {
+    take_scratch(scratch_, array, "contact history", n_contacts);
+  };
   take(history_.partner), take(history_.xi_t);
   if (list.has_rolling()) take(history_.rolling);
   if (list.has_force()) take(history_.force);
@@ -122,15 +123,15 @@ void NeighborList::redistribute(GrainState& grains) {
   if (!has_history_) history_.first = Kokkos::View<int*>("contact history: first", grains.n + 1);
   ranks_->partition.balance(grains, columns_, history_.first);
   columns_.origin = ranks_->partition.origin();
-  ranks_->migrate(grains, history_, columns_, ranks_->partition.owners(), room_);
+  ranks_->migrate(grains, history_, columns_, ranks_->partition.owners(), grain_memory_);
 }
 
 void NeighborList::sort(GrainState& grains, bool drop) {
   const int n = grains.n;
   reserve(entry_, "entry in the contact history", n + 1);
-  reserve_room(n);
+  reserve_memory(n);
   const std::pair<int, int> entries(0, n);
-  const auto key = Kokkos::subview(key_room_, entries);
+  const auto key = Kokkos::subview(key_memory_, entries);
   const auto entry = Kokkos::subview(entry_, entries);
   const auto kin = grains.kin;
   const SearchColumns columns = columns_;
@@ -147,7 +148,7 @@ void NeighborList::sort(GrainState& grains, bool drop) {
       },
       n_dropped);
   Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, entry);
-  permute(grains, entry, n - n_dropped, room_);
+  permute(grains, entry, n - n_dropped, grain_memory_);
   grains.n_left += n_dropped;
 }
 
@@ -166,7 +167,7 @@ Windows NeighborList::find_windows(const GrainState& grains, int n) {
       "neighbors: link columns", occupied_.n,
       LinkColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
   static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
-  const Windows window(reinterpret_cast<int*>(key_room_.data()), static_cast<std::size_t>(n));
+  const Windows window = used_as<Windows>(key_memory_, n);
   Kokkos::parallel_for("neighbors: windows", occupied_.n,
                        FindWindows{.grains = grains.kin, .occupied = occupied_, .window = window});
   return window;
@@ -195,8 +196,7 @@ void NeighborList::register_others(const PairList& list, int n) {
       "neighbors: count incoming", list.n_inter,
       KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.incoming_first(list.j(slot))); });
   counts_to_offsets(list.incoming_first, n);
-  const Kokkos::View<int*> cursor(reinterpret_cast<int*>(key_room_.data()),
-                                  static_cast<std::size_t>(n));
+  const auto cursor = used_as<Kokkos::View<int*>>(key_memory_, n);
   Kokkos::deep_copy(cursor, Kokkos::subview(list.incoming_first, std::pair<int, int>(0, n)));
   Kokkos::parallel_for("neighbors: fill incoming", list.n_inter,
                        FillIncoming{.list = list, .cursor = cursor});
@@ -205,7 +205,7 @@ void NeighborList::register_others(const PairList& list, int n) {
 
 void NeighborList::search(GrainState& grains) {
   const int n = grains.n + grains.n_ghosts;
-  reserve_room(n);
+  reserve_memory(n);
   const Windows window = find_windows(grains, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
@@ -214,7 +214,7 @@ void NeighborList::search(GrainState& grains) {
   reserve(list.incoming_first, "pairs: incoming first", n + 1);
   reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Vec4));
-  const NotedPartners noted(reinterpret_cast<int*>(room_.data()), static_cast<std::size_t>(n));
+  const auto noted = used_as<NotedPartners>(grain_memory_, n);
   const PairSearch pair_search{.columns = columns_,
                                .grains = grains.kin,
                                .occupied = occupied_,
@@ -247,7 +247,7 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
   const ScopedSeconds timer(seconds_);
   wrap(grains);
-  take_room(grains);
+  take_memory(grains);
   if (rebuilds_ > 0) collect_history(grains);
   if (ranks_) redistribute(grains);
   sort(grains, drop);
@@ -274,7 +274,7 @@ void NeighborList::drop_left(GrainState& grains) {
 void NeighborList::restore(GrainState& grains) {
   const int n = grains.n;
   if (!skins_.suit(grains)) return rebuild(grains, false);
-  take_room(grains);
+  take_memory(grains);
   Kokkos::View<GrainKinematics*> at_reference("kinematics at the last rebuild",
                                               static_cast<std::size_t>(std::max(n, 1)));
   const auto kin = grains.kin, moved = at_reference;

@@ -53,7 +53,7 @@ class NeighborList {
   double seconds() const { return seconds_; }
   /// Memory that nobody else uses during a call of rebuild or restore: those take it, as far as it
   /// goes, for what they need only until they return.
-  void use_scratch(ScratchMemory idle) { idle_ = std::move(idle); }
+  void use_scratch(ScratchMemory memory) { scratch_ = std::move(memory); }
   bool with_rolling = false;  // keep a rolling torque per pair
   bool with_laws = false;     // kinds of grains: each pair has its law
   bool with_force = false;    // keep the force of each pair in the last grain step
@@ -71,8 +71,8 @@ class NeighborList {
   void reserve_pairs(PairList& list) const;
   void search(GrainState& grains);
   void find_ghosts_and_pairs(GrainState& grains);
-  void take_room(const GrainState& grains);
-  void reserve_room(int n);
+  void take_memory(const GrainState& grains);
+  void reserve_memory(int n);
 
   struct Ranks {
     explicit Ranks(MPI_Comm all) : partition(all) {}
@@ -93,11 +93,11 @@ class NeighborList {
   ContactHistory history_;
   bool has_history_ = false;
   Kokkos::View<int*> entry_;  // entry of each grain in history_; before, the next free slot there
-  // Room that serves again: for reordering, then for noted partners; for sort keys, then windows,
-  // then the next free place of other slots.
-  Kokkos::View<Vec4*> room_;
-  Kokkos::View<std::uint64_t*> key_room_;  // two for each
-  ScratchMemory idle_;
+  // Memory that serves again: of each grain for reordering, then for its noted partners; for sort
+  // keys, then windows, then the next free entry of incoming pairs.
+  Kokkos::View<Vec4*> grain_memory_;
+  Kokkos::View<std::uint64_t*> key_memory_;  // two for each
+  ScratchMemory scratch_;
 };
 
 }  // namespace barchan

@@ -243,7 +243,7 @@ std::vector<Real> owned_values(const FluidState& fluid) {
 TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
   Coupled a(coupled_config()), b(coupled_config());
   a.advance(3), b.advance(3);
-  for (const Field& field : b.step.fluid_solver()->idle().for_anything()) {
+  for (const Field& field : b.step.fluid_solver()->scratch().of_any_bits()) {
     Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
   for (Coupled* c : {&a, &b}) c->step.advance_fluid(c->state);
@@ -251,9 +251,9 @@ TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
 }
 
 /// Leaves in them what a user before could have left, whatever holds nothing at the time.
-void spoil_idle_fields(const CoupledStep& step) {
-  const FluidSolver::Idle idle = step.fluid_solver()->idle();
-  for (const Field& field : idle.for_anything()) {
+void spoil_scratch_fields(const CoupledStep& step) {
+  const FluidSolver::Scratch idle = step.fluid_solver()->scratch();
+  for (const Field& field : idle.of_any_bits()) {
     Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
   for (const Field& field : idle.cells) Kokkos::deep_copy(field.storage, Real(1e30));
@@ -271,10 +271,10 @@ TEST(Coupling, TheExchangeDoesNotReadWhatOthersLeftInIdleFields) {
       Coupled a(config), b(config);
       a.advance(2), b.advance(2);
       for (Coupled* c : {&a, &b}) {
-        if (c == &b) spoil_idle_fields(c->step);
+        if (c == &b) spoil_scratch_fields(c->step);
         c->step.gather(c->state);
         c->step.move_grains(c->state);
-        if (c == &b) spoil_idle_fields(c->step);
+        if (c == &b) spoil_scratch_fields(c->step);
         c->step.deposit(c->state);
         c->step.advance_fluid(c->state);
       }
