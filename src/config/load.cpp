@@ -8,6 +8,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/no_effect.hpp"
 #include "src/config/reading.hpp"
 #include "src/config/validate.hpp"
 
@@ -123,12 +124,25 @@ void resolve_lengths(ConfigReader& reading, Config& config, const std::vector<Si
   resolve("grains.floor_diameter", config.grains->floor_diameter);
 }
 
+/// Keys of the file that an assignment has switched off are as if they were not there: who sets
+/// contact_model need not delete the elastic constants. What was assigned itself must do something.
+void drop_switched_off(ConfigReader& reading) {
+  ConfigReader trial = reading;
+  Findings found;
+  check_effects(trial.read(), found);
+  for (const Finding& finding : found.all) {
+    const std::string &key = finding.keys[0], &rests_on = finding.keys[1];
+    if (reading.is_assigned(rests_on) && !reading.is_assigned(key)) reading.drop(key);
+  }
+}
+
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const std::vector<fs::path>& chain) {
   Loaded loaded;
   ConfigReader reading(text, file);
   const bool parsed = reading.problems().empty();
   reading.set(overrides);
+  if (parsed && !overrides.empty()) drop_switched_off(reading);
   std::vector<Problem> from_starts;
   if (parsed) {
     Config& config = loaded.result.config = reading.read();

@@ -90,6 +90,22 @@ void ConfigReader::set(const std::vector<std::string>& assignments) {
   for (const std::string& one : assignments) apply_override(tree_, one, problems_);
 }
 
+bool ConfigReader::is_assigned(const std::string& dotted) const {
+  const Node* node = tree_.find(dotted);
+  return node != nullptr && node->where.line == 0;
+}
+
+void ConfigReader::drop(const std::string& dotted) {
+  NodeTable* table = tree_.table();
+  std::string name = dotted;
+  for (std::size_t dot = name.find('.'); table && dot != name.npos; dot = name.find('.')) {
+    const auto at = table->find(name.substr(0, dot));
+    table = at == table->end() ? nullptr : at->second.table();
+    name.erase(0, dot + 1);
+  }
+  if (table != nullptr) table->erase(name);
+}
+
 Config ConfigReader::read() {
   Config config;
   config.file = file_;

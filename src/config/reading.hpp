@@ -39,6 +39,11 @@ class ConfigReader {
   /// True if any key that there is could not be read as meant.
   bool has_bad_keys() const { return !bad_.empty(); }
 
+  /// True if a key was given by an assignment, not by the file.
+  bool is_assigned(const std::string& dotted) const;
+  /// As if a key were not there.
+  void drop(const std::string& dotted);
+
   const Node& tree() const { return tree_; }
   std::vector<Problem>& problems() { return problems_; }
 

@@ -369,5 +369,21 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable_lines("a\n\x1B\n"), "a\n\\x1b\n");
 }
 
+// Of what a file says, an assignment may switch off a part; what it assigns itself must do
+// something.
+TEST(ConfigOverride, WhatItSwitchesOffIsAsIfItWereNotThere) {
+  const std::string text = test::grain_case("youngs_modulus = 1e7\n");
+  const std::vector<std::string> linear = {"grains.contact_model=linear",
+                                           "grains.linear_stiffness=10"};
+  const Config config = load_config_text(text, "case.toml", linear);
+  EXPECT_EQ(config.grains->material.youngs_modulus, Material().youngs_modulus);
+  EXPECT_EQ(load_config_text(to_toml(config), "case.toml"), config);
+  auto both = linear;
+  both.emplace_back("grains.youngs_modulus=1e7");
+  EXPECT_FALSE(test::problems(text, both).empty());
+  EXPECT_FALSE(
+      test::problems(text + "contact_model = \"linear\"\nlinear_stiffness = 10\n").empty());
+}
+
 }  // namespace
 }  // namespace barchan
