@@ -3,6 +3,7 @@
 
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/contact_geometry.hpp"
+#include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {
