@@ -2,23 +2,14 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
+#include "kernels/math/block_partition.hpp"
 
 namespace barchan {
-
-/// n cells in parts as equal as can be, the longer ones first.
-struct PartOfCell {
-  int n = 1, parts = 1;
-  KOKKOS_FUNCTION int operator()(int i) const {
-    const int size = n / parts, longer = n % parts;
-    const int in_longer = longer * (size + 1);
-    return i < in_longer ? i / (size + 1) : longer + (i - in_longer) / size;
-  }
-};
 
 /// Ranks by pencil, x running fastest. A position beyond an end that is not periodic belongs to the
 /// last pencil there.
 struct PencilOwners {
-  PartOfCell x, z;
+  BlockPartition x, z;  // of the cells
   Real dx = 1, dz = 1;  // of a cell [m]
   PeriodicBox box;
 
@@ -27,7 +18,7 @@ struct PencilOwners {
   }
   KOKKOS_FUNCTION int operator()(const Vec3& position) const {
     const Vec3 p = box.wrap(position);
-    return x(cell(p.x, dx, x.n)) + x.parts * z(cell(p.z, dz, z.n));
+    return x.part_of(cell(p.x, dx, x.n)) + x.parts * z.part_of(cell(p.z, dz, z.n));
   }
 };
 

@@ -18,18 +18,18 @@ namespace {
 
 /// Highest point of the grains that a run starts with [m], before they settle where they are still
 /// to be poured; 0 without grains.
-double top_of(const GrainsAhead& ahead) {
-  if (!ahead.grains) {
-    if (ahead.sizes.empty()) return 0;
-    const PourConfig& pour = *ahead.poured_in.initial.pour;
+double top_of(const PlannedGrains& planned) {
+  if (!planned.grains) {
+    if (planned.sizes.empty()) return 0;
+    const PourConfig& pour = *planned.poured_in.initial.pour;
     double count = 0;
-    for (const SizeClass& size : ahead.sizes) count += static_cast<double>(size.count);
+    for (const SizeClass& size : planned.sizes) count += static_cast<double>(size.count);
     return pour.drop_height +
-           poured_height(pour, ahead.poured_in.size, count, poured_spacing(ahead.sizes));
+           poured_height(pour, planned.poured_in.size, count, poured_spacing(planned.sizes));
   }
   double top = 0;
-  for (std::size_t g = 0; g < ahead.grains->size(); ++g)
-    top = std::max(top, ahead.grains->x[g].y + ahead.grains->diameter[g] / 2);
+  for (std::size_t g = 0; g < planned.grains->size(); ++g)
+    top = std::max(top, planned.grains->x[g].y + planned.grains->diameter[g] / 2);
   return top;
 }
 
@@ -43,18 +43,18 @@ int run_check(const CommandLine& line, std::ostream& out) {
     return 0;
   }
   const std::filesystem::path folder = run_folder(line);
-  const GrainsAhead ahead = grains_ahead(the_case, folder);
+  const PlannedGrains planned = planned_grains(the_case, folder);
   for (const StartCase& start : missing_starts(the_case, folder))
-    grains_ahead(start.realised, start.folder);  // throws if the run of a start would
-  Derived derived = derive(config, ahead.sizes, top_of(ahead));
-  if (derived.grains) derived.grains->as_poured = !ahead.grains;
+    planned_grains(start.realised, start.folder);  // throws if the run of a start would
+  Derived derived = derive(config, planned.sizes, top_of(planned));
+  if (derived.grains) derived.grains->as_poured = !planned.grains;
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
-  if (memory_of_case(config, ahead.sizes) < memory_of_machine())
-    cost = as_input([&] { return estimate(the_case, folder, ahead); });
+  if (memory_of_case(config, planned.sizes) < memory_of_machine())
+    cost = as_input([&] { return estimate(the_case, folder, planned); });
   out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
   out << "\n# What follows from it\n\n"
-      << to_text(derived) << memory_line(config, ahead.sizes) << cost;
-  const auto warnings = config_warnings(config, ahead.sizes);
+      << to_text(derived) << memory_line(config, planned.sizes) << cost;
+  const auto warnings = config_warnings(config, planned.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << warning << '\n';
   return 0;

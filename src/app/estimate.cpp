@@ -60,17 +60,17 @@ double fastest_of(const Config& config, const GrainNumbers& grains) {
 }
 
 /// Grains for the pilot: those that are there, or what those that are poured will settle to.
-InitialGrains grains_for(const Config& config, const GrainsAhead& ahead) {
+InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   if (!config.grains) return {};
-  if (ahead.grains) return *ahead.grains;
-  const Config& pours = ahead.poured_in;
+  if (planned.grains) return *planned.grains;
+  const Config& pours = planned.poured_in;
   // What loses no energy does not settle.
   if (config.grains->material.restitution == 1) return checked_grains(pours, {});
   return packed_grains(*pours.initial.pour, pours.grains->sizes, pours.size);
 }
 
-RunSeconds timed(const Config& config, const GrainsAhead& ahead, double budget) {
-  return run_seconds(config, ahead.sizes, time_parts(config, grains_for(config, ahead), budget));
+RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {
+  return run_seconds(config, planned.sizes, time_parts(config, grains_for(config, planned), budget));
 }
 
 /// Two digits of what takes less than ten seconds.
@@ -127,17 +127,17 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
 }
 
 std::string estimate(const Case& the_case, const std::filesystem::path& folder,
-                     const GrainsAhead& ahead) {
+                     const PlannedGrains& planned) {
   const Config& config = the_case.config;
   const auto missing = missing_starts(the_case, folder);
   const double budget = 1.5 / (2 + static_cast<double>(missing.size()));
-  const RunSeconds here = timed(config, ahead, 2 * budget);
+  const RunSeconds here = timed(config, planned, 2 * budget);
   const int threads = Kokkos::DefaultExecutionSpace().concurrency();
   std::string text = fmt::format("  {:<24}{} on {} thread{}, timed just now ({})\n", "wall time",
                                  about(here.all()), threads, threads == 1 ? "" : "s", shares(here));
   for (const StartCase& start : missing) {
     const RunSeconds before =
-        timed(start.realised.config, grains_ahead(start.realised, start.folder), budget);
+        timed(start.realised.config, planned_grains(start.realised, start.folder), budget);
     text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
                         start.folder.filename().string());
   }

@@ -24,9 +24,9 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
 double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes);
 
 /// Lines for a terminal: what the case takes on this machine, timed for about a second, and the
-/// starts that are missing beside `folder`. `ahead`: its grains. Kokkos must run; all ranks
+/// starts that are missing beside `folder`. `planned`: its grains. Kokkos must run; all ranks
 /// together.
 std::string estimate(const Case& the_case, const std::filesystem::path& folder,
-                     const GrainsAhead& ahead);
+                     const PlannedGrains& planned);
 
 }  // namespace barchan

@@ -144,7 +144,7 @@ InitialFiles start_files(const Case& the_case, const fs::path& folder) {
 void run_locked(const Case& the_case, const RunOptions& options) {
   const Config& config = the_case.config;
   const auto sizes =
-      options.restart ? the_case.sizes : grains_ahead(the_case, options.folder).sizes;
+      options.restart ? the_case.sizes : planned_grains(the_case, options.folder).sizes;
   check_memory(config, sizes);
   check_on_root([&] {
     check_is_ours(config, options.folder);
@@ -202,7 +202,7 @@ int run_command(const CommandLine& line) {
   const Config& config = the_case.config;
   if (line.dry_run) {
     report::info("{}", config.title);
-    show_numbers(config, grains_ahead(the_case, run_folder(line)).sizes);
+    show_numbers(config, planned_grains(the_case, run_folder(line)).sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

@@ -40,12 +40,12 @@ void add_missing(const Case& the_case, const fs::path& folder, std::vector<Start
   if (config.grains) add(the_case.grain_start);
 }
 
-GrainsAhead grains_in(const fs::path& file, const Config& config) {
-  GrainsAhead ahead;
-  ahead.grains = as_input([&] { return checked_grains(config, file); });
-  ahead.sizes = sizes_of(*ahead.grains);
-  ahead.source = file;
-  return ahead;
+PlannedGrains grains_in(const fs::path& file, const Config& config) {
+  PlannedGrains planned;
+  planned.grains = as_input([&] { return checked_grains(config, file); });
+  planned.sizes = sizes_of(*planned.grains);
+  planned.source = file;
+  return planned;
 }
 
 }  // namespace
@@ -68,24 +68,24 @@ std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& fold
   return missing;
 }
 
-GrainsAhead grains_ahead(const Case& the_case, const fs::path& folder) {
+PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   if (!config.grains) return {};
   if (config.initial.pour) {
-    GrainsAhead ahead;
-    ahead.sizes = config.grains->sizes;
-    ahead.poured_in = config;
-    ahead.source = config.file;
-    return ahead;
+    PlannedGrains planned;
+    planned.sizes = config.grains->sizes;
+    planned.poured_in = config;
+    planned.source = config.file;
+    return planned;
   }
   const fs::path& source = config.initial.grains;
   if (!the_case.grain_start) return grains_in(source, config);
   const StartCase start =
       start_case(*the_case.grain_start, folder_beside(folder), config.initial.realisation);
   if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
-  GrainsAhead ahead = grains_ahead(start.realised, start.folder);
-  check_sizes(ahead.sizes, config, source);
-  return ahead;
+  PlannedGrains planned = planned_grains(start.realised, start.folder);
+  check_sizes(planned.sizes, config, source);
+  return planned;
 }
 
 }  // namespace barchan

@@ -27,7 +27,7 @@ StartCase start_case(const Case& source, const std::filesystem::path& beside, in
 std::vector<StartCase> missing_starts(const Case& the_case, const std::filesystem::path& folder);
 
 /// The grains that a run will start with, as far as they are known before it.
-struct GrainsAhead {
+struct PlannedGrains {
   std::vector<SizeClass> sizes;         // empty: there are no grains
   std::optional<InitialGrains> grains;  // none: they are still to be poured, here or in a start
   Config poured_in;                     // that case, if none
@@ -37,6 +37,6 @@ struct GrainsAhead {
 /// Reads the table or the results that initial.grains names, and checks that the grains fit the
 /// case as a run does. Of a start that has no results yet: what that one starts with. Throws
 /// InputError.
-GrainsAhead grains_ahead(const Case& the_case, const std::filesystem::path& folder);
+PlannedGrains planned_grains(const Case& the_case, const std::filesystem::path& folder);
 
 }  // namespace barchan

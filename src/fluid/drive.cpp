@@ -45,8 +45,8 @@ Vec2 Drive::force(const FluidState& fluid, const DrivenFlow& flow, Real dt) cons
   const auto needed = [&](Real wanted, Real missed, Real rate, Real response) {
     return (wanted * flow.height + missed - rate) / (response * dt);
   };
-  return {needed(bulk.x, fluid.flow_missed.x, flow.rate.x, flow.response.x),
-          along_z_ ? needed(bulk.z, fluid.flow_missed.z, flow.rate.z, flow.response.z) : 0};
+  return {needed(bulk.x, fluid.flow_rate_defect.x, flow.rate.x, flow.response.x),
+          along_z_ ? needed(bulk.z, fluid.flow_rate_defect.z, flow.rate.z, flow.response.z) : 0};
 }
 
 }  // namespace barchan

@@ -286,7 +286,7 @@ void FluidSolver::correct(FluidState& fluid, Real dt) {
   using Residual = ContinuityResidual<Fraction::variable>;
   residual(Residual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)});
   const Vec2 flow = flow_rate(fluid.u, fluid);
-  fluid.flow_missed = {flow_.rate.x - flow.x, flow_.rate.z - flow.z};
+  fluid.flow_rate_defect = {flow_.rate.x - flow.x, flow_.rate.z - flow.z};
   report_.bulk_velocity = {flow.x / flow_.height, flow.z / flow_.height};
 }
 

@@ -24,7 +24,7 @@ struct FluidState {
   Real dt_previous = 0;      // length of that step [s]
   Real time = 0;             // since the start [s]
   Vec2 bulk_at_start;        // bulk velocity a ramp of the drive starts from [m/s]
-  Vec2 flow_missed;  // flow rate by which the last projection missed that of the drive [m^2/s]
+  Vec2 flow_rate_defect;  // flow rate by which the last projection missed that of the drive [m^2/s]
 };
 
 /// Zero everywhere.

@@ -41,10 +41,10 @@ void for_each_number(State&& s, const F& f) {
   f("fluid/dt_previous", s.dt_previous, true);
   f("fluid/time", s.time, true);
   f("fluid/bulk_at_start", s.bulk_at_start.x, true);
-  f("fluid/flow_missed", s.flow_missed.x, true);
+  f("fluid/flow_missed", s.flow_rate_defect.x, true);
   f("fluid/drive_z", s.drive.z, false);
   f("fluid/bulk_at_start_z", s.bulk_at_start.z, false);
-  f("fluid/flow_missed_z", s.flow_missed.z, false);
+  f("fluid/flow_missed_z", s.flow_rate_defect.z, false);
 }
 
 }  // namespace

@@ -3,19 +3,11 @@
 
 #include <mpi.h>
 
-#include <algorithm>
-
+#include "kernels/math/block_partition.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/grid.hpp"
 
 namespace barchan {
-
-/// [0, n) in consecutive parts, as equal as can be, the longer ones first.
-struct BlockPartition {
-  int n = 1, parts = 1;
-  int begin(int part) const { return part * (n / parts) + std::min(part, n % parts); }
-  int count(int part) const { return begin(part + 1) - begin(part); }
-};
 
 /// The ranks side by side along one periodic direction.
 struct RankAxis {

@@ -101,9 +101,9 @@ TEST(PackedGrains, TouchAsInAHeapAtRest) {
 }
 
 /// A folder with a table of two grains and cases that use it.
-class GrainsAheadTest : public ::testing::Test {
+class PlannedGrainsTest : public ::testing::Test {
  protected:
-  GrainsAheadTest() {
+  PlannedGrainsTest() {
     write("grains.csv", "id,diameter,x,y,z\n1,2e-4,0.004,2e-4,0.003\n2,1.5e-4,0.006,2e-4,0.003\n");
     write("table.toml", text("\"grains.csv\""));
     write("poured.toml", text("{ pour = { centre = [0.005, 0.003], radius = 0.001 } }") +
@@ -118,32 +118,32 @@ class GrainsAheadTest : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  GrainsAhead ahead(const std::string& name) const {
-    return grains_ahead(load_case(folder_ / name), folder_ / "runs/case");
+  PlannedGrains planned(const std::string& name) const {
+    return planned_grains(load_case(folder_ / name), folder_ / "runs/case");
   }
 
   const TemporaryFolder folder_;
 };
 
-TEST_F(GrainsAheadTest, ATableIsCounted) {
-  const GrainsAhead grains = ahead("table.toml");
+TEST_F(PlannedGrainsTest, ATableIsCounted) {
+  const PlannedGrains grains = planned("table.toml");
   EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{1.5e-4, 1}, {2e-4, 1}}));
   ASSERT_TRUE(grains.grains.has_value());
   EXPECT_EQ(grains.grains->size(), 2u);
 }
 
-TEST_F(GrainsAheadTest, ATableThatTheRunWouldRefuseIsRefused) {
+TEST_F(PlannedGrainsTest, ATableThatTheRunWouldRefuseIsRefused) {
   write("grains.csv", "id,x,y,z\n1,0.004,2e-4,0.003\n");
-  EXPECT_TRUE(contains(message_of([&] { ahead("table.toml"); }), "\"diameter\" is missing"));
+  EXPECT_TRUE(contains(message_of([&] { planned("table.toml"); }), "\"diameter\" is missing"));
   write("grains.csv", "id,diameter,x,y,z\n1,2e-5,0.004,2e-4,0.003\n");
-  EXPECT_TRUE(contains(message_of([&] { ahead("table.toml"); }), "Rayleigh"));
+  EXPECT_TRUE(contains(message_of([&] { planned("table.toml"); }), "Rayleigh"));
   write("grains.csv", "id,diameter,x,y,z\n1,2e-4,0.4,2e-4,0.003\n");
-  EXPECT_THROW(ahead("table.toml"), InputError);
+  EXPECT_THROW(planned("table.toml"), InputError);
 }
 
-TEST_F(GrainsAheadTest, OfAStartThoseThatItPoursUntilItHasResults) {
+TEST_F(PlannedGrainsTest, OfAStartThoseThatItPoursUntilItHasResults) {
   const Case the_case = load_case(folder_ / "after.toml");
-  GrainsAhead grains = ahead("after.toml");
+  PlannedGrains grains = planned("after.toml");
   EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{2e-4, 30}}));
   EXPECT_FALSE(grains.grains.has_value());
   EXPECT_EQ(grains.poured_in.title, "t");
@@ -152,7 +152,7 @@ TEST_F(GrainsAheadTest, OfAStartThoseThatItPoursUntilItHasResults) {
   EXPECT_EQ(missing[0].folder.filename(), "poured");
   Simulation(missing[0].realised.config, {.folder = missing[0].folder, .restart = {}}, {}).run();
   EXPECT_TRUE(missing_starts(the_case, folder_ / "runs/case").empty());
-  grains = ahead("after.toml");
+  grains = planned("after.toml");
   ASSERT_TRUE(grains.grains.has_value());
   EXPECT_EQ(grains.grains->size(), 30u);
 }
@@ -164,9 +164,9 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
       load_case(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml",
                 {"time.end=0.1", "output.history_interval=0.05", "output.grains_interval=0.05"});
   const Config& config = the_case.config;
-  const GrainsAhead ahead = grains_ahead(the_case, folder / "run");
+  const PlannedGrains planned = planned_grains(the_case, folder / "run");
   const auto pilot = packed_grains(*config.initial.pour, config.grains->sizes, config.size);
-  const double estimated = run_seconds(config, ahead.sizes, time_parts(config, pilot, 0.2)).all();
+  const double estimated = run_seconds(config, planned.sizes, time_parts(config, pilot, 0.2)).all();
   Simulation simulation(config, {.folder = folder / "run", .restart = {}}, {});
   const auto start = WallClock::now();
   simulation.run();
@@ -180,7 +180,7 @@ TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
   const TemporaryFolder folder;
   const Case the_case = load_case(BARCHAN_SOURCE_DIR "/configs/validation/laminar-bed.toml");
   const std::string said =
-      estimate(the_case, folder / "run", grains_ahead(the_case, folder / "run"));
+      estimate(the_case, folder / "run", planned_grains(the_case, folder / "run"));
   EXPECT_TRUE(contains(said, "timed just now")) << said;
 }
 
