@@ -82,7 +82,7 @@ TEST(GrainsOverRanks, PairsOfFastGrainsAreThoseOfOneRank) {
   EXPECT_EQ(whole, owned_in(from_all_ranks(pairs_of(s.shared.state))));
 }
 
-TEST(GrainsOverRanks, OneSubStepAsOnOneRank) {
+TEST(GrainsOverRanks, OneGrainStepAsOnOneRank) {
   Config c = box({0.008, 0.006, 0.005});
   c.grains->floor = GrainFloor::glued;
   c.grains->floor_diameter = 2e-4;
