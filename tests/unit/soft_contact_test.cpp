@@ -125,5 +125,30 @@ TEST(SoftContact, WallsOfACornerHaveTheirOwnSprings) {
   EXPECT_NEAR(c.contact_force(1).z / after_half, 2, 0.03);  // it springs back a little meanwhile
 }
 
+// A grain that was dragged over the floor, has left it and falls again meets it as one that is new.
+TEST(SoftContact, AWallForgetsAnEarlierTouch) {
+  Material material;
+  material.restitution = 0.9;
+  const Real r = 1e-4, dt = 1e-6;
+  Config config = test::bench_config(material, 2500, r);
+  config.grains->gravity = {0, 0, 0};
+  InitialGrains grains;
+  const Vec3 above{50 * r, r + 1e-7, 50 * r};
+  add_grain(grains, 2 * r, above, {0.02, -0.01, 0});
+  GrainBench used(config, grains), fresh(config, grains);
+  used.advance(400, dt);
+  ASSERT_GT(used.grain(1).u.y, 0) << "it has left";
+  ASSERT_NE(host_copy(used.state.wall_xi_t)(0, 0).x, 0) << "it was dragged";
+  for (GrainBench* bench : {&used, &fresh}) {
+    const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, bench->state.kin);
+    kin(0).x = above, kin(0).u = {0, -0.01, 0}, kin(0).omega = {};
+    Kokkos::deep_copy(bench->state.kin, kin);
+    bench->advance(400, dt);
+    EXPECT_GT(bench->grain(1).u.y, 0) << "it has touched again";
+  }
+  EXPECT_EQ(used.grain(1).u.x, fresh.grain(1).u.x);
+  EXPECT_EQ(used.grain(1).omega.z, fresh.grain(1).omega.z);
+}
+
 }  // namespace
 }  // namespace barchan
