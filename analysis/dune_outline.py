@@ -31,7 +31,7 @@ def main_outline(run):
     if dune is None or not np.isfinite(dune.lee_foot):
         raise NotInRun("needs a dune with grains on its centreline in the last frame of grains.h5")
     rows = dune.rows
-    foot, end, z = dune.lee_foot - dune.L, dune.lee_foot, float(dune.centroid[2])
+    foot, end, z = dune.toe, dune.lee_foot, float(dune.centroid[2])
     mean = grains.d.mean()
     margin = 4.0 * BIN * mean
     window = (foot - margin, end + margin, dune.z.min() - margin, dune.z.max() + margin)
@@ -40,4 +40,4 @@ def main_outline(run):
     h = surface.profile(z, HALF_WIDTH * mean)
     h[(surface.x_middle < foot) | (surface.x_middle > end)] = 0.0
     plane = z % bed.lengths[1] if bed.periodic[1] else z
-    return Outline(surface.x_middle, h, plane, float(foot), float(dune.L))
+    return Outline(surface.x_middle, h, plane, float(foot), float(end - foot))

@@ -37,8 +37,8 @@ class Bed:
 class Dune:
     """One dune: `rows` (n) of its grains in the frame, their x, z (n) [m] with periodic images undone.
 
-    Centroid (3) [m]; size, crest and horns are of dune.csv [m]. `lee_foot` is the downstream end of the centreline,
-    +infinity when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0. `surface` is that of its
+    Centroid (3) [m]; size, crest and horns are of dune.csv [m]. `toe` and `lee_foot` are the ends of the centreline, up
+    and down the stream, infinite when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0. `surface` is that of its
     grains.
     """
 
@@ -50,6 +50,7 @@ class Dune:
     L: float
     H: float
     crest_x: float
+    toe: float
     lee_foot: float
     horn_left: float
     horn_right: float
@@ -95,11 +96,11 @@ def find(grains, rows, bed, size):
     crest_x = centroid[0] + bed.nearest(np.array([size["crest_x"] - centroid[0], 0.0, 0.0]))[0]
     strip = abs(z - centroid[2]) < HALF_WIDTH * diameter
     line = centreline(x[strip], radius[strip], bins[0], crest_x)
-    foot = line[1] if line else np.inf
+    toe, foot = line or (-np.inf, np.inf)
     side = np.where(strip | (x + radius <= foot), 0, np.where(z < centroid[2], -1, 1))
     surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
-    return Dune(rows, x, z, centroid, size["W"], size["L"], size["H"], float(crest_x), foot, size["horn_left"],
-                size["horn_right"], side, surface)
+    return Dune(rows, x, z, centroid, size["W"], size["L"], size["H"], float(crest_x), toe, foot,
+                size["horn_left"], size["horn_right"], side, surface)
 
 
 def centreline(x, radius, bin_x, crest_x):

@@ -34,7 +34,7 @@ def slopes(dune, diameter):
     if not np.isfinite(dune.lee_foot):
         return None
     x, h = dune.surface.profile(dune.centroid[2], HALF_WIDTH * diameter)
-    inside = (x > dune.lee_foot - dune.L) & (x < dune.lee_foot)
+    inside = (x > dune.toe) & (x < dune.lee_foot)
     return of_profile(x[inside], h[inside], dune.crest_x) if inside.any() else None
 
 
