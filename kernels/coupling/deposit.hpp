@@ -94,13 +94,15 @@ struct DepositGrains {
            .impulse_z = deposits.impulse.encode(impulse.z)});
     }
   }
-  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_p dt (u_jf - u_f)), and
-  /// the conductance c_f C_j to the row below; upwards w_j J to row j. A cell that flows faster
-  /// than the grain sees on average drags it more: the differences add up to nothing over the
-  /// grain.
+  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_p dt (u_jf - u_ff +
+  /// phi (u_ff - u_f))), and the conductance c_f C_j to the row below; upwards w_j J to row j. A
+  /// cell that flows faster than the grain sees on average drags it more: the differences add up
+  /// to nothing over the grain.
   KOKKOS_INLINE_FUNCTION void to_rows(int g, const GrainRows& rows, const VelocityByRow& u,
                                       const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
+    const Real K = beta_dt * of_grain.on_grains.inv_fluid_mass(g);
+    const Real joined_x = u.x_faces.joined(K), joined_z = u.z_faces.joined(K);
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
@@ -109,13 +111,17 @@ struct DepositGrains {
       for (int side = 0; side < 2; ++side) {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
         if (c_x > 0) {
-          const Real lost = w * c_x * (impulse.x + beta_dt * (u.x[side][r] - u.mean_x));
+          const Real faster =
+              (u.x[side][r] - u.mean_of_x[side]) + joined_x * (u.mean_of_x[side] - u.mean_x);
+          const Real lost = w * c_x * (impulse.x + beta_dt * faster);
           add(cache, by_row.x_face(u, side, j),
               {.conductance_x = deposits.conductance.encode(c_x * C_j),
                .impulse_x = deposits.impulse.encode(lost)});
         }
         if (c_z > 0) {
-          const Real lost = w * c_z * (impulse.z + beta_dt * (u.z[side][r] - u.mean_z));
+          const Real faster =
+              (u.z[side][r] - u.mean_of_z[side]) + joined_z * (u.mean_of_z[side] - u.mean_z);
+          const Real lost = w * c_z * (impulse.z + beta_dt * faster);
           add(cache, by_row.z_face(u, side, j),
               {.conductance_z = deposits.conductance.encode(c_z * C_j),
                .impulse_z = deposits.impulse.encode(lost)});
@@ -126,6 +132,35 @@ struct DepositGrains {
   KOKKOS_INLINE_FUNCTION void add(Cache& cache, const CellIndex& cell,
                                   const CellDeposit& given) const {
     cache.add(cell.linear(by_row.stencil.grid), given);
+  }
+};
+
+/// Volume of the grains that belong to each momentum cell along the floor, which may be more than
+/// what of them lies there.
+struct DepositSolid {
+  ExchangeByRow by_row;
+  Kokkos::View<const GrainKinematics*> grains;
+  Deposits deposits;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const GrainKinematics grain = grains(g);
+    const GrainRows rows = by_row.stencil.rows_of(grain);
+    const GrainColumn column = by_row.column(rows, grain);
+    for (int r = 0; r < rows.n; ++r) {
+      const Real volume = rows.weight(r) * sphere_volume(grain.r);
+      for (int side = 0; side < 2; ++side) {
+        const Real of_x = column.x_faces.weight(side), of_z = column.z_faces.weight(side);
+        add(by_row.x_face(column, side, rows.row[r]),
+            {.conductance_x = deposits.volume.encode(of_x * volume)});
+        add(by_row.z_face(column, side, rows.row[r]),
+            {.conductance_z = deposits.volume.encode(of_z * volume)});
+      }
+    }
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void add(const CellIndex& cell, const CellDeposit& given) const {
+    deposits.add(cell.linear(by_row.stencil.grid), given);
   }
 };
 

@@ -31,7 +31,9 @@ struct Deposits {
     kImpulseX,
     kImpulseY,
     kImpulseZ,
-    kQuantities
+    kQuantities,
+    kSolidX = kConductanceX,  // of DepositSolid, until the deposit
+    kSolidZ = kConductanceZ
   };
   Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
   FixedPoint volume, conductance, impulse;

@@ -122,7 +122,7 @@ struct FlowAtGrains {
   Kokkos::View<Real*> alpha_f;          // fraction of the flow
   Kokkos::View<Real*> alpha_l;          // what the drag law reads: by row the mean over the grain's
                                         // cells before the smoothing, else alpha_f
-  Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells
+  Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
 };
 
 /// In drag laws a fluid fraction counts as at least 0.1.
@@ -217,6 +217,8 @@ struct FlowOfRows {
   FlowOverCells over_cells;
   PeriodicBox box;
   ConstFaceRef u, du_dt, u_grad_u;
+  bool crowded = false;            // by DepositSolid, with ghosts:
+  ConstFieldRef solid_x, solid_z;  // solid that belongs to the momentum cells, per volume
   KOKKOS_FUNCTION void operator()(int g) const {
     const FlowAtGrains& flow = over_cells.flow;
     const GrainKinematics grain = over_cells.grains(g);
@@ -228,9 +230,30 @@ struct FlowOfRows {
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     flow.alpha_f(g) = interpolate_cell(over_cells.alpha_f, at);
+    if (!crowded) return;
+    flow.solid_per_fluid(g) =
+        Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
   }
 
  private:
+  /// Solid per fluid in the fullest of the momentum cells that the grain belongs to.
+  KOKKOS_INLINE_FUNCTION Real in_momentum_cells(const GrainRows& rows,
+                                                const GrainColumn& of) const {
+    const ConstFieldRef& alpha_f = over_cells.alpha_f;
+    Real most = 0;
+    const auto look = [&](Real weight, Real solid, Real fluid) {
+      if (weight > 0) most = Kokkos::max(most, solid / Kokkos::max(fluid, Real(1e-3)));
+    };
+    for (int r = 0; r < rows.n; ++r) {
+      const int j = rows.row[r];
+      for (int side = 0; side < 2; ++side) {
+        const int i = of.i + side, k = of.k + side;
+        look(of.x_faces.weight(side), solid_x(i, j, of.k), cell_to_xface(alpha_f, i, j, of.k));
+        look(of.z_faces.weight(side), solid_z(of.i, j, k), cell_to_zface(alpha_f, of.i, j, k));
+      }
+    }
+    return most;
+  }
   KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
                                       const PointStencil& at, Real solid_per_fluid) const {
     const VelocityByRow v(rows, at, f, solid_per_fluid);

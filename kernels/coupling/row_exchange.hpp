@@ -52,12 +52,14 @@ struct GrainFaces {
   KOKKOS_FORCEINLINE_FUNCTION Real weight(int side) const {
     return side == 0 ? 1 - of_second : of_second;
   }
+  /// The part of K = dt beta_p/m_f with which a grain joins the water at its two faces. That is
+  /// explicit: a grain takes c (1 - c) K of their difference, and must not take more than there is.
+  KOKKOS_FORCEINLINE_FUNCTION Real joined(Real K) const {
+    return Kokkos::fmin(Real(1), kMostJoined / (of_second * (1 - of_second) * K));
+  }
 
  private:
-  // Joining faces is explicit: 4 K width/6 must be below 2, K = dt beta over the mass of the water
-  // per grain, in a bed about 2 s^2 at 5e-4 s for the paper's grains, s = solid_per_fluid. So steps
-  // may be up to 4e-3 s at s = 1.5, and 7e-4 s at s = 9, a cell with a tenth of water.
-  static constexpr Real kNearer = 8;
+  static constexpr Real kNearer = 8, kMostJoined = 0.25;
 };
 
 /// A velocity along the floor in one column of momentum cells, those around its faces.
@@ -75,32 +77,43 @@ struct ColumnVelocity {
   }
 };
 
+/// The momentum cells that a grain belongs to: those of its rows at these faces of its column.
+struct GrainColumn {
+  int i, k;
+  GrainFaces x_faces, z_faces;  // across x, across z
+
+  KOKKOS_INLINE_FUNCTION GrainColumn(const PointStencil& at, Real solid_per_fluid)
+      : i(at.x_face.i),
+        k(at.z_face.i),
+        x_faces(at.x_face, solid_per_fluid),
+        z_faces(at.z_face, solid_per_fluid) {}
+};
+
 /// Velocity along the floor in each row of a grain, x and z [m/s]: those of the momentum cells that
 /// the grain belongs to, with slopes upwards and across the flow that make no new extremum. A grain
 /// in a linear shear sees the shear; at the surface of a bed, where the flow above and beside is a
 /// hundred times faster than that between the grains, no grain sees the one for the other.
-struct VelocityByRow {
+struct VelocityByRow : GrainColumn {
   const GrainRows& rows;
-  int i, k;                                           // the grain's column
-  GrainFaces x_faces, z_faces;                        // across x, across z
   Real x[2][kDividedOffsets], z[2][kDividedOffsets];  // by face and row
+  Real mean_of_x[2], mean_of_z[2];                    // by face
   Real mean_x = 0, mean_z = 0;                        // over the grain
 
   KOKKOS_INLINE_FUNCTION VelocityByRow(const GrainRows& of_grain, const PointStencil& at,
                                        const ConstFaceRef& u, Real solid_per_fluid)
-      : rows(of_grain),
-        i(at.x_face.i),
-        k(at.z_face.i),
-        x_faces(at.x_face, solid_per_fluid),
-        z_faces(at.z_face, solid_per_fluid) {
+      : GrainColumn(at, solid_per_fluid), rows(of_grain) {
     const Real across_x = at.x_face.t - Real(0.5), across_z = at.z_face.t - Real(0.5);
     for (int side = 0; side < 2; ++side) {
       const Real wx = x_faces.weight(side), wz = z_faces.weight(side);
-      if (wx > 0)
-        mean_x +=
-            wx * in_rows({&u.x(i + side, 0, k), u.x.stride_y, u.x.stride_z, across_z}, x[side]);
-      if (wz > 0)
-        mean_z += wz * in_rows({&u.z(i, 0, k + side), u.z.stride_y, 1, across_x}, z[side]);
+      if (wx > 0) {
+        mean_of_x[side] =
+            in_rows({&u.x(i + side, 0, k), u.x.stride_y, u.x.stride_z, across_z}, x[side]);
+        mean_x += wx * mean_of_x[side];
+      }
+      if (wz > 0) {
+        mean_of_z[side] = in_rows({&u.z(i, 0, k + side), u.z.stride_y, 1, across_x}, z[side]);
+        mean_z += wz * mean_of_z[side];
+      }
     }
   }
 
@@ -139,15 +152,20 @@ struct ExchangeByRow {
     const PointStencil at(stencil.grid, box, grain.x, rows.row[0]);
     return {rows, at, u, solid_per_fluid_at(alpha_f, at, rows)};
   }
+  KOKKOS_INLINE_FUNCTION GrainColumn column(const GrainRows& rows,
+                                            const GrainKinematics& grain) const {
+    const PointStencil at(stencil.grid, box, grain.x, rows.row[0]);
+    return {at, solid_per_fluid_at(alpha_f, at, rows)};
+  }
   /// Faces of the momentum cells: the flow is periodic, and the last face is the first, or lies in
   /// the ghosts where the grid is cut.
-  KOKKOS_INLINE_FUNCTION CellIndex x_face(const VelocityByRow& v, int side, int j) const {
-    const int face = v.x_faces.first + side;
-    return {face == stencil.grid.nx_all ? 0 : face, j, v.k};
+  KOKKOS_INLINE_FUNCTION CellIndex x_face(const GrainColumn& of, int side, int j) const {
+    const int face = of.x_faces.first + side;
+    return {face == stencil.grid.nx_all ? 0 : face, j, of.k};
   }
-  KOKKOS_INLINE_FUNCTION CellIndex z_face(const VelocityByRow& v, int side, int j) const {
-    const int face = v.z_faces.first + side;
-    return {v.i, j, face == stencil.grid.nz_all ? 0 : face};
+  KOKKOS_INLINE_FUNCTION CellIndex z_face(const GrainColumn& of, int side, int j) const {
+    const int face = of.z_faces.first + side;
+    return {of.i, j, face == stencil.grid.nz_all ? 0 : face};
   }
 };
 

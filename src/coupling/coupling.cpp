@@ -17,6 +17,8 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
+  gather_.undo_smoothing(fluid);
+  deposit_.solid_of_momentum_cells(grains, fluid);
   gather_(fluid, grains, deposit_.extent(), dt, ledger_);  // they have not moved since
 }
 

@@ -19,6 +19,7 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
   on_faces.stress_share = alpha_before_smoothing;
   on_faces.conductance_x = Field("coupling: conductance between rows, x", at.grid);
   on_faces.conductance_z = Field("coupling: conductance between rows, z", at.grid);
+  solid_x = on_faces.conductance_x, solid_z = on_faces.conductance_z;
 }
 
 }  // namespace barchan

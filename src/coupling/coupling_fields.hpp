@@ -25,6 +25,10 @@ struct CouplingFields {
   // the last fluid step has read and the next deposit writes.
   CellVector stress_in_cells;
 
+  // Gather by row, what of the solid belongs to the momentum cells around faces, per volume. Shares
+  // memory with the conductances of `on_faces`, likewise.
+  Field solid_x, solid_z;
+
   // Kept through the fluid step.
   Field alpha_before_smoothing;  // set by the gather; empty without smoothing
   ExchangeOnFaces on_faces;      // set by the deposit

@@ -19,6 +19,10 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidS
   return std::make_shared<const PlaneFft>(grid, walls);
 }
 
+/// Grains of diameter d that lie a diameter apart: of cells of width h, up to (h + d)/d per
+/// direction have their centres in one, and h/d fit in.
+bool may_be_crowded(const Grid& grid, Real d) { return (1 + d / grid.dx) * (1 + d / grid.dz) > 2; }
+
 WallFaces ends_of(const RankAxis& line, int n) {
   WallFaces faces;
   if (line.position == 0) faces.first = 0;
@@ -35,6 +39,7 @@ CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, cons
       box(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil(make_deposit_stencil(config, grid, r_max)),
       by_row(exchanges_by_row(config.coupling)),
+      crowded(by_row && may_be_crowded(grid, 2 * r_max)),
       smoothing_length(config.coupling.smoothing_length),
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
             .z = config.grains->boundary_z == GrainBoundaryZ::wall},

@@ -32,7 +32,8 @@ struct CouplingGrid {
   Boundary boundary;
   PeriodicBox box;  // of the grains
   DepositStencil stencil;
-  bool by_row;            // the exchange of momentum
+  bool by_row;   // the exchange of momentum
+  bool crowded;  // by row, and twice as many grains may belong to a momentum cell as lie there
   Real smoothing_length;  // [m]; 0: none
   EvenExtension walls;    // of the grains, where the smoothing ends
   PoissonFft smoother;

@@ -36,6 +36,25 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
   ledger.taken_from_fluid = taken_from_fluid();
 }
 
+void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid) {
+  if (!grid_.crowded) return;
+  const std::pair<int, int> both{Deposits::kSolidX, Deposits::kSolidZ + 1};
+  Kokkos::deep_copy(Kokkos::subview(deposits_.sum, Kokkos::ALL, both), 0);
+  Kokkos::parallel_for("coupling: solid of momentum cells", items(grains.n),
+                       DepositSolid{exchange_by_row(fluid), grains.kin, deposits_});
+  halo_.scatter_add(deposits_.sum);
+  for (const auto& [quantity, field] : {std::pair{Deposits::kSolidX, &fields_.solid_x},
+                                        std::pair{Deposits::kSolidZ, &fields_.solid_z}}) {
+    for_each_cell("coupling: solid of momentum cells", grid_.grid,
+                  DecodeDeposit{.grid = grid_.grid,
+                                .deposits = deposits_,
+                                .point = deposits_.volume,
+                                .quantity = quantity,
+                                .density = *field});
+    grid_.boundary.fill(*field, FieldKind::scalar);
+  }
+}
+
 ExchangeByRow Deposit::exchange_by_row(const FluidState& fluid) const {
   return {.on = grid_.by_row,
           .stencil = grid_.stencil,

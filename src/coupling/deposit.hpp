@@ -18,6 +18,9 @@ class Deposit {
   /// alpha_f_previous. Books what the grains give and what arrives.
   void operator()(const GrainState& grains, FluidState& fluid, Real dt, ExchangeLedger& ledger);
 
+  /// By row, before the gather: the solid of the momentum cells, with ghosts.
+  void solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid);
+
   /// Of the grains of all ranks at the last deposit.
   const GrainExtent& extent() const { return extent_; }
 

@@ -51,7 +51,6 @@ Gather::Gather(const Config& config, const GrainState& grains, const CouplingGri
 void Gather::operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent,
                         Real dt, ExchangeLedger& ledger) {
   reserve_flow_at(grains.n);
-  undo_smoothing(fluid);
   const CellRange around = cells_around(extent);
   pressure_gradient(fluid, grains, around, dt, ledger);
   stress(fluid, grains, around, dt, ledger);
@@ -183,7 +182,8 @@ void Gather::flow_at_grains(const FluidState& fluid, const GrainState& grains) {
                                  .grains = grains.kin,
                                  .flow = flow_at_};
   if (grid_.by_row) {
-    read(FlowOfRows{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective});
+    read(FlowOfRows{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective, grid_.crowded,
+                    fields_.solid_x, fields_.solid_z});
     return;
   }
   read(over_cells);

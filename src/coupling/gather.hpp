@@ -20,6 +20,8 @@ class Gather {
   Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
          CouplingFields& fields);
 
+  /// First of all: the fraction before the smoothing.
+  void undo_smoothing(const FluidState& fluid);
   /// `extent`: of the grains of all ranks. Books what the flow's pressure gradient and stress do.
   void operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent, Real dt,
                   ExchangeLedger& ledger);
@@ -29,7 +31,6 @@ class Gather {
  private:
   CellRange cells_around(const GrainExtent& grains) const;
   void reserve_flow_at(int n);
-  void undo_smoothing(const FluidState& fluid);
   void pressure_gradient(const FluidState& fluid, const GrainState& grains, const CellRange& around,
                          Real dt, ExchangeLedger& ledger);
   void stress(const FluidState& fluid, const GrainState& grains, const CellRange& around, Real dt,

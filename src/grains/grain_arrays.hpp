@@ -32,7 +32,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.wall_touching,    "wall_touching",    "1",    always,     kRestart);
   add(f.u_f,              "u_f",              "m/s",  with_fluid, kGatherWrites);
   add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
-  add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites);
+  add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites | kDepositReads);
   add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
   add(f.steady_force,     "steady_force",     "N",    always,     kGatherWrites);
   add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites);

@@ -242,6 +242,13 @@ TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
   twenty_steps(c);
 }
 
+TEST(CoupledOverRanks, TwentyStepsInCellsOfTwoDiametersAsOnOneRank) {
+  Config c = test::coupled_config();
+  c.fluid->cells[0] = 30, c.fluid->cells[2] = 15;
+  c.time.fluid_step /= 4;
+  twenty_steps(c);
+}
+
 /// Round-off grows in a heap of grains as any other disturbance does. Until it has grown, ranks
 /// agree to 1e-9; from then on they differ no more than one rank does from itself after a grain
 /// has been moved by the last bit of its position.

@@ -107,5 +107,17 @@ TEST(RowExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
   EXPECT_NEAR(seen(0.52, 1), 0.5 - 0.02 * 9, 1e-12);  // the width between them is a ninth
 }
 
+// Two pieces of water that a grain joins come nearer to each other, and do not overshoot.
+TEST(RowExchange, AGrainJoinsItsFacesNoHarderThanTheWaterStands) {
+  for (const Real part : {0.0, 0.1, 0.46, 0.5, 0.97}) {
+    const GrainFaces faces(LinearStencil{3, part}, 0.2);
+    const Real both = faces.weight(0) * faces.weight(1);
+    EXPECT_EQ(faces.joined(0.9), 1) << part;
+    for (const Real K : {0.0, 1.0, 4.0, 1e3, 1e9})
+      EXPECT_LE(both * faces.joined(K) * K, 0.25 + 1e-15) << part << ", K = " << K;
+  }
+  EXPECT_NEAR(GrainFaces(LinearStencil{3, 0.5}, 1).joined(8), 1.0 / 8, 1e-15);
+}
+
 }  // namespace
 }  // namespace barchan
