@@ -13,7 +13,7 @@ import numpy as np
 BYTES = 8                    # of a number
 GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain step
 GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
-DEPOSIT = 19                 # to the fluid ranks after them
+DEPOSIT = 20                 # to the fluid ranks after them
 SWEEPS = 3                   # src/fluid/pressure_solver.cpp
 SMOOTHINGS, EXCHANGE_FILLS = 4, 17
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin

@@ -69,11 +69,12 @@ struct GrainNumbers {
   double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
   double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
   double shields_threshold = 0;                // Soulsby & Whitehouse
-  double cell_ratio = 0;   // smallest cell length over the mean diameter; 0 without cells
-  double floor_ratio = 0;  // height of the lowest row over it
-  double top = 0;          // [m] highest point of the grains; 0: not known
-  double top_ratio = 0;    // height of the row there over the mean diameter
-  bool as_poured = false;  // they are still to settle
+  double cell_ratio = 0;    // smallest cell length over the mean diameter; 0 without cells
+  double floor_ratio = 0;   // height of the lowest row over it
+  double column_ratio = 0;  // length of a cell along x over it
+  double top = 0;           // [m] highest point of the grains; 0: not known
+  double top_ratio = 0;     // height of the row there over the mean diameter
+  bool as_poured = false;   // they are still to settle
 };
 
 struct Derived {

@@ -63,6 +63,10 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
         n.cell_ratio);
     return;
   }
+  found.warning_if(n.column_ratio > 6 && !c.grains->frozen, {"fluid.cells", "domain.size"},
+                   "makes cells {:.1f} mean grain diameters long: a dune has a step in each column "
+                   "of cells; take 5 or less",
+                   n.column_ratio);
   if (!found.warning_if(n.floor_ratio > 1, keys,
                         "makes the lowest row {:.2f} mean grain diameters: too thick for the "
                         "surface of a dune, which needs 0.7 or less",

@@ -20,16 +20,18 @@ inline std::string grain_case(const std::string& grains = "") {
 }
 
 /// A fluid-only case in six lines; `fluid` follows as line 7 and on.
-inline std::string fluid_case(const std::string& fluid = "") {
-  return "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[fluid]\n"
-         "cells = [62, 30, 25]\n" +
-         fluid;
+inline std::string fluid_case(const std::string& fluid = "",
+                              const std::string& cells = "[62, 30, 25]") {
+  return "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[fluid]\ncells = " + cells +
+         "\n" + fluid;
 }
 
 /// A case with both parts whose cells and steps nothing is said against, with grains of 0.2 mm.
 inline std::string coupled_case(const std::string& sizes = "[[0.2e-3, 100]]") {
-  return fluid_case("first_cell_height = 1.6e-4\nmean_velocity = 0.28\n[grains]\nsizes = " + sizes +
-                    "\n[initial]\ngrains = { pour = { centre = [0.05, 0.02], radius = 0.006 } }\n");
+  return fluid_case(
+      "first_cell_height = 1.6e-4\nmean_velocity = 0.28\n[grains]\nsizes = " + sizes +
+          "\n[initial]\ngrains = { pour = { centre = [0.05, 0.02], radius = 0.006 } }\n",
+      "[96, 30, 25]");
 }
 
 using Lines = std::vector<std::string>;
