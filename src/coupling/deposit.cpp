@@ -38,8 +38,7 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
 
 void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid) {
   if (!grid_.crowded) return;
-  const std::pair<int, int> both{Deposits::kSolidX, Deposits::kSolidZ + 1};
-  Kokkos::deep_copy(Kokkos::subview(deposits_.sum, Kokkos::ALL, both), 0);
+  Kokkos::deep_copy(deposits_.sum, 0);
   Kokkos::parallel_for("coupling: solid of momentum cells", items(grains.n),
                        DepositSolid{exchange_by_row(fluid), grains.kin, deposits_});
   halo_.scatter_add(deposits_.sum);

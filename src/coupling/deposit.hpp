@@ -18,7 +18,7 @@ class Deposit {
   /// alpha_f_previous. Books what the grains give and what arrives.
   void operator()(const GrainState& grains, FluidState& fluid, Real dt, ExchangeLedger& ledger);
 
-  /// By row, before the gather: the solid of the momentum cells, with ghosts.
+  /// Before the gather, in crowded cells: the solid of the momentum cells, with ghosts.
   void solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid);
 
   /// Of the grains of all ranks at the last deposit.

@@ -204,9 +204,9 @@ InitialGrains regular_bed() {
   return grains;
 }
 
-/// In cells hardly wider than a grain. In 8 x 8 cells each grain lies between two momentum cells
-/// and joins their water; in 6 x 6 twice as many belong to some as lie there. However strong their
-/// drag, no water overshoots the other, nor itself: the flow comes to rest in its steady state.
+/// In 8 x 8 cells each grain joins the water of two momentum cells; in 6 x 6 more than twice as
+/// many grains belong to some momentum cells as lie there. However strong their drag, no water
+/// overshoots: the flow becomes steady.
 TEST(ShearedBed, InCellsAsWideAsAGrainStrongDragIsStable) {
   constexpr double lid = 0.01;
   for (const int cells : {6, 8}) {
