@@ -326,14 +326,15 @@ def draw_weak(axes, network, style):
 
 
 def draw(path, network):
-    sys.path.insert(0, str(ROOT / "analysis"))
-    import style
-    style.use()
-    figure, panels = style.plt.subplots(1, 3, figsize=(style.FULL_WIDTH, 3.3))
-    for index, (axes, panel) in enumerate(zip(panels, (draw_strong, draw_shares, draw_weak))):
-        panel(axes, network, style)
-        style.panel_label(axes, index)
-    style.save(figure, path.parent, path.stem, "scaling")
+    sys.path.insert(0, str(ROOT / "python"))
+    from barchan.figures import style
+
+    with style.look():
+        figure, (panels,) = style.panels(None, 1, 3, figsize=(style.FULL_WIDTH, 3.3))
+        for index, (axes, panel) in enumerate(zip(panels, (draw_strong, draw_shares, draw_weak))):
+            panel(axes, network, style)
+            style.panel_label(axes, index)
+        style.save(figure, path.parent, path.stem, "scaling")
 
 
 def main():

@@ -105,8 +105,8 @@ def conditions(entry, folder):
 
 def command_of(entry, program):
     first, *words = shlex.split(entry.command)
-    scripts = {"sweep": [sys.executable, str(ROOT / "scripts/sweep.py"), program],
-               "plot": [sys.executable, str(ROOT / "analysis/plot.py")]}
+    scripts = {"sweep": [sys.executable, "-m", "barchan", "sweep", program],
+               "plot": [sys.executable, "-m", "barchan", "plot"]}
     ranks = ["mpirun", "--quiet", "--bind-to", "none", "-np", str(entry.ranks)] if entry.ranks > 1 else []
     return [*scripts.get(first, [*ranks, program, first]), *words]
 

@@ -73,7 +73,7 @@ for column in ("W", "L", "Cx"):
 drawn = list(csv.DictReader(open("out/figures_data/morphology_sliding_friction.csv")))
 assert "W_m_ci95" in drawn[0] and float(drawn[-1]["W_m_sd"]) > 0, drawn[-1]
 PYTHON
-"$python" "$root/analysis/plot.py" out fig7 > drawn 2>&1 && [ -s out/fig7.png ] || fail "fig7: $(cat drawn)"
+"$python" -m barchan plot out fig7 > drawn 2>&1 && [ -s out/fig7.png ] || fail "fig7: $(cat drawn)"
 "$python" check.py || fail "tables"
 
 # --- the same command leaves what is done

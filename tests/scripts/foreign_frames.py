@@ -9,20 +9,21 @@ import faults
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "analysis"))
-import hdf5_files  # noqa: E402
-from hdf5_files import PlotError, h5py  # noqa: E402
-from run_folder import FrameFile, RunFolder  # noqa: E402
+from barchan.io import hdf5 as hdf5_files  # noqa: E402
+from barchan.errors import BarchanError# noqa: E402
+from barchan.io.hdf5 import h5py# noqa: E402
+from barchan.io.frames import FrameFile# noqa: E402
+from barchan.io.run_folder import RunFolder  # noqa: E402
 
 EVERY_STEP = {"time.end": 2, "output.grains_interval": 2.5e-4, "output.fields_interval": 2.5e-4}
 LOOKS = 60  # at files that are being written
 LAST = "frame_000004"  # of the good run
 
 
-def refusal(folder, read=lambda run: run.grains(-1)):
+def refusal(folder, read=lambda run: run.frame(-1)):
     try:
         read(RunFolder(folder))
-    except PlotError as problem:
+    except BarchanError as problem:
         return str(problem)
     return "taken"
 
@@ -93,7 +94,7 @@ def damaged_files(good, work):
         name = ("id", "x", "d", "u", "dune")[number % 5]
         folder = changed(good, work / f"bit_{number}", wrong_bit(name, 7919 * number))
         expect(f"a wrong bit in {name}", refusal(folder), f"{LAST}/{name} is damaged: its checksum")
-        if refusal(folder, lambda run: run.grains(0)) != "taken":
+        if refusal(folder, lambda run: run.frame(0)) != "taken":
             faults.fail("a frame without a wrong bit was refused")
 
     def without_checksums(file, frame):

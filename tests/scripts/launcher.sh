@@ -64,7 +64,7 @@ said="$(PATH="$PWD/bin:$PATH" "$root/barchan" test -R Hertz-of-nobody 2>&1)" && 
 # The checkout of another user: its program runs; what is not built there cannot be.
 as_other=()
 if [ "$(id -u)" -eq 0 ]; then as_other=(setpriv --reuid=65534 --regid=65534 --clear-groups); fi
-mkdir -p other/build/release && cp -r "$root"/{barchan,scripts,analysis} other &&
+mkdir -p other/build/release && cp -r "$root"/{barchan,scripts,python} other &&
   cp "$BARCHAN_PROGRAM"* other/build/release && chmod -R a-w,a+rX other && chmod 755 "$dir" || fail "no copy"
 if "${as_other[@]}" other/build/release/barchan --version > said 2>&1; then
   mkdir -m 777 theirs

@@ -53,7 +53,7 @@ def findings(node):
 def main():
     found = []
     sources = files(("kernels", "src", "perf", "tests"), ".hpp", ".cpp")
-    pythons = files(("analysis", "scripts", "perf", "tests"), ".py")
+    pythons = files(("python", "scripts", "perf", "tests"), ".py")
     shells = [*files(("scripts", "tests", ".ci"), ".sh"), ROOT / "barchan"]
     for paths, pattern in ((sources, CPP), (shells, SHELL)):
         for path in paths:

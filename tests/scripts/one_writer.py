@@ -70,7 +70,7 @@ base = "{faults.CASE}"
 [[case]]
 name = "one"
 """)
-    command = [sys.executable, ROOT / "scripts/sweep.py", faults.PROGRAM, work / "study.toml", "--out", work / "study",
+    command = [sys.executable, "-m", "barchan", "sweep", faults.PROGRAM, work / "study.toml", "--out", work / "study",
                "--no-pictures", "--threads", "1"]
     by_hand = faults.start(work / "study/one", LONG)
     wait_for_restart(work / "study/one", by_hand)

@@ -5,7 +5,7 @@ set -u
 . "$(dirname "${BASH_SOURCE[0]}")/../support/studies.sh"
 
 begin() {  # begin FOLDER: the study as process $pid, until its base case has written a restart file
-  "$python" "$root/scripts/sweep.py" "$program" study.toml --no-pictures --out "$1" > "$1.txt" 2>&1 &
+  "$python" -m barchan sweep "$program" study.toml --no-pictures --out "$1" > "$1.txt" 2>&1 &
   pid=$!
   for _ in $(seq 300); do
     if ls "$1"/base/restart_*.h5 > /dev/null 2>&1; then break; fi

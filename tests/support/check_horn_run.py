@@ -105,9 +105,8 @@ def program_map(run):
 def shape(run):
     """The grains found in the horns, turned and across the seams, reach as far from the lee foot that is found as
     dune.csv says, which make_horn_run.py wrote from the blocks alone; and the curves of the morphology figure."""
-    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "analysis"))
-    from run_folder import RunFolder
-    from tracks import Tracks
+    from barchan.io.run_folder import RunFolder
+    from barchan.dune.tracks import Tracks
 
     table, tracks = read(run, "dune"), Tracks(RunFolder(run))
     for index, row in enumerate(table[table["dune"] == 0]):

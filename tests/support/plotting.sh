@@ -8,9 +8,13 @@ fake() { "$python" "$root/tests/support/make_fake_run.py" "$@" || fail "make_fak
 
 programs=$PATH  # where plot finds ffmpeg, if any
 plot() {  # plot EXPECTED_STATUS ARGUMENT...
-  local expected=$1 status=0
+  local expected=$1 status=0 module=(barchan plot)
   shift
-  PATH="$programs" "$python" "$root/analysis/plot.py" "$@" > "$dir/out" 2> "$dir/err" || status=$?
+  if [ "$1" = validation ]; then
+    module=(validation)
+    shift
+  fi
+  PATH="$programs" "$python" -m "${module[@]}" "$@" > "$dir/out" 2> "$dir/err" || status=$?
   [ "$status" = "$expected" ] || fail "plot $* ended with $status, not $expected: $(cat "$dir/err")"
   ! grep -q Traceback "$dir/err" || fail "plot $* shows a traceback"
 }

@@ -6,8 +6,8 @@ import sys
 
 import beside_cfdem as beside
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "analysis"))
-import tables
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+from validation import tables
 
 
 def write(folder, states, drops, heap_run, heap):

@@ -5,7 +5,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 python="${BARCHAN_PYTHON:-$python}"
-export PYTHONDONTWRITEBYTECODE=1
+export PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1
+export PYTHONPATH="$root/python:$root/tests/support"
 # The launcher takes the build that is tested, if that is one of its own.
 preset="$(basename "$(dirname "$BARCHAN_PROGRAM")")"
 [ "$root/build/$preset/barchan" != "$BARCHAN_PROGRAM" ] || export BARCHAN_PRESET="$preset"

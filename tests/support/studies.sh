@@ -7,4 +7,4 @@ program="${BARCHAN_PROGRAM:-$root/build/release/barchan}"
 cd "$dir" || exit 1
 export OMP_NUM_THREADS="${BARCHAN_TEST_THREADS:-1}"
 
-sweep() { "$python" "$root/scripts/sweep.py" "$program" "$@"; }
+sweep() { "$python" -m barchan sweep "$program" "$@"; }

@@ -1,0 +1,22 @@
+"""Barchan in Python: runs, studies and figures.
+
+    import barchan
+
+    run = barchan.open("runs/quickstart")
+    run.dunes                    # a pandas.DataFrame; attrs["units"]
+    run.fields(t=2.0)            # an xarray.Dataset, read where it is used
+    run.figure("morphology")     # a matplotlib Figure
+
+docs/python.md has the first hour. SI units throughout.
+"""
+
+from barchan.errors import BadInput, BarchanError, MissingData, RunFailed, RunStopped
+from barchan.api.program import check, run, sweep
+from barchan.api.run import Run, open_folder
+from barchan.api.study import Study
+
+open = open_folder  # the name that users look for  # noqa: A001
+
+__version__ = "0.1.0"
+__all__ = ["BadInput", "BarchanError", "MissingData", "Run", "RunFailed", "RunStopped", "Study", "check", "open", "run",
+           "sweep"]

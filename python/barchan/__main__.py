@@ -1,0 +1,24 @@
+"""python -m barchan plot RUN_DIR ... | sweep PROGRAM STUDY.toml ...: what the launcher calls."""
+
+import sys
+
+
+def main() -> int:
+    command, arguments = (sys.argv[1] if len(sys.argv) > 1 else ""), sys.argv[2:]
+    try:
+        if command == "plot":
+            from barchan import plot
+
+            return plot.main(arguments)
+        if command == "sweep":
+            from barchan.studies import sweep
+
+            return sweep.main(arguments)
+    except KeyboardInterrupt:
+        return 3
+    print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,105 @@
+"""Calls the program: check, run, sweep. The launcher is found, or named by BARCHAN."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from barchan.errors import BadInput, BarchanError, RunFailed, RunStopped
+from barchan.api.run import Run
+from barchan.api.study import Study
+from barchan.studies.spec import as_toml
+
+LAUNCHER = Path(__file__).resolve().parents[3] / "barchan"  # of the repository, where the package lies in it
+
+
+def program() -> str:
+    """The launcher or program that is called: of the variable BARCHAN, of this repository, or of PATH.
+
+    Raises BarchanError where there is none.
+    """
+    named = os.environ.get("BARCHAN")
+    if named:
+        return named
+    if os.access(LAUNCHER, os.X_OK) and LAUNCHER.is_file():
+        return str(LAUNCHER)
+    found = shutil.which("barchan")
+    if found is None:
+        raise BarchanError("the program barchan was not found: set BARCHAN to the launcher of the repository")
+    return found
+
+
+def check(case: str | Path, report: bool = False, **overrides: Any) -> dict[str, Any]:
+    """The case with every default, {section: {key: value}}. report: also prints derived numbers, cost and warnings.
+
+    overrides: section__key=value, such as grains__sliding_friction=0.4. Raises BadInput with the program's message.
+    """
+    if report:
+        print(_call(["check", str(case), *_settings(overrides)]), end="")
+    return tomllib.loads(_call(["check", "--resolved-only", str(case), *_settings(overrides)]))
+
+
+def run(case: str | Path, out: str | Path | None = None, threads: int | None = None, ranks: int | None = None,
+        restart: str | Path | None = None, overwrite: bool = False, **overrides: Any) -> Run:
+    """Runs a case to its end and returns its Run; progress goes to standard error.
+
+    out: the run folder (default: runs/<case name>); where it holds this run, finished, nothing is computed again.
+    overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
+    program's message.
+    """
+    folder = Path(out) if out is not None else Path("runs") / Path(case).stem
+    words = ["run", str(case), "--out", str(folder), *_settings(overrides)]
+    for name, value in (("--threads", threads), ("--ranks", ranks), ("--restart", restart)):
+        words += [name, str(value)] if value is not None else []
+    _call([*words, "--overwrite"] if overwrite else words)
+    return Run(folder)
+
+
+def sweep(study: str | Path, out: str | Path | None = None, at_once: int | None = None,
+          threads: int | None = None) -> Study:
+    """Computes what a study still lacks and returns its Study. Raises as `run`."""
+    folder = Path(out) if out is not None else Path("runs") / Path(study).stem
+    words = ["sweep", str(study), "--out", str(folder)]
+    for name, value in (("--at-once", at_once), ("--threads", threads)):
+        words += [name, str(value)] if value is not None else []
+    _call(words)
+    return Study(folder)
+
+
+def _settings(overrides: dict[str, Any]) -> list[str]:
+    words = []
+    for name, value in overrides.items():
+        section, separator, key = name.partition("__")
+        if not separator:
+            raise BadInput(f"{name}: name a key as section__key, such as grains__sliding_friction=0.4")
+        words += ["--set", f"{section}.{key}={as_toml(list(value) if isinstance(value, tuple) else value)}"]
+    return words
+
+
+def _call(words: list[str]) -> str:
+    """What it prints; its messages also go to standard error as they come."""
+    quiet = words[0] == "check"
+    try:
+        process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace")
+    except OSError as error:
+        raise BarchanError(f"cannot start {program()}: {error.strerror}") from error
+    with process:  # at a Ctrl-C, which it gets too, it is waited for: it writes a restart file
+        output, errors = process.communicate() if quiet else (_shown(process), "")
+    if process.returncode:
+        said = (errors or output).strip().splitlines()
+        kind = {2: BadInput, 3: RunStopped}.get(process.returncode, RunFailed)
+        raise kind("\n".join(said[-20:]) or f"barchan {words[0]} ended with {process.returncode}")
+    return output
+
+
+def _shown(process: "subprocess.Popen[str]") -> str:
+    """Passes lines on to Python's standard error, which a notebook shows."""
+    lines = []
+    for line in process.stdout or ():
+        lines.append(line)
+        print(line, end="", file=sys.stderr)
+    return "".join(lines)

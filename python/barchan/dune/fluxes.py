@@ -1,0 +1,75 @@
+"""How much sand goes over a line across the flow, and how grains that move do so.
+
+Definitions: docs/conventions.md, "Slopes and transport". SI units.
+"""
+
+import numpy as np
+
+from barchan.dune.shape import Bed, Dune
+from barchan.errors import MissingData
+from barchan.io.frames import Grains
+
+KINDS = ("saltation", "rolling", "creep")
+SLAB = (2.0, 4.0)  # heights between which the packing is measured, in mean diameters
+DEEP = 6.0         # ... in bins that are at least so high, and their neighbours
+
+
+def volumes(d: np.ndarray) -> np.ndarray:
+    return np.pi / 6 * d**3
+
+
+def crossings(before: Grains, after: Grains, bed: Bed, x: float, z: float,
+              half_width: float) -> tuple[float, int]:
+    """(net volume [m3], number) of grains that crossed the line `x` downstream within abs(z' - z) < half_width.
+
+    Between two frames, ordered by id. The net volume does not depend on the ways between the frames. The number is that
+    of crossings, back and forth; grains that left the domain between the frames count as none.
+    """
+    ids, a, b = np.intersect1d(before.id, after.id, assume_unique=True, return_indices=True)
+    start = bed.nearest(before.x[a] - (x, 0, z))
+    way = bed.nearest(after.x[b] - before.x[a])
+    end = start + way
+    direction = (end[:, 0] >= 0).astype(int) - (start[:, 0] >= 0)
+    at = np.nonzero(direction)[0]
+    place = start[at, 2] - way[at, 2] * start[at, 0] / way[at, 0]
+    at = at[abs(place) < half_width]
+    return float(np.sum(direction[at] * volumes(before.d[a][at]))), len(at)
+
+
+def packing(grains: Grains, dune: Dune) -> float:
+    """Solid volume over volume inside the dune, two to four diameters above the floor; NaN in a dune too low."""
+    rows, surface = dune.rows, dune.surface
+    low, high = (level * grains.d.mean() for level in SLAB)
+    deep = surface.lowest >= DEEP * grains.d.mean()
+    area = np.count_nonzero(deep) * np.prod(surface.bins)
+    if area == 0:
+        return np.nan
+    inside = surface.in_bins(deep, dune.x, dune.z)
+    y, r = grains.x[rows, 1][inside], 0.5 * grains.d[rows][inside]
+    return float(np.sum(slice_volumes(low - y, high - y, r)) / (area * (high - low)))
+
+
+def slice_volumes(low: np.ndarray, high: np.ndarray, r: np.ndarray) -> np.ndarray:
+    """Volume of spheres of radius r between the heights low and high above their centres [m3]."""
+    def below(height: np.ndarray) -> np.ndarray:
+        height = np.clip(height, -r, r)
+        return np.pi * (r**2 * height - height**3 / 3 + 2 * r**3 / 3)
+    return below(high) - below(low)
+
+
+def shares(grains: Grains, dune: Dune) -> tuple[float, ...]:
+    """KINDS: shares of the dune's streamwise volume flux, NaN where it is zero.
+
+    Of grains whose lower edge is above the surface; whose upper edge is less than a diameter below it; of those deeper.
+    """
+    if grains.u is None:
+        raise MissingData("needs frames with the velocities of the grains")
+    rows = dune.rows
+    r = 0.5 * grains.d[rows]
+    above = grains.x[rows, 1] - dune.surface.at(dune.x, dune.z)
+    flux = volumes(grains.d[rows]) * grains.u[rows, 0]
+    flying, deep = above - r > 0, above + r < -grains.d.mean()
+    total = flux.sum()
+    if total == 0:
+        return (np.nan,) * 3
+    return tuple(float(flux[kind].sum() / total) for kind in (flying, ~flying & ~deep, deep))

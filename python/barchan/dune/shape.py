@@ -1,0 +1,116 @@
+"""One dune among the grains of a frame: which they are, where its lee foot is and which of them are horns.
+
+Its size, crest and horns are those that the program has written to dune.csv (definitions in docs/conventions.md).
+What dune.csv lacks is found here with the same centreline, so that grains that lie in a horn are those that make its
+length. Lengths in m, angles from +x. Criteria are in mean grain diameters.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from barchan.dune.surface import Surface
+from barchan.errors import MissingData
+from barchan.io.frames import Grains
+
+BIN = 2.5          # side of a bin
+HALF_WIDTH = 3.0   # of the centreline's strip
+MAIN = 0           # label of the first dune of a run, the largest one then
+
+
+@dataclass
+class Bed:
+    """What a dune lies on: lengths (Lx, Lz) [m] and whether x and z are periodic."""
+
+    lengths: tuple
+    periodic: tuple
+
+    def nearest(self, difference: np.ndarray) -> np.ndarray:
+        """Differences of positions, (..., 3) [m], to the nearest periodic image."""
+        result = np.array(difference, float)
+        for axis, length, periodic in zip((0, 2), self.lengths, self.periodic):
+            if periodic:
+                result[..., axis] -= length * np.round(result[..., axis] / length)
+        return result
+
+
+@dataclass
+class Dune:
+    """One dune: `rows` (n) of its grains in the frame, their x, z (n) [m] with periodic images undone.
+
+    Centroid (3) [m]; size, crest and horns are of dune.csv [m]. `toe` and `lee_foot` are the ends of the centreline, up
+    and down the stream, infinite when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0.
+    `surface` is that of its grains.
+    """
+
+    rows: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    centroid: np.ndarray
+    W: float
+    L: float
+    H: float
+    crest_x: float
+    toe: float
+    lee_foot: float
+    horn_left: float
+    horn_right: float
+    side: np.ndarray
+    surface: Surface
+
+
+def main_rows(grains: Grains) -> np.ndarray:
+    """Rows of the main dune's grains in a frame."""
+    if grains.dune is None:
+        raise MissingData("needs frames that say which dune each grain is of (output.dune_interval > 0); runs of "
+                       "an earlier version have none")
+    return np.nonzero(grains.dune == MAIN)[0]
+
+
+def main_dune(grains: Grains, bed: Bed, table: dict[str, np.ndarray]) -> Dune | None:
+    """The main dune of a frame, None while there is none. `table`: its columns of dune.csv, of which the line nearest
+    in time counts."""
+    rows = main_rows(grains)
+    if not len(rows):
+        return None
+    line = int(np.argmin(abs(table["t"] - grains.time)))
+    return find(grains, rows, bed, {name: float(column[line]) for name, column in table.items()})
+
+
+def in_one_piece(x: np.ndarray, length: float) -> np.ndarray:
+    """Positions (n) with periodic images undone: the widest gap between them is outside."""
+    x = x % length
+    ordered = np.sort(x)
+    gaps = np.diff(ordered, append=ordered[0] + length)
+    widest = int(np.argmax(gaps))
+    return x if widest == len(x) - 1 else np.where(x > ordered[widest], x - length, x)
+
+
+def find(grains: Grains, rows: np.ndarray, bed: Bed, size: dict[str, float]) -> Dune:
+    """The dune of these rows, `size` its line of dune.csv."""
+    x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
+            for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
+    diameter = float(grains.d.mean())
+    bins = [length / max(1, int(length / (BIN * diameter))) for length in bed.lengths]
+    radius = 0.5 * grains.d[rows]
+    centroid = np.average([x, grains.x[rows, 1], z], axis=1, weights=radius**3)
+    crest_x = centroid[0] + bed.nearest(np.array([size["crest_x"] - centroid[0], 0.0, 0.0]))[0]
+    strip = abs(z - centroid[2]) < HALF_WIDTH * diameter
+    line = centreline(x[strip], radius[strip], bins[0], crest_x)
+    toe, foot = line or (-np.inf, np.inf)
+    side = np.where(strip | (x + radius <= foot), 0, np.where(z < centroid[2], -1, 1))
+    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
+    return Dune(rows, x, z, centroid, size["W"], size["L"], size["H"], float(crest_x), toe, foot,
+                size["horn_left"], size["horn_right"], side, surface)
+
+
+def centreline(x: np.ndarray, radius: np.ndarray, bin_x: float, crest_x: float) -> tuple[float, float] | None:
+    """(toe, lee foot) [m]: around the crest the columns of bins that hold sand without a gap."""
+    if len(x) == 0:
+        return None
+    column = np.floor(x / bin_x).astype(int)
+    held = np.unique(column)
+    piece = np.cumsum(np.concatenate([[0], np.diff(held) > 1]))
+    nearest = piece[np.argmin(abs(held + 0.5 - crest_x / bin_x))]
+    kept = np.isin(column, held[piece == nearest])
+    return np.min((x - radius)[kept]), np.max((x + radius)[kept])

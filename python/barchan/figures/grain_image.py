@@ -1,0 +1,102 @@
+"""Pictures of grains seen from above, true to scale, drawn by a depth buffer in numpy.
+
+100,000 grains take about a second, where a circle each in matplotlib would take a minute, and the
+picture stays the same size.
+"""
+
+import matplotlib
+import numpy as np
+
+from barchan.figures.style import HEIGHT_MAP
+
+LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
+
+
+def hidden(x, d):
+    """Grains that cannot be seen from above: all around them others rise a diameter higher."""
+    cell = np.median(d)
+    i = np.floor((x[:, 0] - x[:, 0].min()) / cell).astype(int) + 1
+    k = np.floor((x[:, 2] - x[:, 2].min()) / cell).astype(int) + 1
+    top = np.zeros((i.max() + 2, k.max() + 2))
+    np.maximum.at(top, (i, k), x[:, 1] + 0.5 * d)
+    lowest = top.copy()
+    for axis in (0, 1):
+        lowest = np.minimum(np.minimum(np.roll(lowest, 1, axis), np.roll(lowest, -1, axis)), lowest)
+    return x[:, 1] + 0.5 * d < lowest[i, k] - 1.5 * d
+
+
+def depth_buffer(x, d, window, pixel):
+    """Which grain is seen in each pixel (-1: none), and the surface height there [m].
+
+    window = (x0, x1, z0, z1) [m]; rows run in z, columns in x.
+    """
+    columns = max(1, round((window[1] - window[0]) / pixel))
+    rows = max(1, round((window[3] - window[2]) / pixel))
+    height = np.zeros(rows * columns, np.float32)
+    grain = np.full(rows * columns, -1, np.int32)
+    order = np.argsort(x[:, 1])  # of two grains in a pixel the later, higher one is kept
+    centre_i, centre_k = (x[order, 0] - window[0]) / pixel, (x[order, 2] - window[2]) / pixel
+    y, radius = x[order, 1], 0.5 * d[order]
+    reach = int(np.ceil(radius.max() / pixel)) if len(d) else 0
+    first_i, first_k = np.floor(centre_i).astype(int), np.floor(centre_k).astype(int)
+    for dk in range(-reach, reach + 1):
+        for di in range(-reach, reach + 1):
+            i, k = first_i + di, first_k + dk
+            dome2 = radius**2 - ((i + 0.5 - centre_i)**2 + (k + 0.5 - centre_k)**2) * pixel**2
+            seen = (dome2 > 0) & (i >= 0) & (i < columns) & (k >= 0) & (k < rows)
+            place = k[seen] * columns + i[seen]
+            surface = (y[seen] + np.sqrt(dome2[seen])).astype(np.float32)
+            higher = surface > height[place]
+            height[place[higher]] = surface[higher]
+            grain[place[higher]] = order[seen][higher]
+    return grain.reshape(rows, columns), height.reshape(rows, columns)
+
+
+def by_height(x, d, top):
+    """Colours (N, 3) of the grains from 0 to `top` [m] in the height map of the style."""
+    return matplotlib.colormaps[HEIGHT_MAP](np.clip((x[:, 1] + 0.5 * d) / top, 0, 1))[:, :3]
+
+
+def top_view(x, d, window, width, top):
+    """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by height.
+
+    The first row is z0. Colours run from 0 to `top` [m].
+    """
+    return coloured_view(x, d, by_height(x, d, top), window, width)
+
+
+def coloured_view(x, d, colours, window, width):
+    """The same with a colour for each grain: colours (N, 3)."""
+    inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
+              & (x[:, 2] < window[3]))
+    x, d, colours = x[inside], d[inside], colours[inside]
+    pixel = (window[1] - window[0]) / width
+    if len(d) == 0:
+        return np.ones((max(1, round((window[3] - window[2]) / pixel)), width, 3))
+    visible = ~hidden(x, d)
+    x, d, colours = x[visible], d[visible], colours[visible]
+    # Finer than the grains, then averaged: smooth edges, at a bounded size.
+    finer = int(np.clip(np.ceil(6 * pixel / np.median(d)), 2, 6))
+    grain, height = depth_buffer(x, d, window, pixel / finer)
+    picture = np.ones(grain.shape + (3,), np.float32)
+    covered = grain >= 0
+    picture[covered] = colours[grain[covered]] * shade(grain, height, x, d, window,
+                                                       pixel / finer)[:, None]
+    return block_mean(picture, finer)
+
+
+def block_mean(picture, n):
+    rows, columns = (n * (size // n) for size in picture.shape[:2])
+    parts = [picture[k:rows:n, i:columns:n] for k in range(n) for i in range(n)]
+    return sum(parts) / n**2
+
+
+def shade(grain, height, x, d, window, pixel):
+    """Diffuse light on the spheres, for the covered pixels in row order."""
+    k, i = np.nonzero(grain >= 0)
+    g = grain[k, i]
+    radius = 0.5 * d[g]
+    normal = np.stack([(window[0] + (i + 0.5) * pixel - x[g, 0]) / radius,
+                       (height[k, i] - x[g, 1]) / radius,
+                       (window[2] + (k + 0.5) * pixel - x[g, 2]) / radius], axis=1)
+    return 0.5 + 0.5 * np.clip(normal @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)

@@ -1,0 +1,99 @@
+"""morphodynamics: slopes, flux over the crest, ways of moving, avalanches and exchange of the dune against time.
+
+Asked for by its name it also says the means in words, of the second half of the run or from --from to --to.
+Definitions: docs/conventions.md, "Slopes and transport".
+"""
+
+import numpy as np
+
+from barchan.dune import fluxes as grain_fluxes
+from barchan.dune import transport as dune_transport
+from barchan.figures import style
+from barchan.figures.result import keep, say
+from barchan.stats import over_the_last_second, window
+
+
+
+def draw(run, ax=None, start=None, end=None):
+    """The means are also said in words."""
+    table, profiles = dune_transport.measure(run)
+    shares = dune_transport.measure_shares(run)
+    chosen = window(table["t"], start, end)
+    figure, panels = style.panels(ax, 3, 2, figsize=(style.FULL_WIDTH, 6.2))
+    say(figure, dune_transport.summary(table, shares, chosen))
+    keep(figure, "morphodynamics", table, most=None)
+    if shares:
+        keep(figure, "transport_shares", shares, most=None)
+    draw_profiles(panels[0, 0], table["t"], profiles)
+    draw_angles(panels[0, 1], table)
+    draw_fluxes(panels[1, 0], table)
+    draw_shares(panels[1, 1], shares)
+    draw_slip_face(panels[2, 0], table, chosen)
+    draw_exchange(panels[2, 1], table)
+    for index, axes in enumerate(panels.ravel()):
+        style.panel_label(axes, index)
+        if index > 0:
+            axes.set(xlabel="$t$ (s)", xlim=table["t"][[0, -1]])
+    return figure
+
+
+def draw_profiles(axes, t, profiles):
+    """The centreline at the start, half way and at the end, there with the fitted lines; heights are drawn larger."""
+    for row, colour in ((0, style.GREY), (len(t) // 2, style.SKY), (len(t) - 1, style.BLUE)):
+        axes.plot(1e3 * profiles[row].x, 1e3 * profiles[row].h, color=colour, label=f"{t[row]:.3g} s")
+    for x, h in profiles[-1].faces:
+        axes.plot(1e3 * x, 1e3 * h, color=style.VERMILLION, lw=0.9, ls=(0, (4, 1.5)))
+    axes.axvline(1e3 * profiles[-1].brink_x, color=style.VERMILLION, lw=0.6, ls=":")
+    axes.set(xlabel="$x$ (mm)", ylabel="$h$ (mm)", ylim=(0, 1.25 * axes.get_ylim()[1]))
+    axes.legend(loc="upper left")
+
+
+def draw_angles(axes, table):
+    for name, label, colour in (("slip_face_angle", "slip face", style.VERMILLION),
+                                ("stoss_angle", "stoss side", style.BLUE)):
+        points_and_mean(axes, table["t"], table[name], colour, label)
+    axes.set(ylabel="angle (degrees)", ylim=(0, None))
+    axes.legend(loc="upper right")
+
+
+def draw_fluxes(axes, table):
+    points_and_mean(axes, table["t"], 1e6 * table["crest_flux"], style.BLUE, "over the crest")
+    axes.plot(table["t"], 1e6 * table["migration_flux"], color=style.VERMILLION, ls=(0, (4, 1.5)),
+              label="$\\phi\\, c\\, H$")
+    top = np.nanpercentile(1e6 * table["crest_flux"], 98)
+    axes.set(ylabel="flux (mm$^2$/s)", ylim=(0, 1.5 * top if top > 0 else None))
+    axes.legend(loc="upper right")
+
+
+def draw_shares(axes, shares):
+    axes.set(ylabel="share of the flux (%)", ylim=(0, 100))
+    if not shares:
+        axes.text(0.5, 0.5, "no velocities in grains.h5", transform=axes.transAxes, ha="center", color=style.GREY)
+        return
+    for kind, colour in zip(grain_fluxes.KINDS, (style.ORANGE, style.BLUE, style.GREEN)):
+        marker = style.mark_if_few(shares["t"])
+        axes.plot(shares["t"], 100 * shares[kind], color=colour, marker=marker, ms=3, label=kind)
+    axes.legend(loc="best")
+
+
+def draw_slip_face(axes, table, chosen):
+    t, counts = table["t"], table["slip_face_grains"]
+    axes.step(t, counts, where="pre", color=style.BLUE, lw=0.7)
+    events = np.nonzero(chosen)[0][dune_transport.avalanches(counts[chosen])[0]]
+    axes.plot(t[events], counts[events], "v", color=style.VERMILLION, ms=4, label="avalanche")
+    axes.set(ylabel="grains down the slip face", ylim=(0, 1.4 * max(1.0, np.nanmax(counts[chosen], initial=0.0))))
+    if len(events):
+        axes.legend(loc="upper right")
+
+
+def draw_exchange(axes, table):
+    axes.plot(table["t"], 100 * table["kept"], color=style.BLUE, label="first grains kept")
+    axes.plot(table["t"], 100 * table["asymmetry"], color=style.PURPLE, label="asymmetry")
+    axes.set(ylabel="(%)", ylim=(0, 105))
+    axes.legend(loc="center right")
+
+
+def points_and_mean(axes, t, values, colour, label):
+    """Single frames, and their mean over the last second."""
+    axes.plot(t, values, ".", color=colour, ms=2.5, alpha=0.6, mew=0)
+    axes.plot(t, over_the_last_second(t, values), color=colour, label=label)

@@ -1,0 +1,190 @@
+"""movie: the grains from above through a whole run, window and colours fixed.
+
+RUN/movie.mp4 where ffmpeg is installed, else numbered pictures RUN/movie/0000.png and so on. Frames
+are those of tracks.h5 where it has more than grains.h5 (diameters are then looked up by id). A run
+of more than MOST frames (PICTURES without ffmpeg) is thinned evenly, so that it takes a few MB. As the
+multimedia view of Fig. 10 of Lima et al. (2022).
+"""
+
+import shutil
+import subprocess
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from barchan.errors import BarchanError, MissingData
+from barchan.figures import style
+from barchan.figures.grain_image import top_view
+from barchan.figures.result import Told, write_numbers
+from barchan.figures.topviews import colour_bar, frame_window
+from barchan.io.frames import FrameFile, Grains
+from barchan.io.tables import thin
+
+WIDTH, DPI = 6.4, 120         # [in], pixels per inch
+AROUND = 0.95                 # [in], for the colour bar below and time, scale, flow above
+MOST, PICTURES = 750, 150     # frames
+RATE = 25                     # frames per second; fewer for runs of few frames
+SHORTEST = 8.0                # [s] of film
+LARGEST_RATE = 1_000_000      # [bit/s]
+
+
+class Frames:
+    """The frames to show: times [s], and their grains by index."""
+
+    def __init__(self, run):
+        self.run = run
+        tracks = run.path / "tracks.h5"
+        self.tracks = FrameFile(tracks, ("id", "x")) if tracks.exists() else None
+        known = len(run.grain_file.frames) if run.grain_file else 0
+        if not self.tracks or len(self.tracks.frames) <= known:
+            self.tracks = None
+        self.all = self.tracks.frames if self.tracks else run.need_grains().frames
+        count = len(self.all)
+        self.chosen = np.arange(count)
+        self.thin(MOST)
+        if self.tracks:
+            self.diameters = diameters(run)
+
+    def thin(self, most):
+        """At most `most` of the frames, first and last included."""
+        self.chosen = self.chosen[thin(len(self.chosen), most)]
+
+    def grains(self, index):
+        if not self.tracks:
+            return self.run.frame(index)
+        time, name = self.all[index]
+        with self.tracks.open() as file:
+            number, x = file[name]["id"][:], file[name]["x"][:].astype(float)
+        known, d = self.diameters
+        place = np.clip(np.searchsorted(known, number), 0, len(known) - 1)
+        found = known[place] == number
+        return Grains(time, number[found], x[found], d[place[found]])
+
+    def __iter__(self):
+        return (self.grains(int(index)) for index in self.chosen)
+
+
+def diameters(run):
+    """Sorted ids and their diameters [m]; no grain enters later, so the first frame has almost all."""
+    grains = [run.frame(index) for index in sorted({0, len(run.need_grains().frames) - 1})]
+    number, first = np.unique(np.concatenate([g.id for g in grains]), return_index=True)
+    return number, np.concatenate([g.d for g in grains])[first]
+
+
+def write_files(run):
+    """Draws the frames; returns the paths to name."""
+    frames = Frames(run)
+    sample = [g for g in (frames.grains(int(index)) for index in
+                          frames.chosen[np.linspace(0, len(frames.chosen) - 1, 9).astype(int)])
+              if len(g.d)]
+    if not sample:
+        raise MissingData("needs a frame with grains in it")
+    scene = Scene(frame_window(sample), max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample))
+    log = {"frame": [], "t_s": [], "n_grains": []}
+    program = shutil.which("ffmpeg")
+    pictures = recorded(scene, frames, log)
+    paths = film(run.path / "movie.mp4", pictures, program, len(frames.chosen)) if program else None
+    if not paths:
+        frames.thin(PICTURES)
+        paths = numbered(run.path / "movie", recorded(scene, frames, clear(log)))
+    write_numbers(Told([], {"movie": log}), run.path)
+    return paths
+
+
+def clear(log):
+    for values in log.values():
+        values.clear()
+    return log
+
+
+def recorded(scene, frames, log):
+    """The pictures one by one, noting what each shows."""
+    for number, grains in enumerate(frames):
+        for name, value in (("frame", number), ("t_s", grains.time), ("n_grains", len(grains.d))):
+            log[name].append(value)
+        yield scene.picture(grains)
+
+
+class Scene:
+    """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
+
+    def __init__(self, window, top):
+        ratio = (window[3] - window[2]) / (window[1] - window[0])
+        height = WIDTH * ratio + AROUND
+        even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
+        self.window, self.top = window, top
+        self.figure = Figure(figsize=even, dpi=DPI)
+        FigureCanvasAgg(self.figure)
+        axes = self.figure.subplots()
+        extent = [1e3 * window[0], 1e3 * window[1], 1e3 * window[3], 1e3 * window[2]]
+        axes.set(xticks=[], yticks=[], aspect="equal", xlim=extent[:2], ylim=extent[2:])
+        self.image = axes.imshow(np.ones((2, 2, 3)), extent=extent, interpolation="antialiased")
+        above = 1.0 + 0.1 / (WIDTH * ratio)
+        self.time = axes.text(0.005, above, "", transform=axes.transAxes, fontsize=10)
+        style.scale_bar(axes, style.round_length(0.25e3 * (window[1] - window[0])), 0.4, above)
+        axes.annotate("", xy=(0.995, above), xytext=(0.9, above), xycoords="axes fraction",
+                      arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "shrinkA": 0, "shrinkB": 0})
+        axes.text(0.89, above, "flow", transform=axes.transAxes, ha="right", va="center")
+        colour_bar(self.figure, axes, top)
+        self.figure.canvas.draw()
+        self.figure.set_layout_engine("none")  # nothing moves from frame to frame
+
+    def picture(self, grains):
+        """RGB (rows, columns, 3), bytes."""
+        self.image.set_data(top_view(grains.x, grains.d, self.window, round(DPI * WIDTH), self.top))
+        self.time.set_text(f"$t$ = {grains.time:.2f} s")
+        self.figure.canvas.draw()
+        return np.ascontiguousarray(np.asarray(self.figure.canvas.buffer_rgba())[:, :, :3])
+
+
+def film(path, pictures, program, count):
+    """H.264 by ffmpeg, beside and renamed; None when this ffmpeg cannot."""
+    part = path.with_name("movie.part.mp4")
+    rate = max(2, min(RATE, round(count / SHORTEST)))
+    process, first = None, next(pictures)
+    size = f"{first.shape[1]}x{first.shape[0]}"
+    command = [program, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
+               "-r", str(rate), "-i", "-", "-an", "-c:v", "libx264", "-crf", "24", "-maxrate",
+               str(LARGEST_RATE), "-bufsize", str(2 * LARGEST_RATE), "-pix_fmt", "yuv420p",
+               "-movflags", "+faststart", str(part)]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    try:
+        process.stdin.write(first.tobytes())
+        for picture in pictures:
+            process.stdin.write(picture.tobytes())
+        process.stdin.close()
+    except BrokenPipeError:  # it has ended early, see its status
+        pass
+    if process.wait() == 0 and part.exists():
+        part.replace(path)
+        return [path]
+    part.unlink(missing_ok=True)
+    return None
+
+
+def numbered(folder, pictures):
+    """PNG files of one palette; those of an earlier, longer run go."""
+    if folder.exists() and not folder.is_dir():
+        raise BarchanError(f"cannot write pictures: {folder} is a file")
+    folder.mkdir(exist_ok=True)
+    for old in folder.glob("[0-9][0-9][0-9][0-9].png"):
+        old.unlink()
+    few_colours = palette()
+    for number, picture in enumerate(pictures):
+        few = Image.fromarray(picture).quantize(palette=few_colours, dither=Image.Dither.NONE)
+        few.save(folder / f"{number:04d}.png", optimize=True)
+    return [folder]
+
+
+def palette():
+    """256 colours: the height map in light, in shade and towards white at the edges of grains; greys."""
+    shades = matplotlib.colormaps[style.HEIGHT_MAP](np.linspace(0.0, 1.0, 45))[:, :3]
+    grey = np.linspace(0.0, 1.0, 31)[:, None] * np.ones(3)
+    colours = np.concatenate([shades, 0.6 * shades, 0.8 * shades, 0.67 * shades + 0.33,
+                              0.33 * shades + 0.67, grey])
+    result = Image.new("P", (1, 1))
+    result.putpalette((255 * colours).round().astype(int).ravel().tolist())
+    return result

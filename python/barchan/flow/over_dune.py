@@ -1,0 +1,57 @@
+"""The mean flow over a frozen dune in its vertical plane of symmetry."""
+
+from typing import Any
+
+import numpy as np
+
+from barchan.io.flow_average import FlowAverage
+
+STILL = 0.01  # of U_delta: slower water has no direction
+
+
+
+
+def friction_velocity(run: Any, average: FlowAverage) -> float:
+    """u_star of the walls [m/s]: mean of history.csv over the window, else of the lowest cells."""
+    history = run.history_columns
+    if history is not None and "u_star" in history:
+        inside = (history["t"] >= average.start) & (history["t"] <= average.end)
+        values = history["u_star"][inside & np.isfinite(history["u_star"])]
+        if len(values) and values.mean() > 0.0:
+            return float(values.mean())
+    nu = float(run.config.get("fluid", {}).get("kinematic_viscosity", 1e-6))
+    return float(np.sqrt(nu * abs(average.bottom) / average.y[0]))
+
+
+def in_streamline_axes(fields: dict[str, np.ndarray], still: float) -> dict[str, np.ndarray]:
+    """Rotates means and moments (arrays of one shape) into the local direction of the mean flow.
+
+    The angle is kept within a quarter turn of x, so that u is negative in reversed flow; it is zero where
+    the water is slower than `still` [m/s] and so has no direction. Returns angle [rad], u along it [m/s]
+    and the moments along (uu), across (vv) and of both (uv) [m^2/s^2].
+    """
+    u, v = fields["u"], fields["v"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        angle = np.where(np.hypot(u, v) <= still, 0.0, np.arctan(v / u))
+    c, s = np.cos(angle), np.sin(angle)
+    uu, vv, uv = fields["uu"], fields["vv"], fields["uv"]
+    return {"angle": angle, "u": c * u + s * v,
+            "uu": c * c * uu + 2.0 * c * s * uv + s * s * vv,
+            "vv": s * s * uu - 2.0 * c * s * uv + c * c * vv,
+            "uv": (c * c - s * s) * uv + c * s * (vv - uu)}
+
+
+def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> list[dict[str, Any]]:
+    """For each x/L the water above the surface: dicts of y_d [m] and SI fields, from the lowest cell up."""
+    points = outline.foot + stations * outline.length
+    columns = average.above(points, outline.z)
+    rotated = in_streamline_axes(columns.fields, STILL * average.top)
+    result = []
+    for n, (station, x) in enumerate(zip(stations, points)):
+        h = float(outline.height(x))
+        above = columns.y > h
+        fields = {name: values[n][above] for name, values in rotated.items()}
+        fields["v"] = columns.fields["v"][n][above]
+        result.append({"station": station, "x": x, "z": outline.z, "h": h,
+                       "y_d": columns.y[above] - h, **fields})
+    return result

@@ -1,0 +1,105 @@
+"""Files of frames: grains.h5, fields.h5, tracks.h5 and flow_average.h5."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from barchan.errors import BarchanError
+from barchan.io.hdf5 import Root, open_file, patiently
+
+
+@dataclass
+class Grains:
+    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
+
+    dune and u are None where the frame has none.
+    """
+
+    time: float
+    id: np.ndarray
+    x: np.ndarray
+    d: np.ndarray
+    dune: np.ndarray | None = None
+    u: np.ndarray | None = None
+
+
+@dataclass
+class Flow:
+    """A vertical plane z = `z` of the flow, from wall to top and from end to end.
+
+    u, v [m/s] and alpha_f, each (ny + 2, nx + 2), at x (nx + 2) and y (ny + 2) [m]: the cell centres
+    and the edges of the domain, where the nearest cell's value stands, at a no-slip wall zero.
+    """
+
+    time: float
+    z: float
+    x: np.ndarray
+    y: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    alpha_f: np.ndarray
+
+
+class FrameFile:
+    """Times and names of the frames of a file that are complete; `frames` is a list of (time [s], name)."""
+
+    frames: list[tuple[float, str]]
+    config_text: str
+    title: str
+
+    def __init__(self, path: Path, needed: tuple[str, ...]) -> None:
+        self.path = path
+        patiently(path, lambda: self._look(needed))
+
+    def _look(self, needed: tuple[str, ...]) -> None:
+        with self.open() as file:
+            self.config_text = file.attrs.get("config", "")
+            self.title = file.attrs.get("title", "")
+            self.frames = []
+            for name in sorted(name for name in file if name.startswith("frame_")):
+                group = file[name]
+                if "time" in group.attrs and all(key in group for key in needed):
+                    self.frames.append((float(group.attrs["time"]), name))
+
+    def open(self) -> Root:
+        return open_file(self.path)
+
+    @property
+    def times(self) -> np.ndarray:
+        """[s]"""
+        return np.array([time for time, _ in self.frames])
+
+    def index(self, t: float | None = None, frame: int | None = None) -> int:
+        """The frame nearest to t [s], or number `frame` (negative: from the end); without either the last.
+
+        Raises BarchanError where both are given, where t is farther from every frame than they are from each other,
+        or where there is no such frame.
+        """
+        times, count = self.times, len(self.frames)
+        if t is not None and frame is not None:
+            raise BarchanError("give t or frame, not both")
+        if t is None:
+            wanted = -1 if frame is None else int(frame)
+            if not -count <= wanted < count:
+                raise BarchanError(f"no frame {wanted} in {self.path}: it has {count}, 0 to {count - 1}")
+            return wanted % count
+        reach = np.diff(times).max() if count > 1 else 0.0
+        if not times[0] - reach * (1 + 1e-9) <= t <= times[-1] + reach * (1 + 1e-9):
+            raise BarchanError(f"no frame near t = {t:g} s in {self.path}: it has {times[0]:g} to {times[-1]:g} s")
+        return int(np.argmin(abs(times - t)))
+
+    def evenly_spaced(self, counts: tuple[int, ...] = (8, 6, 7, 5)) -> list[int]:
+        """Indices of frames evenly spaced in time, first and last included.
+
+        Takes the first of `counts` for which frames lie at exactly even times; when none does, the
+        frames nearest to the times of the first.
+        """
+        times = self.times
+        chosen: list[int] = []
+        for count in counts + counts[:1]:
+            wanted = np.linspace(times[0], times[-1], count)
+            chosen = [int(np.argmin(abs(times - time))) for time in wanted]
+            if np.allclose(times[chosen], wanted, atol=0.01 * (times[-1] - times[0]) / count):
+                break
+        return sorted(set(chosen))

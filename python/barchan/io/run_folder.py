@@ -1,0 +1,158 @@
+"""Reads a run folder, finished or not, whole or in part, into numpy arrays. SI units throughout.
+
+Formats: docs/conventions.md. For work in a notebook see barchan.Run.
+"""
+
+import json
+import tomllib
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from barchan.errors import BarchanError, MissingData
+from barchan.io.frames import Flow, FrameFile, Grains
+from barchan.io.horn_lengths import medians
+from barchan.io.tables import read_columns
+
+
+class RunFolder:
+    """The files of a run; each is read when it is first asked for."""
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        if not self.path.exists():
+            raise BarchanError(f"no such run folder: {path}")
+        if not self.path.is_dir():
+            raise BarchanError(f"not a run folder but a file: {path}")
+
+    def frame_file(self, name: str, needed: tuple[str, ...]) -> FrameFile | None:
+        """The file of that name, None where it is absent or no frame of it has all arrays `needed`."""
+        path = self.path / name
+        if not path.exists():
+            return None
+        file = FrameFile(path, needed)
+        return file if file.frames else None
+
+    @cached_property
+    def grain_file(self) -> FrameFile | None:
+        return self.frame_file("grains.h5", ("id", "x", "d"))
+
+    @cached_property
+    def field_file(self) -> FrameFile | None:
+        return self.frame_file("fields.h5", ("u", "v", "alpha_f"))
+
+    def need_grains(self) -> FrameFile:
+        if self.grain_file is None:
+            raise MissingData("needs grains.h5 with at least one frame")
+        return self.grain_file
+
+    def need_fields(self) -> FrameFile:
+        if self.field_file is None:
+            raise MissingData("needs fields.h5 with at least one frame")
+        return self.field_file
+
+    def _table(self, name: str) -> dict[str, np.ndarray] | None:
+        table = read_columns(self.path / name)
+        return table if len(table.get("t", ())) else None
+
+    @cached_property
+    def history_columns(self) -> dict[str, np.ndarray] | None:
+        """history.csv as {column: values (n)}, None where there is none."""
+        return self._table("history.csv")
+
+    @cached_property
+    def statistics_columns(self) -> dict[str, np.ndarray]:
+        """statistics.csv as {column: values (n)}, {} where there is none."""
+        return read_columns(self.path / "statistics.csv")
+
+    @cached_property
+    def dune_columns(self) -> dict[int, dict[str, np.ndarray]] | None:
+        """dune.csv as {label: {column: values (n)}}, None where there is none.
+
+        Cx and Cz are without the jumps at a periodic boundary. Medians of horn lengths are added (horn_lengths.py).
+        """
+        table = self._table("dune.csv")
+        if table is None:
+            return None
+        result = {}
+        for label in np.unique(table["dune"]).astype(int):
+            rows = table["dune"] == label
+            dune = {name: column[rows] for name, column in table.items()}
+            if self.domain is not None:
+                dune["Cx"] = np.unwrap(dune["Cx"], period=self.domain[0])
+                dune["Cz"] = np.unwrap(dune["Cz"], period=self.domain[2])
+            dune |= {name: np.array(values) for name, values in medians(dune).items()}
+            result[int(label)] = dune
+        return result
+
+    @property
+    def main_dune_columns(self) -> dict[str, np.ndarray]:
+        """Columns of the dune with the smallest label: the largest of the first time."""
+        if self.dune_columns is None:
+            raise MissingData("needs dune.csv with at least one line")
+        return self.dune_columns[min(self.dune_columns)]
+
+    @cached_property
+    def config(self) -> dict[str, Any]:
+        """The resolved case, {section: {key: value}}; {} where no file has it."""
+        path = self.path / "config.toml"
+        text = path.read_text(errors="replace") if path.exists() else ""
+        for file in () if text else (self.grain_file, self.field_file):
+            text = text or (file.config_text if file else "")
+        try:
+            return tomllib.loads(text)
+        except tomllib.TOMLDecodeError:
+            return {}
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """run.json: status, times, rates, largest values; {} where there is none."""
+        try:
+            summary = json.loads((self.path / "run.json").read_text())
+        except (OSError, ValueError):
+            return {}
+        return summary if isinstance(summary, dict) else {}
+
+    @cached_property
+    def domain(self) -> tuple[float, float, float] | None:
+        """(Lx, Ly, Lz) [m], None when no file tells."""
+        size = self.config.get("domain", {}).get("size")
+        if isinstance(size, list) and len(size) == 3:
+            return float(size[0]), float(size[1]), float(size[2])
+        return None
+
+    @cached_property
+    def title(self) -> str:
+        return self.config.get("case", {}).get("title") or self.path.resolve().name
+
+    def frame(self, index: int) -> Grains:
+        """The grains of frame `index` (negative: from the end), ordered by id."""
+        file = self.need_grains()
+        time, name = file.frames[index]
+        with file.open() as content:
+            group = content[name]
+            order = np.argsort(group["id"][:])
+            number, x, d = (group[key][:][order] for key in ("id", "x", "d"))
+            dune, u = (group[key][:][order] if key in group else None for key in ("dune", "u"))
+        return Grains(time, number, x, d, dune, u)
+
+    def flow_plane(self, index: int, z: float) -> Flow:
+        """The cells nearest to the plane z = `z` [m] in frame `index`."""
+        file = self.need_fields()
+        time, name = file.frames[index]
+        with file.open() as content:
+            grid = {key: content["grid"][key][:] for key in ("x", "y", "z", "x_face", "y_face")}
+            k = int(np.argmin(abs(grid["z"] - z)))
+            group = content[name]
+            u, v, alpha_f = (np.pad(group[key][k, :, :], 1, mode="edge")
+                             for key in ("u", "v", "alpha_f"))
+        walls = self.config.get("fluid", {})
+        for row, wall, usual in ((0, "bottom", "no_slip"), (-1, "top", "free_slip")):
+            v[row] = 0.0
+            if walls.get(wall, usual) == "no_slip":
+                u[row] = 0.0
+        x, y = (np.concatenate([grid[f"{a}_face"][:1], grid[a], grid[f"{a}_face"][-1:]])
+                for a in ("x", "y"))
+        return Flow(time, float(grid["z"][k]), x, y, u, v, alpha_f)

@@ -1,0 +1,261 @@
+"""report: one page about a run that needs nothing else: no network, no other file.
+
+Its parts: page.html, .css and .js beside this file; numbers from run.json, config.toml, log.txt, the
+tables and grains.h5, as far as they are there. All text from the run is escaped.
+"""
+
+import json
+import os
+import re
+import shlex
+from datetime import datetime
+from html import escape
+from pathlib import Path
+
+from barchan.errors import BarchanError, MissingData
+from barchan.report import curves as curve_figures
+from barchan.report import grains as grain_pictures
+from barchan.report import health as health_checks
+
+HERE = Path(__file__).parent
+MARKS = {health_checks.OK: ("ok", "✓"), health_checks.LOOK: ("look", "!"),
+         health_checks.UNKNOWN: ("none", "–")}
+PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "list": "neighbour lists",
+          "deposit": "grains to mesh", "fluid": "flow", "pressure": "pressure", "output": "files",
+          "analytics": "dune analytics"}
+
+
+def write_files(run):
+    """Writes report.html into the run folder; returns its path in a list."""
+    summary = read_summary(run)
+    if not (summary or run.config or run.history_columns or run.dune_columns):
+        raise MissingData("needs at least run.json, config.toml or a table with a line in it")
+    found = health_checks.checks(run, summary)
+    facts, data, missing = packed_grains(run)
+    parts = {
+        "title": escape(title(run, summary)), "status": status(summary), "header": header(run, summary),
+        "summary": verdict(found), "health": health(found), "derived": derived(run),
+        "player": player(facts, missing), "curves": curves(run),
+        "phases": phases(summary), "rates": rates(summary), "config": config(run),
+        "files": files(run), "commands": commands(run, summary), "css": template("css"), "js": template("js"),
+        "facts": grain_pictures.to_script(facts or {}), "data": data,
+    }
+    page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
+    path = run.path / "report.html"
+    beside = path.with_name("report.html.part")
+    beside.write_text(page, encoding="utf-8")
+    os.replace(beside, path)
+    return [path]
+
+
+def template(ending):
+    return (HERE / f"page.{ending}").read_text(encoding="utf-8")
+
+
+def read_summary(run):
+    """run.json, {} when it is not there or not whole."""
+    try:
+        summary = json.loads((run.path / "run.json").read_text(errors="replace"))
+    except (OSError, ValueError):
+        return {}
+    return summary if isinstance(summary, dict) else {}
+
+
+def title(run, summary):
+    return str(summary.get("title") or run.title)
+
+
+def packed_grains(run):
+    """(facts, data, None), or (None, "", a sentence why there are no grains)."""
+    try:
+        return *grain_pictures.pack(run), None
+    except MissingData:
+        return None, "", "This run has no pictures of grains (no frame with grains in grains.h5)."
+    except BarchanError as reason:
+        return None, "", f"The grains cannot be shown: {reason}."
+
+
+def status(summary):
+    state = str(summary.get("status", "no run.json"))
+    return f'<span class="badge {"good" if state == "done" else "other"}">{escape(state)}</span>'
+
+
+def table(rows, kind=""):
+    """Two columns: name and value, escaped; rows without a value are left out."""
+    lines = "".join(f"<tr><th>{escape(str(name))}</th><td>{escape(str(value))}</td></tr>"
+                    for name, value in rows if value not in (None, ""))
+    return f'<table class="{kind}">{lines}</table>' if lines else '<p class="quiet">Not recorded.</p>'
+
+
+def header(run, summary):
+    seconds, wall = summary.get("simulated_seconds"), summary.get("wall_seconds")
+    end = run.config.get("time", {}).get("end")
+    return table([
+        ("simulated", f"{seconds:g} s" + (f" of {end:g} s" if end else "") if seconds is not None else None),
+        ("wall time", duration(wall) if wall is not None else None), ("steps", summary.get("steps")),
+        ("version", " ".join(filter(None, (summary.get("version"), summary.get("git_hash"))))),
+        ("backend", summary.get("backend")), ("device", summary.get("device")),
+        ("threads, ranks", ", ".join(str(summary[key]) for key in ("threads", "ranks") if key in summary)),
+        ("started", date(run.path / "config.toml")), ("last written", date(run.path / "run.json")),
+        ("this page", f"{datetime.now():%Y-%m-%d %H:%M}"),
+    ])
+
+
+def date(path):
+    """Of a file; a copy of a run may have lost it."""
+    return f"{datetime.fromtimestamp(path.stat().st_mtime):%Y-%m-%d %H:%M}" if path.exists() else None
+
+
+def duration(seconds):
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours} h {minutes:02d} min"
+    return f"{minutes} min {rest:02d} s" if minutes else f"{seconds:.3g} s"
+
+
+def verdict(found):
+    look = [check.name for check in found if check.verdict == health_checks.LOOK]
+    if look:
+        return f'<span class="mark look">!</span> Look at: {escape(", ".join(look))}.'
+    known = sum(check.verdict == health_checks.OK for check in found)
+    rest = "" if known == len(found) else f" The other {len(found) - known} are not recorded."
+    return f'<span class="mark ok">✓</span> {known} of {len(found)} checks are ok.{rest}'
+
+
+def health(found):
+    rows = []
+    for check in found:
+        kind, sign = MARKS[check.verdict]
+        rows.append(f'<tr><th>{escape(check.name)}<small>{escape(check.about)}</small></th>'
+                    f'<td>{escape(check.value)}</td><td class="limit">{escape(check.limit)}</td>'
+                    f'<td class="verdict"><span class="mark {kind}">{sign}</span> {check.verdict}</td></tr>')
+    return ('<table class="health"><thead><tr><th>check</th><td>value</td><td>limit</td><td>verdict</td></tr>'
+            f'</thead><tbody>{"".join(rows)}</tbody></table>')
+
+
+def derived(run):
+    """The derived numbers and warnings at the head of log.txt, or a few from the configuration."""
+    path = run.path / "log.txt"
+    lines = path.read_text(errors="replace").splitlines() if path.exists() else []
+    matches = (re.match(r"  (\S.*?)\s{2,}(\S.*)$", line) for line in lines)
+    rows = [match.groups() for match in matches if match]
+    warnings = dict.fromkeys(line.partition(": ")[2] for line in lines if line.startswith("warning: "))
+    said = "".join(f'<p class="warning"><span class="mark look">!</span> {escape(text)}</p>'
+                   for text in warnings)
+    return table(dict(rows or from_config(run.config)).items()) + said
+
+
+def from_config(config):
+    fluid, grains = config.get("fluid", {}), config.get("grains", {})
+    size = config.get("domain", {}).get("size", [])
+    cells, speed, nu = fluid.get("cells"), fluid.get("mean_velocity"), fluid.get("kinematic_viscosity", 1e-6)
+    return [
+        ("domain", " × ".join(f"{1e3 * length:g}" for length in size) + " mm" if size else None),
+        ("cells", " × ".join(map(str, cells)) if cells else None),
+        ("bulk velocity U", f"{speed:g} m/s" if speed else None),
+        ("Re = 2 δ U / ν", f"{2 * size[1] * speed / nu:.0f}" if speed and len(size) == 3 else None),
+        ("grains", sum(count for _, count in grains.get("sizes", [])) or None),
+    ]
+
+
+def player(facts, missing):
+    if facts is None:
+        return f'<p class="quiet">{escape(missing)}</p>'
+    swatch = ", ".join(facts["colours"])
+    return f"""<div id="player" tabindex="0">
+<div class="controls"><button id="play" type="button" aria-label="play">▶</button>
+<input id="scrubber" type="range" min="0" max="{len(facts["times"]) - 1}" value="0" aria-label="time">
+<output id="time"></output></div>
+<canvas id="top" role="img" aria-label="the grains seen from above"></canvas>
+<canvas id="side" role="img" aria-label="the grains seen from the side"></canvas>
+<div class="below"><span class="bar">0 <i style="background:linear-gradient(90deg, {swatch})"></i>
+{1e3 * facts["top"]:.2g} mm <span class="quiet">height of a grain's top</span></span>
+<label><input id="near" type="checkbox"> follow the dune</label></div>
+<p class="quiet">{escape(facts["note"])} Seen from above, then from the side, x (downstream) from
+left to right. Arrow keys go from one time to the next, the space bar plays.</p></div>"""
+
+
+def curves(run):
+    parts = []
+    if run.dune_columns:
+        others = len(run.dune_columns) - 1
+        more = f" {others} more {'dune has' if others == 1 else 'dunes have'} been counted." if others else ""
+        parts.append(("The dune", f"Dune {min(run.dune_columns)}, the largest of the first time.{more}",
+                      curve_figures.figures(run.dune_columns[min(run.dune_columns)], curve_figures.MORPHOLOGY)))
+    if run.history_columns:
+        parts.append(("Flow and solver", "", curve_figures.figures(run.history_columns, curve_figures.HISTORY)))
+    return "".join(f'<section><h2>{name}</h2><p class="quiet">{about}</p>'
+                   f'<div class="plots">{plots}</div></section>' for name, about, plots in parts if plots)
+
+
+def phases(summary):
+    spent = {name: value for name, value in (summary.get("phases") or {}).items() if value}
+    total = sum(spent.values())
+    if not total:
+        return '<p class="quiet">Not recorded.</p>'
+    rows = []
+    for name, value in sorted(spent.items(), key=lambda item: -item[1]):
+        share = value / total
+        rows.append(f'<tr><th>{escape(PHASES.get(name, name))}</th><td>{1e3 * value:.3g} ms</td>'
+                    f'<td>{100 * share:.1f} %</td>'
+                    f'<td class="share"><i style="width:{100 * share:.1f}%"></i></td></tr>')
+    return ('<table class="phases"><thead><tr><th>phase</th><td>per step</td><td>share</td><td></td></tr>'
+            f'</thead><tbody>{"".join(rows)}</tbody></table>')
+
+
+def rates(summary):
+    def per_second(key):
+        value = summary.get(key)
+        return f"{value / 1e6:.3g} million/s" if value else None
+    steps, wall = summary.get("steps"), summary.get("wall_seconds")
+    return table([("grains × grain steps", per_second("grain_steps_per_second")),
+                  ("cells × fluid steps", per_second("cell_steps_per_second")),
+                  ("wall time per step", f"{1e3 * sum((summary.get('phases') or {}).values()):.3g} ms"
+                   if steps and wall and summary.get("phases") else None)])
+
+
+def config(run):
+    path = run.path / "config.toml"
+    text = path.read_text(errors="replace") if path.exists() else ""
+    for file in (run.field_file,) if not text else ():
+        text = file.config_text if file else ""
+    return f"<pre>{escape(text)}</pre>" if text else '<p class="quiet">Not recorded.</p>'
+
+
+def files(run):
+    """Name, size and date of each file; folders with their number of files."""
+    rows = []
+    for path in sorted(run.path.iterdir()):
+        if path.name.startswith("report.html"):
+            continue
+        if path.is_dir():
+            rows.append((path.name + "/", f"{sum(1 for _ in path.iterdir())} files", date(path)))
+        else:
+            rows.append((path.name, size(path.stat().st_size), date(path)))
+    body = "".join(f"<tr><th>{escape(name)}</th><td>{amount}</td><td>{when}</td></tr>"
+                   for name, amount, when in rows)
+    return f'<table class="files">{body}</table>'
+
+
+def size(n_bytes):
+    for unit in ("B", "kB", "MB"):
+        if n_bytes < 1000:
+            return f"{n_bytes:.3g} {unit}"
+        n_bytes /= 1000
+    return f"{n_bytes:.3g} GB"
+
+
+def commands(run, summary):
+    folder = shlex.quote(str(run.path))
+    commit, _, changed = str(summary.get("git_hash", "")).partition("-")
+    threads = f" --threads {summary['threads']}" if "threads" in summary else ""
+    lines = [f"git checkout {commit}" + ("    # and changes that were not committed" if changed else "")] \
+        if re.fullmatch(r"[0-9a-f]{7,40}", commit) else []
+    lines += [f"./barchan run {folder}/config.toml --out {shlex.quote(str(run.path) + '-again')}{threads}",
+              f"./barchan plot {folder}", f"./barchan plot {folder} report"]
+    start = {key: value for key, value in run.config.get("initial", {}).items()
+             if isinstance(value, str) and value.endswith((".toml", ".h5", ".csv"))}
+    needs = ("The run starts from " + " and ".join(f"{value} ({key})" for key, value in start.items())
+             + ": the files must be there." if start else "")
+    return f"<pre>{escape(chr(10).join(lines))}</pre><p class=\"quiet\">{escape(needs)}</p>"

@@ -1,0 +1,74 @@
+"""Mean, spread and confidence interval over realisations; means and windows of a series in time."""
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from barchan.errors import MissingData
+
+SECOND = 1.0  # [s] over which a dune's quantities are averaged
+
+
+@dataclass
+class Spread:
+    """`count` values: their mean, standard deviation and half the width of the mean's 95 % interval.
+
+    One value has neither a spread nor an interval: both are NaN.
+    """
+
+    count: int
+    mean: float
+    deviation: float
+    interval: float
+
+
+def spread(values: Sequence[float]) -> Spread:
+    """Of a sequence of numbers, as independent samples of a normal distribution."""
+    count, mean = len(values), statistics.fmean(values)
+    if count < 2:
+        return Spread(count, mean, math.nan, math.nan)
+    from scipy import stats  # takes half a second: only where an interval is asked for
+
+    deviation = statistics.stdev(values)
+    return Spread(count, mean, deviation, stats.t.ppf(0.975, count - 1) * deviation / math.sqrt(count))
+
+
+def in_window(t: np.ndarray, start: float | None, end: float | None) -> np.ndarray:
+    """Which times t (n) [s] are meant: the second half unless others are asked for."""
+    if start is None and end is None:
+        start = 0.5 * (t[0] + t[-1])
+    return (t >= (-np.inf if start is None else start)) & (t <= (np.inf if end is None else end))
+
+
+def window(t: np.ndarray, start: float | None, end: float | None) -> np.ndarray:
+    """The same, of at least two frames; else MissingData."""
+    chosen = in_window(t, start, end)
+    if np.count_nonzero(chosen) < 2:
+        raise MissingData(f"needs two frames between {t[0] if start is None else start:g} s "
+                          f"and {t[-1] if end is None else end:g} s; it has t = {t[0]:g} to {t[-1]:g} s")
+    return chosen
+
+
+def over_the_last_second(t: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """At each t (n) [s] the mean of the numbers among the values (n) after t - 1 s."""
+    result = np.full(len(t), np.nan)
+    for row, end in enumerate(t):
+        known = values[(t > end - SECOND * (1 - 1e-9)) & (t <= end)]
+        if np.isfinite(known).any():
+            result[row] = np.nanmean(known)
+    return result
+
+
+def spans_seconds(t: np.ndarray) -> bool:
+    return bool(t[-1] - t[0] >= 2 * SECOND * (1 - 1e-9))
+
+
+def in_seconds(t: np.ndarray, values: np.ndarray) -> list[float]:
+    """Means over whole seconds, taken as independent; the values themselves where they span less than two."""
+    second = np.floor((t - t[0]) / SECOND * (1 + 1e-9)) if spans_seconds(t) else np.arange(len(t))
+    means = [np.mean(values[(second == s) & np.isfinite(values)]) for s in np.unique(second)
+             if np.isfinite(values[second == s]).any()]
+    return means or [np.nan]

@@ -1,0 +1,319 @@
+"""Runs a parameter study: one run folder per case, several at a time, resumed where it was left.
+
+    python -m barchan sweep PROGRAM STUDY.toml [--out DIR] [--only RUN ...] [--at-once N] [--threads N] [--list]
+
+The study file is described in docs/conventions.md ("Studies"). Exit status: 0 all cases done, 1 some failed,
+2 bad input, 3 stopped on request (every case that ran has written a restart file).
+"""
+
+import argparse
+import ctypes
+import fcntl
+import fnmatch
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+from barchan.studies.spec import StudyError, read_study, unknown
+from barchan.studies.table import write_table
+
+PACKAGE = Path(__file__).resolve().parents[2]  # the folder in which the package lies
+
+
+def say(text):
+    print(f"sweep: {text}", flush=True)
+
+
+def resolved(program, study, case):
+    """The case with every default filled in, as a dictionary; StudyError with the program's sentences."""
+    command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
+    checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
+    if checked.returncode != 0:
+        raise StudyError(f"case {case.run_name}: {checked.stderr.strip()}")
+    return tomllib.loads(checked.stdout)
+
+
+def chosen_of(study, patterns):
+    """The runs that are asked for: all, or those whose name fits one of the patterns (*, ?, [abc])."""
+    names = [case.run_name for case in study.cases]
+    for pattern in patterns or []:
+        if not fnmatch.filter(names, pattern):
+            raise unknown(pattern, names, "--only")
+    return [case for case in study.cases
+            if not patterns or any(fnmatch.fnmatchcase(case.run_name, pattern) for pattern in patterns)]
+
+
+def end_with_parent():
+    """A case does not outlive a sweep that is killed: it is asked to stop, with a restart file."""
+    try:
+        ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG, of Linux
+    except (OSError, AttributeError):
+        pass
+
+
+def one_thread():
+    return {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
+
+
+def read_json(path):
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        return {}
+
+
+def read_config(folder):
+    try:
+        return tomllib.loads((folder / "config.toml").read_text())
+    except (OSError, tomllib.TOMLDecodeError):
+        return {}
+
+
+def newest_restart(folder):
+    files = sorted(folder.glob("restart_*.h5"))
+    return files[-1] if files else None
+
+
+def state_of(folder, config):
+    """("done", None), ("continue", restart file) or ("new", None): what is left to do for a case.
+
+    A run counts as the same when its configuration is, the end time apart: a study may be made longer.
+    """
+    there = read_config(folder)
+    same = bool(there) and {**there, "time": {**there["time"], "end": 0}} == \
+        {**config, "time": {**config["time"], "end": 0}}
+    if not same:
+        return "new", None
+    summary = read_json(folder / "run.json")
+    reached = summary.get("simulated_seconds", 0.0)
+    if summary.get("status") == "done" and reached >= config["time"]["end"] * (1 - 1e-9):
+        return "done", None
+    restart = newest_restart(folder)
+    return ("continue", restart) if restart else ("new", None)
+
+
+class Running:
+    """One case that computes; its output goes to the run folder's sweep.txt."""
+
+    def __init__(self, program, study, case, restart, threads, overwrite):
+        self.case, self.folder = case, study.out / case.run_name
+        command = [program, "run", str(study.base), *case.set_options(), "--out", str(self.folder),
+                   "--quiet", "--threads", str(threads)]
+        if restart:
+            command += ["--restart", str(restart)]
+        elif overwrite:
+            command.append("--overwrite")
+        environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false"}
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with open(self.folder / "sweep.txt", "a") as log:
+            # A group of its own: a Ctrl-C reaches it once, through us.
+            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                            env=environment, start_new_session=True,
+                                            preexec_fn=end_with_parent)
+
+    def progress(self):
+        summary = read_json(self.folder / "run.json")
+        return f"{self.case.run_name} {summary.get('simulated_seconds', 0.0):.2f} s"
+
+    def complaint(self):
+        """The last line that the program wrote."""
+        lines = (self.folder / "sweep.txt").read_text(errors="replace").strip().splitlines()
+        return lines[-1] if lines else "no output"
+
+
+class Sweep:
+    """Computes the runs `chosen` of a study; its tables list all of them."""
+
+    def __init__(self, program, study, chosen, draw, overwrite):
+        self.program, self.study, self.chosen, self.draw = program, study, chosen, draw
+        self.overwrite = overwrite
+        self.running, self.failed, self.stopping = [], {}, False
+        self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
+        self.said = time.monotonic()
+        self.began = time.time()
+
+    def stop(self, *_):
+        if not self.stopping:
+            say("stopping: every case that runs writes a restart file")
+        self.stopping = True
+        for one in self.running:
+            one.process.send_signal(signal.SIGTERM)
+
+    def run(self):
+        waiting = []
+        for case in self.chosen:
+            what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
+            say(f"{case.run_name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}")
+            if what != "done":
+                waiting.append(case)
+        self.tabulate()
+        while (waiting or self.running) and not (self.stopping and not self.running):
+            while waiting and len(self.running) < self.study.at_once and not self.stopping:
+                self.start(waiting.pop(0))
+            self.watch()
+            time.sleep(0.2)
+        self.tabulate()
+        if self.draw and not self.stopping:
+            draw_figures(self.study.out)
+        return self.verdict()
+
+    def verdict(self):
+        if self.stopping:
+            say(f"stopped; the same command goes on: {len(self.chosen)} cases in {self.study.out}")
+            return 3
+        for name, why in self.failed.items():
+            say(f"failed: {name}: {why}")
+        left_out = len(self.study.cases) - len(self.chosen)
+        others = f"{left_out} others not asked for, " * bool(left_out)
+        say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done, {others}"
+            f"{self.study.out / 'study.csv'}")
+        return 1 if self.failed else 0
+
+    def start(self, case):
+        """First what the case starts from, alone: two cases must not compute the same start."""
+        folder = self.study.out / case.run_name
+        folder.mkdir(parents=True, exist_ok=True)
+        _, restart = state_of(folder, self.configs[case.run_name])
+        if restart is None:
+            command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
+                       "--quiet", "--starts-only"]
+            threads = os.environ.get("OMP_NUM_THREADS", str(self.study.threads * self.study.at_once))
+            with open(folder / "sweep.txt", "a") as log:
+                starts = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                          env={**os.environ, "OMP_NUM_THREADS": threads},
+                                          start_new_session=True, preexec_fn=end_with_parent)
+            while starts.poll() is None:
+                if self.stopping:
+                    starts.send_signal(signal.SIGTERM)
+                self.watch()
+                time.sleep(0.2)
+            if self.stopping:
+                return
+            if starts.returncode != 0:
+                self.failed[case.run_name] = f"what it starts from, see {folder / 'sweep.txt'}"
+                return
+        self.running.append(Running(self.program, self.study, case, restart, self.study.threads, self.overwrite))
+        say(f"{case.run_name}: {'goes on from ' + restart.name if restart else 'started'}")
+
+    def watch(self):
+        """Takes note of what has ended; a line of progress every half minute."""
+        for one in [one for one in self.running if one.process.poll() is not None]:
+            self.running.remove(one)
+            status = one.process.returncode
+            if status == 0:
+                say(f"{one.case.run_name}: done")
+                if self.draw:
+                    draw_figures(one.folder)
+            elif status != 3:
+                self.failed[one.case.run_name] = one.complaint()
+                say(f"{one.case.run_name}: failed: {one.complaint()}")
+            self.tabulate()
+        if self.running and time.monotonic() - self.said > 30:
+            self.said = time.monotonic()
+            say(", ".join(one.progress() for one in self.running) + self.remaining())
+
+    def remaining(self):
+        """The time left, from what the cases have come forward since the start."""
+        names = [case.run_name for case in self.chosen]
+        ends = [self.configs[name]["time"]["end"] for name in names]
+        reached = sum(min(read_json(self.study.out / name / "run.json").get("simulated_seconds", 0.0), end)
+                      for name, end in zip(names, ends))
+        if not hasattr(self, "reached_first"):
+            self.reached_first, self.began = reached, time.time()
+            return ""
+        done = reached - self.reached_first
+        if done <= 0:
+            return ""
+        seconds = (sum(ends) - reached) * (time.time() - self.began) / done
+        return f"; {reached:.1f} of {sum(ends):g} s in all, about {seconds / 60:.0f} min left"
+
+    def tabulate(self):
+        write_table(self.study, self.failed, {case.run_name: self.status(case) for case in self.study.cases})
+
+    def status(self, case):
+        if case.run_name in self.failed:
+            return "failed"
+        if any(one.case is case for one in self.running):
+            return "running"
+        what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
+        return {"done": "done", "continue": "unfinished", "new": "waiting"}[what]
+
+
+def draw_figures(folder):
+    """Pictures are no reason to fail."""
+    path = os.pathsep.join([str(PACKAGE), *filter(None, [os.environ.get("PYTHONPATH")])])
+    drawn = subprocess.run([sys.executable, "-m", "barchan", "plot", "--", str(folder)], capture_output=True, text=True,
+                           env={**os.environ, "PYTHONPATH": path})
+    if drawn.returncode != 0:
+        say(f"some pictures of {folder} could not be drawn: {drawn.stderr.strip().splitlines()[-1:]}")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="barchan sweep", description="Runs a parameter study.")
+    parser.add_argument("program", help=argparse.SUPPRESS)
+    parser.add_argument("study", metavar="STUDY.toml")
+    parser.add_argument("--out", metavar="DIR", help="folder of the study (default: runs/<study name>)")
+    parser.add_argument("--only", metavar="RUN", nargs="+", help="these runs of it; patterns with * are taken")
+    parser.add_argument("--at-once", type=int, metavar="N", help="cases side by side")
+    parser.add_argument("--threads", type=int, metavar="N", help="threads of each (default: cores shared out)")
+    parser.add_argument("--overwrite", action="store_true",
+                        help="begin cases again whose folder has results of another configuration")
+    parser.add_argument("--list", action="store_true", help="show the cases, run nothing")
+    parser.add_argument("--no-pictures", action="store_true")
+    return parser.parse_args(arguments)
+
+
+def lock(folder):
+    """Two sweeps in one folder would overwrite each other's runs."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        handle = open(folder / ".lock", "w")
+    except OSError as error:
+        raise StudyError(f"cannot write results to {folder}: {error.strerror}; take another --out") from error
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        raise StudyError(f"another sweep is at work in {folder}") from error
+    return handle
+
+
+def check_nobody_runs(folders):
+    """A case that somebody runs by hand must not be run beside it: StudyError with who does."""
+    for folder in folders:
+        try:
+            with open(folder / ".barchan.lock") as handle:
+                holder = handle.readline().strip() or "another process"
+                fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            continue
+        except BlockingIOError as error:
+            raise StudyError(f"{folder} is in use by {holder}: wait for it, or take another --out") from error
+        except OSError:
+            continue  # a file system without locks: the program says so
+
+
+def main(arguments):
+    options = parse(arguments)
+    try:
+        study = read_study(Path(options.study), options)
+        chosen = chosen_of(study, options.only)
+        sweep = Sweep(options.program, study, chosen, not options.no_pictures, options.overwrite)
+        if options.list:
+            for case in chosen:
+                print(case.run_name, *case.set_options()[1::2])
+            return 0
+        held = lock(study.out)
+        check_nobody_runs(study.out / case.run_name for case in chosen)
+    except StudyError as error:
+        print(error, file=sys.stderr)
+        return 2
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, sweep.stop)
+    with held:
+        return sweep.run()
+

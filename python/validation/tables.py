@@ -1,0 +1,36 @@
+"""Tables that the validation reads and saves: references of tests/reference, results of docs/validation."""
+
+import platform
+from pathlib import Path
+
+from barchan.errors import MissingData
+from barchan.io.tables import Table, read_table
+
+__all__ = ["REFERENCE", "ROOT", "Table", "machine", "read_saved", "read_table", "write"]
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "tests/reference"
+
+
+def read_saved(folder, name):
+    path = folder / f"{name}.csv"
+    if not path.exists():
+        raise MissingData(f"needs {path}")
+    return read_table(path)
+
+
+def write(path, notes, lines):
+    """`lines` begin with the column names."""
+    comments = [f"# {name}: {text}" for name, text in notes.items()]
+    path.write_text("\n".join(comments + lines) + "\n")
+
+
+def machine():
+    """Name of the processor."""
+    try:
+        text = Path("/proc/cpuinfo").read_text()
+    except OSError:
+        text = ""
+    names = [line.partition(":")[2].strip() for line in text.splitlines()
+             if line.startswith("model name")]
+    return names[0] if names else platform.processor() or "unknown processor"

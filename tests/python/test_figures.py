@@ -1,0 +1,118 @@
+"""Figures: each is a matplotlib Figure with its numbers; none writes; axes of the caller's own."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from fake_runs import fake
+from matplotlib.figure import Figure
+
+import barchan
+from barchan.figures import registry, result, style
+
+PANELS = {"topviews": 8, "height_map": 3, "morphology": 6, "midplane": 2, "profiles": 2, "history": 8,
+          "morphodynamics": 6, "horns": 3}
+OWN_PAGE = ("horn_origins", "profiles_over_dune")
+
+
+@pytest.fixture(scope="module")
+def run():
+    return barchan.Run(fake("--average"))
+
+
+@pytest.fixture(scope="module")
+def study():
+    return barchan.Study(fake("--study"))
+
+
+def files(folder):
+    return sorted(path.relative_to(folder) for path in folder.rglob("*"))
+
+
+@pytest.mark.parametrize("name", [name for name, entry in registry.OF_RUN.items() if not entry.writes])
+def test_a_figure_of_a_run(run, name):
+    """It is drawn, or says which of its files the run lacks; the folder stays as it is."""
+    before = files(run.path)
+    try:
+        figure = run.figure(name)
+    except barchan.MissingData as reason:
+        needs = registry.of_run(name).needs
+        assert any(file in str(reason) for need in needs for file in need.split("|")), reason
+        return
+    assert files(run.path) == before
+    assert isinstance(figure, Figure | result.Told)
+    assert name in PANELS or name in OWN_PAGE or isinstance(figure, result.Told)
+    assert not plt.get_fignums(), "pyplot keeps the figure"
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_a_figure_in_axes_of_ones_own(run, name):
+    """The same curves as in a new figure, and no other axes but colour bars."""
+    with style.look():
+        mine = Figure()
+        axes = mine.subplots(1, PANELS[name])
+    alone = run.figure(name)
+    assert run.figure(name, ax=axes) is mine
+    for ours, theirs in zip(axes, alone.axes):
+        assert len(ours.lines) == len(theirs.lines)
+        for one, other in zip(ours.lines, theirs.lines):
+            assert np.array_equal(one.get_ydata(), other.get_ydata(), equal_nan=True)
+    if name != "topviews":  # which has as many times as it gets axes
+        with pytest.raises(barchan.BarchanError, match=f"has {PANELS[name]} panels"):
+            run.figure(name, ax=[axes[0]] * (PANELS[name] + 1))
+
+
+@pytest.mark.parametrize("name", OWN_PAGE)
+def test_a_page_takes_no_axes(run, name):
+    with pytest.raises(barchan.BarchanError, match="takes no ax"):
+        run.figure(name, ax=Figure().subplots())
+
+
+def test_numbers_are_those_of_the_run(run):
+    numbers = run.figure("morphology").numbers["morphology"]
+    assert numbers["W"] == run.main_dune_columns["W"].tolist()
+
+
+def test_a_style_stays_with_its_figure(run):
+    before = dict(plt.rcParams)
+    run.figure("morphology")
+    assert dict(plt.rcParams) == before
+
+
+def test_numbers_are_written_as_tables(run, tmp_path):
+    result.write_numbers(run.figure("morphology"), tmp_path)
+    lines = (tmp_path / "figures_data/morphology.csv").read_text().splitlines()
+    assert lines[0].startswith("t,W,L,H,Cx,Cz,")
+    assert len(lines) == 1 + len(run.main_dune_columns["t"])
+    assert float(lines[-1].split(",")[1]) == pytest.approx(run.main_dune_columns["W"][-1], rel=1e-8)
+
+
+def test_text_in_a_table_has_no_comma(tmp_path):
+    told = result.Told([], {"t": {"key": [[1, 2.5], "a,b"], "n": [np.int64(3), np.float32(0.5)]}})
+    result.write_numbers(told, tmp_path)
+    assert (tmp_path / "figures_data/t.csv").read_text() == "key,n\n1 x 2.5,3\na;b,0.5\n"
+
+
+@pytest.mark.parametrize("name", [name for name, entry in registry.OF_STUDY.items() if not entry.on_request])
+def test_a_figure_of_a_study(study, name):
+    before = files(study.path)
+    assert isinstance(study.figure(name), Figure)
+    assert files(study.path) == before
+
+
+def test_numbers_of_the_paper_are_names(study):
+    key = "grains.sliding_friction"
+    assert key in study.keys
+    assert study.figure("fig7").numbers.keys() == study.figure("morphology", key=key).numbers.keys()
+
+
+@pytest.mark.parametrize("name", ["report", "movie"])
+def test_what_is_a_file_is_no_figure(run, name):
+    with pytest.raises(barchan.BarchanError, match="is a file, not a figure"):
+        run.figure(name)
+
+
+def test_a_figure_that_is_not_there(run, study):
+    with pytest.raises(barchan.BarchanError, match='no figure "zzz" of a run; there are topviews'):
+        run.figure("zzz")
+    with pytest.raises(barchan.BarchanError, match='no figure "horns" of a study; there are topviews'):
+        study.figure("horns")

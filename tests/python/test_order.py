@@ -1,0 +1,86 @@
+"""The package: which module may know which, what is written once, and what installs."""
+
+import ast
+import re
+import subprocess
+import sys
+
+from fake_runs import ROOT
+
+from barchan.figures import registry
+from barchan.io import columns
+
+PACKAGE = ROOT / "python/barchan"
+# Each may import itself and those before it.
+ORDER = ("errors", "stats", "io", "dune", "flow", "figures", "report", "plot", "studies", "api", "__init__", "__main__")
+ONLY = {"matplotlib": ("figures", "report", "plot"), "h5py": ("io",), "pandas": (), "xarray": ("io",),
+        "subprocess": ("figures", "studies", "api")}
+
+
+def imports_of(path):
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module or ""
+            if node.module == "barchan":
+                yield from (f"barchan.{name.name}" for name in node.names)
+
+
+def modules():
+    for path in sorted(PACKAGE.rglob("*.py")):
+        room = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+        if room not in ("paraview", "data"):
+            yield room, path
+
+
+def test_modules_know_those_below_them():
+    wrong = []
+    for room, path in modules():
+        for name in imports_of(path):
+            parts = name.split(".")
+            if parts[0] == "barchan" and len(parts) > 1 and ORDER.index(parts[1]) > ORDER.index(room):
+                wrong.append(f"{path.relative_to(PACKAGE)} imports {name}")
+            if parts[0] in ONLY and room not in ONLY[parts[0]]:
+                wrong.append(f"{path.relative_to(PACKAGE)} imports {parts[0]}")
+    assert not wrong
+
+
+def test_mypy_is_content():
+    done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--cache-dir=/dev/null"],
+                          cwd=ROOT / "python", capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def units_of(page, heading):
+    """{column: unit} of the table under a heading of docs/conventions.md."""
+    part = page.split(f"\n{heading}\n")[1].split("\n#")[0]
+    return dict(re.findall(r"^\| `(\w+)` \| ([^|]+) \|", part, re.M))
+
+
+def test_units_are_those_of_the_documents():
+    """docs/conventions.md, which a test of the program compares with what it writes."""
+    page = (ROOT / "docs/conventions.md").read_text()
+    for heading, ours in (("### history.csv", columns.HISTORY), ("### dune.csv", columns.DUNES)):
+        theirs = units_of(page, heading)
+        assert len(theirs) > 10
+        written = {name: {"-": "1", "m/s": "m s-1", "m2/s": "m2 s-1", "1/s": "s-1", "Pa/m": "Pa m-1"}.get(unit, unit)
+                   for name, unit in theirs.items()}
+        assert written == {name: ours[name][0] for name in ours if not name.endswith("_1s")}
+
+
+def test_the_page_lists_every_figure():
+    page = (ROOT / "docs/python.md").read_text()
+    for entries in registry.OF_RUN, registry.OF_STUDY:
+        rows = [f"| `{entry.name}` | {', '.join(entry.needs).replace('|', ' or ') or 'any file'} | {entry.about} |"
+                for entry in entries.values()]
+        assert "\n".join(rows) in page
+
+
+def test_every_figure_says_what_it_needs():
+    """Of a run without any file each figure names one of the files that the registry lists, or is the report."""
+    for entry in (*registry.OF_RUN.values(), *registry.OF_STUDY.values()):
+        assert entry.about and (callable(entry.write_files) if entry.writes else callable(entry.draw))
+        assert entry.needs or entry.name == "report"
+    for of_run, of_study in registry.PAPER.values():
+        assert of_run in registry.OF_RUN and (of_study is None or of_study[0] in registry.OF_STUDY)

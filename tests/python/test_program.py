@@ -1,0 +1,76 @@
+"""barchan.check, run and sweep: words for the launcher, and exceptions that carry what the program says."""
+
+import os
+import stat
+
+import pytest
+
+import barchan
+
+LAUNCHER = """#!/bin/sh
+printf '%s\\n' "$@" > "$0.words"
+cat "$0.says" >&2 2> /dev/null
+cat "$0.prints" 2> /dev/null
+exit "$(cat "$0.status" 2> /dev/null || echo 0)"
+"""
+
+
+@pytest.fixture
+def launcher(tmp_path, monkeypatch):
+    """A stand-in for the launcher; returns a function that tells it what to say, print and end with."""
+    path = tmp_path / "barchan"
+    path.write_text(LAUNCHER)
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("BARCHAN", str(path))
+    monkeypatch.chdir(tmp_path)
+
+    def answers(status=0, says="", prints=""):
+        for name, text in (("status", str(status)), ("says", says), ("prints", prints)):
+            (tmp_path / f"barchan.{name}").write_text(text)
+    answers()
+    answers.words = lambda: (tmp_path / "barchan.words").read_text().splitlines()
+    return answers
+
+
+def test_run_hands_over_its_arguments(launcher, tmp_path, capfd):
+    (tmp_path / "runs/dune").mkdir(parents=True)
+    launcher(says="step 1\n")
+    run = barchan.run("cases/dune.toml", threads=2, grains__sliding_friction=0.4, initial__fluid="a.h5",
+                      fluid__cells=(4, 5, 6), output__grain_forces=True)
+    assert launcher.words() == ["run", "cases/dune.toml", "--out", "runs/dune", "--set",
+                                "grains.sliding_friction=0.4", "--set", 'initial.fluid="a.h5"', "--set",
+                                "fluid.cells=[4, 5, 6]", "--set", "output.grain_forces=true", "--threads", "2"]
+    assert isinstance(run, barchan.Run) and os.fspath(run.path) == "runs/dune"
+    assert "step 1" in capfd.readouterr().err
+
+
+def test_sweep_returns_the_study(launcher, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/study.json").write_text('{"title": "t", "cases": []}')
+    assert barchan.sweep("study.toml", out="out", at_once=2).title == "t"
+    assert launcher.words() == ["sweep", "study.toml", "--out", "out", "--at-once", "2"]
+
+
+def test_check_returns_the_case(launcher, capsys):
+    launcher(prints="[time]\nend = 2.0\n", says="warning: thick rows")
+    assert barchan.check("case.toml", time__end=2.0) == {"time": {"end": 2.0}}
+    assert launcher.words() == ["check", "--resolved-only", "case.toml", "--set", "time.end=2.0"]
+
+
+@pytest.mark.parametrize("status, kind", [(1, barchan.RunFailed), (2, barchan.BadInput), (3, barchan.RunStopped)])
+def test_exceptions_say_what_the_program_says(launcher, status, kind):
+    launcher(status, 'case.toml:3: [time] endd: unknown key (did you mean "end"?)\n1 problem; nothing was run.\n')
+    for call in (barchan.check, barchan.run, barchan.sweep):
+        with pytest.raises(kind, match="did you mean \"end\""):
+            call("case.toml")
+
+
+def test_an_override_needs_its_section(launcher):
+    with pytest.raises(barchan.BadInput, match="section__key"):
+        barchan.check("case.toml", end=2.0)
+
+
+def test_a_program_that_is_not_there(monkeypatch):
+    monkeypatch.setenv("BARCHAN", "/nowhere/barchan")
+    with pytest.raises(barchan.BarchanError, match="cannot start /nowhere/barchan"):
+        barchan.check("case.toml")

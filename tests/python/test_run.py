@@ -1,0 +1,176 @@
+"""barchan.Run: tables, grains, fields and tracks with their names, units and times."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+from fake_runs import ROOT, fake
+
+import barchan
+
+
+@pytest.fixture(scope="module")
+def run():
+    return barchan.Run(fake("--average"))
+
+
+def test_open_tells_runs_from_studies():
+    assert isinstance(barchan.open(fake("--average")), barchan.Run)
+    assert isinstance(barchan.open(fake("--study")), barchan.Study)
+    with pytest.raises(barchan.BarchanError, match="no such run folder: /nowhere"):
+        barchan.open("/nowhere")
+
+
+def test_tables_have_units(run):
+    assert run.history.index.name == "t"
+    assert run.history.attrs["units"]["u_star"] == "m s-1"
+    assert run.history.u_star.iloc[-1] == run.history_columns["u_star"][-1]
+    assert set(run.history.columns) <= set(run.history.attrs["units"])
+    dunes = run.dunes
+    assert dunes.index.names == ["dune", "t"]
+    assert np.all(dunes.loc[0].W == run.main_dune_columns["W"])
+    assert dunes.attrs["units"]["celerity"] == "m s-1"
+
+
+def test_config_and_summary(run):
+    assert run.config["domain"]["size"] == list(run.domain) == [0.1, 0.025, 0.04]
+    assert run.title == "synthetic barchan"
+    assert run.summary == json.loads((run.path / "run.json").read_text())
+
+
+def test_grains_of_a_time_and_of_a_frame(run):
+    grains = run.grains(t=4.1)
+    assert grains.attrs["time"] == 4.0
+    assert grains.attrs["units"]["x"] == "m"
+    with h5py.File(run.path / "grains.h5") as file:
+        frame = next(file[name] for name in file if file[name].attrs["time"] == 4.0)
+        rows = np.argsort(frame["id"][:])
+        assert np.array_equal(grains.index, frame["id"][:][rows])
+        assert np.array_equal(grains[["x", "y", "z"]], frame["x"][:][rows])
+    assert run.grains(frame=0).attrs["time"] == 0.0
+    assert run.grains().attrs["time"] == run.grains(frame=-1).attrs["time"] == run.grain_times[-1]
+
+
+@pytest.mark.parametrize("wanted, said", [
+    ({"t": 1, "frame": 1}, "give t or frame, not both"), ({"t": 99}, "no frame near t = 99 s .* 0 to 8 s"),
+    ({"frame": 17}, "no frame 17 .* it has 17, 0 to 16"), ({"frame": -18}, "no frame -18")])
+def test_a_frame_that_is_not_there(run, wanted, said):
+    with pytest.raises(barchan.BarchanError, match=said):
+        run.grains(**wanted)
+
+
+def test_fields_are_read_where_they_are_used(run):
+    fields = run.fields(t=8.0)
+    assert fields.u.dims == ("z", "y", "x")
+    assert fields.x.attrs["units"] == "m" and fields.u.attrs == {
+        "units": "m s-1", "long_name": "velocity of the water along the flow"}
+    assert fields.attrs["Conventions"].startswith("CF-")
+    assert float(fields.time) == run.field_times[-1]
+    with h5py.File(run.path / "fields.h5") as file:
+        u, z = file[sorted(name for name in file if name.startswith("frame"))[-1]]["u"][:], file["grid/z"][:]
+    assert np.array_equal(fields.u.values, u)
+    k = int(np.argmin(abs(z - 0.02)))
+    assert np.array_equal(fields.u.sel(z=0.02, method="nearest").values, u[k])
+    assert np.array_equal(run.fields().u[3, ::2, 5].values, u[3, ::2, 5])
+
+
+def test_a_plane_of_a_damaged_field_is_read_and_the_whole_is_not(run, tmp_path):
+    """The checksum is of the whole array."""
+    shutil.copy(run.path / "fields.h5", tmp_path)
+    with h5py.File(tmp_path / "fields.h5", "a") as file:
+        frame = file[sorted(name for name in file if name.startswith("frame"))[-1]]
+        frame["u"].attrs["checksum"] = np.int64(1)
+    fields = barchan.Run(tmp_path).fields()
+    assert fields.u[0].values.shape == fields.u.shape[1:]
+    with pytest.raises(barchan.BarchanError, match="its checksum is not that of what was written"):
+        fields.u.values
+
+
+def test_flow_average(run):
+    average = run.flow_average
+    assert average.uv.attrs["units"] == "m2 s-2"
+    assert {"time", "window_start"} <= set(average.attrs)
+    with pytest.raises(barchan.MissingData, match="flow_average.h5"):
+        barchan.Run(fake("--without", "fields")).flow_average
+
+
+def test_tracks_of_a_few_grains(run):
+    ids = run.grains(frame=0).index[[3, 7]]
+    track = run.track(ids)
+    assert list(track.columns) == ["id", "t", "x", "y", "z"]
+    assert set(track.id) == set(ids)
+    for number in ids:
+        one = track[track.id == number]
+        assert np.all(np.diff(one.t) > 0)
+        assert one.x.iloc[0] == run.grains(frame=0).x[number]
+
+
+@pytest.mark.parametrize("ask, file", [
+    (lambda run: run.history, "history.csv"), (lambda run: run.dunes, "dune.csv"),
+    (lambda run: run.grains(), "grains.h5"), (lambda run: run.fields(), "fields.h5"),
+    (lambda run: run.track([1]), "grains.h5")])
+def test_what_is_missing_is_named(tmp_path, ask, file):
+    with pytest.raises(barchan.MissingData, match=f"needs {file}"):
+        ask(barchan.Run(tmp_path))
+
+
+def test_a_package_that_is_missing_is_named(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(barchan.BarchanError, match="needs pandas, which is not installed: apt install python3-pandas"):
+        run.grains()
+
+
+class Points:
+    """Stands in for pyvista's meshes: keeps what it is given."""
+
+    def __init__(self, *arrays):
+        self.arrays, self.point_data, self.cell_data = arrays, {}, {}
+
+
+def test_pyvista_gets_spheres_and_a_grid(run, monkeypatch):
+    """With a stand-in for pyvista, which Debian 12 does not have."""
+    stand_in = type(sys)("pyvista")
+    stand_in.PolyData = stand_in.RectilinearGrid = Points
+    stand_in.MultiBlock = dict
+    monkeypatch.setitem(sys.modules, "pyvista", stand_in)
+    blocks = run.to_pyvista(t=4.0)
+    grains, grid = blocks["grains"], blocks["flow"]
+    assert np.array_equal(grains.arrays[0], run.grains(t=4.0)[["x", "y", "z"]])
+    assert {"id", "d", "dune"} <= set(grains.point_data)
+    assert [len(faces) - 1 for faces in grid.arrays] == list(run.fields().u.shape[::-1])
+    assert np.array_equal(grid.cell_data["u"].reshape(run.fields().u.shape), run.fields(t=4.0).u.values)
+
+
+READ_ALL = """
+import resource, sys
+import barchan
+run = barchan.Run(sys.argv[1])
+run.grains(frame=0)
+one = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for grains in run.frames(progress=False):
+    last = grains.attrs["time"]
+print(one, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, last)
+"""
+
+
+def test_many_frames_take_the_memory_of_one(tmp_path):
+    """40 frames of 50,000 grains, 6 MB each as a table: reading all takes no more than two of them beside the first."""
+    n = 50_000
+    random = np.random.default_rng(3)
+    with h5py.File(tmp_path / "grains.h5", "w") as file:
+        for index in range(40):
+            group = file.create_group(f"frame_{index:06d}")
+            group.attrs["time"] = 0.1 * index
+            for name, values in (("id", random.permutation(n)), ("x", random.random((n, 3))), ("d", random.random(n)),
+                                 ("u", random.random((n, 3))), ("omega", random.random((n, 3)))):
+                group[name] = values
+    done = subprocess.run([sys.executable, "-c", READ_ALL, tmp_path], capture_output=True, text=True, check=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    one, all_of_them, last = map(float, done.stdout.split())
+    assert last == pytest.approx(3.9)
+    assert all_of_them - one < 2 * 6000, f"{all_of_them - one:.0f} kB more than for one frame"
