@@ -86,12 +86,17 @@ def in_one_piece(x: np.ndarray, length: float) -> np.ndarray:
     return x if widest == len(x) - 1 else np.where(x > ordered[widest], x - length, x)
 
 
+def number_of_bins(bed: Bed, diameter: float) -> np.ndarray:
+    """(2) along x and z. Stored diameters are rounded: a domain that holds a whole number of bins keeps it."""
+    return np.maximum(1, np.floor(np.array(bed.lengths) / (BIN * diameter) * (1 + 1e-6))).astype(int)
+
+
 def find(grains: Grains, rows: np.ndarray, bed: Bed, size: dict[str, float]) -> Dune:
     """The dune of these rows, `size` its line of dune.csv."""
     x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
             for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
     diameter = float(grains.d.mean())
-    bins = [length / max(1, int(length / (BIN * diameter))) for length in bed.lengths]
+    bins = bed.lengths / number_of_bins(bed, diameter)
     radius = 0.5 * grains.d[rows]
     centroid = np.average([x, grains.x[rows, 1], z], axis=1, weights=radius**3)
     crest_x = centroid[0] + bed.nearest(np.array([size["crest_x"] - centroid[0], 0.0, 0.0]))[0]

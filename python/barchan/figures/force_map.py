@@ -1,11 +1,14 @@
 """force_map: mean resultant force on the grains about the dune's centroid (as Fig. 13 of Lima et al. 2022).
 
 (a) along the flow, (b) across it, positive to the right; seen from above, flow from left to right.
-Grey is zero, white is no data; the line is where the dune lies half of the time.
+Grey is zero. White is no data, or too few samples: a bin with fewer samples per area than FEWEST of the densest bin's
+is not drawn, since only single grains pass there (the numbers keep it). The line is where the dune lies half of the
+time.
 """
 
 import numpy as np
 from contourpy import contour_generator
+from matplotlib.patheffects import withStroke
 
 from barchan.dune import forces as force_average
 from barchan.errors import BarchanError
@@ -13,16 +16,18 @@ from barchan.figures import style
 from barchan.figures.result import keep
 
 FINEST = 2.5  # [degrees] of the quadrilaterals that make up a bin, so that its arcs are round
+FEWEST = 0.02  # share of the most samples per area of a bin, below which a bin is not drawn
 
 
 def draw(run, ax=None, start=None, end=None):
     """`ax`: two polar axes."""
     forces = force_average.read(run, start, end)
     shape = find_outline(run, forces)
+    shown = well_sampled(forces.bins)
     figure, ((*panels,),) = style.panels(ax, 1, 2, figsize=(style.FULL_WIDTH, 3.6),
                                          subplot_kw={"projection": "polar"})
     for index, (axes, name, label) in enumerate(zip(panels, ("F_x", "F_z"), ("$F_x$ (N)", "$F_z$ (N)"))):
-        image = draw_component(axes, forces.bins, name)
+        image = draw_component(axes, shown, name)
         if shape is not None:
             draw_outline(axes, *shape)
         bar = figure.colorbar(image, ax=axes, location="bottom", shrink=0.75, aspect=25, pad=0.06,
@@ -43,6 +48,14 @@ def find_outline(run, forces):
         return force_average.outline(run, forces.start, forces.end)
     except BarchanError:
         return None
+
+
+def well_sampled(bins):
+    """The bins with enough samples to be drawn."""
+    area = (bins["r_max"]**2 - bins["r_min"]**2) * (bins["phi_max"] - bins["phi_min"])
+    density = bins["n"] / area
+    enough = density >= FEWEST * density.max()
+    return {name: values[enough] for name, values in bins.items()}
 
 
 def grid(bins, name):
@@ -73,11 +86,13 @@ def draw_component(axes, bins, name):
     image = axes.pcolormesh(phi, r, values, cmap=style.FORCE_MAP, vmin=-limit, vmax=limit, rasterized=True)
     axes.set_xticks(np.radians(np.arange(0, 360, 30)))
     axes.set_ylim(0, r[-1])
-    axes.set_rlabel_position(345)
+    axes.set_rlabel_position(225)
     axes.set_yticks(style.round_length(r[-1] / 2) * np.arange(1, 10), minor=False)
     axes.set_ylim(0, r[-1])
     axes.set_yticklabels([f"{tick:g} mm" if tick < r[-1] else "" for tick in axes.get_yticks()])
-    axes.tick_params(labelsize=7, pad=0)
+    for text in axes.get_yticklabels():
+        text.set(ha="center", va="center", path_effects=[withStroke(linewidth=2.0, foreground="white")])
+    axes.tick_params(labelsize=7.5, pad=0)
     axes.grid(lw=0.4, color="0.35", alpha=0.35)
     return image
 

@@ -1,7 +1,8 @@
 """height_map: height of the bed surface h(x, z) at the start and at the end, and along the centreline.
 
 h is the highest top of a grain (y + d/2) in bins of 2.5 mean diameters, as in the dune analytics of
-the run; the contours and the profile show its mean over 3 x 3 bins.
+the run; the contours and the profile show its mean over 3 x 3 bins. The profile is that of a strip
+of 3 mean diameters to each side of the dashed line.
 """
 
 import numpy as np
@@ -39,10 +40,12 @@ def draw(run, ax=None):
         image, lines = draw_map(axes, surface, top, step)
         style.panel_label(axes, index)
         axes.set_title(f"$t$ = {grains.time:.3g} s", pad=3)
-        axes.axhline(1e3 * centre_z(grains), color=style.GREY, lw=0.7, ls=(0, (6, 4)))
+        centreline = axes.axhline(1e3 * centre_z(grains), color=style.GREY, lw=0.9, ls=(0, (6, 4)),
+                                  label="centreline")
+    style.legend_above(panels[0], [centreline], handlelength=2.4)
     bar = figure.colorbar(image, ax=list(panels[:-1]), aspect=18 * len(maps), pad=0.015)
     bar.add_lines(lines)
-    bar.set_label("surface height $h$ (mm)")
+    bar.set_label(f"surface height $h$ (mm)\ncontours every {step:g} mm")
     bar.outline.set_linewidth(0.6)
     keep(figure, "height_map", draw_profiles(panels[-1], maps, frames, diameter))
     panels[-1].set_box_aspect(PROFILE)
@@ -69,13 +72,11 @@ def draw_profiles(axes, maps, frames, diameter):
         h = surface.profile(centre_z(grains), STRIP * diameter)
         bare = h == 0.0
         bare[1:-1] &= bare[:-2] & bare[2:]  # the curve starts and ends at the wall
-        axes.plot(1e3 * surface.x_middle, np.where(bare, np.nan, 1e3 * h), color=colour)
-        crest = int(np.argmax(h))
-        axes.annotate(f"{grains.time:.3g} s", (1e3 * surface.x_middle[crest], 1e3 * h[crest]),
-                      xytext=(0, 4), textcoords="offset points", ha="center", color=colour,
-                      fontsize=7.5)
+        axes.plot(1e3 * surface.x_middle, np.where(bare, np.nan, 1e3 * h), color=colour,
+                  label=f"centreline, $t$ = {grains.time:.3g} s")
         columns["x_m"] = surface.x_middle
         columns[f"h_m_at_{grains.time:.6g}_s"] = h
     axes.set(xlabel="$x$ (mm)", ylabel="$h$ (mm)")
-    axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
+    axes.set_ylim(0, 1.1 * axes.get_ylim()[1])
+    style.legend_above(axes, axes.get_lines())
     return columns

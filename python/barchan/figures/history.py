@@ -1,4 +1,7 @@
-"""history: flow rate, wall shear, time step, solver and energies against time."""
+"""history: flow rate, wall shear, time step, solver and energies against time.
+
+The largest overlap of two grains is in per cent of their diameter.
+"""
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -10,14 +13,14 @@ from barchan.figures.result import keep
 # label, scale ("count": linear from zero), {column: legend}; a panel without data is left out
 PANELS = (
     ("bulk velocity (m/s)", "linear", {"bulk_velocity": None}),
-    ("shear velocity $u_*$ (mm/s)", "linear", {"u_star": None}),
+    ("$u_*$ (mm/s)", "linear", {"u_star": None}),
     ("kinetic energy (J)", "log", {"fluid_kinetic_energy": "fluid",
                                    "grain_kinetic_energy": "grains"}),
     ("CFL number", "linear", {"cfl": None}),
     ("continuity residual (1/s)", "log", {"continuity_residual": None}),
     ("pressure iterations", "count", {"pressure_iterations": None}),
     ("number", "linear", {"n_grains": "grains", "n_contacts": "contacts"}),
-    ("largest overlap (% of diameter)", "linear", {"max_overlap": None}),
+    ("largest overlap (%)", "linear", {"max_overlap": None}),
 )
 FACTORS = {"u_star": 1e3, "max_overlap": 100.0}
 
@@ -49,6 +52,8 @@ def draw(run, ax=None):
         if index + columns >= len(panels):
             axes.set_xlabel("$t$ (s)")
             axes.tick_params(labelbottom=True)
+    if ax is None:
+        figure.align_ylabels()
     keep(figure, "history", {"t": history["t"], **{c: history[c] for _, _, used in panels for c in used}})
     return figure
 
@@ -80,4 +85,5 @@ def widen(axes, scale):
         axes.yaxis.set_major_locator(MaxNLocator(5, integer=True))
         return
     missing = max(0.0, 0.04 * max(abs(low), abs(high)) - (high - low))
-    axes.set_ylim(low - 0.5 * missing, high + 0.5 * missing)
+    low, high = low - 0.5 * missing, high + 0.5 * missing
+    axes.set_ylim(max(0.0, low) if axes.dataLim.y0 >= 0.0 else low, high)

@@ -2,12 +2,14 @@
 
 The plane is that of the cells nearest to the dune's centroid (dune.csv, else the grains, else the
 middle of the channel). Grains are those with centres within a diameter of it, drawn to scale.
-Colour: streamwise velocity of the cell-centred fields; the line is u = 0, the edge of the reversed
-flow behind the crest.
+Colour: streamwise velocity of the cell-centred fields; arrows: velocity in the plane; the line is
+u = 0, the edge of the reversed flow behind the crest.
 """
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from barchan.figures import style
 
@@ -39,6 +41,8 @@ def draw(run, ax=None):
         if grains is not None:
             draw_grains(axes, grains, flow.z)
         axes.set(aspect="equal", ylabel="$y$ (mm)")
+    if has_reversed_flow(flow):
+        style.legend_above(panels[0], [Line2D([], [], color=style.VERMILLION, lw=1.0, label="$u$ = 0")])
     panels[-1].set_xlabel("$x$ (mm)")
     panels[0].set_title(f"$t$ = {flow.time:.3g} s,  $z$ = {1e3 * flow.z:.3g} mm", pad=3)
     bar = figure.colorbar(image, ax=panels, location="bottom", shrink=0.45, aspect=35, pad=0.02)
@@ -87,9 +91,8 @@ def dune_view(flow, grains):
 def draw_flow(axes, flow, bottom, top):
     image = axes.pcolormesh(1e3 * flow.x, 1e3 * flow.y, flow.u, vmin=bottom, vmax=top,
                             cmap=style.VELOCITY_MAP, shading="gouraud", rasterized=True)
-    water = np.ma.masked_where(flow.alpha_f < CLEAR, flow.u)[1:]  # less the row on the wall
-    if water.min() < 0.0 < water.max():
-        axes.contour(1e3 * flow.x, 1e3 * flow.y[1:], water, [0.0], colors=style.VERMILLION,
+    if has_reversed_flow(flow):
+        axes.contour(1e3 * flow.x, 1e3 * flow.y[1:], water(flow), [0.0], colors=style.VERMILLION,
                      linewidths=1.0)
     x0, x1 = axes.get_xlim()
     y0, y1 = axes.get_ylim()
@@ -97,10 +100,20 @@ def draw_flow(axes, flow, bottom, top):
     x = 1e-3 * (x0 + (x1 - x0) * (np.arange(across) + 0.5) / across)
     y = 1e-3 * (y0 + (y1 - y0) * (np.arange(up) + 0.5) / up)
     u, v = (resample(flow, field, x, y) for field in (flow.u, flow.v))
-    axes.quiver(1e3 * x, 1e3 * y, u, v, color="black", alpha=0.6, width=0.0013, headwidth=4,
+    axes.quiver(1e3 * x, 1e3 * y, u, v, color="black", width=0.0013, headwidth=4,
                 headlength=4.5, headaxislength=4, scale=across * 1.15 * top, scale_units="width",
-                minlength=0.3)
+                minlength=0.3, path_effects=[withStroke(linewidth=1.0, foreground="white")])
     return image
+
+
+def water(flow):
+    """u beside the bed, less the row on the wall."""
+    return np.ma.masked_where(flow.alpha_f < CLEAR, flow.u)[1:]
+
+
+def has_reversed_flow(flow):
+    u = water(flow)
+    return bool(u.min() < 0.0 < u.max())
 
 
 def resample(flow, field, x, y):

@@ -1,5 +1,7 @@
 """morphodynamics: slopes, flux over the crest, ways of moving, avalanches and exchange of the dune against time.
 
+Dots are single frames, the line through them their mean over the last second. Dashed in the profiles: lines
+fitted to the stoss side and the slip face; dashed in the fluxes: phi c H, that of a dune of unchanged shape.
 Asked for by its name it also says the means in words, of the second half of the run or from --from to --to.
 Definitions: docs/conventions.md, "Slopes and transport".
 """
@@ -12,6 +14,8 @@ from barchan.figures import style
 from barchan.figures.result import keep, say
 from barchan.stats import over_the_last_second, window
 
+DASHED = (0, (4, 1.5))
+LEGEND = {"ncols": 2, "columnspacing": 1.0, "handlelength": 1.4}
 
 
 def draw(run, ax=None, start=None, end=None):
@@ -38,28 +42,31 @@ def draw(run, ax=None, start=None, end=None):
 
 
 def draw_profiles(axes, t, profiles):
-    """The centreline at the start, half way and at the end, there with the fitted lines; heights are drawn larger."""
+    """The centreline at the start, half way and at the end, there with its fitted lines; heights are drawn larger."""
     for row, colour in ((0, style.GREY), (len(t) // 2, style.SKY), (len(t) - 1, style.BLUE)):
         axes.plot(1e3 * profiles[row].x, 1e3 * profiles[row].h, color=colour, label=f"{t[row]:.3g} s")
-    for x, h in profiles[-1].faces:
-        axes.plot(1e3 * x, 1e3 * h, color=style.VERMILLION, lw=0.9, ls=(0, (4, 1.5)))
-    axes.axvline(1e3 * profiles[-1].brink_x, color=style.VERMILLION, lw=0.6, ls=":")
-    axes.set(xlabel="$x$ (mm)", ylabel="$h$ (mm)", ylim=(0, 1.25 * axes.get_ylim()[1]))
-    axes.legend(loc="upper left")
+    for index, (x, h) in enumerate(profiles[-1].faces):
+        axes.plot(1e3 * x, 1e3 * h, color=style.VERMILLION, lw=0.9, ls=DASHED,
+                  label=None if index else "fitted lines")
+    axes.axvline(1e3 * profiles[-1].brink_x, color=style.VERMILLION, lw=0.8, ls=":", ymax=0.5, label="brink")
+    axes.set(xlabel="$x$ (mm)", ylabel="$h$ (mm)", ylim=(0, 1.6 * axes.get_ylim()[1]))
+    axes.legend(loc="upper right", **LEGEND)
 
 
 def draw_angles(axes, table):
+    explain_dots(axes)
     for name, label, colour in (("slip_face_angle", "slip face", style.VERMILLION),
                                 ("stoss_angle", "stoss side", style.BLUE)):
         points_and_mean(axes, table["t"], table[name], colour, label)
-    axes.set(ylabel="angle (degrees)", ylim=(0, None))
-    axes.legend(loc="upper right")
+    axes.set(ylabel="angle (degrees)", ylim=(0, 1.35 * axes.get_ylim()[1]))
+    axes.legend(loc="upper right", **LEGEND)
 
 
 def draw_fluxes(axes, table):
+    explain_dots(axes)
     points_and_mean(axes, table["t"], 1e6 * table["crest_flux"], style.BLUE, "over the crest")
-    axes.plot(table["t"], 1e6 * table["migration_flux"], color=style.VERMILLION, ls=(0, (4, 1.5)),
-              label="$\\phi\\, c\\, H$")
+    axes.plot(table["t"], 1e6 * table["migration_flux"], color=style.VERMILLION, ls=DASHED,
+              label="$\\phi\\, c\\, H$ (migration)")
     top = np.nanpercentile(1e6 * table["crest_flux"], 98)
     axes.set(ylabel="flux (mm$^2$/s)", ylim=(0, 1.5 * top if top > 0 else None))
     axes.legend(loc="upper right")
@@ -89,11 +96,16 @@ def draw_slip_face(axes, table, chosen):
 def draw_exchange(axes, table):
     axes.plot(table["t"], 100 * table["kept"], color=style.BLUE, label="first grains kept")
     axes.plot(table["t"], 100 * table["asymmetry"], color=style.PURPLE, label="asymmetry")
-    axes.set(ylabel="(%)", ylim=(0, 105))
+    axes.set(ylabel="share, asymmetry (%)", ylim=(0, 105))
     axes.legend(loc="center right")
+
+
+def explain_dots(axes):
+    """A line of the legend."""
+    axes.plot([], [], ".", color=style.GREY, ms=4, mew=0, label="single frames")
 
 
 def points_and_mean(axes, t, values, colour, label):
     """Single frames, and their mean over the last second."""
     axes.plot(t, values, ".", color=colour, ms=2.5, alpha=0.6, mew=0)
-    axes.plot(t, over_the_last_second(t, values), color=colour, label=label)
+    axes.plot(t, over_the_last_second(t, values), color=colour, label=f"{label}, 1 s mean")

@@ -10,8 +10,8 @@ from barchan.figures import style
 from barchan.figures.result import keep
 from barchan.flow.wall_units import DNS_RE_TAU, in_wall_units, read_dns
 
-STRESSES = (("uu", "$\\langle u'u' \\rangle$", style.BLUE), ("ww", "$\\langle w'w' \\rangle$", style.GREEN),
-            ("vv", "$\\langle v'v' \\rangle$", style.ORANGE),
+STRESSES = (("uu", "$\\langle u'u' \\rangle$", style.BLUE), ("vv", "$\\langle v'v' \\rangle$", style.ORANGE),
+            ("ww", "$\\langle w'w' \\rangle$", style.GREEN),
             ("uv", "$-\\langle u'v' \\rangle$", style.VERMILLION))
 
 
@@ -59,6 +59,8 @@ def draw_stresses(axes, curves, dns):
         if dns:
             axes.plot(dns["y"], sign * dns[name], color=colour, lw=0.8)
     axes.plot(curves["y"], curves["total"], "x", color="k", ms=3, label="total stress")
-    axes.plot([0, 1], [1, 0], color="0.6", lw=0.7, ls=":")
+    axes.plot([0, 1], [1, 0], color="0.6", lw=0.7, ls=":", label="$1 - y / L_y$")
+    if dns:
+        axes.plot([], [], color="k", lw=0.8, label="lines: DNS")
     axes.set(xlim=(0, 1), ylim=(0, None), xlabel="$y / L_y$", ylabel="stress / $u_*^2$")
     axes.legend(loc="upper right")

@@ -136,6 +136,13 @@ def legend_outside(figure, handles, height, **options):
     figure.legend(handles=handles, loc="upper center" if height > 0 else "lower center", **options)
 
 
+def legend_above(axes, handles, **options):
+    """A legend in one row above the right end of a panel, beside its title."""
+    if handles:
+        axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles),
+                    borderaxespad=0.0, borderpad=0.2, **options)
+
+
 def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
     """Writes `name`.png (and .pdf) into the folder, beside and renamed; returns the paths."""
     encoded = io.BytesIO()

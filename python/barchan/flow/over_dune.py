@@ -55,3 +55,40 @@ def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> lis
         result.append({"station": station, "x": x, "z": outline.z, "h": h,
                        "y_d": columns.y[above] - h, **fields})
     return result
+
+
+def separation_bubble(average: FlowAverage, outline: Any, behind: float = 2.0) -> dict[str, float]:
+    """Where the mean flow in the lowest cells above the surface runs backwards behind the crest, in m.
+
+    Along the plane of the outline, from its highest point to `behind` lengths of the dune after its lee foot. Returns
+    separation and reattachment (x [m]) and length [m], not numbers where no water runs backwards. It is known within a
+    cell along the flow, and its ends within the height of the lowest cell.
+    """
+    crest = float(outline.x[np.argmax(outline.h)])
+    end = min(outline.foot + (1.0 + behind) * outline.length, float(average.x[-1]))
+    x = np.linspace(crest, end, max(3, int(4 * (end - crest) / (average.x[1] - average.x[0]))))
+    columns = average.above(x, outline.z)
+    h = np.array([outline.height(each) for each in x])
+    lowest = np.argmax(columns.y[None, :] > h[:, None], axis=1)
+    return backflow(x, columns.fields["u"][np.arange(len(x)), lowest])
+
+
+def backflow(x: np.ndarray, u: np.ndarray) -> dict[str, float]:
+    """separation, reattachment and length [m] of the longest stretch with u (n) < 0 along x (n) [m], ascending.
+
+    The ends are where u is zero on straight lines between the points; a stretch that reaches an end of x is cut there.
+    """
+    back = np.concatenate([[False], u < 0, [False]])
+    first, after = (np.nonzero(np.diff(back.astype(int)) == way)[0] for way in (1, -1))
+    if not len(first):
+        return dict.fromkeys(("separation", "reattachment", "length"), float("nan"))
+
+    def zero(i: int) -> float:
+        """Between the points i - 1 and i."""
+        if i in (0, len(x)):
+            return float(x[min(i, len(x) - 1)])
+        return float(x[i - 1] - u[i - 1] * (x[i] - x[i - 1]) / (u[i] - u[i - 1]))
+
+    stretches = [(zero(a), zero(b)) for a, b in zip(first, after)]
+    begin, end = max(stretches, key=lambda each: each[1] - each[0])
+    return {"separation": begin, "reattachment": end, "length": end - begin}
