@@ -1,0 +1,53 @@
+"""Every notebook runs from its first to its last cell, on small runs."""
+
+import os
+import subprocess
+import sys
+
+import nbformat
+import pytest
+from fake_runs import ROOT, fake
+from test_laws import write_study
+
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+COMPUTES = ("first_dune", "calibration")
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Folders with the names that the notebooks open: made-up runs and studies."""
+    folder = tmp_path_factory.mktemp("runs")
+    (folder / "quickstart").symlink_to(fake("--average"))
+    (folder / "variations").symlink_to(fake("--study"))
+    horns = folder / "horns"
+    subprocess.run([sys.executable, ROOT / "tests/support/make_horn_run.py", horns / "base"], check=True)
+    (folder / "sizes").mkdir()
+    write_study(folder / "sizes", 0.1)
+    return folder
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_runs(path, runs, tmp_path):
+    if path.stem in COMPUTES and "BARCHAN_PROGRAM" not in os.environ:
+        pytest.skip("needs the program, whose path BARCHAN_PROGRAM has")
+    if path.stem == "horn_grains":
+        (tmp_path / "variations").symlink_to(runs / "horns")
+    where = tmp_path if path.stem in (*COMPUTES, "horn_grains") else runs
+    environment = {**os.environ, "BARCHAN_RUNS": str(where), "BARCHAN_QUICK": "1", "PYTHONPATH": str(ROOT / "python"),
+                   "BARCHAN_CASE": str(ROOT / "tests/support/small_dune.toml"),
+                   "BARCHAN": os.environ.get("BARCHAN_PROGRAM", ""), "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", tmp_path, path],
+        cwd=path.parent, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    cells = [cell for cell in nbformat.read(tmp_path / path.name, 4).cells if cell.cell_type == "code"]
+    assert any("image/png" in output.get("data", {}) for cell in cells for output in cell.outputs) or \
+        path.stem == "calibration"
+
+
+def test_notebooks_are_stored_without_output():
+    """A few kilobytes each, so that a change is readable."""
+    assert len(NOTEBOOKS) == 6
+    for path in NOTEBOOKS:
+        for cell in nbformat.read(path, 4).cells:
+            assert cell.cell_type == "markdown" or (not cell.outputs and cell.execution_count is None), path.name
