@@ -52,8 +52,6 @@ def draw(run, ax=None):
         if index + columns >= len(panels):
             axes.set_xlabel("$t$ (s)")
             axes.tick_params(labelbottom=True)
-    if ax is None:
-        figure.align_ylabels()
     keep(figure, "history", {"t": history["t"], **{c: history[c] for _, _, used in panels for c in used}})
     return figure
 
