@@ -9,10 +9,10 @@ u = 0, the edge of the reversed flow behind the crest.
 import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from barchan.figures import style
 
+DARK = 0.5   # of the largest u: below it the colour is dark and arrows are white
 CLEAR = 0.9  # void fraction above which the flow counts as water beside the bed
 
 
@@ -100,9 +100,10 @@ def draw_flow(axes, flow, bottom, top):
     x = 1e-3 * (x0 + (x1 - x0) * (np.arange(across) + 0.5) / across)
     y = 1e-3 * (y0 + (y1 - y0) * (np.arange(up) + 0.5) / up)
     u, v = (resample(flow, field, x, y) for field in (flow.u, flow.v))
-    axes.quiver(1e3 * x, 1e3 * y, u, v, color="black", width=0.0013, headwidth=4,
+    color = np.where(u < DARK * top, "white", "black").ravel()
+    axes.quiver(1e3 * x, 1e3 * y, u, v, color=color, width=0.0013, headwidth=4,
                 headlength=4.5, headaxislength=4, scale=across * 1.15 * top, scale_units="width",
-                minlength=0.3, path_effects=[withStroke(linewidth=1.0, foreground="white")])
+                minlength=0.3)
     return image
 
 
