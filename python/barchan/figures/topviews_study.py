@@ -5,6 +5,8 @@ from 0 to 20 s in steps of 2 s; shorter runs have shorter steps. All panels show
 that the dunes can be seen to move. Flow from left to right, z down the page.
 """
 
+import textwrap
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
@@ -19,6 +21,7 @@ from barchan.figures.topviews import FINER
 END, STEP = 20.0, 2.0  # [s], of the paper
 ROWS = 11              # at most
 LEFT, HEAD, FOOT, GAP = 0.42, 0.46, 0.56, 0.035  # [in]: times, scale and values, colour bar, panels
+LINE, LETTER, SMALLEST = 0.12, 0.62, 7.0  # a line of a label [in]; a letter in sizes of it, the smallest size [pt]
 BAR, PAGE = 2.4, 9.0   # [in], length of the colour bar, most height of the figure
 
 
@@ -81,31 +84,38 @@ def draw_grid(grid, window, times, labels):
     """A page in inches: all panels are pictures in one frameless axes, as 99 axes would take minutes."""
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for column in grid for g in column if g)
     ratio = (window[3] - window[2]) / (window[1] - window[0])
-    width = min((style.FULL_WIDTH - LEFT) / len(grid) - GAP, 3.2,
-                ((PAGE - HEAD - FOOT) / len(times) - GAP) / ratio)
+    column = (style.FULL_WIDTH - LEFT) / len(grid)
+    labels = [broken(label, column) for label in labels]
+    head = HEAD + LINE * (max(label.count("\n") for label in labels))
+    width = min(column - GAP, 3.2, ((PAGE - head - FOOT) / len(times) - GAP) / ratio)
     height = width * ratio
-    size = (max(LEFT + len(grid) * (width + GAP), 2.6), HEAD + len(times) * (height + GAP) + FOOT)
+    size = (max(LEFT + len(grid) * (width + GAP), 2.6), head + len(times) * (height + GAP) + FOOT)
     figure = Figure(figsize=size, layout="none")
     page = figure.add_axes([0, 0, 1, 1], xlim=(0, size[0]), ylim=(size[1], 0))
     page.set_axis_off()
     for i, time in enumerate(times):
-        page.text(LEFT - 0.06, HEAD + i * (height + GAP) + 0.5 * height, f"{time:.3g} s", ha="right",
+        page.text(LEFT - 0.06, head + i * (height + GAP) + 0.5 * height, f"{time:.3g} s", ha="right",
                   va="center")
-    # As large as the longest label fits over a column, at 0.6 of its size a letter.
-    label_size = min(plt.rcParams["font.size"], 72 * (width + GAP) / (0.62 * max(map(len, labels))))
+    longest = max(len(line) for label in labels for line in label.split("\n"))
+    label_size = min(plt.rcParams["font.size"], 72 * (width + GAP) / (LETTER * longest))
     for j, column in enumerate(grid):
         x = LEFT + j * (width + GAP)
-        page.text(x + 0.5 * width, HEAD - 0.06, labels[j], ha="center", va="baseline", fontsize=label_size)
+        page.text(x + 0.5 * width, head - 0.06, labels[j], ha="center", va="bottom", fontsize=label_size)
         for i, grains in enumerate(column):
             if grains is not None:  # else the case has not come so far
                 picture = top_view(grains.x, grains.d, window, round(FINER * style.DPI * width), top)
-                draw_panel(page, picture, x, HEAD + i * (height + GAP), width, height)
+                draw_panel(page, picture, x, head + i * (height + GAP), width, height)
     draw_scale(page, window, width)
     bar = figure.add_axes([0.5 - 0.5 * BAR / size[0], 0.36 / size[1], BAR / size[0], 0.08 / size[1]])
     scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
     figure.colorbar(scale, cax=bar, orientation="horizontal").outline.set_linewidth(0.6)
     bar.set_xlabel("height above the wall (mm)")
     return figure
+
+
+def broken(label, width):
+    """The label in lines that fit into so many inches in the smallest letters, broken at hyphens and spaces."""
+    return "\n".join(textwrap.wrap(label, max(1, int(72 * width / (LETTER * SMALLEST))), break_long_words=False))
 
 
 def draw_panel(page, picture, x, y, width, height):
@@ -119,7 +129,7 @@ def draw_scale(page, window, width):
     page.set(xlim=(0, page.figure.get_figwidth()), ylim=(page.figure.get_figheight(), 0))
     length = style.round_length(0.4e3 * (window[1] - window[0]))
     share = 1e-3 * length / (window[1] - window[0])
-    y = HEAD - 0.26
+    y = 0.20
     page.plot([LEFT, LEFT + share * width], [y, y], color=style.BLACK, lw=2, solid_capstyle="butt")
     page.text(LEFT, y - 0.05, f"{length:g} mm", fontsize=7.5)
     page.annotate("", xy=(LEFT + 1.2, y), xytext=(LEFT + 0.85, y), arrowprops={
