@@ -8,9 +8,13 @@ import pytest
 from fake_runs import ROOT, fake
 
 import barchan
-from barchan.flow.over_dune import backflow, separation_bubble
+from barchan.dune import detect
 from barchan.dune.outline import main_outline
+from barchan.dune.shape import Bed
+from barchan.dune.slopes import slopes
+from barchan.flow.over_dune import backflow, separation_bubble
 from barchan.io.flow_average import FlowAverage
+from barchan.io.frames import Grains
 
 D = 2e-4
 SIZE = (0.06, 0.03)
@@ -67,8 +71,9 @@ def test_the_horns_of_a_crescent():
     assert (dune.W, dune.L) == (pytest.approx(12e-3, abs=D), pytest.approx(8e-3, abs=D))
 
 
-def test_two_dunes_and_loose_grains(rng=np.random.default_rng(3)):
+def test_two_dunes_and_loose_grains():
     """The larger is the first. A dense single layer and scattered grains are no dune."""
+    rng = np.random.default_rng(3)
     large, small = sand(cone, 10, (0.015, 0.015)), sand(cone, 6, (0.03, 0.015))
     layer = sand(lambda x, z, layer: np.hypot(x, z) < 4e-3, 1, (0.045, 0.015))
     loose = np.stack([rng.uniform(0.051, SIZE[0], 50), np.full(50, D / 2), rng.uniform(0, SIZE[1], 50)], axis=1)
@@ -77,6 +82,16 @@ def test_two_dunes_and_loose_grains(rng=np.random.default_rng(3)):
     assert table.volume[0] > table.volume[1]
     assert table.Cx.tolist() == [pytest.approx(0.015, abs=BIN), pytest.approx(0.03, abs=BIN)]
     assert (label[-len(layer) - 50:] == -1).all()
+
+
+def test_slopes_of_a_dune_that_no_table_has():
+    """A layer of 0.2 mm every 0.5 mm: 21.8 degrees up and down."""
+    x = sand(cone, 10, (0.02, 0.015))
+    grains = Grains(0.0, np.arange(len(x)), x, np.full(len(x), D))
+    found = detect.dunes(grains, Bed(SIZE, (False, True)))
+    assert len(found) == 1
+    sides = slopes(found[0], D)
+    assert (sides.stoss, sides.slip_face) == (pytest.approx(21.8, abs=3), pytest.approx(21.8, abs=3))
 
 
 def test_too_few_grains_are_no_dune():
@@ -104,7 +119,7 @@ def test_backflow_ends_where_u_is_zero():
 
 
 def test_the_bubble_of_a_known_flow():
-    """Backwards within 4.4 mm + 0.4 to 4.8 mm of the centre: where 1.1 - 250 |x - x0| is above (y/Ly)^(1/7)."""
+    """It ends where 1.1 - 250 |x - x0| falls below (y/Ly)^(1/7) in the lowest cells, and begins behind the crest."""
     run = barchan.Run(fake("--average"))
     average, outline = FlowAverage(run), main_outline(run)
     found = separation_bubble(average, outline)
@@ -112,7 +127,8 @@ def test_the_bubble_of_a_known_flow():
     lowest = average.y[0]
     half = (1.1 - (lowest / 0.025)**(1 / 7)) / 250
     assert found["reattachment"] == pytest.approx(x0 + half, abs=average.x[1] - average.x[0])
-    assert found["length"] > 0
+    assert outline.x[np.argmax(outline.h)] <= found["separation"] < x0
+    assert found["length"] == pytest.approx(found["reattachment"] - found["separation"])
 
 
 @pytest.mark.skipif("BARCHAN_PROGRAM" not in os.environ, reason="needs the program, whose path BARCHAN_PROGRAM has")

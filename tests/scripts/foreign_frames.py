@@ -10,9 +10,9 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 from barchan.io import hdf5 as hdf5_files  # noqa: E402
-from barchan.errors import BarchanError# noqa: E402
-from barchan.io.hdf5 import h5py# noqa: E402
-from barchan.io.frames import FrameFile# noqa: E402
+from barchan.errors import BarchanError  # noqa: E402
+from barchan.io.hdf5 import h5py  # noqa: E402
+from barchan.io.frames import FrameFile  # noqa: E402
 from barchan.io.run_folder import RunFolder  # noqa: E402
 
 EVERY_STEP = {"time.end": 2, "output.grains_interval": 2.5e-4, "output.fields_interval": 2.5e-4}

@@ -6,7 +6,7 @@ For frames without labels: of another program, or of a run without dune analytic
 
 import numpy as np
 
-from barchan.dune.shape import HALF_WIDTH, Bed, Dune, centreline, find, in_one_piece, number_of_bins
+from barchan.dune.shape import HALF_WIDTH, Bed, Dune, Sand, centreline, find, number_of_bins
 from barchan.dune.surface import Surface
 from barchan.io.frames import Grains
 
@@ -75,24 +75,20 @@ def measure(grains: Grains, rows: np.ndarray, bed: Bed) -> dict[str, float]:
 
     Cx, Cz and crest_x lie in the domain, also of a dune across a periodic seam.
     """
-    d = grains.d[rows].astype(float)
-    radius, mean = 0.5 * d, float(grains.d.mean())
-    x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
-            for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
-    bins = bed.lengths / number_of_bins(bed, mean)
-    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
-    c = np.average([x, grains.x[rows, 1], z], axis=1, weights=d**3)
+    sand, mean = Sand.of(grains, rows, bed), float(grains.d.mean())
+    x, z, radius, surface, c = sand.x, sand.z, sand.radius, sand.surface, sand.centroid.copy()
     crest = crest_x(surface, c, mean)
+    line, left, right = foot_and_horns(sand, np.full(len(rows), True), crest, mean)
     high = surface.in_bins(surface.h >= HORN_HEIGHT * mean, x, z)
-    line, left, right = outline(x, z, radius, bins[0], c[2], crest, HALF_WIDTH * mean)
-    _, left_2d, right_2d = outline(x[high], z[high], radius[high], bins[0], c[2], crest, HALF_WIDTH * mean)
+    _, left_2d, right_2d = foot_and_horns(sand, high, crest, mean)
     L, W = line[1] - line[0], np.max(z + radius) - np.min(z - radius)
     if bed.periodic[0]:
         L = min(L, bed.lengths[0])
         c[0], crest = c[0] % bed.lengths[0], crest % bed.lengths[0]
     if bed.periodic[1]:
         W, c[2] = min(W, bed.lengths[1]), c[2] % bed.lengths[1]
-    values = (len(rows), W, L, surface.h.max(), *c, left, right, crest, np.pi / 6 * np.sum(d**3), left_2d, right_2d)
+    volume = np.pi / 6 * np.sum((2 * radius)**3)
+    values = (len(rows), W, L, surface.h.max(), *c, left, right, crest, volume, left_2d, right_2d)
     return dict(zip(MEASURED, map(float, values)))
 
 
@@ -106,11 +102,12 @@ def crest_x(surface: Surface, centroid: np.ndarray, mean: float) -> float:
     return float(np.average(surface.x[strip], weights=weight))
 
 
-def outline(x: np.ndarray, z: np.ndarray, radius: np.ndarray, bin_x: float, z0: float, crest: float,
-            half_width: float) -> tuple[tuple[float, float], float, float]:
-    """((toe, lee foot), left horn, right horn) [m] about the centreline z0; without sand there, the whole extent."""
-    strip = abs(z - z0) < half_width
-    line = centreline(x[strip], radius[strip], bin_x, crest)
+def foot_and_horns(sand: Sand, chosen: np.ndarray, crest: float,
+                   mean: float) -> tuple[tuple[float, float], float, float]:
+    """((toe, lee foot), left horn, right horn) [m] of the chosen (n) grains; the whole extent without a centreline."""
+    x, z, radius, z0 = sand.x[chosen], sand.z[chosen], sand.radius[chosen], sand.centroid[2]
+    strip = abs(z - z0) < HALF_WIDTH * mean
+    line = centreline(x[strip], radius[strip], sand.surface.bins[0], crest)
     if line is None:
         return ((np.min(x - radius), np.max(x + radius)) if len(x) else (0.0, 0.0)), 0.0, 0.0
     left, right = (float(max(0.0, np.max((x + radius)[side & ~strip], initial=-np.inf) - line[1]))
@@ -119,7 +116,7 @@ def outline(x: np.ndarray, z: np.ndarray, radius: np.ndarray, bin_x: float, z0: 
 
 
 def dunes(grains: Grains, bed: Bed) -> list[Dune]:
-    """The dunes of a frame, that of most sand first."""
+    """The dunes of a frame, that of most sand first, for slopes, fluxes and forces of grains without dune.csv."""
     label = labels(grains, bed)
     each = [np.nonzero(label == number)[0] for number in range(label.max(initial=-1) + 1)]
     return [find(grains, rows, bed, measure(grains, rows, bed)) for rows in each]

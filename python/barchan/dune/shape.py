@@ -91,22 +91,36 @@ def number_of_bins(bed: Bed, diameter: float) -> np.ndarray:
     return np.maximum(1, np.floor(np.array(bed.lengths) / (BIN * diameter) * (1 + 1e-6))).astype(int)
 
 
+@dataclass
+class Sand:
+    """Grains (n) of one dune: x, z, radius [m], with periodic images undone; their centroid (3) [m] and surface."""
+
+    x: np.ndarray
+    z: np.ndarray
+    radius: np.ndarray
+    centroid: np.ndarray
+    surface: Surface
+
+    @classmethod
+    def of(cls, grains: Grains, rows: np.ndarray, bed: Bed) -> "Sand":
+        x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
+                for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
+        y, radius = grains.x[rows, 1], 0.5 * grains.d[rows].astype(float)
+        bins = bed.lengths / number_of_bins(bed, float(grains.d.mean()))
+        return cls(x, z, radius, np.average([x, y, z], axis=1, weights=radius**3), Surface(x, y + radius, z, bins))
+
+
 def find(grains: Grains, rows: np.ndarray, bed: Bed, size: dict[str, float]) -> Dune:
     """The dune of these rows, `size` its line of dune.csv."""
-    x, z = (in_one_piece(grains.x[rows, axis], length) if periodic else grains.x[rows, axis]
-            for axis, length, periodic in zip((0, 2), bed.lengths, bed.periodic))
-    diameter = float(grains.d.mean())
-    bins = bed.lengths / number_of_bins(bed, diameter)
-    radius = 0.5 * grains.d[rows]
-    centroid = np.average([x, grains.x[rows, 1], z], axis=1, weights=radius**3)
+    sand = Sand.of(grains, rows, bed)
+    x, z, radius, centroid = sand.x, sand.z, sand.radius, sand.centroid
     crest_x = centroid[0] + bed.nearest(np.array([size["crest_x"] - centroid[0], 0.0, 0.0]))[0]
-    strip = abs(z - centroid[2]) < HALF_WIDTH * diameter
-    line = centreline(x[strip], radius[strip], bins[0], crest_x)
+    strip = abs(z - centroid[2]) < HALF_WIDTH * float(grains.d.mean())
+    line = centreline(x[strip], radius[strip], sand.surface.bins[0], crest_x)
     toe, foot = line or (-np.inf, np.inf)
     side = np.where(strip | (x + radius <= foot), 0, np.where(z < centroid[2], -1, 1))
-    surface = Surface(x, grains.x[rows, 1] + radius, z, bins)
     return Dune(rows, x, z, centroid, size["W"], size["L"], size["H"], float(crest_x), toe, foot,
-                size["horn_left"], size["horn_right"], side, surface)
+                size["horn_left"], size["horn_right"], side, sand.surface)
 
 
 def centreline(x: np.ndarray, radius: np.ndarray, bin_x: float, crest_x: float) -> tuple[float, float] | None:

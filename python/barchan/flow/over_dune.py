@@ -9,8 +9,6 @@ from barchan.io.flow_average import FlowAverage
 STILL = 0.01  # of U_delta: slower water has no direction
 
 
-
-
 def friction_velocity(run: Any, average: FlowAverage) -> float:
     """u_star of the walls [m/s]: mean of history.csv over the window, else of the lowest cells."""
     history = run.history_columns
