@@ -103,6 +103,7 @@ def test_too_few_grains_are_no_dune():
 @pytest.mark.parametrize("x, d, size, says", [
     (np.zeros((3, 2)), D, SIZE, "N x 3"), (np.zeros((0, 3)), D, SIZE, "N x 3"),
     (np.full((3, 3), np.nan), D, SIZE, "finite"), (np.zeros((3, 3)), 0.0, SIZE, "positive"),
+    (np.zeros((3, 3)), np.inf, SIZE, "positive"), (np.zeros((3, 3)), np.full(2, D), SIZE, "3 diameters"),
     (np.zeros((3, 3)), D, (1.0,), "along x and z")])
 def test_wrong_arrays_are_refused(x, d, size, says):
     with pytest.raises(barchan.BadInput, match=says):

@@ -23,15 +23,16 @@ def find_dunes(x: Any, d: Any, size: Sequence[float],
     grain belongs to, -1 for none. Definitions: docs/conventions.md, "Dune analytics".
     Raises BadInput for arrays of other shapes or values that are not finite.
     """
-    centres = np.asarray(x, float)
-    diameters = np.broadcast_to(np.asarray(d, float), centres.shape[:1]) if centres.ndim == 2 else np.zeros(0)
+    centres, diameters = np.asarray(x, float), np.asarray(d, float)
     if centres.ndim != 2 or centres.shape[1] != 3 or not len(centres):
         raise BadInput(f"x must be an array of N x 3 centres, and has the shape {centres.shape}")
     if len(size) != 2 or len(periodic) != 2 or min(size) <= 0:
         raise BadInput("size and periodic are those along x and z; lengths are positive")
-    if not np.isfinite(centres).all() or not (diameters > 0).all():
-        raise BadInput("centres must be finite, diameters positive")
-    grains = Grains(0.0, np.arange(len(centres)), centres, diameters)
+    if diameters.shape not in ((), (len(centres),)):
+        raise BadInput(f"d must be a number or {len(centres)} diameters, and has the shape {diameters.shape}")
+    if not np.isfinite(centres).all() or not (np.isfinite(diameters) & (diameters > 0)).all():
+        raise BadInput("centres must be finite, diameters positive and finite")
+    grains = Grains(0.0, np.arange(len(centres)), centres, np.broadcast_to(diameters, len(centres)))
     bed = Bed(tuple(size), tuple(periodic))
     label = detect.labels(grains, bed)
     rows = [detect.measure(grains, np.nonzero(label == number)[0], bed) for number in range(label.max() + 1)]

@@ -6,6 +6,7 @@ For frames without labels: of another program, or of a run without dune analytic
 
 import numpy as np
 
+from barchan.dune.fluxes import volumes
 from barchan.dune.shape import HALF_WIDTH, Bed, Dune, Sand, centreline, find, number_of_bins
 from barchan.dune.surface import Surface
 from barchan.io.frames import Grains
@@ -87,7 +88,7 @@ def measure(grains: Grains, rows: np.ndarray, bed: Bed) -> dict[str, float]:
         c[0], crest = c[0] % bed.lengths[0], crest % bed.lengths[0]
     if bed.periodic[1]:
         W, c[2] = min(W, bed.lengths[1]), c[2] % bed.lengths[1]
-    volume = np.pi / 6 * np.sum((2 * radius)**3)
+    volume = volumes(2 * radius).sum()
     values = (len(rows), W, L, surface.h.max(), *c, left, right, crest, volume, left_2d, right_2d)
     return dict(zip(MEASURED, map(float, values)))
 

@@ -85,7 +85,6 @@ def draw_component(axes, bins, name):
     limit = strongest(bins, name)
     image = axes.pcolormesh(phi, r, values, cmap=style.FORCE_MAP, vmin=-limit, vmax=limit, rasterized=True)
     axes.set_xticks(np.radians(np.arange(0, 360, 30)))
-    axes.set_ylim(0, r[-1])
     axes.set_rlabel_position(225)
     axes.set_yticks(style.round_length(r[-1] / 2) * np.arange(1, 10), minor=False)
     axes.set_ylim(0, r[-1])

@@ -10,11 +10,10 @@ from matplotlib.ticker import MaxNLocator
 
 from barchan.errors import MissingData
 from barchan.dune.height_map import HeightMap, centre_z, common_window
+from barchan.dune.shape import BIN, HALF_WIDTH
 from barchan.figures import style
 from barchan.figures.result import keep
 
-BIN = 2.5          # in mean diameters
-STRIP = 3.0        # half width of the centreline strip, in mean diameters
 CONTOURS = 6
 PROFILE = 0.22     # height over width of the profile's panel
 
@@ -69,7 +68,7 @@ def draw_profiles(axes, maps, frames, diameter):
     """Returns what it draws."""
     columns = {}
     for surface, grains, colour in zip(maps, frames, (style.GREY, style.BLUE)):
-        h = surface.profile(centre_z(grains), STRIP * diameter)
+        h = surface.profile(centre_z(grains), HALF_WIDTH * diameter)
         bare = h == 0.0
         bare[1:-1] &= bare[:-2] & bare[2:]  # the curve starts and ends at the wall
         axes.plot(1e3 * surface.x_middle, np.where(bare, np.nan, 1e3 * h), color=colour,
