@@ -1,4 +1,4 @@
-"""Figures of docs/validation.md, from saved results.
+"""Figures of the pages docs/validation*.md and docs/threshold.md, from saved results.
 
     ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep NAME=DIR]
 
@@ -46,7 +46,7 @@ STUDIES = {module.NAME: module for module in (bed_load, threshold, laminar_bed)}
 
 def parse(arguments):
     parser = argparse.ArgumentParser(prog="plot validation",
-                                     description="Figures of docs/validation.md from saved results.")
+                                     description="Figures of the validation pages from saved results.")
     parser.add_argument("figures", metavar="FIGURE", nargs="*", help=", ".join(FIGURES))
     parser.add_argument("--from", dest="source", type=Path, default=SAVED, metavar="DIR",
                         help="folder of the saved results (docs/validation)")

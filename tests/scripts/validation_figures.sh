@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The figures of docs/validation.md from the results saved in docs/validation; and what bad input says.
+# The figures of the validation pages from the results saved in docs/validation; and what bad input says.
 set -u
 # shellcheck source=tests/support/plotting.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"

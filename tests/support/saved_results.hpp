@@ -1,4 +1,4 @@
-// Results of tests as tables for the figures of docs/validation.md, made when BARCHAN_RESULTS names
+// Results of tests as tables for the figures of the validation pages, made when BARCHAN_RESULTS names
 // a folder:  BARCHAN_RESULTS=docs/validation ./barchan test -R ChungOoi
 #pragma once
 
