@@ -2,8 +2,11 @@
 """Predicts the time of a fluid step on up to 1,000 ranks, from what ranks send each other and measured rates.
 
 usage: scaling.py [--latency S] [--bandwidth B]   the table of docs/scaling.md
+       scaling.py --page docs/scaling.md          puts it there
        scaling.py --figure PNG                    its figure
-       scaling.py --check RUN_DIR ...             the model beside run.json of runs on several ranks
+       scaling.py --check RUN_DIR ...             the model compared with run.json of runs on several ranks
+
+Rates of a core are those of perf/measured.csv, where perf/keep.py puts records of `./barchan bench`.
 
 A message costs the latency and its bytes over the bandwidth of its rank. A reduction costs the latency for
 each level of a tree, an all-to-all the latency for each other rank. Nothing overlaps. Every phase waits for
@@ -52,24 +55,43 @@ class Machine:
     rebuild: tuple
     exchange: float         # per grain in the pencil: gather, deposit
     flow: tuple             # a step without grains
-    coupled: tuple          # a step around grains without its iterations and smoothings
-    iteration: float        # per cell
-    smoothing: float
+    coupled: tuple          # the flow around grains
     among_ranks: float = 0  # more for a grain step, a message, a block of a transpose on several ranks
     message: float = 0
     block: float = 0
 
 
-# Twice the times of docs/performance.md, which are of two threads. A grain step is one in water; `coupled` is
-# what is left of coupled/heap_100k (1.08 s, 5 iterations, 0.7 rebuilds), so that one rank agrees with it.
-CORE = Machine("CPU", memory=8e9, grain_step=(0, 1.45e-7), rebuild=(0, 8.2e-7), exchange=7e-7,
-               flow=(0, 9.9e-8), coupled=(0, 6.2e-7), iteration=7e-8, smoothing=2.7e-8)
+PAPER_GRAINS, PAPER_CELLS = 100_000, 250 * 30 * 63  # of the measured cases, too
+GRAIN_STEPS = 100                                   # in a fluid step of coupled/heap_100k
+
+
+@cache
+def measured():
+    """Case -> its line of perf/measured.csv; `seconds` of one core, as threads share the work evenly."""
+    with open(ROOT / "perf/measured.csv", encoding="utf-8") as file:
+        lines = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {line["case"]: line | {"seconds": 1e-3 * float(line["ms"]) * int(line["threads"])} for line in lines}
+
+
+def measured_core():
+    """A grain step is that of moving grains without their lists. The flow around grains is what is left of the coupled
+    step, so that one rank agrees with it."""
+    whole, dune, flow = (measured()[case] for case in ("coupled/heap_100k", "dem/dune_100k", "les/mesh1"))
+    rebuild, gather, deposit = (measured()[f"kernel/{name}"]["seconds"] for name in ("list_build", "gather", "deposit"))
+    step = dune["seconds"] - float(dune["rebuilds"]) * rebuild
+    around = whole["seconds"] - GRAIN_STEPS * step - float(whole["rebuilds"]) * rebuild - gather - deposit
+    return Machine("CPU", memory=8e9, grain_step=(0, step / PAPER_GRAINS), rebuild=(0, rebuild / PAPER_GRAINS),
+                   exchange=(gather + deposit) / PAPER_GRAINS, flow=(0, flow["seconds"] / PAPER_CELLS),
+                   coupled=(0, around / PAPER_CELLS))
+
+
+CORE = measured_core()
 # Nothing measured: straight lines through the estimate of docs/performance.md. On several ranks a grain step
 # launches two more kernels and waits for the largest displacement; a message is packed, awaited and unpacked;
 # a transpose launches a kernel for each rank that shares the axis.
 H200 = Machine("H200", memory=1.2e11, grain_step=(9e-6, 2.41e-10), rebuild=(3.8e-4, 4.2e-10),
-               exchange=3e-10, flow=(1.9e-4, 1.1e-10), coupled=(2.4e-3, 3.5e-10), iteration=5.5e-11,
-               smoothing=2.8e-11, among_ranks=1.6e-5, message=6e-6, block=4e-6)
+               exchange=3e-10, flow=(1.9e-4, 1.1e-10), coupled=(2.4e-3, 6.8e-10), among_ranks=1.6e-5,
+               message=6e-6, block=4e-6)
 
 
 # --- cases ---------------------------------------------------------------------------------------------
@@ -80,9 +102,9 @@ class Case:
     name: str
     tiles: tuple
     has_grains: bool = True
-    grain_steps: int = 100
-    iterations: int = 5
-    rebuilds: float = 0.7
+    grain_steps: int = GRAIN_STEPS
+    iterations: float = float(measured()["coupled/heap_100k"]["pressure_iterations"])
+    rebuilds: float = float(measured()["coupled/heap_100k"]["rebuilds"])
 
     @property
     def columns(self):
@@ -128,10 +150,7 @@ def blocks(p):
 
 def flow_compute(case, machine, cells):
     """Without the fixed part."""
-    if not case.has_grains:
-        return machine.flow[1] * cells
-    return cells * (machine.coupled[1] + case.iterations * machine.iteration
-                    + counts.SMOOTHINGS * machine.smoothing)
+    return cells * (machine.coupled if case.has_grains else machine.flow)[1]
 
 
 def flow_messages(case, p):
@@ -194,8 +213,8 @@ def ideal(case, machine, ranks):
 
 
 def fits_in_memory(case, machine, ranks):
-    """384 bytes a cell (225 of the flow alone) and 585 a grain: docs/performance.md, "Memory"."""
-    return ((384 if case.has_grains else 225) * case.cells + 585 * case.grains) / ranks < machine.memory
+    """392 bytes a cell (225 of the flow alone) and 690 a grain: docs/performance.md, "Memory"."""
+    return ((392 if case.has_grains else 225) * case.cells + 690 * case.grains) / ranks < machine.memory
 
 
 def strong_time(case, machine, network, ranks):
@@ -215,12 +234,11 @@ def weak_cases(side):
 # --- table ---------------------------------------------------------------------------------------------
 
 def row(*cells):
-    print("| " + " | ".join(str(c) for c in cells) + " |")
+    return "| " + " | ".join(str(c) for c in cells) + " |"
 
 
 def head(*cells):
-    row(*cells)
-    print("|" + "---|" * len(cells))
+    return [row(*cells), "|" + "---|" * len(cells)]
 
 
 def strong_cell(case, machine, network, ranks):
@@ -233,15 +251,21 @@ def strong_cell(case, machine, network, ranks):
 
 
 def table(network):
-    print(f"Network: {1e6 * network.latency:g} us, {1e-9 * network.bandwidth:g} GB/s a rank. "
-          "ms a fluid step; in brackets the efficiency.\n")
     columns = [(case, machine) for machine in (CORE, H200) for case in CASES]
-    head("ranks", *(f"{machine.name}: {case.name}" for case, machine in columns))
-    for ranks in IN_TABLE:
-        row(ranks, *(strong_cell(case, machine, network, ranks) for case, machine in columns))
+    return [*head("ranks", *(f"{machine.name}: {case.name}" for case, machine in columns)),
+            *(row(ranks, *(strong_cell(case, machine, network, ranks) for case, machine in columns))
+              for ranks in IN_TABLE)]
 
 
-# --- beside runs --------------------------------------------------------------------------------------------
+def write_table(page, network):
+    """In place of the table of the page that begins with the same word."""
+    lines = page.read_text(encoding="utf-8").splitlines()
+    first = next(n for n, line in enumerate(lines) if line.startswith("| ranks |"))
+    last = next(n for n in range(first, len(lines)) if not lines[n].startswith("|"))
+    page.write_text("\n".join([*lines[:first], *table(network), *lines[last:]]) + "\n", encoding="utf-8")
+
+
+# --- compared with runs --------------------------------------------------------------------------------------------
 
 def read_run(folder):
     try:
@@ -269,16 +293,20 @@ def model_of_run(run, config, x, z):
 
 
 def check(folders):
-    head("run", "ranks", "messages: model / counted", "megabytes", "reductions", "all-to-alls")
+    print("\n".join(head("run", "ranks", "messages: model / counted", "megabytes", "reductions", "all-to-alls")))
     for folder in map(Path, folders):
         run, config, x, z = read_run(folder)
         model, said = model_of_run(run, config, x, z), run["communication"]
         pairs = ((model.messages, said["messages"]), (1e-6 * model.bytes, said["megabytes"]),
                  (model.reductions, said["reductions"]), (model.all_to_alls, said["all_to_alls"]))
-        row(folder.name, run["ranks"], *(f"{a:.1f} / {b:.1f} = {a / b:.3f}" for a, b in pairs))
+        print(row(folder.name, run["ranks"], *(f"{a:.1f} / {b:.1f} = {a / b:.3f}" for a, b in pairs)))
 
 
 # --- figure ----------------------------------------------------------------------------------------------
+
+def legend_below(axes):
+    axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.25), fontsize=6.2)
+
 
 def draw_strong(axes, network, style):
     look = {PAPER: (style.BLUE, "o", "paper, 10$^5$ grains"), DUNES: (style.VERMILLION, "s", "10$^7$ grains"),
@@ -293,8 +321,8 @@ def draw_strong(axes, network, style):
     axes.plot([], [], color=style.BLACK, ls=(0, (4, 1.5)), label="H200 (estimates)")
     axes.plot([], [], color=style.GREY, lw=0.6, label="no waiting")
     axes.set(xscale="log", yscale="log", xlabel="ranks", ylabel="ms a fluid step")
-    axes.set_ylim(1, 1e9)
-    axes.legend(loc="upper right", fontsize=6.2)
+    axes.set_ylim(3, 3e4)
+    legend_below(axes)
 
 
 def draw_shares(axes, network, style):
@@ -309,9 +337,8 @@ def draw_shares(axes, network, style):
         bottom += share
     axes.set_xticks(range(len(times)), [str(n) for n in RANKS[:len(times)]], rotation=60)
     axes.tick_params(axis="x", which="both", length=0)
-    axes.set(xlabel="ranks (cores)", ylabel="share of a step, paper's case", ylim=(0, 1.95),
-             yticks=np.arange(0, 1.01, 0.2))
-    axes.legend(loc="upper left", fontsize=6.2)
+    axes.set(xlabel="ranks (cores)", ylabel="share of a step, paper's case", ylim=(0, 1))
+    legend_below(axes)
 
 
 def draw_weak(axes, network, style):
@@ -322,7 +349,7 @@ def draw_weak(axes, network, style):
         axes.plot(ranks, seconds[0] / seconds, color=colour, ls=dashes, marker="o", ms=3,
                   label=f"{side**2} dune{'s' if side > 1 else ''} a rank, {machine.name}")
     axes.set(xscale="log", xlabel="ranks", ylabel="efficiency, weak scaling", ylim=(0, 1.05))
-    axes.legend(loc="lower left", fontsize=6.2)
+    legend_below(axes)
 
 
 def draw(path, network):
@@ -330,7 +357,7 @@ def draw(path, network):
     from barchan.figures import style
 
     with style.look():
-        figure, (panels,) = style.panels(None, 1, 3, figsize=(style.FULL_WIDTH, 3.3))
+        figure, (panels,) = style.panels(None, 1, 3, figsize=(style.FULL_WIDTH, 3.6))
         for index, (axes, panel) in enumerate(zip(panels, (draw_strong, draw_shares, draw_weak))):
             panel(axes, network, style)
             style.panel_label(axes, index)
@@ -342,6 +369,7 @@ def main():
     parser.add_argument("--latency", type=float, default=Network.latency, help="of a message [s]")
     parser.add_argument("--bandwidth", type=float, default=Network.bandwidth, help="of a rank [bytes/s]")
     parser.add_argument("--figure", type=Path, help="draws strong and weak scaling into this PNG file")
+    parser.add_argument("--page", type=Path, help="puts the table into this page, in place of the one there")
     parser.add_argument("--check", nargs="+", metavar="RUN_DIR", help="runs of grains from a CSV file")
     options = parser.parse_args()
     network = Network(options.latency, options.bandwidth)
@@ -350,8 +378,10 @@ def main():
             check(options.check)
         elif options.figure:
             draw(options.figure, network)
+        elif options.page:
+            write_table(options.page, network)
         else:
-            table(network)
+            print("\n".join(table(network)))
     except Problem as problem:
         print(f"scaling: {problem}", file=sys.stderr)
         return 2

@@ -45,6 +45,11 @@ says "$dir/err" 'no records in'
 compare 2 "$dir/a.jsonl" "$dir/missing.jsonl"
 says "$dir/err" 'cannot read'
 
+# The table that the prediction for many ranks reads.
+"$python" "$root/perf/keep.py" "$dir/a.jsonl" "$dir/measured.csv" || fail "keep.py ended with $?"
+says "$dir/measured.csv" '^coupled/heap_10k,2,[0-9.]+,[0-9.]+,[0-9.]+,[0-9.]+,[0-9.]+$'
+says "$dir/measured.csv" '^kernel/list_build,2,[0-9.]+,'
+
 # Peers: their rows as they print them, once when measured and again at the end.
 mkdir "$dir/peers"
 cat > "$dir/peers/run_liggghts.sh" <<'PEER'
