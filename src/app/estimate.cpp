@@ -17,8 +17,8 @@ namespace barchan {
 
 namespace {
 
-// Measured in runs of the shipped cases (docs/performance.md, Estimates). A grain step of a moving
-// dune is dearer than one at rest: contacts come and go, and are looked for more often.
+// Measured in runs of the shipped cases (docs/performance-method.md, "Estimates"). A grain step of
+// a moving dune is dearer than one at rest: contacts come and go, and are looked for more often.
 constexpr double kMovingOverResting = 1.2;
 // Iterations of the pressure equation where grains move.
 constexpr double kIterationsOfMoving = 4;
