@@ -1,0 +1,206 @@
+#!/usr/bin/python3
+"""Numbers that stand in two places are the same: in pages and in the tables, scripts and pages that they come from.
+
+SAME has sentences, MEASURED tables of pages whose rows are those of a CSV file, SUMMARY the summary of the validation
+and the rows behind it. A pattern that is not found any more is a fault, too: mend it, or better, delete the second
+number. In the texts every white space is one blank, so a sentence may be broken anywhere."""
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+N = r"([-+]?\d[\d.]*(?:e-?\d+)?)"  # a number; a full stop behind it is cut off
+CASES = r"\| `(?P<case>[\w/]+)` \| (?P<ms>[\d.]+) \((?P<ms_least>[\d.]+) to (?P<ms_most>[\d.]+)\)"
+KERNELS = r"\| `(?P<case>pair_forces|list_build|momentum|wale|gather|deposit)`[^|]*\| (?P<ms>[\d.]+) \|"
+RATIOS = r"\| (?P<ratio>[\d.]+) \((?P<least>[\d.]+) to (?P<most>[\d.]+)\) \| ?(?=\||$|- )"
+COSTS = r"\| `(?P<case>[\w/-]+)` \|(?:[^|]*\|){1,2} (?P<takes_s>[\d.]+ (?:s|min|h|d)) \|"
+SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400}
+
+# What, and (file, pattern with the numbers in brackets) of each place. perf/estimates.csv: what estimates() counts.
+SAME = [
+    ("bed load over Wong & Parker's", ("docs/threshold.md", rf"{N} to {N} up to 0\.2,"),
+     ("docs/validation-beds.md", rf"a flat bed carries {N} to {N} of the flux"),
+     ("docs/validation.md", rf"Shields 0\.15 to 0\.2: Wong & Parker \| {N} to {N} of it")),
+    ("bytes of a cell, of the flow alone", ("docs/performance.md", rf"takes {N} bytes in a coupled step and {N} in a"),
+     ("perf/scaling.py", rf"\(\({N} if case\.has_grains else {N}\)")),
+    ("bytes of a grain in water", ("docs/performance.md", rf"bytes dry and {N} in water"),
+     ("perf/scaling.py", rf"\* case\.cells \+ {N} \* case\.grains")),
+    ("a moving grain step over one at rest", ("src/app/estimate.cpp", rf"kMovingOverResting = {N};"),
+     ("docs/performance-method.md", rf"moves the grains takes {N} times that at rest")),
+    ("iterations with moving grains", ("src/app/estimate.cpp", rf"kIterationsOfMoving = {N};"),
+     ("docs/performance-method.md", rf"equation then takes {N} iterations")),
+    ("speed of the fastest grains", ("src/app/estimate.cpp", rf"std::max\({N} \* derive"),
+     ("docs/performance-method.md", rf"go at {N} of the bulk velocity")),
+    ("latency of a message", ("perf/scaling.py", rf"latency: float = {N}e-6"),
+     ("docs/scaling.md", rf"A message costs a latency \({N} us\)")),
+    ("memory of a core", ("perf/scaling.py", rf'"CPU", memory={N}e9'),
+     ("docs/scaling.md", rf"less than {N} GB a core")),
+    ("1e7 grains on 1,000 cores", ("docs/scaling.md", rf"\| 1000 \| [^|]*\| [\d,]+ \({N} %\)"),
+     ("docs/scaling.md", rf"1e7 grains on cores: at about 1,000 cores\*\* \({N} % there\)")),
+    ("1e9 cells on 1,000 cores", ("docs/scaling.md", rf"\| 1000 \| (?:[^|]*\| ){{2}}[\d.]+ \({N} %\)"),
+     ("docs/scaling.md", rf"1e9 cells on cores: beyond 1,000 cores\*\* \({N} % there\)")),
+    ("estimates within a factor of 1.5", ("docs/performance.md", rf"For {N} of the {N} cases measured"),
+     ("perf/estimates.csv", "ratio")),
+]
+
+# Page, rows there, table, what stands before the name of a case in the table, how far off (of the number), fewest rows.
+MEASURED = [
+    ("docs/performance.md", CASES, "perf/measured.csv", "case", ("",), 0, 9),
+    ("docs/performance-method.md", KERNELS, "perf/measured.csv", "case", ("kernel/",), 0, 6),
+    ("docs/performance.md", RATIOS, "perf/peers.csv", "ratio", ("",), 0, 8),
+    ("docs/cases.md", COSTS, "perf/estimates.csv", "case", ("", "validation/"), 0.2, 10),
+]
+# Quantity in docs/validation/channel_summary.csv, and the row of docs/validation-flow.md with its deviations.
+CHANNEL = {"u_star": "u*", "uu peak": "peak of u'u'", "vv peak": "peak of v'v'", "ww peak": "peak of w'w'",
+           "-uv peak": "peak of -u'v'", "uu peak y+": "place of the u'u' peak", "vv peak y+": "place of the v'v' peak",
+           "ww peak y+": "place of the w'w' peak", "-uv peak y+": "place of the -u'v' peak"}
+CHANNEL_COLUMNS = [f"{name} off (%)" for name in ("mesh1", "mesh3", "across", "along")]
+# Row of docs/validation.md (as it begins), the page with the same numbers, and the rows that have them.
+SUMMARY = [
+    ("the same with the exchange `smoothed`", "beds", ["Flux at 0.189 Pa"]),
+    ("[Chung & Ooi]", "grains", ["the same: case B at tan"]),
+    ("[Order]", "flow", ["fixed alpha_f (18, 36)", "the same: p"]),
+    ("[Taylor-Green]", "flow", ["3-D Taylor-Green 64^3: peak"]),
+    ("[Channel, mesh 1](validation-flow.md#channel-against-dns): u*", "flow", ["u*", "U+ for", "total stress"]),
+    ("[Resolved]", "flow", ["u*", "U+ for", "peaks of u'u'"]),
+    ("[Pressure solver]", "flow", ["the same in a heap"]),
+    ("[Hertz impact]", "grains", ["Impact, 250 steps"]),
+    ("Measured restitution", "grains", ["Restitution 0.1 to 0.999"]),
+    ("[Oblique impact]", "grains", ["the same: sliding limit; digitised"]),
+    ("[Sliding to rolling]", "grains", ["Slip to roll"]),
+    ("Energy of an undamped box", "grains", ["Energy in an undamped box"]),
+    ("[Terminal velocity]", "beds", ["Table II grains"]),
+    ("Pressure drop of a bed", "beds", ["Pressure drop of a bed", "Bed 15 d high"]),
+    ("Fluidised bed", "beds", ["Free bed of 4140 grains", "its plateau"]),
+    ("[Lift near the floor]", "beds", ["Lift at the floor"]),
+    ("Dense beds are stable", "beds", ["Dense bed: growth"]),
+    ("[No grain moves]", "beds", ["Shields 0.0246"]),
+    ("Celerity of two dunes", "beds", ["Celerity of two dunes"]),
+]
+
+
+def text_of(name):
+    return " ".join((ROOT / name).read_text(encoding="utf-8").split())
+
+
+def numbers_in(words):
+    return [float(number.rstrip(".")) for number in re.findall(N, words)]
+
+
+def lines_of(name):
+    with open(ROOT / name, encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def estimates():
+    """How many of perf/estimates.csv are within a factor of 1.5, and how many there are."""
+    ratios = [float(line["ratio"]) for line in lines_of("perf/estimates.csv")]
+    return [sum(1 / 1.5 <= ratio <= 1.5 for ratio in ratios), len(ratios)]
+
+
+def numbers_at(place):
+    if place[0].endswith(".csv"):
+        return estimates()
+    found = re.search(place[1], text_of(place[0]))
+    return found and [float(number.rstrip(".")) for number in found.groups() if number]
+
+
+def wrong_sentences():
+    for what, *places in SAME:
+        found = [numbers_at(place) for place in places]
+        for place, numbers in zip(places, found):
+            if not numbers:
+                yield f"{what}: nothing in {place[0]} is like {place[1]}"
+        if all(found) and any(numbers != found[0] for numbers in found):
+            yield f"{what}: " + " but ".join(f"{numbers} in {place[0]}" for place, numbers in zip(places, found))
+
+
+def number(text):
+    """With its unit of time in seconds."""
+    value, *unit = text.split()
+    return float(value) * (SECONDS[unit[0]] if unit else 1)
+
+
+def wrong_rows(page, pattern, table, key, before, tolerance, fewest):
+    lines = {line[key]: line for line in lines_of(table) if not line.get("changed")}
+    n = 0
+    for match in re.finditer(pattern, text_of(page)):
+        line = next((lines[start + match[key]] for start in before if start + match[key] in lines), None)
+        if line is None:
+            if not tolerance:
+                yield f"{page}: {match[key]} is not in {table}"
+            continue
+        n += 1
+        for name in match.groupdict().keys() - {"case"}:
+            there, here = number(line[name]), number(match[name])
+            if abs(here - there) > tolerance * there:
+                yield f"{page}: {match[key]} has {name} {here:g}, {table} {there:g}"
+    if n < fewest:
+        yield f"{page}: only {n} rows of {table}, not {fewest}"
+
+
+def rows(page, start):
+    return [line for line in (ROOT / page).read_text(encoding="utf-8").splitlines() if line.startswith("| " + start)]
+
+
+def wrong_channel():
+    lines = {line["quantity"]: line for line in lines_of("docs/validation/channel_summary.csv")}
+    for quantity, start in CHANNEL.items():
+        expected = [float(lines[quantity][name]) for name in CHANNEL_COLUMNS]
+        found = rows("docs/validation-flow.md", start + " |")
+        if not found or numbers_in(found[0].split("|", 3)[3]) != expected:
+            yield f"docs/validation-flow.md: the row '{start}' is not {expected}"
+
+
+def wrong_summary():
+    for start, page, words in SUMMARY:
+        said = rows("docs/validation.md", start)
+        behind = [row for word in words for row in rows(f"docs/validation-{page}.md", word)]
+        if len(said) != 1 or len(behind) < len(words):
+            yield f"{len(said)} rows of docs/validation.md begin with '{start}', {len(behind)} of {page} with {words}"
+            continue
+        there = {abs(value) for row in behind for value in numbers_in(row)}
+        gone = [value for value in numbers_in(said[0].split("|")[2]) if abs(value) not in there]
+        if gone:
+            yield f"docs/validation.md: '{start}' has {gone}, which is not in validation-{page}.md at {words}"
+
+
+def wrong_scaling():
+    script = ROOT / "perf/scaling.py"
+    said = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
+    if said not in (ROOT / "docs/scaling.md").read_text(encoding="utf-8"):
+        yield "docs/scaling.md: its table is not that of perf/scaling.py (--page docs/scaling.md writes it)"
+
+
+def wrong_measurements():
+    """Tables of pages that python/validation computes from saved results."""
+    sys.path.insert(0, str(ROOT / "python"))
+    from validation import laminar_bed, tables, threshold
+    folder = tables.ROOT / "docs/validation"
+    page = text_of("docs/threshold.md")
+    for line in threshold.summary(folder):
+        load, flux = line.split(" | ")[2:4]
+        if f"{load} ({flux.split()[0]})" not in page:
+            yield f"docs/threshold.md has no '{load} ({flux.split()[0]})': {line}"
+    page = text_of("docs/validation-beds.md")
+    for line in laminar_bed.summary(folder):
+        case, _, _, height, shields, flux, *_ = line.split(" | ")
+        found = re.search(rf"\| {case}(?:, torque)? \| {height} \| {shields} \|[^|]*\|[^|]*\| {N} \+- {N}", page)
+        if not found or any(abs(float(a) - b) > 0.06e-3 for a, b in zip(found.groups(), numbers_in(flux))):
+            yield f"docs/validation-beds.md has no row of '{line}'"
+
+
+def main():
+    os.environ.setdefault("MPLBACKEND", "agg")
+    wrong = [*wrong_sentences(), *wrong_channel(), *wrong_summary(), *wrong_scaling(), *wrong_measurements()]
+    for one in MEASURED:
+        wrong += wrong_rows(*one)
+    print("\n".join(wrong))
+    print(f"numbers: {len(SAME)} sentences, {len(MEASURED) + 4} tables, {len(wrong)} faults")
+    return 1 if wrong else 0
+
+
+sys.exit(main())
