@@ -6,7 +6,7 @@ usage: perf/estimates.py [CASE.toml ...] [--seconds S] [--threads N] [--state NA
 Each case (default: all that ship) is checked, then run to its end, or for S seconds (30) and counted on by its steps.
 What it starts from is run as briefly, and only for that; or --state has its result in a .csv or .h5. A line a case:
 name, seconds estimated, seconds it takes, their ratio, steps run of all. At the end the ratios between 0.67 and 1.5
-are counted. Leave the machine alone meanwhile: the two are measured one after the other.
+are counted. --table perf/estimates.csv puts the lines into this table, in place of those of the same cases. Leave the machine alone meanwhile: the two are measured one after the other.
 """
 
 import argparse
@@ -33,6 +33,16 @@ def shipped():
 def seconds_in(text):
     """Of "2 h 07 min" and the like."""
     return sum(float(number) * UNITS[unit] for number, unit in re.findall(r"([\d.]+) (s|min|h|d)\b", text))
+
+
+def put(table, name, estimate, takes, summary, options):
+    """The line of a case into the table."""
+    said = table.read_text(encoding="utf-8").splitlines()
+    lines = [line for line in said if not line.startswith(name + ",")]
+    machine = re.search(r"model name\s*: ([^,\n]*)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    lines.append(f"{name},{estimate:.4g},{takes:.4g},{estimate / takes:.2f},{summary['steps']},{summary['all_steps']},"
+                 f"{summary['git_hash'][:7]},{machine[1] if machine else ''},{options.seconds:g},")
+    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 class Measurement:
@@ -83,6 +93,7 @@ def main():
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--state", action="append", default=[], metavar="NAME=FILE")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "runs" / "estimates")
+    parser.add_argument("--table", type=pathlib.Path)
     options = parser.parse_args()
     options.out = options.out.resolve()
     measurement = Measurement(options)
@@ -92,7 +103,10 @@ def main():
         estimate = measurement.estimate(case)
         takes = summary["wall_seconds"] * summary["all_steps"] / summary["steps"]
         ratios.append(estimate / takes)
-        print(f"{case.relative_to(ROOT / 'configs').with_suffix('')!s:30} {estimate:10.4g} {takes:10.4g} "
+        name = str(case.relative_to(ROOT / "configs").with_suffix(""))
+        if options.table:
+            put(options.table, name, estimate, takes, summary, options)
+        print(f"{name:30} {estimate:10.4g} {takes:10.4g} "
               f"{ratios[-1]:6.2f}  {summary['steps']} of {summary['all_steps']}", flush=True)
     good = sum(0.67 <= ratio <= 1.5 for ratio in ratios)
     print(f"{good} of {len(ratios)} within a factor 1.5; {min(ratios):.2f} to {max(ratios):.2f}")

@@ -1,4 +1,4 @@
-"""beside_cfdem: forces on held grains, the bed of the tutorial, a heap in flow; in CFDEM and here."""
+"""beside_cfdem: forces on frozen grains, the bed of the tutorial, a heap in flow; in CFDEM and here."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from validation import tables
 
 
 def draw(folder):
-    figure, grid = style.panels(None, 2, 3, figsize=(style.FULL_WIDTH, 4.7))
+    figure, grid = style.panels(None, 2, 3, figsize=(style.FULL_WIDTH, 4.7), layout="constrained")
     draw_forces(grid[0, 0], folder, "bed")
     draw_forces(grid[0, 1], folder, "heap")
     draw_ergun(grid[0, 2], folder)
@@ -51,28 +51,39 @@ def draw_ergun(axes, folder):
     axes.legend(loc="upper left")
 
 
-def draw_shape(axes, folder):
+def draw_series(axes, folder, name, colour, scale=1):
+    """Symbols: CFDEM. Line: this code, its handle."""
     theirs, ours = both(folder, "heap")
-    for name, colour, scale in (("W", style.BLUE, 1), ("L", style.GREEN, 1), ("H", style.VERMILLION, 5)):
-        axes.plot(theirs["t"], scale * theirs[name], ls="", marker="o", mfc="none", ms=3.5, color=colour)
-        axes.plot(ours["t"], scale * ours[name], color=colour, label=f"${name}$" if scale == 1 else f"{scale} ${name}$")
-    axes.set(xlabel="$t$ (s)", ylabel="mm", ylim=(0, None))
-    axes.legend(loc="lower left", ncols=3, title="lines: this code; symbols: CFDEM", title_fontsize=7)
+    axes.plot(theirs["t"], scale * theirs[name], ls="", marker="o", mfc="none", ms=3.5, color=colour)
+    return axes.plot(ours["t"], scale * ours[name], color=colour)[0]
+
+
+def right_axis(axes, label, top):
+    """A second ordinate in the colour of what it is for."""
+    right = axes.twinx()
+    right.set_ylabel(label, color=style.VERMILLION)
+    right.tick_params(axis="y", labelcolor=style.VERMILLION)
+    right.set_ylim(0, top)
+    return right
+
+
+def draw_shape(axes, folder):
+    lines = [draw_series(axes, folder, name, colour) for name, colour in (("W", style.BLUE), ("L", style.GREEN))]
+    axes.set(xlabel="$t$ (s)", ylabel="$W$, $L$ (mm)", ylim=(0, 18))
+    lines.append(draw_series(right_axis(axes, "$H$ (mm)", 3.6), folder, "H", style.VERMILLION))
+    axes.legend(lines, ["$W$", "$L$", "$H$"], loc="lower left", ncols=3, columnspacing=1, handlelength=1.2)
 
 
 def draw_motion(axes, folder):
-    theirs, ours = both(folder, "heap")
-    for name, label, colour, scale in (("shift", "shift of the centroid (mm)", style.BLUE, 1),
-                                       ("moving", "moving grains (tenths)", style.VERMILLION, 10)):
-        axes.plot(theirs["t"], scale * theirs[name], ls="", marker="o", mfc="none", ms=3.5, color=colour)
-        axes.plot(ours["t"], scale * ours[name], color=colour, label=label)
-    axes.set(xlabel="$t$ (s)", ylim=(0, 14))
-    axes.legend(loc="upper left")
+    lines = [draw_series(axes, folder, "shift", style.BLUE)]
+    axes.set(xlabel="$t$ (s)", ylabel="shift of the centroid (mm)", ylim=(0, 12))
+    lines.append(draw_series(right_axis(axes, "moving grains (%)", 150), folder, "moving", style.VERMILLION, 100))
+    axes.legend(lines, ["shift", "moving grains"], loc="upper left")
 
 
 def draw_velocity(axes, folder):
     theirs, ours = both(folder, "velocity")
     axes.plot(theirs["u"], theirs["low"], **style.reference_marks(size=4), label="CFDEM")
     axes.plot(ours["u"], ours["low"], color=style.BLUE, label="this code")
-    axes.set(xlabel="mean velocity of grains (mm/s)", ylabel="height of grains from (mm)", xlim=(0, None))
+    axes.set(xlabel="velocity of grains (mm/s)", ylabel="height of grains from (mm)", xlim=(0, None))
     axes.legend(loc="best")
