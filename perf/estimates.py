@@ -6,7 +6,8 @@ usage: perf/estimates.py [CASE.toml ...] [--seconds S] [--threads N] [--state NA
 Each case (default: all that ship) is checked, then run to its end, or for S seconds (30) and counted on by its steps.
 What it starts from is run as briefly, and only for that; or --state has its result in a .csv or .h5. A line a case:
 name, seconds estimated, seconds it takes, their ratio, steps run of all. At the end the ratios between 0.67 and 1.5
-are counted. --table perf/estimates.csv puts the lines into this table, in place of those of the same cases. Leave the machine alone meanwhile: the two are measured one after the other.
+are counted. --table perf/estimates.csv puts the lines into this table, in place of those of the same cases. Leave the
+machine alone meanwhile: the two are measured one after the other.
 """
 
 import argparse

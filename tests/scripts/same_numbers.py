@@ -54,7 +54,7 @@ MEASURED = [
     ("docs/cases.md", COSTS, "perf/estimates.csv", "case", ("", "validation/"), 0.2, 10),
 ]
 # Quantity in docs/validation/channel_summary.csv, and the row of docs/validation-flow.md with its deviations.
-CHANNEL = {"u_star": "u*", "uu peak": "peak of u'u'", "vv peak": "peak of v'v'", "ww peak": "peak of w'w'",
+CHANNEL = {"u_star": "$u_*$", "uu peak": "peak of u'u'", "vv peak": "peak of v'v'", "ww peak": "peak of w'w'",
            "-uv peak": "peak of -u'v'", "uu peak y+": "place of the u'u' peak", "vv peak y+": "place of the v'v' peak",
            "ww peak y+": "place of the w'w' peak", "-uv peak y+": "place of the -u'v' peak"}
 CHANNEL_COLUMNS = [f"{name} off (%)" for name in ("mesh1", "mesh3", "across", "along")]
@@ -64,8 +64,8 @@ SUMMARY = [
     ("[Chung & Ooi]", "grains", ["the same: case B at tan"]),
     ("[Order]", "flow", ["fixed alpha_f (18, 36)", "the same: p"]),
     ("[Taylor-Green]", "flow", ["3-D Taylor-Green 64^3: peak"]),
-    ("[Channel, mesh 1](validation-flow.md#channel-against-dns): u*", "flow", ["u*", "U+ for", "total stress"]),
-    ("[Resolved]", "flow", ["u*", "U+ for", "peaks of u'u'"]),
+    ("[Channel, mesh 1](validation-flow.md#channel-against-dns): $u_*$", "flow", ["$u_*$", "U+ for", "total stress"]),
+    ("[Resolved]", "flow", ["$u_*$", "U+ for", "peaks of u'u'"]),
     ("[Pressure solver]", "flow", ["the same in a heap"]),
     ("[Hertz impact]", "grains", ["Impact, 250 steps"]),
     ("Measured restitution", "grains", ["Restitution 0.1 to 0.999"]),
