@@ -61,6 +61,7 @@ CHANNEL_COLUMNS = [f"{name} off (%)" for name in ("mesh1", "mesh3", "across", "a
 # Row of docs/validation.md (as it begins), the page with the same numbers, and the rows that have them.
 SUMMARY = [
     ("the same with the exchange `smoothed`", "beds", ["Flux at 0.189 Pa"]),
+    ("Channel, cells half as wide", "flow", ["$u_*$", "U+ for"]),
     ("[Chung & Ooi]", "grains", ["the same: case B at tan"]),
     ("[Order]", "flow", ["fixed alpha_f (18, 36)", "the same: p"]),
     ("[Taylor-Green]", "flow", ["3-D Taylor-Green 64^3: peak"]),
