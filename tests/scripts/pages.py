@@ -107,7 +107,7 @@ def check_command(page, line, help_text, folder):
 
 def check_figures(page, line, arguments):
     from barchan.figures import registry
-    names = {entry.name for entry in (*registry.RUN, *registry.STUDY)} | set(registry.PAPER)
+    names = {*registry.OF_RUN, *registry.OF_STUDY, *registry.PAPER}
     skip = False
     for word in arguments[1:]:
         if not skip and not word.startswith("-") and arguments[0] != "validation" and word not in names:
