@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Restart files of version 0.1.0 (tests/reference/restart-0.1.0): a flow alone and grains alone go on as they did in that
-version; grains in a flow, whose exchange of momentum is another one today, are refused in a sentence with both
+"""Restart files of version 0.1.0 (tests/reference/restart-0.1.0): a flow alone and grains alone go on as they did in
+that version; grains in a flow, whose exchange of momentum is another one today, are refused in a sentence with both
 versions, and nothing is written."""
 import csv
 import gzip
@@ -17,6 +17,7 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OLD = ROOT / "tests/reference/restart-0.1.0"
 PROGRAM = os.environ["BARCHAN_PROGRAM"]
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1"}
 FLOW = """[fluid]
 cells = [4, 6, 4]
 first_cell_height = 3e-4
@@ -46,8 +47,8 @@ STEP = "grain_step = 5e-6"
 CASES = {"flow": CASE.format(step="", initial=TURBULENT + FLOW), "grains": CASE.format(step=STEP, initial=GRAINS),
          "coupled": CASE.format(step=STEP, initial=TURBULENT + FLOW + GRAINS)}
 DIAMETER = 2e-4  # m
-# After 80 fluid steps the flow has the bits of 0.1.0, and the grains are where they were but for 4e-12 of a diameter, as
-# sums are in another order. If the contacts of the file began anew, it would be 0.03 of it.
+# After 80 fluid steps the flow has the bits of 0.1.0, and the grains are where they were but for 4e-12 of a diameter,
+# as sums are in another order. If the contacts of the file began anew, it would be 0.03 of it.
 TOLERANCE = 1e-9
 
 
@@ -57,7 +58,7 @@ def go_on(name, work):
     case.write_text(CASES[name])
     start.write_bytes(gzip.decompress((OLD / f"{name}.h5.gz").read_bytes()))
     command = [PROGRAM, "run", case, "--out", out, "--quiet", "--restart", start]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=ENVIRONMENT)
     return done.returncode, done.stderr, out
 
 
@@ -92,7 +93,8 @@ def check_goes_on(name, what, read, scale, work):
 
 def check_refused(work):
     code, said, out = go_on("coupled", work)
-    version = re.search(r"\d+\.\d+\.\d+", subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout)[0]
+    told = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, env=ENVIRONMENT).stdout
+    version = re.search(r"\d+\.\d+\.\d+", told)[0]
     wanted = "coupled.h5: it holds no", "version 0.1.0 wrote it", f"this is version {version}", "start anew"
     missing = [words for words in wanted if words not in said]
     if code != 2 or missing or out.exists():
