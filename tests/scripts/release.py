@@ -21,14 +21,13 @@ ALWAYS = {
     "codemeta.json": rf'^  "version": "{N}",$',
     "python/barchan/__init__.py": rf'^__version__ = "{N}"$',
 }
-DEBIAN = rf"\A[\w-]+ \((?:\d+:)?{N}[-~+)]"
-IF_THERE = {
-    "debian/changelog": DEBIAN,
-    "packaging/**/changelog": DEBIAN,
-    "packaging/**/package.py": rf'^    version\("{N}"',
-    "packaging/**/*.spec": rf"^Version: *{N}$",
+IF_THERE = {"debian/changelog": rf"\A[\w-]+ \((?:\d+:)?{N}[-~+)]"}
+MAY = {
+    "packaging/**/package.py": rf'\A(?:.|\n)*?^    version\("{N}"',  # the newest that Spack knows
+    "README.md": rf"version *= *{{{N}}}",
+    "*.md": rf"\bbarchan[_-]v?{N}",
+    "docs/*.md": rf"\bbarchan[_-]v?{N}",
 }
-MAY = {"README.md": rf"version *= *{{{N}}}", "*.md": rf"\bbarchan[_-]v?{N}", "docs/*.md": rf"\bbarchan[_-]v?{N}"}
 CITATION = "cff-version", "message", "type", "title", "abstract", "authors", "version", "date-released", "license"
 CODEMETA = "@context", "@type", "name", "description", "version", "datePublished", "license", "author"
 KINDS = ["Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"]
@@ -63,7 +62,7 @@ def bad_changelog(version, date):
         yield f"CHANGELOG.md has the sections {heads}, not [Unreleased] and [number] - date"
         return
     if (releases[0][1], releases[0][2]) != (version, date):
-        yield f"CHANGELOG.md ends with {releases[0][0]}, CITATION.cff says {version} of {date}"
+        yield f"CHANGELOG.md has {releases[0][0]} on top, not [{version}] - {date}, the date of CITATION.cff"
     order = [([int(part) for part in one[1].split(".")], datetime.date.fromisoformat(one[2])) for one in releases]
     if order != sorted(order, reverse=True):
         yield "CHANGELOG.md: the newest version must come first"
