@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A release speaks with one voice: every file that repeats the version says that of CMakeLists.txt, CHANGELOG.md is in
-the form of Keep a Changelog with a section for it, and the citation files can be read and lack nothing."""
+the form of Keep a Changelog with a section for it, the citation files can be read and lack nothing, and the paper
+points to what is there."""
 import datetime
 import json
 import os
@@ -74,6 +75,17 @@ def bad_changelog(version, date):
         yield f"CHANGELOG.md says nothing of {version}"
 
 
+def bad_paper():
+    """The paper cites what paper.bib holds, all of it, and the pages that it points to are there."""
+    text, sources = ((ROOT / f"paper/paper.{end}").read_text() for end in ("md", "bib"))
+    cited, held = set(re.findall(r"@([A-Z]\w+\d{4})", text)), set(re.findall(r"^@\w+{(\w+),", sources, re.M))
+    yield from (f"paper/: {key} is not in both" for key in sorted(cited ^ held))
+    files = re.findall(r"\b(?:docs|configs)/[\w/-]+\.\w+", text)
+    yield from (f"paper/paper.md points to {name}" for name in files if not (ROOT / name).exists())
+    if (words := len(text.split("---", 2)[2].split())) > 1000:
+        yield f"paper/paper.md has {words} words"
+
+
 def incomplete(name, held, wanted):
     yield from (f"{name} has no {key}" for key in wanted if not held.get(key))
 
@@ -83,8 +95,8 @@ def main():
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
     codemeta = json.loads((ROOT / "codemeta.json").read_text())
     date = str(citation.get("date-released"))
-    found = [*other_versions(version), *bad_changelog(version, date), *incomplete("CITATION.cff", citation, CITATION),
-             *incomplete("codemeta.json", codemeta, CODEMETA)]
+    found = [*other_versions(version), *bad_changelog(version, date), *bad_paper(),
+             *incomplete("CITATION.cff", citation, CITATION), *incomplete("codemeta.json", codemeta, CODEMETA)]
     for paper in citation.get("references", []):
         found += incomplete("CITATION.cff, a reference", paper, ("type", "title", "authors", "year", "doi"))
     if codemeta.get("datePublished") != date:
