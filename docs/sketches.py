@@ -10,64 +10,13 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle
+from matplotlib.patches import Arc, Circle, Polygon, Rectangle
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "python"))
-from barchan.figures import style as s  # noqa: E402  (found by the line above)
+import sketch_parts as part
+from sketch_parts import arrow, bezier, distance, force, frame, note, s, sphere, turn, wall
 
 WATER, PALE, LINE = s.BLUE, "#DCEBF5", "#B5B5B5"
 LARGEST = 150_000  # [bytes] of a picture
-
-
-# --- what all sketches draw -------------------------------------------------------------------------------------------
-
-def arrow(ax, start, end, colour=s.BLACK, **options):
-    """An arrow from start to end in the units of the axes."""
-    look = {"arrowstyle": "-|>", "mutation_scale": 9, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "zorder": 6} | options
-    ax.add_patch(FancyArrowPatch(start, end, color=colour, **look))
-
-
-def distance(ax, start, end, text, offset=(0, 0), colour=s.BLACK, **options):
-    """A dimension line with arrows at both ends and its name at the middle, moved by `offset`."""
-    arrow(ax, start, end, colour, arrowstyle="<|-|>", lw=0.8, mutation_scale=7)
-    middle = [(a + b) / 2 + shift for a, b, shift in zip(start, end, offset)]
-    ax.text(*middle, text, color=colour, **({"ha": "center", "va": "center"} | options))
-
-
-def note(ax, text, at, to, colour=s.BLACK, **options):
-    """A text with a thin line to what it names."""
-    look = {"ha": "center", "va": "center", "fontsize": 7.5} | options
-    line = {"arrowstyle": "-", "lw": 0.6, "color": colour, "shrinkA": 1, "shrinkB": 0}
-    ax.annotate(text, xy=to, xytext=at, color=colour, arrowprops=line, zorder=8, **look)
-
-
-def sphere(ax, centre, radius, face=s.SAND, **options):
-    ax.add_patch(Circle(centre, radius, **({"fc": face, "ec": s.SAND_EDGE, "lw": 0.6, "zorder": 3} | options)))
-
-
-def wall(ax, left, right, y, thickness):
-    """A solid wall below y."""
-    ax.add_patch(Rectangle((left, y - thickness), right - left, thickness, fc="#E4E4E4", ec="none", zorder=1))
-    ax.plot([left, right], [y, y], color=s.BLACK, lw=1.4, zorder=5)
-
-
-def frame(ax, x, y):
-    """Axes of equal scale without ticks or frame."""
-    ax.set(xlim=x, ylim=y, aspect="equal")
-    ax.axis("off")
-
-
-def directions(ax, corner, length, upwards="y", outwards="z"):
-    """The axes in the plane of the picture, and the one that points out of it."""
-    x, y = corner
-    arrow(ax, corner, (x + length, y), lw=1, mutation_scale=7)
-    arrow(ax, corner, (x, y + length), lw=1, mutation_scale=7)
-    ax.text(x + 1.12 * length, y, "$x$", ha="left", va="center")
-    ax.text(x, y + 1.1 * length, f"${upwards}$", ha="center", va="bottom")
-    ax.plot(x, y, "o", mfc="white", mec=s.BLACK, ms=6, mew=0.8, zorder=7)
-    ax.plot(x, y, "o", color=s.BLACK, ms=1.8, zorder=8)
-    ax.text(x - 0.18 * length, y - 0.12 * length, f"${outwards}$", ha="right", va="top")
 
 
 # --- (a) the domain ---------------------------------------------------------------------------------------------------
@@ -101,8 +50,8 @@ def box(ax):
     back = front + DEPTH
     ax.add_patch(Polygon([front[0], front[1], back[1], back[0]], fc="#EFEFEF", ec="none", zorder=0))
     ax.add_patch(Polygon([front[3], front[2], back[2], back[3]], fc=PALE, ec="none", alpha=0.6, zorder=0))
-    for face, look in ((front, "-"), (back, "-")):
-        ax.add_patch(Polygon(face, fill=False, ec=s.BLACK, lw=0.9, ls=look, zorder=5))
+    for face in (front, back):
+        ax.add_patch(Polygon(face, fill=False, ec=s.BLACK, lw=0.9, zorder=5))
     for a, b in zip(front, back):
         ax.plot(*zip(a, b), color=s.BLACK, lw=0.9, zorder=5)
     for look in ({"fc": s.SAND_EDGE, "ec": s.SAND_EDGE, "lw": 1.6}, {"fc": s.SAND, "ec": "none"}):
@@ -121,8 +70,8 @@ def contour(level):
 
 def label_box(ax):
     note(ax, "lid: free slip", (7.3, 4.25), (7.6, HEIGHT + 0.6), WATER)
-    note(ax, "floor: no slip for the water,\nsmooth or glued spheres for the grains", (9.6, -0.9), (8.1, 0.45))
-    note(ax, "heap of grains", (6.6, 1.2), (4.9, 0.75), s.SAND_EDGE)
+    note(ax, "floor: no slip for the water,\nsmooth or glued spheres for the grains", (9.6, -0.9), (9.0, 0.3))
+    note(ax, "heap of grains", (7.1, 0.62), (5.15, 0.55), s.SAND_EDGE)
     ax.text(-0.35, 1.2, "water: periodic in $x$\n(enters as it leaves)", ha="right", va="center", fontsize=7.5,
             color=WATER)
     ax.text(LENGTH + DEPTH[0] + 0.3, 1.75, "grains: outlet,\nor periodic,\nor wall", ha="left", va="center",
@@ -147,11 +96,9 @@ def draw_domain():
     frame(ax, (-3.7, 14.6), (-1.3, 4.6))
     box(ax)
     label_box(ax)
-    arrow(ax, (-2.3, 3.3), (-1.5, 3.3), lw=1, mutation_scale=7)
-    arrow(ax, (-2.3, 3.3), (-2.3, 4.1), lw=1, mutation_scale=7)
-    arrow(ax, (-2.3, 3.3), (-2.3 - 0.45, 3.3 - 0.33), lw=1, mutation_scale=7)
-    for text, at in (("$x$", (-1.35, 3.3)), ("$y$", (-2.3, 4.28)), ("$z$", (-2.9, 2.85))):
-        ax.text(*at, text, ha="center", va="center")
+    for text, tip in (("$x$", (0.8, 0)), ("$y$", (0, 0.8)), ("$z$", (-0.45, -0.33))):
+        arrow(ax, (-2.3, 3.3), np.add((-2.3, 3.3), tip), lw=1, mutation_scale=7)
+        ax.text(*np.add((-2.3, 3.3), 1.25 * np.array(tip)), text, ha="center", va="center")
     ax.text(-3.6, 4.6, "(a)", va="top")
     draw_cells(side)
     return figure
@@ -183,13 +130,6 @@ def draw_cells(ax):
 
 # --- (b) what is measured of a dune -----------------------------------------------------------------------------------
 
-def bezier(*points):
-    """A curve through the first and the last of four points."""
-    t = np.linspace(0, 1, 40)[:, None]
-    a, b, c, d = (np.array(p) for p in points)
-    return (1 - t)**3 * a + 3 * t * (1 - t)**2 * b + 3 * t**2 * (1 - t) * c + t**3 * d
-
-
 TOE, BRINK, FOOT = 0.0, 4.2, 5.0
 TIP_LEFT, TIP_RIGHT = (8.0, 3.0), (7.0, -2.7)  # the picture's vertical is -z
 WIDE = 3.6
@@ -198,9 +138,11 @@ WIDE = 3.6
 def outline():
     """The dune from above, in the order toe, left tip, lee foot, right tip, toe."""
     return np.concatenate([
-        bezier((TOE, 0), (TOE, 2.2), (2.0, WIDE + 0.1), (4.6, WIDE)), bezier((4.6, WIDE), (6.2, 3.55), (7.4, 3.3), TIP_LEFT),
+        bezier((TOE, 0), (TOE, 2.2), (2.0, WIDE + 0.1), (4.6, WIDE)),
+        bezier((4.6, WIDE), (6.2, 3.55), (7.4, 3.3), TIP_LEFT),
         bezier(TIP_LEFT, (6.4, 2.7), (FOOT, 1.8), (FOOT, 0)), bezier((FOOT, 0), (FOOT, -1.8), (5.9, -2.5), TIP_RIGHT),
-        bezier(TIP_RIGHT, (6.4, -3.1), (5.6, -3.4), (4.4, -3.4)), bezier((4.4, -3.4), (2.0, -3.5), (TOE, -2.2), (TOE, 0))])
+        bezier(TIP_RIGHT, (6.4, -3.1), (5.6, -3.4), (4.4, -3.4)),
+        bezier((4.4, -3.4), (2.0, -3.5), (TOE, -2.2), (TOE, 0))])
 
 
 def slip_face():
@@ -270,7 +212,7 @@ def draw_profile(ax):
     note(ax, "toe", (-0.4, -0.75), (TOE, 0))
     note(ax, "lee foot", (5.6, -0.75), (FOOT, 0))
     note(ax, "left horn, behind", (9.2, 1.2), (6.6, 0.45))
-    directions(ax, (11.0, 0.0), 0.9)
+    part.directions(ax, (11.0, 0.0), 0.9)
     ax.text(-3.4, 2.9, "(b) along the centreline, heights stretched", va="bottom")
 
 
@@ -283,11 +225,11 @@ def draw_dune():
 
 # --- (c) exchange of momentum -----------------------------------------------------------------------------------------
 
-ROW, ROWS = 0.65, 9             # height of a row in diameters; rows shown
+ROW, ROWS = 0.7, 8              # height of a row in diameters; rows shown
 RISE = np.sqrt(3) / 2           # from layer to layer
 GRAIN = (0.0, 0.5 + 2 * RISE)   # centre of the grain that is looked at
 SMOOTHING = 3.0                 # diameters
-FORCE = 16.0                    # length of an arrow over the impulse, in both panels
+FORCE = 8.0                     # length of an arrow over the impulse, in both panels
 MIDDLES = (np.arange(ROWS) + 0.5) * ROW
 FAST = 2.2                      # above this height the water is open and sheared
 
@@ -338,13 +280,13 @@ def taken(ax, j, impulse):
 def draw_by_row(ax):
     bed(ax)
     w, at = shares_by_row()
-    for j, colour in zip(np.flatnonzero(w), (s.PURPLE, s.SKY, s.GREEN)):
-        part = Rectangle((-4, j * ROW), 8, ROW, fc=colour, ec="none", alpha=0.8, zorder=3.5)
-        ax.add_patch(part)
-        part.set_clip_path(Circle(GRAIN, 0.5, transform=ax.transData))
+    for j, colour in zip(np.flatnonzero(w), (s.PURPLE, s.SKY)):
+        piece = Rectangle((-4, j * ROW), 8, ROW, fc=colour, ec="none", alpha=0.8, zorder=3.5)
+        ax.add_patch(piece)
+        piece.set_clip_path(Circle(GRAIN, 0.5, transform=ax.transData))
         ax.add_patch(Rectangle((-4, j * ROW), 8, ROW, fc=colour, ec="none", alpha=0.18, zorder=1.2))
-        if water(at[j]) > 0.1:
-            arrow(ax, (-0.06 - 2 * water(at[j]), at[j]), (-0.06, at[j]), WATER, lw=1.5, mutation_scale=8)
+        if water(at[j]) > 0.05:
+            arrow(ax, (-0.06 - 4 * water(at[j]), at[j]), (-0.06, at[j]), WATER, lw=1.5, mutation_scale=8)
         ax.plot(0, at[j], "o", color=s.BLACK, ms=2.6, zorder=7)
         ax.text(0.6, at[j], f"$w_j$ = {w[j]:.2f}", fontsize=7, va="center", zorder=7,
                 bbox={"fc": "white", "ec": "none", "alpha": 0.75, "pad": 0.8})
@@ -359,9 +301,10 @@ def draw_smoothed(ax):
     for j, share in enumerate(kernel * ROW / (2 * SMOOTHING)):
         ax.add_patch(Rectangle((-4, j * ROW), 8, ROW, fc=s.ORANGE, ec="none", alpha=1.6 * share, zorder=1.2))
         taken(ax, j, share * seen)
-    arrow(ax, (-0.06 - 2 * seen, GRAIN[1]), (-0.06, GRAIN[1]), WATER, lw=1.5, mutation_scale=8)
+    arrow(ax, (-0.06 - 4 * seen, GRAIN[1]), (-0.06, GRAIN[1]), WATER, lw=1.5, mutation_scale=8)
     ax.plot(*GRAIN, "o", color=s.BLACK, ms=2.6, zorder=7)
-    return "the grain feels the water at its centre, and all rows around lose it:\nslow water in the bed is driven backwards"
+    return ("the grain feels the water at its centre, and all rows around\n"
+            "lose it: slow water in the bed is driven backwards")
 
 
 def draw_exchange():
@@ -376,47 +319,69 @@ def draw_exchange():
 
 # --- (d) forces on a grain --------------------------------------------------------------------------------------------
 
-def curl(ax, centre, radius, colour, first=210, last=330):
-    """A curved arrow around a centre, clockwise from `last` to `first` degrees."""
-    angle = np.radians(np.linspace(last, first, 30))
-    path = np.array(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
-    ax.plot(*path[:-2].T, color=colour, lw=1.2, zorder=6)
-    arrow(ax, path[-4], path[-1], colour, lw=1.2)
-
-
-def force(ax, start, step, text, colour=s.BLACK, shift=(0.12, 0), **options):
-    """An arrow of a force with its name beyond the tip."""
-    end = np.add(start, step)
-    arrow(ax, start, end, colour, lw=1.7, mutation_scale=11, **options)
-    side = "left" if shift[0] > 0 else "right" if shift[0] < 0 else "center"
-    ax.text(*np.add(end, shift), text, color=colour, ha=side, va="center", fontsize=9, zorder=8)
-
-
 def draw_grain(ax):
-    """A grain at the surface of a bed that rises downstream."""
-    frame(ax, (-3.6, 3.6), (-2.7, 3.0))
-    up = np.radians(12)
+    """A grain at the surface of a bed that rises downstream: what acts on it."""
+    frame(ax, (-3.4, 3.9), (-2.5, 3.1))
+    up, r = np.radians(10), 0.8
     along, normal = np.array([np.cos(up), np.sin(up)]), np.array([-np.sin(up), np.cos(up)])
-    for k in range(-2, 3):
-        for row in range(2):
-            sphere(ax, (1.5 * (k + 0.5 * (1 - row)) * along - (1.3 * (1 + row)) * normal), 0.75, "#F3EBD8", ec="#B8A98A",
-                   zorder=1)
-    sphere(ax, (0, 0), 0.75, zorder=3)
-    for y, length in ((1.0, 0.55), (1.6, 0.85), (2.2, 1.1)):
-        arrow(ax, (-3.4, y), (-3.4 + length, y), WATER, lw=1.1)
-    ax.text(-3.4, 2.6, "flow", color=WATER)
+    for row, columns in ((1, (-1.5, -0.5, 0.5, 1.5)), (2, (-1, 0, 1))):
+        for k in columns:
+            sphere(ax, 2 * r * k * along - 1.73 * r * row * normal, r, "#F3EBD8", ec="#B8A98A", zorder=1)
+    sphere(ax, (0, 0), r, lw=1)
+    for y, length in ((0.9, 0.5), (1.5, 0.8), (2.1, 1.05)):
+        arrow(ax, (-3.3, y), (-3.3 + length, y), WATER, lw=1.1)
+    ax.text(-3.3, 2.5, "flow", color=WATER)
+    ax.plot(0, 0, "o", color=s.BLACK, ms=3, zorder=8)
+    force(ax, (0, 0), (0, -1.75), r"$m_p\mathbf{g}$", shift=(0.12, -0.05))
+    force(ax, (0, 0), (0, 1.2), r"$-\rho_f V_p\mathbf{g}$", WATER, (-0.14, 0.05))
+    force(ax, (0, 0), 1.9 * along, r"$\mathbf{F}_d$", WATER)
+    force(ax, (0.1, 0.32), 1.15 * along, r"$\mathbf{F}_p + \mathbf{F}_\tau$", WATER, (0.1, 0.12))
+    force(ax, (0, 0), 1.25 * np.array([-0.94, 0.35]), r"$\mathbf{F}_m$", WATER, (-0.08, 0.1))
+    force(ax, (0.3, 0.78), (0.12, 0.95), r"$\mathbf{F}_l$ (optional)", WATER, (0.12, 0.1), ls="--")
     for side in (-1, 1):
-        at = 0.75 * (side * 0.5 * along - 0.866 * normal)
-        inwards = -at / 0.75
-        turned = np.array([inwards[1], -inwards[0]])
-        force(ax, at, 1.0 * inwards * 0.55, "", s.SAND_EDGE)
-        force(ax, at, -0.62 * turned * (1 if side > 0 else -1) * side, "", s.SAND_EDGE)
-    return
+        out = side * 0.5 * along - 0.866 * normal
+        force(ax, 1.75 * r * out, -0.75 * r * out, r"", s.VERMILLION)
+        back = side * np.array([out[1], -out[0]])
+        force(ax, r * out, 0.62 * (back if back @ along < 0 else -back), "", s.VERMILLION)
+    ax.text(1.0, -1.05, r"$\mathbf{F}_c$", color=s.VERMILLION, fontsize=9, zorder=8)
+    turn(ax, (0, 0), 1.02, 150, 205, s.VERMILLION)
+    ax.text(-1.12, -0.1, r"$\mathbf{T}_c$", color=s.VERMILLION, ha="right", fontsize=9)
+    ax.text(-3.4, 3.1, "(a) forces on a grain", va="top")
+
+
+def draw_contact(ax):
+    """Two grains that touch, and the springs, dashpots and slider of the contact."""
+    frame(ax, (-3.6, 3.7), (-2.5, 3.1))
+    r, half = 1.1, 0.98
+    for x, name, face in ((-half, "$j$", "#F3EBD8"), (half, "$i$", s.SAND)):
+        sphere(ax, (x, 1.2), r, face, alpha=0.75, lw=1)
+        ax.plot(x, 1.2, "o", color=s.BLACK, ms=2.6, zorder=7)
+        ax.text(x + 0.1 * np.sign(x), 1.32, name, ha="center", va="bottom")
+    arrow(ax, (0, 1.2), (0.62, 1.2), lw=1.5)
+    ax.text(0.4, 1.02, r"$\mathbf{n}$", ha="center", va="top")
+    for x in (half - r, r - half):
+        ax.plot([x, x], [1.2, 2.55], color=s.BLACK, lw=0.5, ls=":", zorder=5)
+    distance(ax, (-0.5, 2.45), (half - r, 2.45), "")
+    distance(ax, (0.5, 2.45), (r - half, 2.45), "$\\delta_n$", (-0.32, 0.24))
+    arrow(ax, (0, 1.2), (0, 0.35), s.VERMILLION, lw=1.7)
+    ax.text(-0.1, 0.42, r"$\mathbf{F}_t$", color=s.VERMILLION, ha="right")
+    arrow(ax, (half, 1.2), (half, 2.0), WATER, lw=1.5)
+    ax.text(half + 0.1, 1.85, r"$\mathbf{v}_t$", color=WATER)
+    arrow(ax, (2.3, 1.2), (3.1, 1.2), s.VERMILLION, lw=1.7)
+    ax.text(2.75, 1.32, r"$F_n\mathbf{n}$", color=s.VERMILLION, ha="center", va="bottom")
+    turn(ax, (half, 1.2), 0.75, -150, -75, WATER)
+    ax.text(half + 0.28, 0.3, r"$\omega_i$", color=WATER, ha="left", va="bottom")
+    part.spring_and_dashpot(ax, -0.6, r"normal", "$k_n$", r"$\gamma_n$")
+    part.spring_and_dashpot(ax, -1.85, r"tangential", "$k_t$", r"$\gamma_t$")
+    part.slider(ax, 1.2, 2.4, -1.85)
+    ax.text(1.8, -1.68, "$\\mu$", ha="center", va="bottom")
+    ax.text(-3.5, 3.1, "(b) a contact", va="top")
 
 
 def draw_forces():
-    figure = Figure(figsize=(s.FULL_WIDTH, 3.6), layout="none")
-    draw_grain(figure.add_axes((0.0, 0.0, 0.5, 1)))
+    figure = Figure(figsize=(s.FULL_WIDTH, 2.85), layout="none")
+    draw_grain(figure.add_axes((0.01, 0.01, 0.5, 0.98)))
+    draw_contact(figure.add_axes((0.51, 0.01, 0.48, 0.98)))
     return figure
 
 
@@ -427,7 +392,7 @@ DRAWINGS = {"sketch-domain": draw_domain, "sketch-dune": draw_dune, "sketch-exch
 def main(names):
     with s.look():
         for name in names or DRAWINGS:
-            s.save(DRAWINGS[name](), HERE, name, name, largest=LARGEST)
+            s.save(DRAWINGS[name](), Path(__file__).resolve().parent, name, name, largest=LARGEST)
 
 
 if __name__ == "__main__":
