@@ -97,7 +97,7 @@ def slider(ax, start, end, y):
 
 
 def spring_and_dashpot(ax, y, name, stiffness, damping):
-    """A spring beside a dashpot."""
+    """A spring and a dashpot side by side."""
     ax.text(-1.5, y, name, ha="right", va="center", fontsize=8)
     spring(ax, -0.9, 0.9, y + 0.25)
     dashpot(ax, -0.9, 0.9, y - 0.25)
