@@ -17,8 +17,8 @@ packages=(cmake g++ ninja-build pkg-config git libopenmpi-dev openmpi-bin libhdf
   libfftw3-dev libeigen3-dev libgtest-dev libbenchmark-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev nlohmann-json3-dev zlib1g-dev
   python3 python3-h5py python3-numpy python3-matplotlib python3-scipy python3-pandas python3-xarray
-  python3-pytest mypy python3-nbconvert python3-ipykernel python3-pip python3-venv python3-wheel  # for tests
-  nodejs node-jsdom)  # for the test of the report page
+  python3-pytest mypy python3-nbconvert python3-ipykernel python3-pip python3-venv python3-wheel python3-yaml
+  nodejs node-jsdom)  # this line and the one before: for tests; node for that of the report page
 
 missing_packages() {  # one name a line; a package that was removed but configured counts as missing
   local installed

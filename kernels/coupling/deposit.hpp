@@ -1,5 +1,5 @@
 // Grain to fluid: volume and momentum of the grains as densities on cells, then on faces.
-// Equations: docs/model.md.
+// Equations: docs/theory-coupling.md.
 #pragma once
 
 #include "kernels/coupling/deposit_cache.hpp"

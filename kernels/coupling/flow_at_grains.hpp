@@ -1,5 +1,5 @@
 // The flow as it is at each grain: its velocity, and the force of its pressure gradient and stress
-// on a volume there. Equations: docs/model.md.
+// on a volume there. Equations: docs/theory-coupling.md.
 #pragma once
 
 #include "kernels/coupling/cell_point_face.hpp"

@@ -1,4 +1,4 @@
-// Drag on grains that do not move. Equations: docs/numerics.md, "One coupled step".
+// Drag on grains that do not move. Equations: docs/numerics.md, "Coupled step".
 #pragma once
 
 #include "kernels/grains/half_kick.hpp"

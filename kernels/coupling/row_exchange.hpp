@@ -1,6 +1,6 @@
 // Exchange row by row: the part of a grain in a row of cells feels the water of that row at the
-// grain's centre, and that water loses what it gave. Source and reason: docs/model.md,
-// "Exchange of momentum".
+// grain's centre, and that water loses what it gave. Source and reason:
+// docs/theory-coupling.md, "Layer-wise exchange".
 #pragma once
 
 #include "kernels/coupling/void_fraction.hpp"

@@ -1,6 +1,6 @@
 // What shear and a floor do to one grain beyond the drag laws: lift, the floor's part of the drag,
 // torque. All of a lone sphere; forces of the undisturbed flow at its centre. Sources and ranges:
-// docs/model.md, "Lift, torque, wall drag".
+// docs/theory-coupling.md, "Lift, torque, wall drag".
 #pragma once
 
 #include "kernels/coupling/drag.hpp"

@@ -3,7 +3,7 @@
 // serves grain-grain and grain-wall; it has no branches that a compiler cannot turn into selects,
 // so that a block of contacts vectorises.
 // Equation numbers: Lima et al. (2022), appendix A, with the misprints put right
-// (docs/model.md). Laws of one kind are small types with the same call.
+// (docs/misprints.md). Laws of one kind are small types with the same call.
 #pragma once
 
 #include <numbers>
@@ -172,7 +172,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
 }
 
 /// Contact force, Lima et al. (2022) eqs 8-10 with A6-A13 as the programs behind the paper
-/// evaluate them (docs/model.md):
+/// evaluate them (docs/theory-grains.md):
 ///   F_n = k_n delta_n - gamma_n v_n                     (attractive tail kept)
 ///   xi_t <- tangent-plane part of (xi_t + v_t dt)
 ///   |k_t xi_t| <= mu F_c:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu F_c where it is longer

@@ -13,11 +13,10 @@ docs/python.md has the first hour. SI units throughout.
 from barchan.errors import BadInput, BarchanError, MissingData, RunFailed, RunStopped
 from barchan.api.dunes import find_dunes
 from barchan.api.program import check, run, sweep
-from barchan.api.run import Run, open_folder
+from barchan.api.run import Run
+from barchan.api.run import open_folder as open  # the name that users look for  # noqa: A004
 from barchan.api.study import Study
 
-open = open_folder  # the name that users look for  # noqa: A001
-
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["BadInput", "BarchanError", "MissingData", "Run", "RunFailed", "RunStopped", "Study", "check", "find_dunes", "open",
            "run", "sweep"]

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/io/seal.hpp"
@@ -160,6 +161,17 @@ CheckpointReader::CheckpointReader(const std::filesystem::path& file, MPI_Comm c
 
 void CheckpointReader::fail(const std::string& what) const { refuse(path(), what); }
 
+void CheckpointReader::lacks(const std::string& name) const {
+  const std::string writer = provenance().version;
+  std::string why = "it holds no \"" + name + "\", which this run needs";
+  if (!writer.empty() && writer != BARCHAN_VERSION) {
+    why +=
+        fmt::format("; version {} wrote it, and this is version {}: start anew, or go on with {}",
+                    writer, BARCHAN_VERSION, writer);
+  }
+  fail(why);
+}
+
 std::int64_t CheckpointReader::step() const { return file_.attribute<std::int64_t>("/", "step"); }
 
 bool CheckpointReader::has(const std::string& name) const {
@@ -170,9 +182,7 @@ bool CheckpointReader::has(const std::string& name) const {
 template <class T>
 T CheckpointReader::scalar(const std::string& path) const {
   const auto [group, name] = split(path);
-  if (!file_.exists(group) || !file_.has_attribute(group, name)) {
-    fail("it holds no \"" + path + "\", which this run needs");
-  }
+  if (!file_.exists(group) || !file_.has_attribute(group, name)) lacks(path);
   return file_.attribute<T>(group, name);
 }
 
@@ -183,7 +193,7 @@ std::int64_t CheckpointReader::integer(const std::string& name) const {
 }
 
 Extents CheckpointReader::extents(const std::string& name) const {
-  if (!file_.exists(name)) fail("it holds no \"" + name + "\", which this run needs");
+  if (!file_.exists(name)) lacks(name);
   return file_.info(name).extents;
 }
 

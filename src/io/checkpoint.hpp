@@ -160,6 +160,8 @@ class CheckpointReader {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  /// fail() for what is not there, and whether the version that wrote the file is why.
+  [[noreturn]] void lacks(const std::string& name) const;
   template <class T>
   T scalar(const std::string& path) const;
 

@@ -19,7 +19,7 @@ struct Column {
   const char* name;
   const char* unit;  // "-": none
   Member member;
-  const char* meaning;  // for docs/conventions.md
+  const char* meaning;  // for docs/files.md
   int digits = 9;
 };
 
@@ -37,7 +37,7 @@ struct CsvTable {
     }
     return text;
   }
-  /// Its columns for docs/conventions.md, which must hold this text.
+  /// Its columns for docs/files.md, which must hold this text.
   std::string page() const {
     std::string text = "| column | unit | meaning |\n|---|---|---|\n";
     for (const Column<Record>& c : columns)

@@ -1,4 +1,4 @@
-// fields.h5 and grains.h5 with their XDMF descriptions (formats: docs/conventions.md).
+// fields.h5 and grains.h5 with their XDMF descriptions (formats: docs/files.md).
 #pragma once
 
 #include <mpi.h>

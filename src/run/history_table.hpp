@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// One line. A new column is a member here and a line in kHistoryColumns; docs/conventions.md has
+/// One line. A new column is a member here and a line in kHistoryColumns; docs/files.md has
 /// the meanings (a test compares).
 struct HistoryRecord {
   double t = 0;  // [s]
@@ -50,7 +50,7 @@ inline constexpr std::array kHistoryColumns = [] {
       {"stress_on_grains", "Pa", &H::stress_on_grains,
        "force of the flow along x on all grains, over the floor's area; mean of the interval"},
       {"grain_step_over_stable", "-", &H::grain_step_over_stable,
-       "grain step over the longest [stable one](numerics.md#stable-grain-step), at this time", 4},
+       "grain step over the longest [stable one](choosing.md#grain-step), at this time", 4},
   });
 }();
 inline constexpr CsvTable<HistoryRecord> kHistoryTable{"history.csv", kHistoryColumns};

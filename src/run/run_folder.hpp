@@ -1,5 +1,5 @@
 // The folder of one run: its configuration, summary and two CSV tables (formats:
-// docs/conventions.md).
+// docs/files.md).
 #pragma once
 
 #include <mpi.h>

@@ -162,9 +162,9 @@ FaceSums face_sums(const FluidState& f) {
 }
 
 /// Nothing but the weight brings momentum into a channel with one grain. Exactly balanced are the
-/// exchanged parts; pressure gradient and stress are shared, not exchanged (docs/model.md), and the
-/// two shares, of the smoothed fraction and of the grain's centre, differ by a small part of the
-/// weight.
+/// exchanged parts; pressure gradient and stress are shared, not exchanged (docs/theory-fluid.md),
+/// and the two shares, of the smoothed fraction and of the grain's centre, differ by a small part
+/// of the weight.
 TEST(GrainOnMesh, MomentumIsConserved) {
   Config c = paper_mesh();
   c.grains->gravity = {9.81, 0, 0};

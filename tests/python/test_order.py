@@ -53,15 +53,15 @@ def test_mypy_is_content():
 
 
 def units_of(page, heading):
-    """{column: unit} of the table under a heading of docs/conventions.md."""
+    """{column: unit} of the table under a heading of docs/files.md."""
     part = page.split(f"\n{heading}\n")[1].split("\n#")[0]
     return dict(re.findall(r"^\| `(\w+)` \| ([^|]+) \|", part, re.M))
 
 
 def test_units_are_those_of_the_documents():
-    """docs/conventions.md, which a test of the program compares with what it writes."""
-    page = (ROOT / "docs/conventions.md").read_text()
-    for heading, ours in (("### history.csv", columns.HISTORY), ("### dune.csv", columns.DUNES)):
+    """docs/files.md, which a test of the program compares with what it writes."""
+    page = (ROOT / "docs/files.md").read_text()
+    for heading, ours in (("## history.csv", columns.HISTORY), ("## dune.csv", columns.DUNES)):
         theirs = units_of(page, heading)
         assert len(theirs) > 10
         written = {name: {"-": "1", "m/s": "m s-1", "m2/s": "m2 s-1", "1/s": "s-1", "Pa/m": "Pa m-1"}.get(unit, unit)

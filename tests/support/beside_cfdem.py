@@ -105,7 +105,7 @@ def in_cell(grid, field, x):
 
 
 def gidaspow(alpha, d, slip):
-    """Drag coefficient of a grain in water [kg/s] (docs/model.md)."""
+    """Drag coefficient of a grain in water [kg/s] (docs/theory-coupling.md)."""
     mu, rho = 1e-3, 1000.0
     wen_yu = 3 * np.pi * mu * d * (1 + 0.15 * (rho * alpha * d * slip / mu)**0.687) * alpha**-2.65
     ergun = np.pi / 6 * d**3 * (150 * (1 - alpha) * mu / (alpha * d**2) + 1.75 * rho * slip / d)

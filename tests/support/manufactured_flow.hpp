@@ -78,9 +78,9 @@ inline Jet operator/(const Jet& a, const Jet& b) {
 
 /// Fluid fraction alpha in (0.4, 1), interstitial velocity u and pressure p in a box that is
 /// periodic in x and z, with alpha u = curl A + G, div G = -d(alpha)/dt: mass is conserved
-/// identically. The residual of the momentum equation (docs/model.md, nu_t = 0, f = 0) is the body
-/// force that makes them a solution. u vanishes on walls without slip and has no slope on those
-/// with free slip; alpha and p are free to have slopes.
+/// identically. The residual of the momentum equation (docs/theory-fluid.md, nu_t = 0, f = 0) is
+/// the body force that makes them a solution. u vanishes on walls without slip and has no slope on
+/// those with free slip; alpha and p are free to have slopes.
 struct ManufacturedFlow {
   std::array<double, 3> size{1.5, 1, 1.2};  // [m]
   WallFlow bottom = WallFlow::no_slip, top = WallFlow::free_slip;

@@ -44,11 +44,11 @@ TEST(CsvTable, AColumnIsOneLine) {
 }
 
 TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {
-  const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/conventions.md");
+  const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/files.md");
   for (const std::string& columns :
        {kHistoryTable.page(), kDuneTable.page(), kStatisticsTable.page()}) {
     EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos)
-        << "docs/conventions.md must have:\n"
+        << "docs/files.md must have:\n"
         << columns;
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 const Provenance origin{.title = "Ten thousand grains",
                         .config = "[case]\n",
-                        .version = "0.1.0",
+                        .version = "1.2.3",
                         .git_hash = "abc1234",
                         .backend = "OpenMP"};
 
@@ -32,7 +32,7 @@ TEST(Info, DescribesResults) {
   }
   const std::string text = describe_file(folder / "grains.h5");
   for (const char* part :
-       {"Ten thousand grains", "barchan 0.1.0 (abc1234), OpenMP",
+       {"Ten thousand grains", "barchan 1.2.3 (abc1234), OpenMP",
         "3: frame_000000 ... frame_000002", "0.2 s (step 800)", "10 x 3", "[m]"}) {
     EXPECT_TRUE(contains(text, part)) << text;
   }

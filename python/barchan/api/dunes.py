@@ -20,7 +20,7 @@ def find_dunes(x: Any, d: Any, size: Sequence[float],
     x (N, 3): centres [m], y upward from the floor at y = 0; d (N) or a number: diameters [m]; size: lengths of the
     domain along x and z [m], which begins at 0; periodic: whether x and z are. Returns a DataFrame with a row for each
     dune, that of most sand first (columns as in dune.csv: W, L, H, Cx, Cz, horns, crest; m, m3), and (N) the row that a
-    grain belongs to, -1 for none. Definitions: docs/conventions.md, "Dune analytics".
+    grain belongs to, -1 for none. Definitions: docs/dune-measures.md.
     Raises BadInput for arrays of other shapes or values that are not finite.
     """
     centres, diameters = np.asarray(x, float), np.asarray(d, float)

@@ -1,7 +1,7 @@
 """Finds and measures dunes from the positions and diameters of grains alone, as the program does for dune.csv.
 
-For frames without labels: of another program, or of a run without dune analytics. Definitions: docs/conventions.md,
-"Dune analytics". Lengths in m; criteria in mean grain diameters of the frame.
+For frames without labels: of another program, or of a run without dune analytics. Definitions: docs/dune-measures.md.
+Lengths in m; criteria in mean grain diameters of the frame.
 """
 
 import numpy as np

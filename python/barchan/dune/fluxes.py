@@ -1,6 +1,6 @@
 """How much sand goes over a line across the flow, and how grains that move do so.
 
-Definitions: docs/conventions.md, "Slopes and transport". SI units.
+Definitions: docs/dune-measures.md, "Slopes and transport". SI units.
 """
 
 import numpy as np

@@ -3,7 +3,7 @@
 A grain is in a horn when it belongs to the dune, lies beside the strip along its centreline and
 reaches downstream of the lee foot, so that the horn lengths of dune.csv are how far these grains
 reach. A horn shorter than a bin is none: below that the outline of a heap is not known (2.5 mean
-diameters; docs/conventions.md). Lengths in m, polar angle phi in degrees: 0 downstream, 90 left
+diameters; docs/dune-measures.md). Lengths in m, polar angle phi in degrees: 0 downstream, 90 left
 (z < Cz), 270 right.
 """
 

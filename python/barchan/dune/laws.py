@@ -1,7 +1,7 @@
 """Laws over the size of dunes: celerity, width, height, horns, loss and formation time against length.
 
 Every run is a point: its main dune over the second half of its time, or over another window. Definitions and the
-errors of the fits: docs/conventions.md, "Laws". SI units.
+errors of the fits: docs/studies.md, "Laws". SI units.
 """
 
 from collections.abc import Iterator

@@ -1,6 +1,6 @@
 """What the main dune of a run is and does, as one number each: means over a window of time. SI units, degrees.
 
-Definitions: docs/conventions.md, "Laws", "Slopes and transport", "Horn grains" and "Force map".
+Definitions: docs/dune-measures.md, and for laws docs/studies.md.
 """
 
 from typing import Any

@@ -1,6 +1,6 @@
 """One dune among the grains of a frame: which they are, where its lee foot is and which of them are horns.
 
-Its size, crest and horns are those that the program has written to dune.csv (definitions in docs/conventions.md).
+Its size, crest and horns are those that the program has written to dune.csv (definitions in docs/dune-measures.md).
 What dune.csv lacks is found here with the same centreline, so that grains that lie in a horn are those that make its
 length. Lengths in m, angles from +x. Criteria are in mean grain diameters.
 """

@@ -1,7 +1,7 @@
 """Slopes of a dune along its centreline: the stoss side, the slip face, the brink; and how symmetric the dune is.
 
 The centreline is the strip of dune.csv, abs(z - Cz) < 3 d, the height the 3 x 3 median of bins (surface.py). Angles
-are those of least-squares lines. Definitions: docs/conventions.md, "Slopes and transport".
+are those of least-squares lines. Definitions: docs/dune-measures.md, "Slopes and transport".
 """
 
 from dataclasses import dataclass

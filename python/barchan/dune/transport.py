@@ -1,6 +1,6 @@
 """Slopes, fluxes, ways of moving, avalanches and exchange of a run's main dune against time; no drawing.
 
-Definitions: docs/conventions.md, "Slopes and transport". SI units, angles in degrees.
+Definitions: docs/dune-measures.md, "Slopes and transport". SI units, angles in degrees.
 """
 
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
 """laws of a study: celerity, width, height, horns, loss and formation time of dunes against their length, with fits.
 
 Every run is a point: its main dune over the second half of its time, or from --from to --to. Definitions and the
-errors of the fits: docs/conventions.md, "Laws". Asked for by its name it says the laws in words, too.
+errors of the fits: docs/studies.md, "Laws". Asked for by its name it says the laws in words, too.
 """
 
 import numpy as np

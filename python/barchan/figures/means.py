@@ -1,7 +1,7 @@
 """means of a study: what each of its dunes is and does, mean and spread over the realisations, as a table in words.
 
-Of the second half of each run, or from --from to --to. Definitions: docs/conventions.md, "Laws", "Slopes and
-transport", "Horn grains" and "Force map". A run says what its files allow. The numbers are in figures_data/means.csv.
+Of the second half of each run, or from --from to --to. Definitions: docs/dune-measures.md, and for
+laws docs/studies.md. A run says what its files allow. The numbers are in figures_data/means.csv.
 """
 
 import math

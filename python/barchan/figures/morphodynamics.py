@@ -3,7 +3,7 @@
 Dots are single frames, the line through them their mean over the last second. Dashed in the profiles: lines
 fitted to the stoss side and the slip face; dashed in the fluxes: phi c H, that of a dune of unchanged shape.
 Asked for by its name it also says the means in words, of the second half of the run or from --from to --to.
-Definitions: docs/conventions.md, "Slopes and transport".
+Definitions: docs/dune-measures.md, "Slopes and transport".
 """
 
 import numpy as np

@@ -58,7 +58,7 @@ OF_RUN = table(
           (GRAINS,)),
     Entry("morphology", "figures.morphology", "width, length, height, centroid, horns against time", (DUNES,)),
     Entry("midplane", "figures.midplane", "flow and grains in the vertical plane through the dune", (FIELDS,)),
-    Entry("profiles", "figures.profiles", "turbulence statistics over the height, beside channel DNS", (MEANS,)),
+    Entry("profiles", "figures.profiles", "turbulence statistics over the height, with channel DNS", (MEANS,)),
     Entry("history", "figures.history", "flow rate, shear, time step and solver against time", (HISTORY,)),
     Entry("report", "report", "one page about the run, with the grains as an animation: report.html", (), writes=True),
     Entry("profiles_over_dune", "figures.profiles_over_dune",
@@ -86,10 +86,10 @@ OF_STUDY = table(
     Entry("means", "figures.means",
           "in words: what each dune is and does, with its spread (--from, --to); no picture", (DUNES,),
           on_request=True),
-    Entry("channel", "figures.channel", "turbulence statistics of all cases beside channel DNS", (MEANS,),
+    Entry("channel", "figures.channel", "turbulence statistics of all cases, with channel DNS", (MEANS,),
           file="fig2"),
     Entry("force_depth", "figures.force_depth",
-          "force of the water on held heaps by depth below the surface (--from, --to)", (GRAINS,), on_request=True),
+          "force of the water on frozen heaps by depth below the surface (--from, --to)", (GRAINS,), on_request=True),
 )
 # Figures of Lima et al. (2022): of a run; of a study, and the key that it varies there.
 PAPER: dict[str, tuple[str, tuple[str, str | None] | None]] = {

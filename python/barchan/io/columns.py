@@ -1,4 +1,4 @@
-"""Unit and meaning of what a run writes: the tables of docs/conventions.md, for readers of Python.
+"""Unit and meaning of what a run writes: the tables of docs/files.md, for readers of Python.
 
 Each is {name: (unit, long name)}. Units are SI, written as CF has them; "1" has no dimension.
 """

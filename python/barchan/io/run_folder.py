@@ -1,6 +1,6 @@
 """Reads a run folder, finished or not, whole or in part, into numpy arrays. SI units throughout.
 
-Formats: docs/conventions.md. For work in a notebook see barchan.Run.
+Formats: docs/files.md. For work in a notebook see barchan.Run.
 """
 
 import json

@@ -7,8 +7,8 @@ import numpy as np
 OK, LOOK, UNKNOWN = "ok", "look at this", "not recorded"
 
 ROUND_OFF = 1e-9         # a mismatch of momentum or volume far above what rounding leaves (1e-16 to 1e-12)
-LARGEST_CFL = 0.5        # docs/numerics.md, limits of the steps
-LARGEST_OVERLAP = 0.05   # "a few per cent at most", README
+LARGEST_CFL = 0.5        # docs/choosing.md, "Fluid step"
+LARGEST_OVERLAP = 0.05   # docs/choosing.md, "Young's modulus"
 LARGEST_DRIFT = 0.05     # of u_star between the third and the fourth quarter of the run
 LARGEST_LOSS = 0.2       # of the grains
 
@@ -76,8 +76,8 @@ def judged(name, value, limit, about, shown="{:.3g}".format):
 
 def cfl(run, summary):
     return judged("largest CFL number", extreme(run, summary, "max_cfl", "cfl"), LARGEST_CFL,
-                  "Time step against the time to cross a cell. 0.3 to 0.4 is advised, 0.5 is warned of, "
-                  "1 stops the run. Cure: a shorter time.fluid_step.")
+                  "Time step against the time to cross a cell. Up to 0.5 is good; beyond 1 the run stops. "
+                  "Cure: a shorter time.fluid_step.")
 
 
 def continuity(run, summary):

@@ -1,4 +1,4 @@
-"""Reads a study file (docs/conventions.md, "Studies")."""
+"""Reads a study file (docs/studies.md)."""
 
 import datetime
 import difflib

@@ -2,7 +2,7 @@
 
     python -m barchan sweep PROGRAM STUDY.toml [--out DIR] [--only RUN ...] [--at-once N] [--threads N] [--list]
 
-The study file is described in docs/conventions.md ("Studies"). Exit status: 0 all cases done, 1 some failed,
+The study file is described in docs/studies.md. Exit status: 0 all cases done, 1 some failed,
 2 bad input, 3 stopped on request (every case that ran has written a restart file).
 """
 

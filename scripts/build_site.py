@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Builds the site of the documentation in build/site: ./barchan docs. Needs Debian's MkDocs and Material; no network.
+
+The pages are those of docs/ and the texts beside README.md. They are gathered in build/site-pages with every link as
+the site needs it, and with the files that they link to. A warning of MkDocs, such as a link to nothing, is an error.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGES = ROOT / "build/site-pages"
+SITE = ROOT / "build/site"
+PACKAGES = "mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax"
+TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensions/MathEvents.js", "jax/input/TeX",
+              "jax/element", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
+LINK = re.compile(r"(!?\[(?:[^\]\[]|\[[^\]]*\])*\]\()([^)\s#]+)(#[^)\s]*)?\)")
+CODE = re.compile(r"(```.*?```|`[^`\n]*`)", re.S)
+
+
+def target_on_site(target, folder, page):
+    """Where a link of a page in `folder` of the repository leads on the site; copies a file that is no page."""
+    if "://" in target or target.startswith("mailto:"):
+        return target
+    path = pathlib.Path(os.path.normpath(folder / target))
+    name = str(path)
+    if name == "README.md":
+        return "index.md"
+    if name in TEXTS:
+        return TEXTS[name]
+    if path.parts[0] == "docs":
+        return str(path.relative_to("docs"))
+    source = ROOT / path
+    if not source.exists():
+        sys.exit(f"{page}: links to {target}, which is not there")
+    if source.is_dir():
+        listing = "".join(f"{entry.name}\n" for entry in sorted(source.iterdir()) if entry.name[0] not in "._")
+        copy, text = PAGES / "repository" / path / "files.txt", listing
+    else:
+        copy, text = PAGES / "repository" / path, source.read_text()
+        if path.suffix in (".md", ".py", ".sh", ".toml", ".cpp", ".hpp", ".ipynb", ".def", ""):
+            copy = copy.with_name(copy.name + ".txt")  # shown by a browser, and no page of MkDocs
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    copy.write_text(text)
+    return str(copy.relative_to(PAGES))
+
+
+def rewritten(text, folder, page):
+    """The text with its links as the site has them; code is left alone."""
+
+    def link(found):
+        return f"{found[1]}{target_on_site(found[2], folder, page)}{found[3] or ''})"
+
+    return "".join(part if part.startswith("`") else LINK.sub(link, part) for part in CODE.split(text))
+
+
+def gather():
+    shutil.rmtree(PAGES, ignore_errors=True)
+    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("*.md", "*.csv", "*.py", "site"))
+    for page in sorted((ROOT / "docs").glob("*.md")):
+        (PAGES / page.name).write_text(rewritten(page.read_text(), pathlib.Path("docs"), page.name))
+    for name, on_site in TEXTS.items():
+        (PAGES / on_site).write_text(rewritten((ROOT / name).read_text(), pathlib.Path(), name))
+    for page in (ROOT / "docs/site").glob("*.md"):
+        shutil.copy(page, PAGES)
+    shutil.copytree(ROOT / "docs/site", PAGES / "site", ignore=shutil.ignore_patterns("*.md", "theme"))
+    for name in OF_MATHJAX:
+        source, copy = MATHJAX / name, PAGES / "mathjax" / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        if source.is_dir():
+            shutil.copytree(source, copy)
+        else:
+            shutil.copy(source, copy)
+    (PAGES / "search_index.js").touch()  # MkDocs wants it there; written below
+
+
+def main():
+    if shutil.which("mkdocs") is None or not MATHJAX.is_dir():
+        sys.exit(f"MkDocs or a part of it is missing. On Debian: apt-get install --no-install-recommends {PACKAGES}")
+    gather()
+    python_path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
+    made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", ROOT / "mkdocs.yml"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          cwd=PAGES,  # in ROOT the API's reader takes the launcher for the package
+                          env={**os.environ, "PYTHONPATH": python_path}, check=False)
+    told = [line for line in made.stdout.splitlines() if not line.startswith("INFO")]
+    print(*told, sep="\n", end="\n" if told else "", file=sys.stderr)
+    if made.returncode:
+        return 1
+    # For pages opened as files, which may not fetch it.
+    index = json.dumps(json.loads((SITE / "search/search_index.json").read_text()))
+    (SITE / "search_index.js").write_text(
+        f'if (location.protocol === "file:") window.__search = {{ index: Promise.resolve({index}) }};\n')
+    print(f"the site is in {SITE.relative_to(ROOT)}: open {SITE / 'index.html'}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

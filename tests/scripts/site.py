@@ -1,0 +1,122 @@
+#!/usr/bin/python3
+"""The site of the documentation: it is built without a warning, every page is in its navigation, every link leads to a
+page and a heading, nothing is loaded from elsewhere; in a browser formulas are typeset, the search finds words, and
+pages fit a telephone. Screenshots stay in BARCHAN_SCREENSHOTS, if that is set."""
+import html.parser
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import unquote
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = ROOT / "build/site"
+sys.path.insert(0, str(ROOT / "tests/support"))
+import browser  # noqa: E402
+
+LOADED = {"script": "src", "img": "src", "video": "src", "source": "src", "iframe": "src"}
+FORMULAS = """
+await wait(4000);
+const all = document.querySelectorAll(".arithmatex");
+found.formulas = all.length;
+found.typeset = [...all].filter((one) => one.querySelector(".mjx-chtml")).length;
+found.errors = document.querySelectorAll(".mjx-merror, .merror").length;
+"""
+SEARCH = """
+const field = document.querySelector("[data-md-component=search-query]");
+document.getElementById("__search").checked = true;
+field.focus();
+field.value = "restitution";
+field.dispatchEvent(new Event("input", { bubbles: true }));
+field.dispatchEvent(new KeyboardEvent("keyup", { bubbles: true }));
+for (let i = 0; i < 50 && !found.results; ++i) {
+  await wait(200);
+  found.results = document.querySelectorAll(".md-search-result__link").length;
+}
+document.getElementById("__search").checked = false;
+"""
+
+
+class Page(html.parser.HTMLParser):
+    """The links, headings and loaded files of a page."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.links, self.anchors, self.loaded = [], set(), []
+        self.feed(path.read_text())
+
+    def handle_starttag(self, tag, attrs):
+        said = dict(attrs)
+        self.anchors |= {said.get("id"), said.get("name")}
+        if tag == "a" and said.get("href"):
+            self.links.append(said["href"])
+        if tag in LOADED and said.get(LOADED[tag]):
+            self.loaded.append(said[LOADED[tag]])
+        if tag == "link" and said.get("rel") != "canonical" and said.get("href"):
+            self.loaded.append(said["href"])
+
+
+def check_links(wrong):
+    pages = {path: Page(path) for path in SITE.rglob("*.html") if path.name != "404.html"}
+    for path, page in pages.items():
+        name = path.relative_to(SITE)
+        for target in page.loaded:
+            if "://" in target:
+                wrong.append(f"{name} loads {target}")
+            elif not (path.parent / unquote(target)).exists():
+                wrong.append(f"{name} loads {target}, which is not there")
+        for target in page.links:
+            if "://" in target or target.startswith("mailto:"):
+                continue
+            file, _, heading = unquote(target).partition("#")
+            to = (path.parent / file).resolve() if file else path
+            if to.is_dir():
+                to /= "index.html"
+            if not to.exists():
+                wrong.append(f"{name} links to {target}, which is not there")
+            elif heading and to in pages and heading not in pages[to].anchors:
+                wrong.append(f"{name} links to {target}; there is no such heading")
+    return len(pages)
+
+
+def check_in_browser(wrong, kept):
+    def visit(page, probe, width=1280, dark=False):
+        name = f"site-{page}-{width}{'-dark' if dark else ''}"
+        picture = Path(kept) / f"{name}.png" if kept else None
+        found = browser.visit(SITE / f"{page}.html", probe, width, dark=dark, picture=picture)
+        wrong.extend(f"{name}: {what}: {found[what]}" for what in ("faults", "from_elsewhere") if found[what])
+        if found["too_wide"] > 0:
+            wrong.append(f"{name}: {found['too_wide']} pixels wider than the window")
+        return found
+
+    for page, width, dark in (("theory", 1280, False), ("theory-coupling", 400, True)):
+        found = visit(page, FORMULAS, width, dark)
+        if not found["formulas"] or found["typeset"] != found["formulas"] or found["errors"]:
+            wrong.append(f"{page}: {found['typeset']} of {found['formulas']} formulas typeset, {found['errors']} errors")
+    if not visit("index", SEARCH)["results"]:
+        wrong.append("the search finds nothing")
+    for page in ("index", "first-dune", "files", "validation"):
+        visit(page, "await wait(500);", 400)
+    if kept:
+        visit("index", "", 1280, True)
+        visit("keys", "", 400)
+
+
+def main():
+    if shutil.which("mkdocs") is None:
+        print("no mkdocs (its packages: scripts/build_site.py)")
+        return 1 if os.environ.get("CI") == "true" else browser.SKIPPED
+    wrong = []
+    made = subprocess.run([sys.executable, ROOT / "scripts/build_site.py"], capture_output=True, text=True, check=False)
+    if made.returncode:
+        print(made.stdout + made.stderr)
+        return 1
+    n = check_links(wrong)
+    check_in_browser(wrong, os.environ.get("BARCHAN_SCREENSHOTS"))
+    print(*wrong or [f"{n} pages of the site as they should be"], sep="\n")
+    return len(wrong) > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
