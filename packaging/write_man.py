@@ -18,7 +18,7 @@ _barchan() {{
   case $COMP_CWORD:${{COMP_WORDS[1]}}:$word in
     1:*) words="{commands}" ;;
 {options}
-    *:run:* | *:check:* | *:sweep:*) cases=$(cd {cases} && find . -name '*.toml' -printf '%P\\n') ;;
+    *:run:* | *:check:* | *:sweep:*) cases=$(cd '{cases}' && find . -name '*.toml' -printf '%P\\n') ;;
   esac
   COMPREPLY=($(compgen -W "${{words// /$IFS}}$cases" -- "$word"; [ -z "$cases" ] || compgen -f -- "$word"))
 }}
