@@ -1,26 +1,50 @@
-# cmake --install: the program, and the package Barchan with barchan::kernels (headers) and barchan::core (all but
-# the program). A user's own code: find_package(Barchan), #include <barchan/kernels/grains/contact_law.hpp>.
+# cmake --install: all that a user needs (component "program"), and for code of others the package Barchan with
+# barchan::kernels (headers) and barchan::core (all but the program). A user's own code: find_package(Barchan),
+# #include <barchan/kernels/grains/contact_law.hpp>. packaging/README.md says what lies where.
 include(CMakePackageConfigHelpers)
-# A Kokkos that is not of the system stays where it is. (CMake does not count a folder in our own build as such.)
-set(install_rpath INSTALL_RPATH_USE_LINK_PATH ON INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
-set_target_properties(barchan PROPERTIES ${install_rpath})
-set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Barchan")
 
-install(TARGETS barchan RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+# --- what a user needs -------------------------------------------------------------------------------------------
+# Folders that the launcher finds beside its own.
+set(launcher_folder bin)
+set(program_folder libexec/barchan)
+set(share_folder share/barchan)
+set(BARCHAN_INSTALL_PYTHONDIR "${share_folder}/python" CACHE STRING "Where the Python package goes below the prefix")
+set(barchan_doc_folder share/doc/barchan)
+
+# A Kokkos that is not of the system stays where it is; a static one needs no path. (CMake does not count a folder in
+# our own build as such.)
+set(programs barchan)
 foreach(level IN LISTS BARCHAN_LEVELS)
-  set_target_properties(barchan.${level} PROPERTIES ${install_rpath})
-  install(TARGETS barchan.${level} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  list(APPEND programs barchan.${level})
 endforeach()
-install(TARGETS barchan_core barchan_kernels EXPORT BarchanTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/kernels" "${PROJECT_SOURCE_DIR}/src"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/barchan" FILES_MATCHING PATTERN "*.hpp")
-install(FILES "${version_header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/barchan")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/configs" DESTINATION "${CMAKE_INSTALL_DATADIR}/barchan")
+get_target_property(kokkos_type Kokkos::kokkoscore TYPE)
+if(NOT kokkos_type STREQUAL STATIC_LIBRARY)
+  set_target_properties(${programs} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON
+    INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
+endif()
+install(TARGETS ${programs} RUNTIME DESTINATION "${program_folder}" COMPONENT program)
+install(PROGRAMS barchan DESTINATION "${launcher_folder}" COMPONENT program)
+install(DIRECTORY configs DESTINATION "${share_folder}" COMPONENT program)
+install(DIRECTORY python/barchan DESTINATION "${BARCHAN_INSTALL_PYTHONDIR}" COMPONENT program
+  PATTERN __pycache__ EXCLUDE)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${barchan_doc_folder}" COMPONENT program)
+install(DIRECTORY docs notebooks DESTINATION "${barchan_doc_folder}" COMPONENT program)
+# The man page and the completion of the shell are made from what the installed launcher says of itself.
+install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND python3
+  \"${PROJECT_SOURCE_DIR}/packaging/write_man.py\" \"\$ENV{DESTDIR}\" \"\${CMAKE_INSTALL_PREFIX}\" ${PROJECT_VERSION})"
+  COMPONENT program)
 
-install(EXPORT BarchanTargets NAMESPACE barchan:: DESTINATION "${package_folder}")
-configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/BarchanConfig.cmake.in"
+# --- for code of others ------------------------------------------------------------------------------------------
+set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Barchan")
+install(TARGETS barchan_core barchan_kernels EXPORT BarchanTargets
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
+install(DIRECTORY kernels src DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/barchan" COMPONENT library
+  FILES_MATCHING PATTERN "*.hpp")
+install(FILES "${version_header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/barchan" COMPONENT library)
+
+install(EXPORT BarchanTargets NAMESPACE barchan:: DESTINATION "${package_folder}" COMPONENT library)
+configure_package_config_file(cmake/BarchanConfig.cmake.in
   "${PROJECT_BINARY_DIR}/BarchanConfig.cmake" INSTALL_DESTINATION "${package_folder}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/BarchanConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/BarchanConfig.cmake" "${PROJECT_BINARY_DIR}/BarchanConfigVersion.cmake"
-  "${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake" "${PROJECT_SOURCE_DIR}/cmake/kokkos.cmake"
-  DESTINATION "${package_folder}")
+  cmake/dependencies.cmake cmake/kokkos.cmake DESTINATION "${package_folder}" COMPONENT library)

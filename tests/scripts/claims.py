@@ -8,7 +8,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
 NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script(?:\.nightly)?\.\w+)`")
-FOLDERS = "cmake", "configs", "docs", "kernels", "perf", "python", "scripts", "src", "tests"
+FOLDERS = "cmake", "configs", "docs", "kernels", "packaging", "perf", "python", "scripts", "src", "tests"
 FILE = re.compile(rf"(?<![\w/.$}}-])((?:{'|'.join(FOLDERS)})/[\w./-]+\.(?:cpp|hpp|py|sh|cmake|md|toml|csv|js))\b")
 MEMBER = re.compile(r"\b([A-Z]\w+)::(\w+)")
 FOREIGN = {"Kokkos", "Eigen", "MPI"}  # namespaces
