@@ -51,18 +51,26 @@ def target_on_site(target, folder, page):
     return str(copy.relative_to(PAGES))
 
 
+def titles():
+    """Title of each page in the navigation of mkdocs.yml."""
+    return {page: title for title, page in re.findall(r"- ([^:\n]+): ([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.M)}
+
+
 def rewritten(text, folder, page):
-    """The text with its links as the site has them; code is left alone."""
+    """The text with its links as the site has them, a page by its title where it is named by its file; code is left."""
+    title = titles()
 
     def link(found):
-        return f"{found[1]}{target_on_site(found[2], folder, page)}{found[3] or ''})"
+        target = target_on_site(found[2], folder, page)
+        shown = f"[{title[target]}](" if target in title and found[1] == f"[{target}](" else found[1]
+        return f"{shown}{target}{found[3] or ''})"
 
     return "".join(part if part.startswith("`") else LINK.sub(link, part) for part in CODE.split(text))
 
 
 def gather():
     shutil.rmtree(PAGES, ignore_errors=True)
-    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("*.md", "*.csv", "*.py", "site"))
+    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("*.md", "*.py", "site"))
     for page in sorted((ROOT / "docs").glob("*.md")):
         (PAGES / page.name).write_text(rewritten(page.read_text(), pathlib.Path("docs"), page.name))
     for name, on_site in TEXTS.items():
@@ -89,7 +97,7 @@ def main():
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           cwd=PAGES,  # in ROOT the API's reader takes the launcher for the package
                           env={**os.environ, "PYTHONPATH": python_path}, check=False)
-    told = [line for line in made.stdout.splitlines() if not line.startswith("INFO")]
+    told = [line for line in made.stdout.splitlines() if "WARNING" in line or "ERROR" in line or "Abort" in line]
     print(*told, sep="\n", end="\n" if told else "", file=sys.stderr)
     if made.returncode:
         return 1

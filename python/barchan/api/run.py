@@ -72,7 +72,7 @@ class Run(RunFolder):
         """pandas.DataFrame of the grains at the frame nearest to t [s], or of number `frame`; the last by default.
 
         One row for each grain, indexed by id: x, y, z, d [m], u, v, w [m/s], omega_x, ... [rad/s], dune (label, -1: in
-        none), and forces [N] where the run has written them. attrs["time"] [s], attrs["units"].
+        none), and forces [N] where the run has written them. Its time [s] is attrs["time"], units are attrs["units"].
         """
         file = self.need_grains()
         return self._grains_of(file, file.index(t, frame))
