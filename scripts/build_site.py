@@ -53,7 +53,8 @@ def target_on_site(target, folder, page):
 
 def titles():
     """Title of each page in the navigation of mkdocs.yml."""
-    return {page: title for title, page in re.findall(r"- ([^:\n]+): ([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.M)}
+    entries = re.findall(r"- ([^:\n]+): ([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.M)
+    return {page: title for title, page in entries}
 
 
 def rewritten(text, folder, page):

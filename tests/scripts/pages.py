@@ -51,7 +51,8 @@ def anchors(text):
 
 
 def check_links(page, text):
-    for target, heading in re.findall(r"\]\(([^)\s#]*)(?:#([^)\s]*))?\)", re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)):
+    prose = re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)
+    for target, heading in re.findall(r"\]\(([^)\s#]*)(?:#([^)\s]*))?\)", prose):
         if "://" in target or target.startswith("mailto:"):
             continue
         # Pages of the site stand among those of docs/ there.

@@ -93,7 +93,8 @@ def check_in_browser(wrong, kept):
     for page, width, dark in (("theory", 1280, False), ("theory-coupling", 400, True)):
         found = visit(page, FORMULAS, width, dark)
         if not found["formulas"] or found["typeset"] != found["formulas"] or found["errors"]:
-            wrong.append(f"{page}: {found['typeset']} of {found['formulas']} formulas typeset, {found['errors']} errors")
+            counts = f"{found['typeset']} of {found['formulas']} formulas, {found['errors']} errors"
+            wrong.append(f"{page}: typeset are {counts}")
     if not visit("index", SEARCH)["results"]:
         wrong.append("the search finds nothing")
     for page in ("index", "first-dune", "files", "validation"):

@@ -12,8 +12,8 @@ SKIPPED = 77
 # What a page has done wrong is collected from the start; what the probe finds is written into the page's text.
 BEFORE = """<script>
 window.faults = [];
-addEventListener("error", (event) => faults.push(event.message || `cannot load ${event.target.src || event.target.href}`),
-                 true);
+addEventListener("error", (event) =>
+  faults.push(event.message || `cannot load ${event.target.src || event.target.href}`), true);
 addEventListener("unhandledrejection", (event) => faults.push(String(event.reason)));
 </script>
 """
