@@ -15,6 +15,7 @@ say() { echo "try_deb: $*"; }
 source="$folder/barchan-${version%-*}"
 mkdir -p "$source"
 git -C "$here" archive HEAD | tar x -C "$source"
+rm -f "$source/debian/debhelper-build-stamp"  # an earlier build goes on with what has changed
 say "building the packages (the longest part; $folder/build.log)"
 (cd "$source" && Kokkos_ROOT="$folder/kokkos" dpkg-buildpackage -us -uc -b -nc -Ppkg.barchan.static-kokkos) \
   > "$folder/build.log" 2>&1 || { tail -n 20 "$folder/build.log"; exit 1; }

@@ -67,8 +67,8 @@ while IFS= read -r -d '' file; do
   limit=$max_lines
   case $file in src/* | kernels/*) limit=$max_lines_of_program ;; esac
   [ "$lines" -le "$limit" ] || complain "$file: $lines lines, more than $limit; split it by noun"
-done < <(find barchan src kernels tests perf python scripts packaging cmake -type f \
-  \( -name barchan -o -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0 2> /dev/null)
+done < <(find barchan src kernels tests perf python scripts packaging cmake -type f \( -name barchan -o \
+  -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0 2> /dev/null)
 
 [ "$failures" -eq 0 ] || { echo "$failures problem(s)"; exit 1; }
 echo "layers: ${#sources[@]} files are in order"
