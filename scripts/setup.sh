@@ -1,24 +1,38 @@
 #!/usr/bin/env bash
 # Brings the machine to where the project builds: Debian packages by apt, and Kokkos.
-# scripts/setup.sh [--quiet]     --quiet: say nothing when there is nothing to do, and ask nothing
+# scripts/setup.sh [--tests] [--quiet]
+#   --tests: also what the tests and benchmarks need, not only a run and its pictures
+#   --quiet: say nothing when there is nothing to do, and ask nothing
 # Installs only what is missing, upgrades nothing, needs no network when all is there. Who is not root is asked before
 # sudo is called, or told the command.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 deps="${BARCHAN_DEPS:-$root/build/deps}"
 stamp="$deps/setup.stamp"
+speaker="barchan setup"
+# shellcheck source=scripts/progress.sh
+. "$root/scripts/progress.sh"
+
+packages=(cmake g++ ninja-build pkg-config git libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
+  libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
+  python3 python3-h5py python3-numpy python3-matplotlib python3-scipy)
+test_packages=(libeigen3-dev libgtest-dev libbenchmark-dev
+  python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
+  python3-pip python3-venv python3-wheel  # its installation
+  python3-yaml  # the citation file
+  nodejs node-jsdom)  # the report page
+if [ "${CI:-}" = true ]; then  # large ones; elsewhere their tests are skipped
+  test_packages+=(chromium mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax)
+fi
+
 quiet=no
-[ "${1:-}" != --quiet ] || quiet=yes
-
-say() { echo "barchan setup: $*"; }
-die() { echo "barchan setup: $*" >&2; exit 1; }
-
-packages=(cmake g++ ninja-build pkg-config git libopenmpi-dev openmpi-bin libhdf5-openmpi-dev
-  libfftw3-dev libeigen3-dev libgtest-dev libbenchmark-dev libtomlplusplus-dev libcli11-dev
-  libfmt-dev nlohmann-json3-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib python3-scipy python3-pandas python3-xarray
-  python3-pytest mypy python3-nbconvert python3-ipykernel python3-pip python3-venv python3-wheel python3-yaml
-  nodejs node-jsdom)  # this line and the one before: for tests; node for that of the report page
+for argument in "$@"; do
+  case $argument in
+    --quiet) quiet=yes ;;
+    --tests) packages+=("${test_packages[@]}") ;;
+    *) die 2 "unknown option '$argument'; there are --tests and --quiet" ;;
+  esac
+done
 
 missing_packages() {  # one name a line; a package that was removed but configured counts as missing
   local installed
@@ -31,29 +45,37 @@ missing_packages() {  # one name a line; a package that was removed but configur
 apt_install() {
   local as_root=() answer=""
   if [ "$(id -u)" -ne 0 ]; then
-    say "packages are missing. As root: apt-get install --no-install-recommends $*" >&2
-    command -v sudo > /dev/null || die "nothing was installed"
-    [ "$quiet" = no ] && [ -t 0 ] || die "nothing was installed; ./barchan setup does it with sudo, if you agree"
+    say "packages are missing. As root: apt-get install --no-install-recommends $*"
+    command -v sudo > /dev/null || die 1 "nothing was installed"
+    [ "$quiet" = no ] && [ -t 0 ] || die 1 "nothing was installed; ./barchan setup does it with sudo, if you agree"
     read -r -p "barchan setup: run this with sudo now? [y/N] " answer
-    [[ $answer == [yY]* ]] || die "nothing was installed"
+    [[ $answer == [yY]* ]] || die 1 "nothing was installed"
     as_root=(sudo)
   fi
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
-  say "installing with apt: $*"
+  say "missing packages: $*"
   mkdir -p "$deps"
+  : > "$deps/apt.log"
   if [ "$apt_updated" = no ]; then
-    "${as_root[@]}" apt-get -qq update > "$deps/apt.log" 2>&1 ||
+    progress "reading the lists of packages" "$deps/apt.log" true "${as_root[@]}" apt-get -qq update ||
       say "warning: apt-get update reported problems; trying with what it knows"
     apt_updated=yes
   fi
-  "${as_root[@]}" apt-get -qq install --yes --no-install-recommends --no-upgrade "$@" >> "$deps/apt.log" 2>&1 ||
-    { tail -n 5 "$deps/apt.log" >&2; die "apt-get install failed (full output in $deps/apt.log)."; }
+  progress "installing $# packages, and what they need, with apt" "$deps/apt.log" apt_state \
+    "${as_root[@]}" apt-get -qq install --yes --no-install-recommends --no-upgrade "$@" ||
+    { tail -n 5 "$deps/apt.log" >&2; die 1 "apt-get install failed (full output in $deps/apt.log)."; }
+}
+
+apt_state() {  # apt_state LOG: how far apt has come
+  local unpacked
+  unpacked="$(grep -c '^Unpacking' "$1")" || { echo "fetching"; return; }
+  echo "$unpacked unpacked, $(grep -c '^Setting up' "$1") set up"
 }
 
 check_tools() {  # a machine without apt, such as a cluster: modules or the user must provide them
   local tool
   for tool in cmake ninja mpicxx git; do
-    command -v "$tool" > /dev/null || die "'$tool' was not found; install it or load its module."
+    command -v "$tool" > /dev/null || die 1 "'$tool' was not found; install it or load its module."
   done
 }
 
@@ -67,16 +89,16 @@ provide_kokkos() {
   local found
   if ! found="$("$root/scripts/probe_kokkos.sh" 2> "$deps/kokkos.log")"; then
     [ -z "${Kokkos_ROOT:-}${Kokkos_DIR:-}" ] ||
-      die "the Kokkos in Kokkos_ROOT='${Kokkos_ROOT:-$Kokkos_DIR}' does not build a small program (see $deps/kokkos.log)."
-    [ "$has_apt" = yes ] || die "Kokkos 4.6 or newer was not found; set Kokkos_ROOT."
+      die 1 "the Kokkos in Kokkos_ROOT='${Kokkos_ROOT:-$Kokkos_DIR}' does not build a small program (see $deps/kokkos.log)."
+    [ "$has_apt" = yes ] || die 1 "Kokkos 4.6 or newer was not found; set Kokkos_ROOT."
     if system_kokkos_is_new_enough; then
       apt_install libkokkos-dev
     else
-      say "unpacking Kokkos of Debian unstable into $deps/kokkos (nothing is installed)"
-      "$root/scripts/kokkos_prefix.sh" "$deps/kokkos"
+      progress "unpacking Kokkos of Debian unstable into $deps/kokkos (nothing is installed)" "$deps/kokkos.log" true \
+        "$root/scripts/kokkos_prefix.sh" "$deps/kokkos" || { tail -n 16 "$deps/kokkos.log" >&2; exit 1; }
     fi
     found="$("$root/scripts/probe_kokkos.sh" 2> "$deps/kokkos.log")" ||
-      die "Kokkos does not build a small program (see $deps/kokkos.log)."
+      die 1 "Kokkos does not build a small program (see $deps/kokkos.log)."
   fi
   say "$found"
 }
@@ -100,7 +122,7 @@ if [ -z "$missing" ] && [ -f "$stamp" ] && [ "$(fingerprint)" = "$(cat "$stamp")
   exit 0
 fi
 
-mkdir -p "$deps" 2> /dev/null || die "cannot write to $deps; set BARCHAN_DEPS to another folder."
+mkdir -p "$deps" 2> /dev/null || die 1 "cannot write to $deps; set BARCHAN_DEPS to another folder."
 if [ -n "$missing" ]; then
   # shellcheck disable=SC2086  # one word a package
   apt_install $missing

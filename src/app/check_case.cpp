@@ -56,7 +56,7 @@ int run_check(const CommandLine& line, std::ostream& out) {
       << to_text(derived) << memory_line(config, planned.sizes) << cost;
   const auto warnings = config_warnings(config, planned.sizes);
   if (!warnings.empty()) out << '\n';
-  for (const std::string& warning : warnings) out << warning << '\n';
+  for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
   return 0;
 }
 

@@ -59,9 +59,13 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
   CLI::App* run = add_command(Command::run, "run", "run a case");
   CLI::App* check = add_command(Command::check, "check",
                                 "validate a case; print it resolved, with derived numbers");
-  add_command(Command::keys, "keys", "all keys of a case, as in docs/keys.md");
-  add_command(Command::info, "info", "what a result or restart file holds")
-      ->add_option("FILE", line.file, "an HDF5 file")
+  add_command(Command::keys, "keys", "the keys of a case with range, unit, default and meaning")
+      ->add_option(
+          "SECTION", line.section,
+          "a section, as grains, or a key, as grains.skin (default: all, as docs/keys.md)");
+  add_command(Command::info, "info", "what a run folder or a file holds")
+      ->add_option("PATH", line.file,
+                   "a run or study folder, a result, restart file, table or case")
       ->required();
   for (CLI::App* command : {run, check}) {
     command->add_option("CONFIG", line.file, "the case, a TOML file")->required();

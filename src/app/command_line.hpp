@@ -15,7 +15,8 @@ struct CommandLine {
   Command command = Command::none;
   std::string text{};  // with Command::none
 
-  std::filesystem::path file{};                    // CONFIG of run and check, FILE.h5 of info
+  std::filesystem::path file{};                    // CONFIG of run and check, PATH of info
+  std::string section{};                           // of keys; empty: all
   std::vector<std::string> overrides{};            // --set, each "key=value" as typed
   std::optional<std::filesystem::path> out{};      // --out, the run folder
   std::optional<std::filesystem::path> restart{};  // --restart, a restart file to go on from

@@ -11,12 +11,12 @@
 
 #include "barchan_version.hpp"
 #include "src/app/check_case.hpp"
-#include "src/app/info.hpp"
+#include "src/app/info_path.hpp"
 #include "src/app/run_case.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/base/words.hpp"
-#include "src/config/resolved.hpp"
+#include "src/config/keys_page.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -85,10 +85,10 @@ int execute(const CommandLine& line) {
       if (line.resolved_only) return run_check(line, std::cout);
       return with_kokkos(line, [&] { return run_check(line, std::cout); });
     case Command::keys:
-      std::cout << keys_page();
+      std::cout << (line.section.empty() ? keys_page() : keys_text(line.section));
       break;
     case Command::info:
-      std::cout << as_input([&] { return describe_file(line.file); });
+      std::cout << as_input([&] { return describe_path(line.file); });
       break;
     case Command::none:
       if (rank_of(MPI_COMM_WORLD) == 0) std::cout << line.text;

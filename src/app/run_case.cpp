@@ -24,9 +24,7 @@ struct Stopped {};
 /// What follows from the case, and what looks wrong in it.
 void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
   report::info("{}", to_text(derive(config, sizes)) + memory_line(config, sizes));
-  for (const Finding& f : validate(config, sizes)) {
-    if (f.severity == Finding::Severity::warning) report::warn("{}: {}", f.keys.front(), f.message);
-  }
+  for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
 }
 
 fs::path start_file(const Case& source, const fs::path& beside, int realisation);

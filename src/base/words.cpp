@@ -75,6 +75,23 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
   return best;
 }
 
+std::string nearest_file(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMost = 10000;  // of a folder of other things
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  std::vector<std::string> stems;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (stems.size() >= kMost) break;
+    if (at->path().extension() == path.extension()) stems.push_back(at->path().stem().string());
+  }
+  std::ranges::sort(stems);  // not in the order of the disk
+  const std::string close = nearest(path.stem().string(), stems);
+  if (close.empty()) return {};
+  const fs::path meant = path.parent_path() / fs::path(close).concat(path.extension().string());
+  return fmt::format(" (did you mean {}?)", meant.string());
+}
+
 std::string printable(std::string_view text, std::size_t longest) {
   std::string shown;
   while (!text.empty()) {

@@ -1,6 +1,7 @@
 // Words from outside: what a misspelt one was meant for, and how to show them in messages.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@ namespace barchan {
 /// The candidate nearest to `typed` by edits (a swap of neighbours counts once); empty if none is
 /// near enough to be meant.
 std::string nearest(std::string_view typed, std::span<const std::string> candidates);
+
+/// " (did you mean configs/quickstart.toml?)": the file of the same kind beside `path`, which is
+/// not there, whose name is nearest; empty if none is near enough.
+std::string nearest_file(const std::filesystem::path& path);
 
 /// Text with what a terminal would obey or could not show spelt out: control characters and bytes
 /// that are not UTF-8 as \n, \x1b, \xff; `longest` bytes at most, then "...".

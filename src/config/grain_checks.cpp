@@ -10,6 +10,18 @@
 namespace barchan {
 namespace {
 
+/// Advice for a step that is `factor` times too long for grains this stiff [Pa]. The Rayleigh time
+/// is proportional to E^(-1/2).
+std::string softer_grains(double youngs_modulus, double factor) {
+  constexpr double kSoftest = 3e5;  // of the shipped cases; beyond it is no advice
+  const double fits = youngs_modulus / (factor * factor);
+  if (fits < kSoftest) return {};
+  return fmt::format(
+      "; softer grains are usual: below a youngs_modulus of {:.2g} Pa this step "
+      "would do (docs/choosing.md)",
+      fits);
+}
+
 void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
   const std::string text =
       fmt::format("{:.1f} % of the Rayleigh time {:.3g} s of the smallest grain (d = {:.4g} m)",
@@ -17,9 +29,10 @@ void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
   found.limit(n.fraction_min, 0.2, 0.3,
               {"time.grain_step", "time.fluid_step", "grains.sizes", "grains.density",
                "grains.youngs_modulus", "grains.poisson_ratio"},
-              fmt::format("must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}",
-                          0.3 * n.rayleigh_min, true_grain_step(c.time), text),
-              fmt::format("is {}; above 20 % contacts are coarse", text));
+              fmt::format("must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}{}",
+                          0.3 * n.rayleigh_min, true_grain_step(c.time), text,
+                          softer_grains(c.grains->material.youngs_modulus, n.fraction_min / 0.3)),
+              fmt::format("is {}; above 20 % contacts are less accurate", text));
 }
 
 /// Linear springs: the step against the duration of a contact of two of the smallest grains,
@@ -35,7 +48,7 @@ void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) 
       fmt::format("must be at most {:.3g} s, a fifth of the contact of two of the smallest grains",
                   0.2 * contact),
       fmt::format("is {:.0f} % of the contact of two of the smallest grains; above 10 % contacts "
-                  "are coarse",
+                  "are less accurate",
                   100 * fraction));
 }
 
@@ -108,7 +121,7 @@ void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Fin
 void check_pour(const Config& c, Findings& found) {
   const PourConfig& pour = *c.initial.pour;
   found.error_if(c.grains->sizes.empty(), {"grains.sizes", "initial.grains"},
-                 "must say which grains to pour");
+                 "must say which grains to pour: sizes = [[2e-4, 3000]] are 3,000 of 0.2 mm");
   found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
                  "contradicts pour: grains could not settle");
   const bool cone = pour.shape == PourShape::cone;

@@ -37,8 +37,8 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
   } else if (fs::exists(path, ignored)) {
     reading.report_error(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
   } else {
-    reading.report_error(key,
-                         fmt::format("must be a file that exists; there is no {}", path.string()));
+    reading.report_error(key, fmt::format("must be a file that exists; there is no {}{}",
+                                          path.string(), nearest_file(path)));
   }
 }
 
@@ -60,7 +60,10 @@ std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& p
                       fs::file_size(file) / 1'000'000);
   }
   if (!why.empty()) {
-    problems.push_back({{file.empty() ? "CONFIG" : file.string(), 0}, "cannot be read: " + why});
+    std::error_code ignored;
+    const bool absent = !file.empty() && !fs::exists(file, ignored);
+    problems.push_back({{file.empty() ? "CONFIG" : file.string(), 0},
+                        "cannot be read: " + why + (absent ? nearest_file(file) : "")});
     return {};
   }
   return read_text(file);

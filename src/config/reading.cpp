@@ -8,6 +8,7 @@
 
 #include "src/base/words.hpp"
 #include "src/config/keys.hpp"
+#include "src/config/synonyms.hpp"
 
 namespace barchan {
 namespace {
@@ -38,6 +39,10 @@ std::string sentence(const std::string& section, const std::string& name, bool i
   if (is_section) return fmt::format("[{}]: {}", shown_key(name), message);
   return fmt::format("{}{}{}: {}", section.empty() ? "" : fmt::format("[{}] ", section),
                      shown_key(name), node == nullptr ? "" : " = " + toml_text(*node), message);
+}
+
+std::string elsewhere(const std::string& key, const std::string& home) {
+  return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -175,7 +180,19 @@ void ConfigReader::report_at(const Node* node, const Node* around, const std::st
                          : around != nullptr ? around->where
                                              : Location{file_.string(), 0};
   const bool whole = section.empty() && (node == nullptr || node->table() != nullptr);
-  problems_.push_back({where, sentence(section, name, whole, node, message)});
+  add_problem(where, dotted, whole, node, message);
+}
+
+/// What was assigned on the command line names its key already.
+void ConfigReader::add_problem(const Location& where, const std::string& dotted, bool is_section,
+                               const Node* node, const std::string& message) {
+  const auto [section, name] = split(dotted);
+  if (where.line != 0 || where.file != assigned_name(dotted)) {
+    problems_.push_back({where, sentence(section, name, is_section, node, message)});
+    return;
+  }
+  const bool valued = node != nullptr && node->table() == nullptr;
+  problems_.push_back({{where.file + (valued ? "=" + toml_text(*node) : ""), 0}, message});
 }
 
 void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {
@@ -207,16 +224,31 @@ void ConfigReader::find_unknown(const std::string& section, const Node& node) {
       const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, table);
       why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
     }
-    problems_.push_back({value.where, sentence(section, name, table, nullptr, why)});
+    add_problem(value.where, join(section, name), table, nullptr, why);
   }
+}
+
+/// " (did you mean ...?)" for keys that are there, named from within `section`; they were not read.
+std::string ConfigReader::hint(const std::string& section, std::string_view keys) {
+  const std::vector<std::string> here = names_in(section);
+  std::string text;
+  while (!keys.empty()) {
+    const std::size_t end = std::min(keys.find(", "), keys.size());
+    const auto [home, name] = split(std::string(keys.substr(0, end)));
+    keys.remove_prefix(std::min(end + 2, keys.size()));
+    if (!contains(names_in(home), name)) continue;
+    const bool is_here = contains(here, name);
+    bad_.insert(join(is_here ? section : home, name));
+    text += fmt::format("{}\"{}\"{}", text.empty() ? " (did you mean " : " or ", name,
+                        is_here ? "" : fmt::format(" of [{}]", home));
+  }
+  return text.empty() ? text : text + "?)";
 }
 
 std::string ConfigReader::suggestion(const std::string& section, const std::string& name,
                                      bool table) {
-  const auto elsewhere = [](const std::string& key, const std::string& home) {
-    return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
-  };
   if (!table) {
+    if (std::string text = hint(section, keys_meant_by(name, section)); !text.empty()) return text;
     for (const Section& other : table_) {
       if (contains(names_in(other.name), name)) return elsewhere(name, other.name);
     }

@@ -37,31 +37,12 @@ std::vector<Difference> differences(const Config& a, const Config& b, const Sect
   return found;
 }
 
-/// As it stands in a file.
+}  // namespace
+
 std::string title_of(const Section& section) {
   return section.repeated() ? fmt::format("[[{}]]", section.name)
                             : fmt::format("[{}]", section.name);
 }
-
-/// Type, choices or range, as in "number, above 0 and at most 1".
-std::string domain_of(const Key& key) {
-  const std::string range = key.range.text();
-  if (range.empty()) return key.type;
-  return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
-}
-
-std::string row(const Key& key, const Config& defaults) {
-  const std::string value = key.text(defaults).value_or("");
-  const bool none = value.empty() || value == "\"\"" || value == "[]";
-  const std::string by_default = key.required                   ? "required"
-                                 : key.section == "grains.wall" ? "as in `[grains]`"
-                                 : none                         ? "none"
-                                                                : "`" + value + "`";
-  return fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, domain_of(key), key.unit,
-                     by_default, key.meaning, key.fixed_by_restart ? " (R)" : "");
-}
-
-}  // namespace
 
 std::string to_toml(const Config& config, const Sections& table) {
   std::string text;
@@ -104,29 +85,6 @@ std::vector<std::string> changed_keys(const Config& config, const Config& writte
   for (const auto& [key, here, there] : differences(config, written, table, false))
     keys.push_back(fmt::format("{} {} -> {}", key->dotted(), there, here));
   return keys;
-}
-
-std::string keys_page(const Sections& table) {
-  std::string page =
-      "# Keys of a case\n\n"
-      "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
-      "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
-      "same in a restart\nas in the run that wrote the restart file. Numbers within these ranges "
-      "may still be refused\nif they do not fit other keys. A length `\"3 d\"` is in mean "
-      "diameters, "
-      "by number, of the grains\nthat are poured here or in the case that this one starts from; "
-      "`check` prints it in metres.\n";
-  Config defaults;
-  for (const Section& section : table) {
-    if (section.repeated()) section.append(defaults);
-    if (section.prepare) section.prepare(defaults, true);
-    if (section.keys.empty()) continue;
-    page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
-                        section.required ? " (required)" : "");
-    page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Key& key : section.keys) page += row(key, defaults);
-  }
-  return page;
 }
 
 }  // namespace barchan

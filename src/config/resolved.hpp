@@ -21,7 +21,7 @@ std::vector<std::string> restart_conflicts(const Config& config, const Config& w
 std::vector<std::string> changed_keys(const Config& config, const Config& written,
                                       const Sections& table = sections());
 
-/// docs/keys.md: a table of the keys of each section with range, unit, default and meaning.
-std::string keys_page(const Sections& table = sections());
+/// The head of a section as it stands in a file, "[grains]".
+std::string title_of(const Section& section);
 
 }  // namespace barchan

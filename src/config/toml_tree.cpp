@@ -117,10 +117,14 @@ Node parse_toml(std::string_view text, const std::string& name, std::vector<Prob
   return {NodeTable{}, whole};
 }
 
+std::string assigned_name(std::string_view dotted) {
+  return fmt::format("--set {}", printable(dotted, 60));
+}
+
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems) {
   const std::size_t equals = assignment.find('=');
   const std::string_view dotted = assignment.substr(0, equals);
-  const Location where{fmt::format("--set {}", printable(dotted, 60)), 0};
+  const Location where{assigned_name(dotted), 0};
   const auto refuse = [&](std::string why) { problems.push_back({where, std::move(why)}); };
   if (std::count(dotted.begin(), dotted.end(), '.') >= kMaxParts) {
     return refuse("unknown key: none has so many parts");

@@ -47,6 +47,9 @@ struct Problem {
 /// added and an empty table returned.
 Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems);
 
+/// What stands for the file in the location of an assignment: "--set a.b".
+std::string assigned_name(std::string_view dotted);
+
 /// Applies "a.b=value" (as after --set) to the tree, creating tables on the way. The value is
 /// TOML; anything that is not (a bare word) is a string. The value's location is "--set a.b".
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems);

@@ -194,8 +194,8 @@ std::vector<std::string> config_warnings(const Config& config,
     if (finding.severity != Finding::Severity::warning) continue;
     const std::string& key = finding.keys.front();
     const std::size_t dot = key.rfind('.');
-    lines.push_back(fmt::format("warning: [{}] {} {}", key.substr(0, dot), key.substr(dot + 1),
-                                finding.message));
+    lines.push_back(
+        fmt::format("[{}] {} {}", key.substr(0, dot), key.substr(dot + 1), finding.message));
   }
   return lines;
 }

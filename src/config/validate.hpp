@@ -17,7 +17,7 @@ std::vector<Finding> validate(const Config& config, const std::vector<SizeClass>
 /// that of the fluid (initial.fluid), else of the grains (initial.grains).
 std::vector<Finding> check_start(const Config& config, const Config& start, bool flow);
 
-/// The warnings of `validate`, one line each: "warning: [section] key: message".
+/// The warnings of `validate`, one line each: "[section] key message".
 std::vector<std::string> config_warnings(const Config& config, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

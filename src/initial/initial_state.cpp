@@ -16,6 +16,7 @@
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/initial/map_flow.hpp"
+#include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
 #include "src/output/state_file.hpp"
 
@@ -131,6 +132,7 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   wrap(grains, config);
   check_inside(grains, config, source);
   check_apart(grains, source);
+  if (!config.grains->frozen) check_overlaps(grains, config.grains->max_overlap, source);
   return grains;
 }
 

@@ -82,7 +82,7 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({"run", "a.toml", "--patience", "soon"}, "--patience");
   expect_bad({"run", "a.toml", "--set"}, "--set");
   expect_bad({"check", "a.toml", "--restart", "r.h5"}, "--restart");
-  expect_bad({"info"}, "FILE is required");
+  expect_bad({"info"}, "PATH is required");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What the table of keys promises of every key: it is read, written, compared and explained.
+#include "src/config/keys_page.hpp"
 #include "src/config/resolved.hpp"
 
 #include <algorithm>

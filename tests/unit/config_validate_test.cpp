@@ -224,7 +224,7 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
       {"grains.boundary_x=wall", "boundary_x stops grains"},
       {"grains.skin=3e-4", "skin is above the smallest diameter"},
       {"time.end=1.0001", "the run ends at 1.00025 s"},
-      {"output.dune_interval=1e-5", "warning: [output] dune_interval is shorter than a fluid step"},
+      {"output.dune_interval=1e-5", "[output] dune_interval is shorter than a fluid step"},
       {"output.history_interval=1.1",
        "history_interval is longer than the run, 1 s; only the start"},
       {"output.dune_interval=1.1", "dune_interval is longer than the run"},

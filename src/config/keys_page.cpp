@@ -1,0 +1,131 @@
+#include "src/config/keys_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/base/errors.hpp"
+#include "src/base/words.hpp"
+#include "src/config/resolved.hpp"
+
+namespace barchan {
+namespace {
+
+/// Type, choices or range, as in "number, above 0 and at most 1".
+std::string domain_of(const Key& key) {
+  const std::string range = key.range.text();
+  if (range.empty()) return key.type;
+  return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
+}
+
+/// "required", "none", "as in `[grains]`" or the value in backticks.
+std::string default_of(const Key& key, const Config& defaults) {
+  if (key.required) return "required";
+  if (key.section == "grains.wall") return "as in `[grains]`";
+  const std::string value = key.text(defaults).value_or("");
+  const bool none = value.empty() || value == "\"\"" || value == "[]";
+  return none ? "none" : "`" + value + "`";
+}
+
+std::string row(const Key& key, const Config& defaults) {
+  return fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, domain_of(key), key.unit,
+                     default_of(key, defaults), key.meaning, key.fixed_by_restart ? " (R)" : "");
+}
+
+/// With every section there, and an entry in those that may be written many times.
+void prepare(const Section& section, Config& defaults) {
+  if (section.repeated()) section.append(defaults);
+  if (section.prepare) section.prepare(defaults, true);
+}
+
+/// Text in lines of at most 100 characters, all but the first indented.
+std::string wrapped(std::string_view text, std::size_t indent) {
+  constexpr std::size_t kWidth = 100;
+  std::string lines;
+  std::size_t at = indent;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    if (at > indent && at + 1 + end > kWidth) {
+      lines += '\n' + std::string(indent, ' ');
+      at = indent;
+    } else if (at > indent) {
+      lines += ' ';
+      ++at;
+    }
+    lines += text.substr(0, end);
+    at += end;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines + '\n';
+}
+
+/// Two paragraphs beside the name: meaning, then what may stand there.
+std::string entry(const Key& key, const Config& defaults, std::size_t width) {
+  const std::size_t indent = width + 4;
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+  std::string text = fmt::format("  {:<{}}  {}", key.name, width, wrapped(key.meaning, indent)) +
+                     std::string(indent, ' ') +
+                     wrapped(fmt::format("{}{}; {}{}", domain_of(key), unit,
+                                         key.required ? "" : "default ", default_of(key, defaults)),
+                             indent);
+  if (key.fixed_by_restart)
+    text += std::string(indent, ' ') + "the same after a restart as before it\n";
+  std::erase(text, '`');
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& name, const Sections& table) {
+  std::vector<std::string> names, keys;
+  for (const Section& section : table) {
+    if (!section.keys.empty()) names.push_back(section.name);
+    for (const Key& key : section.keys) keys.push_back(key.dotted());
+  }
+  const std::string close = nearest(name, name.find('.') == name.npos ? names : keys);
+  throw InputError(fmt::format("unknown section \"{}\"{}; there are {}", name,
+                               close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+                               fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+std::string keys_page(const Sections& table) {
+  std::string page =
+      "# Keys of a case\n\n"
+      "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
+      "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
+      "same in a restart\nas in the run that wrote the restart file. Numbers within these ranges "
+      "may still be refused\nif they do not fit other keys. A length `\"3 d\"` is in mean "
+      "diameters, "
+      "by number, of the grains\nthat are poured here or in the case that this one starts from; "
+      "`check` prints it in metres.\n";
+  Config defaults;
+  for (const Section& section : table) {
+    prepare(section, defaults);
+    if (section.keys.empty()) continue;
+    page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
+                        section.required ? " (required)" : "");
+    page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
+    for (const Key& key : section.keys) page += row(key, defaults);
+  }
+  return page;
+}
+
+std::string keys_text(std::string_view name, const Sections& table) {
+  Config defaults;
+  std::string text;
+  for (const Section& section : table) {
+    prepare(section, defaults);
+    std::size_t width = 0;
+    for (const Key& key : section.keys) width = std::max(width, key.name.size());
+    const bool whole = section.name == name && !section.keys.empty();
+    for (const Key& key : section.keys) {
+      if (whole || key.dotted() == name) text += entry(key, defaults, width);
+    }
+    if (text.empty()) continue;
+    return fmt::format("{}  {}{}\n\n{}", title_of(section), section.meaning,
+                       section.required ? " (required)" : "", text);
+  }
+  refuse(std::string(name), table);
+}
+
+}  // namespace barchan

@@ -1,0 +1,18 @@
+// The table of keys for readers: docs/keys.md, and the terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/config/keys.hpp"
+
+namespace barchan {
+
+/// docs/keys.md: a table of the keys of each section with range, unit, default and meaning.
+std::string keys_page(const Sections& table = sections());
+
+/// The keys of the section `name`, or the key of that dotted name, for a terminal: lines of at most
+/// 100 characters. Throws InputError with the nearest name if there is none.
+std::string keys_text(std::string_view name, const Sections& table = sections());
+
+}  // namespace barchan

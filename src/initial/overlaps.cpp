@@ -1,0 +1,85 @@
+#include "src/initial/overlaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "src/base/errors.hpp"
+
+namespace barchan {
+namespace {
+
+/// A grain with the slab across x that its centre lies in; slabs are one largest diameter wide.
+struct InSlab {
+  std::int64_t slab;
+  double z;
+  std::size_t grain;
+};
+
+struct Deepest {
+  double overlap = 0;  // over the mean diameter
+  std::size_t a = 0, b = 0;
+  std::size_t count = 0;  // of pairs beyond the limit
+};
+
+class Search {
+ public:
+  explicit Search(const InitialGrains& grains)
+      : grains_(grains), width_(std::ranges::max(grains.diameter)) {
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      const auto slab = static_cast<std::int64_t>(std::floor(grains.x[g].x / width_));
+      order_.push_back({slab, grains.x[g].z, g});
+    }
+    std::ranges::sort(order_, {}, key);
+  }
+
+  /// All pairs of one slab and the next that are near each other in z.
+  Deepest deepest(double most) const {
+    Deepest found;
+    for (auto at = order_.begin(); at != order_.end(); ++at) {
+      for (auto other = at + 1; other != order_.end() && is_near(*at, *other); ++other)
+        look_at(at->grain, other->grain, most, found);
+      const auto next = std::pair(at->slab + 1, at->z - width_);
+      for (auto other = std::ranges::lower_bound(order_, next, {}, key);
+           other != order_.end() && other->slab == at->slab + 1 && other->z <= at->z + width_;
+           ++other)
+        look_at(at->grain, other->grain, most, found);
+    }
+    return found;
+  }
+
+ private:
+  static std::pair<std::int64_t, double> key(const InSlab& one) { return {one.slab, one.z}; }
+
+  bool is_near(const InSlab& a, const InSlab& b) const {
+    return a.slab == b.slab && b.z <= a.z + width_;
+  }
+
+  void look_at(std::size_t a, std::size_t b, double most, Deepest& found) const {
+    const double mean = 0.5 * (grains_.diameter[a] + grains_.diameter[b]);
+    const double overlap = 1 - norm(grains_.x[a] - grains_.x[b]) / mean;
+    if (overlap > most) ++found.count;
+    if (overlap > found.overlap) found = {overlap, a, b, found.count};
+  }
+
+  const InitialGrains& grains_;
+  double width_;
+  std::vector<InSlab> order_;
+};
+
+}  // namespace
+
+void check_overlaps(const InitialGrains& grains, double most, const std::string& source) {
+  const Deepest found = Search(grains).deepest(most);
+  if (found.overlap <= most) return;
+  throw InputError(fmt::format(
+      "{}: grains {} and {} overlap by {:.3g} % of their mean diameter at the start, which is more "
+      "than grains.max_overlap, {:.3g} %{}",
+      source, grains.id[found.a], grains.id[found.b], 100 * found.overlap, 100 * most,
+      found.count > 1 ? fmt::format("; {} pairs do", found.count) : ""));
+}
+
+}  // namespace barchan
