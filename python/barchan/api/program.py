@@ -46,7 +46,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
         restart: str | Path | None = None, overwrite: bool = False, **overrides: Any) -> Run:
     """Runs a case to its end and returns its Run; progress goes to standard error.
 
-    out: the run folder (default: runs/<case name>); where it holds this run, finished, nothing is computed again.
+    out: the run folder (default: runs/CASE); where it holds this run, finished, nothing is computed again.
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
