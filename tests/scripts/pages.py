@@ -1,8 +1,6 @@
 #!/usr/bin/python3
 """What the pages tell a user to type works: commands are parsed and their cases checked, figures and tests are there,
 whole cases and studies pass the check, Python is run on a made-up run, and links lead to a page and a heading."""
-import contextlib
-import io
 import os
 import re
 import shlex
@@ -90,6 +88,8 @@ def check_command(page, line, help_text, folder):
                 say(page, f"{line}: the help does not know {option}")
     if any(PLACEHOLDER.search(word) for word in arguments):
         return None
+    if arguments and (ROOT / "configs" / arguments[0]).is_file():  # the launcher looks there, too
+        arguments[0] = str(ROOT / "configs" / arguments[0])
     if command in ("run", "check") and arguments and not arguments[0].startswith("-"):
         changes = [word for i, word in enumerate(arguments) if "--set" in (word, arguments[i - 1])]
         done = call(PROGRAM, "check", arguments[0], "--resolved-only", *changes, folder=folder)
@@ -123,7 +123,7 @@ def check_figures(page, line, arguments):
 
 def check_blocks(page, text, folder):
     """Whole cases and studies of a page are saved where it says, `NAME.toml`, and checked; Python is run."""
-    places = {}
+    python = []
     for language, block in BLOCK.findall(text):
         if language == "toml" and block.startswith(("[case]", "[study]")):
             name = re.findall(r"`([\w-]+\.toml)`", text[:text.index(block)])
@@ -135,29 +135,22 @@ def check_blocks(page, text, folder):
                 done = call(sys.executable, "-m", "barchan", "sweep", PROGRAM, case.name, "--list", folder=folder)
             if done.returncode:
                 say(page, f"its {case.name}: {last_line(done)}")
-        elif language == "python":
-            run_python(page, block, places)
+        elif language == "python" and not any(word in block for word in ONLY_READ):
+            python.append("".join(line for line in block.splitlines(keepends=True) if "barchan.run(" not in line))
+    if python:
+        run_python(page, python, folder)
 
 
-def run_python(page, block, names):
-    try:
-        compile(block, page.name, "exec")
-    except SyntaxError as error:
-        return say(page, f"Python: {error}")
-    if any(word in block for word in ONLY_READ):
-        return None
-    block = "".join(line for line in block.splitlines(keepends=True) if "barchan.run(" not in line)
-    try:
-        with contextlib.redirect_stdout(io.StringIO()):
-            exec(block, names)  # noqa: S102  # our own pages
-    except Exception as error:  # noqa: BLE001  # whatever it is, a reader would meet it
-        say(page, f"Python: {type(error).__name__}: {error}\n{block}")
-    return None
+def run_python(page, blocks, folder):
+    """All blocks of a page, one after the other in one process."""
+    script = folder / "page.py"
+    script.write_text("import matplotlib\nmatplotlib.use('Agg')\n" + "\n".join(blocks))
+    done = call(sys.executable, script.name, folder=folder)
+    if done.returncode:
+        say(page, f"Python: {done.stderr[-600:]}")
 
 
 def main():
-    import matplotlib
-    matplotlib.use("Agg")
     help_text = call(ROOT / "barchan", "help", folder=ROOT).stdout
     n = 0
     with tempfile.TemporaryDirectory() as name:
@@ -167,7 +160,6 @@ def main():
             subprocess.run([sys.executable, ROOT / "tests/support/make_fake_run.py", folder / "runs" / run], check=True)
             with (folder / "runs" / run / "config.toml").open("a") as config:
                 config.write("[grains]\nsliding_friction = 0.6\n")
-        os.chdir(folder)
         for page in PAGES:
             text = page.read_text()
             check_links(page, text)
