@@ -20,6 +20,7 @@ packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-op
 test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
+  python3-vtk9  # what reads its files for ParaView
   nodejs node-jsdom)  # the report page
 
 quiet=no
