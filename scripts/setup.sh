@@ -20,14 +20,17 @@ packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-op
 test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
-  python3-vtk9  # what reads its files for ParaView
   nodejs node-jsdom)  # the report page
 
 quiet=no
+tests=no
 for argument in "$@"; do
   case $argument in
     --quiet) quiet=yes ;;
-    --tests) packages+=("${test_packages[@]}") ;;
+    --tests)
+      tests=yes
+      packages+=("${test_packages[@]}")
+      ;;
     *) die 2 "unknown option '$argument'; there are --tests and --quiet" ;;
   esac
 done
@@ -113,6 +116,9 @@ apt_updated=no
 missing=""
 if command -v dpkg-query apt-get > /dev/null; then
   has_apt=yes
+  # What reads the files for ParaView, for a test. ParaView has its own, and apt would remove that.
+  if [ "$tests" = yes ] && ! dpkg-query -W -f '${db:Status-Status}' python3-paraview 2> /dev/null | grep -qx installed
+  then packages+=(python3-vtk9); fi
   missing="$(missing_packages)"
 fi
 if [ -z "$missing" ] && [ -f "$stamp" ] && [ "$(fingerprint)" = "$(cat "$stamp")" ]; then

@@ -157,9 +157,9 @@ TEST(ConfigKeys, ASectionFitsTheTerminal) {
   }
   EXPECT_EQ(keys_text("pour"), keys_text("initial.grains.pour"));
   EXPECT_THROW(keys_text("grans"), InputError);
-  EXPECT_NE(test::message_of([] { keys_text("grans"); }).find("did you mean \"grains\"?"),
+  EXPECT_NE(message_of([] { keys_text("grans"); }).find("did you mean \"grains\"?"),
             std::string::npos);
-  EXPECT_NE(test::message_of([] { keys_text("grains.skim"); }).find("\"grains.skin\"?"),
+  EXPECT_NE(message_of([] { keys_text("grains.skim"); }).find("\"grains.skin\"?"),
             std::string::npos);
 }
 
