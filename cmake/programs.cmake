@@ -21,6 +21,7 @@ function(barchan_core_library target)
   target_link_libraries(${target} PUBLIC barchan_kernels ${public_libraries}
     "$<BUILD_INTERFACE:barchan_flags>" "$<BUILD_INTERFACE:barchan_version>"
     PRIVATE ${private_libraries})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${BARCHAN_ENABLE_UNITY} UNITY_BUILD_MODE GROUP)
   if(BARCHAN_ENABLE_PCH)
     target_precompile_headers(${target} PRIVATE <Kokkos_Core.hpp> <mpi.h> <filesystem> <string> <vector>)
   endif()

@@ -9,7 +9,8 @@ All records must be of one program on one machine. The table is written anew.
 import sys
 from pathlib import Path
 
-import compare
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import compare  # noqa: E402
 
 TABLE = Path(__file__).resolve().parent / "measured.csv"
 ONE = ("git_hash", "device", "backend", "threads", "ranks", "build")

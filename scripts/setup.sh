@@ -13,10 +13,11 @@ speaker="barchan setup"
 # shellcheck source=scripts/progress.sh
 . "$root/scripts/progress.sh"
 
-packages=(cmake g++ ninja-build pkg-config git libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
+packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib python3-scipy)
-test_packages=(libeigen3-dev libgtest-dev libbenchmark-dev
+  python3 python3-h5py python3-numpy python3-matplotlib
+  python3-munkres)  # else matplotlib brings python3-scipy, and that 350 MB more
+test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
   python3-yaml  # the citation file
@@ -26,10 +27,14 @@ if [ "${CI:-}" = true ]; then  # large ones; elsewhere their tests are skipped
 fi
 
 quiet=no
+tests=no
 for argument in "$@"; do
   case $argument in
     --quiet) quiet=yes ;;
-    --tests) packages+=("${test_packages[@]}") ;;
+    --tests)
+      tests=yes
+      packages+=("${test_packages[@]}")
+      ;;
     *) die 2 "unknown option '$argument'; there are --tests and --quiet" ;;
   esac
 done
@@ -74,7 +79,7 @@ apt_state() {  # apt_state LOG: how far apt has come
 
 check_tools() {  # a machine without apt, such as a cluster: modules or the user must provide them
   local tool
-  for tool in cmake ninja mpicxx git; do
+  for tool in cmake ninja mpicxx; do
     command -v "$tool" > /dev/null || die 1 "'$tool' was not found; install it or load its module."
   done
 }
@@ -115,6 +120,9 @@ apt_updated=no
 missing=""
 if command -v dpkg-query apt-get > /dev/null; then
   has_apt=yes
+  # What reads the files for ParaView, for a test. ParaView has its own, and apt would remove that.
+  if [ "$tests" = yes ] && ! dpkg-query -W -f '${db:Status-Status}' python3-paraview 2> /dev/null | grep -qx installed
+  then packages+=(python3-vtk9); fi
   missing="$(missing_packages)"
 fi
 if [ -z "$missing" ] && [ -f "$stamp" ] && [ "$(fingerprint)" = "$(cat "$stamp")" ]; then

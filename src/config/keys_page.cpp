@@ -111,19 +111,21 @@ std::string keys_page(const Sections& table) {
 }
 
 std::string keys_text(std::string_view name, const Sections& table) {
+  const std::string inner = fmt::format(".{}", name);  // "pour" is enough
   Config defaults;
   std::string text;
   for (const Section& section : table) {
     prepare(section, defaults);
     std::size_t width = 0;
     for (const Key& key : section.keys) width = std::max(width, key.name.size());
-    const bool whole = section.name == name && !section.keys.empty();
+    const bool whole = section.name == name || section.name.ends_with(inner);
     for (const Key& key : section.keys) {
       if (whole || key.dotted() == name) text += entry(key, defaults, width);
     }
     if (text.empty()) continue;
-    return fmt::format("{}  {}{}\n\n{}", title_of(section), section.meaning,
-                       section.required ? " (required)" : "", text);
+    std::string head = wrapped(section.meaning + (section.required ? " (required)." : "."), 0);
+    std::erase(head, '`');
+    return fmt::format("{}\n{}\n{}", title_of(section), head, text);
   }
   refuse(std::string(name), table);
 }

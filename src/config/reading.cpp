@@ -192,7 +192,8 @@ void ConfigReader::add_problem(const Location& where, const std::string& dotted,
     return;
   }
   const bool valued = node != nullptr && node->table() == nullptr;
-  problems_.push_back({{where.file + (valued ? "=" + toml_text(*node) : ""), 0}, message});
+  const std::string value = valued ? fmt::format("={}", toml_text(*node)) : "";
+  problems_.push_back({{where.file + value, 0}, message});
 }
 
 void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {

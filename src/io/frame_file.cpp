@@ -15,14 +15,14 @@ namespace barchan {
 
 namespace {
 
-constexpr std::string_view kPrefix = "frame_";
+constexpr std::string_view kFramePrefix = "frame_";
 
 /// Number of a frame's group; -1 for any other name.
 int frame_number(const std::string& name) {
   int number = -1;
-  if (!name.starts_with(kPrefix)) return -1;
+  if (!name.starts_with(kFramePrefix)) return -1;
   const char* end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + kPrefix.size(), end, number);
+  const auto [stop, error] = std::from_chars(name.data() + kFramePrefix.size(), end, number);
   return error == std::errc() && stop == end ? number : -1;
 }
 
@@ -33,7 +33,7 @@ bool is_nearly_a_frame(const std::string& name) {
   std::size_t right = 0;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool digit = name[i] >= '0' && name[i] <= '9';
-    if (i < kPrefix.size() ? name[i] == sample[i] : digit) ++right;
+    if (i < kFramePrefix.size() ? name[i] == sample[i] : digit) ++right;
   }
   return right == name.size() - 1;
 }
@@ -130,7 +130,7 @@ void FrameFile::replace_file(const Preamble& fill) const {
 
 FrameInfo FrameFile::write_frame(Hdf5File& file, double t, std::int64_t step,
                                  const Content& content) const {
-  const std::string name = fmt::format("{}{:06}", kPrefix, next_);
+  const std::string name = fmt::format("{}{:06}", kFramePrefix, next_);
   file.begin_hidden_group(name);
   file.set_attribute(name, "time", t);
   file.set_attribute(name, "step", step);

@@ -4,6 +4,7 @@
 
 #include "kernels/diagnostics/frame_values.hpp"
 #include "src/io/xdmf.hpp"
+#include "src/output/long_names.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -25,8 +26,8 @@ void write_entries(Hdf5File& file, const std::string& name, const View& view, co
   const auto host = on_host(view);
   Extents extents{host.extent(0)};
   if (View::rank() == 2) extents.push_back(host.extent(1));
-  file.write(name, std::span<const typename View::non_const_value_type>(host.data(), host.size()),
-             extents, units, slab_of(entries, extents, 0));
+  const std::span<const typename View::non_const_value_type> values(host.data(), host.size());
+  write_named(file, Arrays::grains, name, values, extents, units, slab_of(entries, extents, 0));
 }
 
 auto ids_of(const GrainState& grains) {
@@ -66,8 +67,8 @@ class FieldWriter {
   void average(const std::string& name, const AverageToFrame& functor, const std::string& units) {
     Kokkos::parallel_for("output: average to centres", cells_, functor);
     const auto host = on_host(values_);
-    file_.write(group_ + "/" + name, std::span<const float>(host.data(), host.size()), extents_,
-                units, slab_);
+    write_named(file_, Arrays::flow, group_ + "/" + name,
+                std::span<const float>(host.data(), host.size()), extents_, units, slab_);
   }
 
   Hdf5File& file_;
@@ -81,7 +82,8 @@ class FieldWriter {
 void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
                   const Hyperslab& entries) {
   if (dunes)
-    file.write(group + "/dune", std::span<const int>(*dunes), {dunes->size()}, "1", entries);
+    write_named(file, Arrays::grains, group + "/dune", std::span<const int>(*dunes),
+                {dunes->size()}, "1", entries);
 }
 
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
@@ -114,8 +116,9 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
 void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& faces) {
   std::vector<double> centres;
   for (std::size_t i = 1; i < faces.size(); ++i) centres.push_back(0.5 * (faces[i - 1] + faces[i]));
-  file.write(name + "_face", std::span<const double>(faces), {faces.size()}, "m");
-  file.write(name, std::span<const double>(centres), {centres.size()}, "m");
+  write_named(file, Arrays::grid, name + "_face", std::span<const double>(faces), {faces.size()},
+              "m");
+  write_named(file, Arrays::grid, name, std::span<const double>(centres), {centres.size()}, "m");
 }
 
 void write_grid(Hdf5File& file, const Grid& grid) {

@@ -23,7 +23,8 @@ if [ "${QUICK:-0}" != 0 ]; then options+=" --checks=-clang-analyzer-*" clean=$bu
 
 command -v "$tidy" > /dev/null || { echo "tidy: no $tidy (Debian: clang-tidy-22)" >&2; exit 1; }
 mkdir -p $clean
-cmake --preset release -B $build -DBARCHAN_ENABLE_PCH=OFF -DBARCHAN_ENABLE_NATIVE=OFF > $build/configure.log 2>&1 ||
+cmake --preset release -B $build -DBARCHAN_ENABLE_PCH=OFF -DBARCHAN_ENABLE_UNITY=OFF -DBARCHAN_ENABLE_NATIVE=OFF \
+  > $build/configure.log 2>&1 ||
   { tail -n 20 $build/configure.log >&2; exit 1; }
 mapfile -t all < <(sed -nE 's#^ *"file": "(.*)".*#\1#p' $build/compile_commands.json |
   sed -n "s#^$PWD/##p" | grep -E '^(src|perf|tests)/' | sort -u)

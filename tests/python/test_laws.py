@@ -5,10 +5,19 @@ import json
 import numpy as np
 import pytest
 
-from barchan import MissingData, Study
+from barchan import MissingData, Study, stats
 from barchan.dune import laws
 from barchan.figures import laws as laws_figure
 from barchan.figures import means
+
+def test_student_t_is_that_of_the_closed_forms_and_of_scipy():
+    p = 0.975
+    assert stats.student_t(p, 1) == pytest.approx(np.tan(np.pi * (p - 0.5)), rel=1e-12)
+    assert stats.student_t(p, 2) == pytest.approx((2 * p - 1) / np.sqrt(2 * p * (1 - p)), rel=1e-12)
+    scipy = pytest.importorskip("scipy.stats")
+    for freedom in (3, 7, 30, 400):
+        assert scipy.t.cdf(stats.student_t(p, freedom), freedom) == pytest.approx(p, rel=1e-12)
+
 
 SIZES = {"3k": 8e-3, "10k": 12e-3, "30k": 18e-3, "100k": 27e-3}  # L [m]
 D = 2e-4

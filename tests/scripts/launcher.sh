@@ -21,6 +21,18 @@ expect 2 "unknown command 'frobnicate'" frobnicate
 expect 2 "--ranks needs a number" run case.toml --ranks none
 expect 2 "--threads needs a number" run case.toml --threads=0
 expect 2 "run folder" plot
+expect 2 "run folder" vtk
+expect 2 "run needs a case" run --quiet
+expect 2 "check needs a case" check
+expect 2 "info needs" info
+expect 0 "usage: ./barchan test" test --help
+expect 0 "usage: ./barchan bench" bench --help
+expect 2 "unknown option '--test'" setup --test
+
+# What the program says of an option is what the launcher says.
+"$root/barchan" run --help > said 2>&1 || fail "run --help: $(cat said)"
+dry="$("$root/barchan" --help | sed -n 's/^ *--dry-run *//p')"
+[ -n "$dry" ] && tr -s ' \n' ' ' < said | grep -qF -- "$dry" || fail "--dry-run: the launcher says '$dry', the program: $(cat said)"
 
 # Bad input: code 2 and nothing written, also from a folder with a space and an accent in its name.
 mkdir "dünes 1" && cd "dünes 1" || exit 1
@@ -78,9 +90,9 @@ if "${as_other[@]}" other/build/release/barchan --version > said 2>&1; then
 fi
 chmod -R u+w other
 
-expect 0 "nothing to do" setup
+expect 0 "nothing to do" setup --tests
 start="$(date +%s%N)"
-"$root/barchan" setup > /dev/null
+"$root/barchan" setup > /dev/null 2>&1
 elapsed_ms=$((($(date +%s%N) - start) / 1000000))
 [ "$elapsed_ms" -lt 1000 ] || fail "set-up with nothing to do took $elapsed_ms ms"
 

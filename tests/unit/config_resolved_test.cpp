@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/base/errors.hpp"
 #include "src/config/keys.hpp"
 #include "src/config/load.hpp"
 #include "tests/support/config_problems.hpp"
@@ -137,6 +138,29 @@ TEST(ConfigKeys, ThePageOfKeysIsThatOfTheProgram) {
     EXPECT_FALSE(key.meaning.empty());
     EXPECT_NE(keys_page().find("| `" + key.name + "` | " + key.type), std::string::npos);
   });
+}
+
+TEST(ConfigKeys, ASectionFitsTheTerminal) {
+  const std::string grains = keys_text("grains");
+  for (const char* part : {"[grains]\nThe grains", "\n  sliding_friction  coefficient of sliding",
+                           "default 0.6", "[kg/m3]"})
+    EXPECT_NE(grains.find(part), std::string::npos) << grains;
+  EXPECT_EQ(grains.find("drop_height"), std::string::npos);
+  for (const Section& section : sections()) {
+    if (section.keys.empty()) continue;
+    std::istringstream text(keys_text(section.name));
+    for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100U) << line;
+    for (const Key& key : section.keys) {
+      EXPECT_NE(text.str().find("\n  " + key.name + " "), std::string::npos) << key.name;
+      EXPECT_NE(keys_text(key.dotted()).find("\n  " + key.name + " "), std::string::npos);
+    }
+  }
+  EXPECT_EQ(keys_text("pour"), keys_text("initial.grains.pour"));
+  EXPECT_THROW(keys_text("grans"), InputError);
+  EXPECT_NE(message_of([] { keys_text("grans"); }).find("did you mean \"grains\"?"),
+            std::string::npos);
+  EXPECT_NE(message_of([] { keys_text("grains.skim"); }).find("\"grains.skin\"?"),
+            std::string::npos);
 }
 
 TEST(ConfigKeys, RemovedKeysAreToldAndOldRestartsStillRead) {

@@ -1,11 +1,14 @@
 // Grains of a case: poured, or from a file into the domain.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "src/initial/initial_state.hpp"
+#include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -100,6 +103,44 @@ TEST(InitialState, GrainsOutsideAreRefused) {
   EXPECT_THROW(placed({0.125, 0.01, 0.02}, GrainBoundaryX::wall), std::runtime_error);
   EXPECT_THROW(placed({0.35, 0.01, 0.02}, GrainBoundaryX::periodic), std::runtime_error);
   EXPECT_THROW(placed({0.05, 0.03, 0.02}, GrainBoundaryX::periodic), std::runtime_error);
+}
+
+/// The message about grains at random places in a cube of `length`, and the deepest overlap by all
+/// pairs.
+std::pair<std::string, double> crowd(int n, double length, double most) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0, length), size(1e-4, 3e-4);
+  InitialGrains grains;
+  for (int g = 0; g < n; ++g)
+    grains.add(100 + g, size(random), {place(random), place(random), place(random)}, {}, {});
+  double deepest = 0;
+  for (std::size_t a = 0; a < grains.size(); ++a) {
+    for (std::size_t b = a + 1; b < grains.size(); ++b) {
+      const double mean = (grains.diameter[a] + grains.diameter[b]) / 2;
+      deepest = std::max(deepest, 1 - norm(grains.x[a] - grains.x[b]) / mean);
+    }
+  }
+  return {message_of([&] { check_overlaps(grains, most, "heap.csv"); }), deepest};
+}
+
+TEST(InitialState, TheDeepestOverlapOfAllPairsIsTold) {
+  for (const double length : {3e-3, 6e-3, 1e-2}) {
+    const auto [told, deepest] = crowd(400, length, 0.01);
+    ASSERT_GT(deepest, 0.01);
+    EXPECT_TRUE(contains(told, fmt::format("overlap by {:.3g} %", 100 * deepest))) << told;
+    EXPECT_EQ(crowd(400, length, deepest + 1e-9).first, "");
+    EXPECT_NE(crowd(400, length, deepest - 1e-9).first, "");
+  }
+}
+
+TEST(InitialState, OverlapsAreToldWithTheirGrains) {
+  InitialGrains grains;
+  grains.add(7, 2e-4, {1e-3, 1e-3, 1e-3}, {}, {});
+  grains.add(9, 2e-4, {1e-3, 1e-3, 1.15e-3}, {}, {});
+  EXPECT_EQ(message_of([&] { check_overlaps(grains, 0.1, "heap.csv"); }),
+            "heap.csv: grains 7 and 9 overlap by 25 % of their mean diameter at the start, which "
+            "is more than grains.max_overlap, 10 %");
+  EXPECT_EQ(message_of([&] { check_overlaps(grains, 0.3, "heap.csv"); }), "");
 }
 
 }  // namespace

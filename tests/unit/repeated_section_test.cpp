@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "src/config/key_builder.hpp"
-#include "src/config/reading.hpp"
 #include "src/config/keys_page.hpp"
+#include "src/config/reading.hpp"
 #include "src/config/resolved.hpp"
 
 namespace barchan {

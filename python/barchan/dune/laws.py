@@ -12,7 +12,7 @@ import numpy as np
 
 from barchan.dune.shape import BIN
 from barchan.io import horn_lengths
-from barchan.stats import in_window
+from barchan.stats import in_window, student_t
 
 FEWEST = 3    # runs that make a law
 KINDS = {"celerity": "power", "W": "line", "H": "line", "horn": "line", "loss": "power", "formation_time": "power"}
@@ -74,11 +74,13 @@ def fit(length: np.ndarray, values: np.ndarray, kind: str) -> Law | None:
         return None
     if kind == "power":
         x, y = np.log(x), np.log(y)
-    from scipy import stats  # takes half a second: only where a law is asked for
-
-    line = stats.linregress(x, y)
-    a = np.exp(line.intercept) if kind == "power" else line.intercept
-    return Law(kind, float(a), float(line.slope), float(stats.t.ppf(0.975, len(x) - 2) * line.stderr), len(x))
+    from_mean = x - x.mean()
+    slope = from_mean @ y / (from_mean @ from_mean)
+    intercept = y.mean() - slope * x.mean()
+    residual = y - intercept - slope * x
+    error = np.sqrt(residual @ residual / (len(x) - 2) / (from_mean @ from_mean))
+    a = np.exp(intercept) if kind == "power" else intercept
+    return Law(kind, float(a), float(slope), float(student_t(0.975, len(x) - 2) * error), len(x))
 
 
 def sentences(laws: dict[str, Law | None]) -> Iterator[str]:

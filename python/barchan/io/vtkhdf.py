@@ -1,0 +1,108 @@
+"""Files for VTK and ParaView beside grains.h5 and fields.h5: VTKHDF 1.0, one file a frame.
+
+VTKHDF 1.0 (VTK 9.1 and newer, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#hdf-file-formats)
+knows images and unstructured grids, and no time. Grains are vertices; the rectilinear mesh of the flow, which images
+cannot describe, is hexahedra. Values are not copied: they are links to the files of the run, which must stay beside.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from barchan.errors import MissingData
+from barchan.io.frames import FrameFile
+from barchan.io.hdf5 import Group, h5py
+from barchan.io.run_folder import RunFolder
+
+FOLDER = "vtkhdf"
+VERTEX, HEXAHEDRON = 1, 12  # types of cells of VTK
+SMALL = {"compression": "gzip", "shuffle": True}
+
+
+def write(run: RunFolder) -> list[Path]:
+    """Writes RUN_DIR/vtkhdf anew for all frames there are; returns the series of files, one for each kind."""
+    folder = run.path / FOLDER
+    kinds = [(kind, file) for kind, file in (("grains", run.grain_file), ("fields", run.field_file)) if file]
+    if not kinds:
+        raise MissingData("needs grains.h5 or fields.h5 with at least one frame")
+    folder.mkdir(exist_ok=True)
+    for old in folder.glob("*.vtkhdf*"):
+        old.unlink()
+    return [_write_series(folder, kind, file) for kind, file in kinds]
+
+
+def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
+    """All frames of a file, and the list of them with their times."""
+    mesh = folder / "fields_mesh.h5"
+    entries = []
+    with file.open() as root:
+        if kind == "fields":
+            _write_mesh(mesh, root["grid"])
+        for time, name in file.frames:
+            path = folder / f"{kind}_{name.removeprefix('frame_')}.vtkhdf"
+            with h5py.File(path, "w") as out:
+                top = out.create_group("VTKHDF")
+                top.attrs["Version"], top.attrs["Type"] = [1, 0], np.bytes_("UnstructuredGrid")
+                top["FieldData/TimeValue"] = np.array([time])
+                if kind == "grains":
+                    _add_grains(top, root[name], f"../{file.path.name}", name)
+                else:
+                    _add_fields(top, root[name], f"../{file.path.name}", name, mesh.name)
+            entries.append({"name": path.name, "time": time})
+    series = folder / f"{kind}.vtkhdf.series"
+    series.write_text(json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
+    return series
+
+
+def _write_cells(group: Any, n_points: int, corners: np.ndarray, kind: int) -> None:
+    """Cells by their corners (cells, corners each), all of one type of VTK."""
+    count, each = corners.shape
+    numbers = {"NumberOfPoints": n_points, "NumberOfCells": count, "NumberOfConnectivityIds": corners.size}
+    for name, number in numbers.items():
+        group[name] = np.array([number])
+    group.create_dataset("Connectivity", data=corners.reshape(-1), **SMALL)
+    group.create_dataset("Offsets", data=each * np.arange(count + 1), **SMALL)
+    group.create_dataset("Types", data=np.full(count, kind, "u1"), **SMALL)
+
+
+def _add_grains(top: Any, frame: Group, source: str, name: str) -> None:
+    n = len(frame["id"])
+    _write_cells(top, n, np.arange(n)[:, None], VERTEX)
+    top["Points"] = h5py.ExternalLink(source, f"/{name}/x")
+    for array in frame:
+        if array != "x":
+            top[f"PointData/{array}"] = h5py.ExternalLink(source, f"/{name}/{array}")
+
+
+def _write_mesh(path: Path, grid: Group) -> None:
+    """Points and hexahedra, x fastest: one file for all frames."""
+    x, y, z = (grid[f"{axis}_face"][:] for axis in "xyz")
+    points = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
+    number = np.arange(len(points)).reshape(len(z), len(y), len(x))
+    corners = [number[k:k - 1 or None, j:j - 1 or None, i:i - 1 or None].reshape(-1)
+               for k in (0, 1) for j, i in ((0, 0), (0, 1), (1, 1), (1, 0))]
+    with h5py.File(path, "w") as out:
+        out.create_dataset("Points", data=points, **SMALL)
+        _write_cells(out, len(points), np.stack(corners, axis=1), HEXAHEDRON)
+
+
+def _add_fields(top: Any, frame: Group, source: str, name: str, mesh: str) -> None:
+    for part in ("Points", "Connectivity", "Offsets", "Types", "NumberOfPoints", "NumberOfCells",
+                 "NumberOfConnectivityIds"):
+        top[part] = h5py.ExternalLink(mesh, f"/{part}")
+    cells = top.create_group("CellData")
+
+    def values(array: str) -> Any:
+        return h5py.VirtualSource(source, f"/{name}/{array}", shape=frame[array].array.shape)
+
+    for array in frame:
+        whole = frame[array].array
+        layout = h5py.VirtualLayout((whole.size,), whole.dtype)  # of three dimensions: flat, x fastest
+        layout[:] = values(array)
+        cells.create_virtual_dataset(array, layout)
+    velocity = h5py.VirtualLayout((frame["u"].array.size, 3), frame["u"].array.dtype)
+    for axis, array in enumerate("uvw"):
+        velocity[:, axis] = values(array)
+    cells.create_virtual_dataset("velocity", velocity)
