@@ -16,7 +16,7 @@ source="$folder/barchan-${version%-*}"
 [ -d "$source" ] || git clone --quiet --no-checkout "$here" "$source"
 git -C "$source" fetch --quiet "$here" HEAD
 git -C "$source" checkout --quiet --force --detach FETCH_HEAD
-rm -f "$source/debian/debhelper-build-stamp"  # an earlier build goes on with what has changed
+(cd "$source" && dh_clean)  # what is compiled stays
 say "building the packages (the longest part; $folder/build.log)"
 (cd "$source" && Kokkos_ROOT="$folder/kokkos" dpkg-buildpackage -us -uc -b -nc -Ppkg.barchan.static-kokkos) \
   > "$folder/build.log" 2>&1 || { tail -n 20 "$folder/build.log"; exit 1; }
