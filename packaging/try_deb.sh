@@ -6,16 +6,17 @@
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: packaging/try_deb.sh KOKKOS_SOURCES FOLDER [MIRROR]" >&2; exit 2; }
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-version="$(cd "$here" && dpkg-parsechangelog --show-field Version)"
+version="$(dpkg-parsechangelog --file "$here/debian/changelog" --show-field Version)"
 mkdir -p "$2"
 folder="$(cd "$2" && pwd)"
 say() { echo "try_deb: $*"; }
 
 [ -d "$folder/kokkos" ] || "$here/packaging/kokkos_static.sh" "$1" "$folder/kokkos" > "$folder/kokkos.log" 2>&1
 source="$folder/barchan-${version%-*}"
-mkdir -p "$source"
-git -C "$here" archive HEAD | tar x -C "$source"
-rm -f "$source/debian/debhelper-build-stamp"  # an earlier build goes on with what has changed
+[ -d "$source" ] || git clone --quiet --no-checkout "$here" "$source"
+git -C "$source" fetch --quiet "$here" HEAD
+git -C "$source" checkout --quiet --force --detach FETCH_HEAD
+(cd "$source" && dh_clean)  # what is compiled stays
 say "building the packages (the longest part; $folder/build.log)"
 (cd "$source" && Kokkos_ROOT="$folder/kokkos" dpkg-buildpackage -us -uc -b -nc -Ppkg.barchan.static-kokkos) \
   > "$folder/build.log" 2>&1 || { tail -n 20 "$folder/build.log"; exit 1; }

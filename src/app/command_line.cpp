@@ -86,8 +86,9 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
       ->check(CLI::Range(0, 1'000'000));
   run->add_flag("--overwrite", line.overwrite,
                 "remove the results of an earlier run in the folder and begin again");
-  run->add_flag("--dry-run", line.dry_run,
-                "check the case, print its derived numbers and warnings; nothing is run or written");
+  run->add_flag(
+      "--dry-run", line.dry_run,
+      "check the case, print its derived numbers and warnings; nothing is run or written");
   run->add_flag("--starts-only", line.starts_only,
                 "run the cases this one starts from where their results are missing, then stop");
   run->add_flag("--quiet", line.quiet, "no live line on the terminal");
