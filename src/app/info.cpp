@@ -21,11 +21,12 @@ std::string describe_array(const Hdf5File& file, const std::string& path,
   const std::string units = file.has_attribute(path, "units")
                                 ? file.attribute<std::string>(path, "units")
                                 : std::string("?");
-  std::string line =
-      fmt::format("  {:<24} {:<18} {:<8} {:<9}", label, to_string(info.extents),
-                  kTypeNames[static_cast<int>(info.type)], fmt::format("[{}]", units));
-  if (file.has_attribute(path, "long_name"))
-    line += " " + file.attribute<std::string>(path, "long_name");
+  const std::string meaning = file.has_attribute(path, "long_name")
+                                  ? file.attribute<std::string>(path, "long_name")
+                                  : std::string();
+  const std::string line =
+      fmt::format("  {:<24} {:<18} {:<8} {:<9} {}", label, to_string(info.extents),
+                  kTypeNames[static_cast<int>(info.type)], fmt::format("[{}]", units), meaning);
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
