@@ -163,7 +163,7 @@ TEST(ConfigLoad, WrongTypesAreNamed) {
 }
 
 TEST(ConfigLoad, SizesAreDiametersAndCounts) {
-  const std::string set = "--set grains.sizes=";
+  const std::string set = "--set grains.sizes = ";
   refused(
       grain_case(),
       set +
@@ -195,10 +195,10 @@ TEST(ConfigLoad, LengthsMayBeInMeanDiameters) {
   EXPECT_DOUBLE_EQ(thin.fluid->uniform_height, 2 * 0.25e-3);
   for (const std::string wrong : {"3 dd", "d", "3 mm", "3  d", "inf d", " 3 d"}) {
     EXPECT_EQ(problems(text, {"grains.skin=\"" + wrong + "\""}),
-              only("--set grains.skin=\"" + wrong +
+              only("--set grains.skin = \"" + wrong +
                    "\": must be a number of metres, or of mean grain diameters as in \"3 d\""));
   }
-  refused(text, "--set grains.skin=\"-1 d\": must be at least 0 and at most 1000",
+  refused(text, "--set grains.skin = \"-1 d\": must be at least 0 and at most 1000",
           {"grains.skin=-1 d"});
 }
 
@@ -207,7 +207,7 @@ TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
   refused_grains("restitution = 0", "must be above 0 and at most 1");
   refused_grains("density = 1e+300", "must be at least 1e-06 and at most 1e+09");
   EXPECT_TRUE(problems(grain_case("restitution = 1\npoisson_ratio = 0\n")).empty());
-  refused(fluid_case(), "--set fluid.cells=[62, 0, 25]: must be at least 1 and at most 100000",
+  refused(fluid_case(), "--set fluid.cells = [62, 0, 25]: must be at least 1 and at most 100000",
           {"fluid.cells=[62, 0, 25]"});
 }
 
@@ -236,7 +236,7 @@ TEST(ConfigLoad, AllProblemsAtOnceInTheOrderOfLines) {
           "case.toml:14: [solver] preconditioner = \"ft\": must be one of \"fft\", \"local_fft\" "
           "(did you mean \"fft\"?)",
           "case.toml:15: [solver] speed: unknown key (did you mean \"seed\" of [initial]?)",
-          "--set output.grain_forces=\"yes\": must be true or false",
+          "--set output.grain_forces = \"yes\": must be true or false",
           "--set time.ende: unknown key (did you mean \"end\"?)", "6 problems; nothing was run."}));
 }
 
@@ -305,7 +305,7 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
 }
 
 TEST(ConfigOverride, IsCheckedLikeTheFile) {
-  refused(fluid_case(), "--set time.end=-1: must be above 0", {"time.end=-1"});
+  refused(fluid_case(), "--set time.end = -1: must be above 0", {"time.end=-1"});
   refused(grain_case(), "--set time.end.x: \"time.end\" is not a section", {"time.end.x=1"});
   refused(grain_case(), "--set time..end: a part of the key is empty", {"time..end=1"});
   refused(grain_case(), "--set time.end: must have the form key=value, as in time.end=2.5",
@@ -335,7 +335,7 @@ TEST_F(ConfigStart, PathsAreRelativeToTheFileAndMustExist) {
       write("inner/case.toml", moved + "[initial]\ngrains = \"../heap.csv\"\n");
   EXPECT_EQ(load_config(path).initial.grains, (folder_ / "heap.csv").string());
   const auto told = [&](const std::string& start, const std::string& why) {
-    EXPECT_EQ(load(path, {"initial.grains=" + start}), only("--set initial.grains=" + why));
+    EXPECT_EQ(load(path, {"initial.grains=" + start}), only("--set initial.grains = " + why));
   };
   told("../pile.csv", "\"../pile.csv\": must be a file that exists; there is no " +
                           (folder_ / "pile.csv").string());

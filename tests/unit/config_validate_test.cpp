@@ -47,7 +47,7 @@ TEST(ConfigValidate, RayleighLimitsAt20And30PerCentOfTheSmallestGrain) {
       says(warnings(text, steps("1.90e-6", sizes)), "grain_step is 20.1 % of the Rayleigh time"));
   EXPECT_TRUE(problems(text, steps("2.83e-6", sizes)).empty());
   EXPECT_TRUE(says(problems(text, steps("2.84e-6", sizes)),
-                   "[time] grain_step = 2.84e-06: must be at most 2.83e-06 s"));
+                   "--set time.grain_step = 2.84e-06: must be at most 2.83e-06 s"));
   // Frozen grains take no steps.
   const Lines frozen{sizes[0], "grains.frozen=true", "initial.grains=none"};
   EXPECT_FALSE(says(problems(text, steps("2.84e-6", frozen)), "Rayleigh"));
@@ -75,16 +75,16 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
        "ramp_time = 1: must be absent without a mean_velocity to bring up"},
       {still, "fluid.top_velocity=1", "top_velocity = 1: must come with top = \"no_slip\""},
       {still, "initial.fluid=turbulent",
-       "[initial] fluid = \"turbulent\": must come with a mean_velocity or pressure_gradient, "
+       "--set initial.fluid = \"turbulent\": must come with a mean_velocity or pressure_gradient, "
        "which sets its log law"},
       {still, "initial.fluid=uniform",
-       "[initial] fluid = \"uniform\": must come with a mean_velocity, which it starts at"},
+       "--set initial.fluid = \"uniform\": must come with a mean_velocity, which it starts at"},
       {grains, "coupling.forces=[\"drag\"]",
-       "[coupling] forces = [\"drag\"]: must be absent without a [fluid] section"},
+       "--set coupling.forces = [\"drag\"]: must be absent without a [fluid] section"},
       {grains, "coupling.smoothing_length=3e-4", "must be absent without a [fluid] section"},
       {fluid, "coupling.drag=none", "drag = \"none\": must be absent without a [grains] section"},
       {grains, "initial.fluid=turbulent",
-       "[initial] fluid = \"turbulent\": must be absent without a [fluid] section"},
+       "--set initial.fluid = \"turbulent\": must be absent without a [fluid] section"},
       {still, "initial.grains={ pour = { radius = 0.01 } }",
        "grains = { pour = { radius = 0.01 } }: must be absent without a [grains] section"},
       {still + "[grains]\n", "time.end=1",
@@ -95,7 +95,7 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {grains, "grains.contact_model=linear",
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
-      {both, "grains.ambient={}", "[grains] ambient = {  }: contradicts [fluid]"},
+      {both, "grains.ambient={}", "--set grains.ambient = {  }: contradicts [fluid]"},
       {both, "fluid.kinematic_viscosity=0", "drag needs it"},
       {grains, "grains.frozen=true", "frozen = true: contradicts pour"},
       {grains, "grains.sizes=[]", "sizes = []: must say which grains to pour"},
