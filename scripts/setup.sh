@@ -15,8 +15,7 @@ speaker="barchan setup"
 
 packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib
-  python3-munkres)  # else matplotlib brings python3-scipy, and that 350 MB more
+  python3 python3-h5py python3-numpy python3-matplotlib)
 test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
@@ -66,7 +65,7 @@ apt_install() {
       say "warning: apt-get update reported problems; trying with what it knows"
     apt_updated=yes
   fi
-  progress "installing $# packages, and what they need, with apt" "$deps/apt.log" apt_state \
+  progress "installing packages ($#, and what they need)" "$deps/apt.log" apt_state \
     "${as_root[@]}" apt-get -qq install --yes --no-install-recommends --no-upgrade "$@" ||
     { tail -n 5 "$deps/apt.log" >&2; die 1 "apt-get install failed (full output in $deps/apt.log)."; }
 }
@@ -124,6 +123,8 @@ if command -v dpkg-query apt-get > /dev/null; then
   if [ "$tests" = yes ] && ! dpkg-query -W -f '${db:Status-Status}' python3-paraview 2> /dev/null | grep -qx installed
   then packages+=(python3-vtk9); fi
   missing="$(missing_packages)"
+  # With it apt does not take python3-scipy for matplotlib's fonts, which brings 350 MB more.
+  if [[ $missing == *python3-matplotlib* ]]; then missing+=$'\npython3-munkres'; fi
 fi
 if [ -z "$missing" ] && [ -f "$stamp" ] && [ "$(fingerprint)" = "$(cat "$stamp")" ]; then
   [ "$quiet" = yes ] || say "nothing to do"

@@ -43,6 +43,15 @@ Rows rows_of(const std::string& text) {
   return rows;
 }
 
+/// Words for docs/conventions.md without their links, [words](page).
+std::string without_links(std::string text) {
+  for (std::size_t open; (open = text.find("](")) != text.npos;) {
+    text.erase(open, text.find(')', open) - open + 1);
+    text.erase(text.rfind('[', open), 1);
+  }
+  return text;
+}
+
 std::string first_cell(const std::string& line) { return line.substr(0, line.find(',')); }
 
 /// One of ours: its columns with units and meanings; nothing if it has another header.
@@ -58,7 +67,8 @@ std::string describe_table(const CsvTable<Record>& table, const Rows& rows) {
   }
   text += "\ncolumns:\n";
   for (const Column<Record>& c : table.columns)
-    text += fmt::format("  {:<24} {:<7} {}\n", c.name, fmt::format("[{}]", c.unit), c.meaning);
+    text += fmt::format("  {:<24} {:<7} {}\n", c.name, fmt::format("[{}]", c.unit),
+                        without_links(c.meaning));
   return text;
 }
 

@@ -191,8 +191,8 @@ void ConfigReader::add_problem(const Location& where, const std::string& dotted,
     problems_.push_back({where, sentence(section, name, is_section, node, message)});
     return;
   }
-  const bool valued = node != nullptr && node->table() == nullptr;
-  const std::string value = valued ? fmt::format("={}", toml_text(*node)) : "";
+  const bool valued = node != nullptr && !is_section;
+  const std::string value = valued ? fmt::format(" = {}", toml_text(*node)) : "";
   problems_.push_back({{where.file + value, 0}, message});
 }
 

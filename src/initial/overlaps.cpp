@@ -75,10 +75,11 @@ class Search {
 void check_overlaps(const InitialGrains& grains, double most, const std::string& source) {
   const Deepest found = Search(grains).deepest(most);
   if (found.overlap <= most) return;
+  const auto [first, second] = std::minmax(grains.id[found.a], grains.id[found.b]);
   throw InputError(fmt::format(
       "{}: grains {} and {} overlap by {:.3g} % of their mean diameter at the start, which is more "
       "than grains.max_overlap, {:.3g} %{}",
-      source, grains.id[found.a], grains.id[found.b], 100 * found.overlap, 100 * most,
+      source, first, second, 100 * found.overlap, 100 * most,
       found.count > 1 ? fmt::format("; {} pairs do", found.count) : ""));
 }
 

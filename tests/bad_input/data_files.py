@@ -39,7 +39,7 @@ TABLES = [
     grain("the largest id", "9223372036854775807,2e-4,0.0043,4e-4,0.003"),
     table("two at one place", GOOD + GOOD.splitlines()[-1].replace(GOOD.splitlines()[-1].split(",")[0], "77", 1) + "\n",
           "grains.csv | and 77 are at one place"),
-    grain("inside another, before the run", "2,2e-4,0.00405,4e-4,0.003", "grains.csv | grains 1 and 2 overlap by 75 % | at the start"),
+    grain("inside another", "2,2e-4,0.00405,4e-4,0.003", "grains.csv | grains 1 and 2 overlap by 75 % | at the start"),
     grain("outside", "2,2e-4,0.0043,4e-4,-0.009", "grains.csv | grain 2 | outside the domain | domain.size"),
     grain("inside the floor", "2,2e-4,0.0043,0,0.003", "grains.csv | grain 2 | the floor"),
 ]

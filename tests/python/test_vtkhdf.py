@@ -41,7 +41,7 @@ def frames_of(run, kind):
     """(name, time, path of its file) of every frame, by the series."""
     with h5py.File(run / f"{kind}.h5") as file:
         frames = [(name, float(file[name].attrs["time"])) for name in sorted(file) if name.startswith("frame_")]
-    entries = json.loads((run / f"vtkhdf/{kind}.vtkhdf.series").read_text())["files"]
+    entries = json.loads((run / f"vtkhdf/{kind}.hdf.series").read_text())["files"]
     assert [entry["time"] for entry in entries] == [time for _, time in frames]
     return [(name, time, run / "vtkhdf" / entry["name"]) for (name, time), entry in zip(frames, entries)]
 
@@ -99,7 +99,7 @@ def test_values_are_linked_and_move_with_the_run(run, tmp_path):
 
 
 def test_written_anew_and_refused_without_frames(run, tmp_path, capsys):
-    stale = run / "vtkhdf/grains_999999.vtkhdf"
+    stale = run / "vtkhdf/grains_999999.hdf"
     stale.write_text("old")
     assert vtk.main([str(run)]) == 0
     assert not stale.exists()

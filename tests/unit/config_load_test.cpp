@@ -2,14 +2,11 @@
 #include "src/config/load.hpp"
 
 #include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "src/base/words.hpp"
-#include "src/config/keys.hpp"
 #include "src/config/resolved.hpp"
-#include "src/config/synonyms.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -76,64 +73,6 @@ TEST(ConfigLoad, UnknownKeyNamesTheNearest) {
   refused("zzzzzz = 1\n" + grain_case(), "case.toml:1: zzzzzz: unknown key");
 }
 
-TEST(ConfigLoad, WordsOfOtherProgramsNameOurKeys) {
-  const auto hinted = [](const std::string& line, const std::string& hint) {
-    const std::string word = line.substr(0, line.find(' '));
-    refused(grain_case(line + "\n"),
-            "case.toml:10: [grains] " + word + ": unknown key (did you mean " + hint + "?)");
-  };
-  hinted("mu = 0.5", "\"sliding_friction\"");
-  hinted("E = 5e6", "\"youngs_modulus\"");
-  hinted("youngsModulus = 5e6", "\"youngs_modulus\"");
-  hinted("coefficientFriction = 0.5", "\"sliding_friction\"");
-  hinted("diameter = 2e-4", "\"sizes\"");
-  hinted("viscosity = 1e-6", "\"kinematic_viscosity\" of [fluid]");
-  hinted("dt = 1e-6", "\"grain_step\" of [time]");
-  refused(fluid_case("mu = 1e-6\n"),
-          "case.toml:7: [fluid] mu: unknown key (did you mean \"kinematic_viscosity\"?)");
-  refused(fluid_case("Ubar = 0.2\n"),
-          "case.toml:7: [fluid] Ubar: unknown key (did you mean \"mean_velocity\"?)");
-  refused("deltaT = 1\n" + grain_case(),
-          "case.toml:1: deltaT: unknown key (did you mean \"fluid_step\" of [time]?)");
-  refused(grain_case("[output]\ninterval = 1\n"),
-          "case.toml:11: [output] interval: unknown key (did you mean \"grains_interval\" or "
-          "\"fields_interval\" or \"history_interval\"?)");
-  refused(grain_case("[grains.ambient]\nviscosity = 1e-6\n"),
-          "case.toml:11: [grains.ambient] viscosity: unknown key "
-          "(did you mean \"kinematic_viscosity\"?)");
-}
-
-TEST(ConfigLoad, SynonymsStandForKeysAndAreNone) {
-  const auto exists = [](const std::string& dotted) {
-    return std::ranges::any_of(sections(), [&](const Section& section) {
-      return std::ranges::any_of(section.keys,
-                                 [&](const Key& key) { return key.dotted() == dotted; });
-    });
-  };
-  for (const Synonym& one : kSynonyms) {
-    std::istringstream keys(std::string(one.keys));
-    for (std::string key; keys >> key;) {
-      if (key.ends_with(',')) key.pop_back();
-      EXPECT_TRUE(exists(key)) << key;
-    }
-    std::istringstream in(std::string(one.sections));
-    for (std::string section; in >> section;)
-      EXPECT_FALSE(exists(section + "." + std::string(one.word))) << section << one.word;
-  }
-}
-
-TEST(ConfigLoad, AMissingFileNamesTheNearest) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "quickstart.toml") << grain_case();
-  std::ofstream(folder / "quikstart.csv") << "id\n";
-  const auto told = [&](const char* name) { return message_of([&] { load_case(folder / name); }); };
-  const std::string hint = "(did you mean " + (folder / "quickstart.toml").string() + "?)";
-  EXPECT_NE(told("quikstart.toml").find("No such file or directory " + hint), std::string::npos);
-  EXPECT_EQ(told("sediment.toml").find("did you mean"), std::string::npos);
-  std::ofstream(folder / "other.toml") << fluid_case("[initial]\nfluid = \"quikstart.toml\"\n");
-  EXPECT_NE(told("other.toml").find(hint), std::string::npos) << told("other.toml");
-}
-
 TEST(ConfigLoad, UnknownSectionNamesTheNearest) {
   refused(grain_case("[outptu]\nkeep = 1\n"),
           "case.toml:10: [outptu]: unknown section (did you mean \"output\"?)");
@@ -163,7 +102,7 @@ TEST(ConfigLoad, WrongTypesAreNamed) {
 }
 
 TEST(ConfigLoad, SizesAreDiametersAndCounts) {
-  const std::string set = "--set grains.sizes=";
+  const std::string set = "--set grains.sizes = ";
   refused(
       grain_case(),
       set +
@@ -195,10 +134,10 @@ TEST(ConfigLoad, LengthsMayBeInMeanDiameters) {
   EXPECT_DOUBLE_EQ(thin.fluid->uniform_height, 2 * 0.25e-3);
   for (const std::string wrong : {"3 dd", "d", "3 mm", "3  d", "inf d", " 3 d"}) {
     EXPECT_EQ(problems(text, {"grains.skin=\"" + wrong + "\""}),
-              only("--set grains.skin=\"" + wrong +
+              only("--set grains.skin = \"" + wrong +
                    "\": must be a number of metres, or of mean grain diameters as in \"3 d\""));
   }
-  refused(text, "--set grains.skin=\"-1 d\": must be at least 0 and at most 1000",
+  refused(text, "--set grains.skin = \"-1 d\": must be at least 0 and at most 1000",
           {"grains.skin=-1 d"});
 }
 
@@ -207,7 +146,7 @@ TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
   refused_grains("restitution = 0", "must be above 0 and at most 1");
   refused_grains("density = 1e+300", "must be at least 1e-06 and at most 1e+09");
   EXPECT_TRUE(problems(grain_case("restitution = 1\npoisson_ratio = 0\n")).empty());
-  refused(fluid_case(), "--set fluid.cells=[62, 0, 25]: must be at least 1 and at most 100000",
+  refused(fluid_case(), "--set fluid.cells = [62, 0, 25]: must be at least 1 and at most 100000",
           {"fluid.cells=[62, 0, 25]"});
 }
 
@@ -236,7 +175,7 @@ TEST(ConfigLoad, AllProblemsAtOnceInTheOrderOfLines) {
           "case.toml:14: [solver] preconditioner = \"ft\": must be one of \"fft\", \"local_fft\" "
           "(did you mean \"fft\"?)",
           "case.toml:15: [solver] speed: unknown key (did you mean \"seed\" of [initial]?)",
-          "--set output.grain_forces=\"yes\": must be true or false",
+          "--set output.grain_forces = \"yes\": must be true or false",
           "--set time.ende: unknown key (did you mean \"end\"?)", "6 problems; nothing was run."}));
 }
 
@@ -305,7 +244,7 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
 }
 
 TEST(ConfigOverride, IsCheckedLikeTheFile) {
-  refused(fluid_case(), "--set time.end=-1: must be above 0", {"time.end=-1"});
+  refused(fluid_case(), "--set time.end = -1: must be above 0", {"time.end=-1"});
   refused(grain_case(), "--set time.end.x: \"time.end\" is not a section", {"time.end.x=1"});
   refused(grain_case(), "--set time..end: a part of the key is empty", {"time..end=1"});
   refused(grain_case(), "--set time.end: must have the form key=value, as in time.end=2.5",
@@ -335,7 +274,7 @@ TEST_F(ConfigStart, PathsAreRelativeToTheFileAndMustExist) {
       write("inner/case.toml", moved + "[initial]\ngrains = \"../heap.csv\"\n");
   EXPECT_EQ(load_config(path).initial.grains, (folder_ / "heap.csv").string());
   const auto told = [&](const std::string& start, const std::string& why) {
-    EXPECT_EQ(load(path, {"initial.grains=" + start}), only("--set initial.grains=" + why));
+    EXPECT_EQ(load(path, {"initial.grains=" + start}), only("--set initial.grains = " + why));
   };
   told("../pile.csv", "\"../pile.csv\": must be a file that exists; there is no " +
                           (folder_ / "pile.csv").string());

@@ -47,7 +47,7 @@ TEST(ConfigValidate, RayleighLimitsAt20And30PerCentOfTheSmallestGrain) {
       says(warnings(text, steps("1.90e-6", sizes)), "grain_step is 20.1 % of the Rayleigh time"));
   EXPECT_TRUE(problems(text, steps("2.83e-6", sizes)).empty());
   EXPECT_TRUE(says(problems(text, steps("2.84e-6", sizes)),
-                   "--set time.grain_step=2.84e-06: must be at most 2.83e-06 s"));
+                   "--set time.grain_step = 2.84e-06: must be at most 2.83e-06 s"));
   // Frozen grains take no steps.
   const Lines frozen{sizes[0], "grains.frozen=true", "initial.grains=none"};
   EXPECT_FALSE(says(problems(text, steps("2.84e-6", frozen)), "Rayleigh"));
@@ -60,7 +60,7 @@ TEST(ConfigValidate, LinearContactsHaveTheirOwnLimit) {
   const std::string text = grain_case("contact_model = \"linear\"\nlinear_stiffness = 10\n");
   EXPECT_TRUE(problems(text, steps("1.43e-5")).empty());
   EXPECT_TRUE(
-      says(problems(text, steps("1.45e-5")), "grain_step=1.45e-05: must be at most 1.44e-05 s"));
+      says(problems(text, steps("1.45e-5")), "grain_step = 1.45e-05: must be at most 1.44e-05 s"));
 }
 
 TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
@@ -70,42 +70,42 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
     std::string text, assignment, words;
   } contradictions[] = {
       {fluid, "fluid.pressure_gradient=10",
-       "pressure_gradient=10: contradicts mean_velocity: give one of the two"},
+       "pressure_gradient = 10: contradicts mean_velocity: give one of the two"},
       {still, "fluid.ramp_time=1",
-       "ramp_time=1: must be absent without a mean_velocity to bring up"},
-      {still, "fluid.top_velocity=1", "top_velocity=1: must come with top = \"no_slip\""},
+       "ramp_time = 1: must be absent without a mean_velocity to bring up"},
+      {still, "fluid.top_velocity=1", "top_velocity = 1: must come with top = \"no_slip\""},
       {still, "initial.fluid=turbulent",
-       "fluid=\"turbulent\": must come with a mean_velocity or pressure_gradient, "
+       "--set initial.fluid = \"turbulent\": must come with a mean_velocity or pressure_gradient, "
        "which sets its log law"},
       {still, "initial.fluid=uniform",
-       "fluid=\"uniform\": must come with a mean_velocity, which it starts at"},
+       "--set initial.fluid = \"uniform\": must come with a mean_velocity, which it starts at"},
       {grains, "coupling.forces=[\"drag\"]",
-       "forces=[\"drag\"]: must be absent without a [fluid] section"},
+       "--set coupling.forces = [\"drag\"]: must be absent without a [fluid] section"},
       {grains, "coupling.smoothing_length=3e-4", "must be absent without a [fluid] section"},
-      {fluid, "coupling.drag=none", "drag=\"none\": must be absent without a [grains] section"},
+      {fluid, "coupling.drag=none", "drag = \"none\": must be absent without a [grains] section"},
       {grains, "initial.fluid=turbulent",
-       "fluid=\"turbulent\": must be absent without a [fluid] section"},
+       "--set initial.fluid = \"turbulent\": must be absent without a [fluid] section"},
       {still, "initial.grains={ pour = { radius = 0.01 } }",
-       "grains={ pour = { radius = 0.01 } }: must be absent without a [grains] section"},
+       "grains = { pour = { radius = 0.01 } }: must be absent without a [grains] section"},
       {still + "[grains]\n", "time.end=1",
        "case.toml: [initial] grains: must say where the [grains] start: a file or { pour = {...} "
        "}"},
       {grains + "rolling_friction = 0.1\n", "grains.rolling_model=none",
-       "rolling_model=\"none\": contradicts a rolling_friction above 0"},
+       "rolling_model = \"none\": contradicts a rolling_friction above 0"},
       {grains, "grains.contact_model=linear",
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
-      {both, "grains.ambient={}", "ambient={  }: contradicts [fluid]"},
+      {both, "grains.ambient={}", "--set grains.ambient = {  }: contradicts [fluid]"},
       {both, "fluid.kinematic_viscosity=0", "drag needs it"},
-      {grains, "grains.frozen=true", "frozen=true: contradicts pour"},
-      {grains, "grains.sizes=[]", "sizes=[]: must say which grains to pour"},
+      {grains, "grains.frozen=true", "frozen = true: contradicts pour"},
+      {grains, "grains.sizes=[]", "sizes = []: must say which grains to pour"},
       {grains, "initial.grains.pour.radius=0.021",
        "must keep the cone inside the domain; along z it spans -0.001 to 0.041 m of 0 to 0.04 m"},
       {grains, "initial.grains.pour.drop_height=0.026", "above the domain"},
-      {grains, "initial.grains.pour.radius=0", "radius=0: must be above 0 for a cone"},
+      {grains, "initial.grains.pour.radius=0", "radius = 0: must be above 0 for a cone"},
       {grains, "initial.grains.pour.shape=\"bed\"", "contradicts shape = \"bed\""},
       {grains, "domain.size=[0.1, 0.025, 7.1e-4]", "its own image"},
-      {grains, "time.end=1e-4", "end=0.0001: must be at least one fluid_step, 0.00025 s"},
+      {grains, "time.end=1e-4", "end = 0.0001: must be at least one fluid_step, 0.00025 s"},
       {grains, "time.grain_step=1e-3", "must be at most fluid_step, 0.00025 s"},
       {still, "time.end=3e6", "which is 9999999999 fluid steps"}};
   for (const auto& [text, assignment, words] : contradictions) {

@@ -114,6 +114,37 @@ GrainState make_grains(int n) {
   return grains;
 }
 
+/// Every array says in its attributes what it is and in which unit.
+void expect_described(const std::filesystem::path& path, const std::string& group) {
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  const auto names = file.children(group);
+  EXPECT_FALSE(names.empty());
+  for (const std::string& name : names) {
+    const std::string array = group + "/" + name;
+    ASSERT_TRUE(file.has_attribute(array, "units") && file.has_attribute(array, "long_name"));
+    EXPECT_NE(file.attribute<std::string>(array, "long_name"), "") << array;
+  }
+}
+
+TEST(Output, ArraysSayWhatTheyAre) {
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  output.write_fields(make_flow(), 0, 0);
+  const Kokkos::View<Vec3*> force("force", 5);
+  std::vector<NamedForce> forces;
+  for (const char* name : {"drag", "added_mass", "lift", "pressure_gradient", "stress",
+                           "contact_normal", "contact_tangential", "total"})
+    forces.push_back({std::string("force_") + name, force});
+  output.write_grains(make_grains(3), 0, 0, forces, std::vector<int>{0, -1, 1});
+  output.write_tracks(make_grains(3), 0, 0, std::vector<int>{0, -1, 1});
+  expect_described(folder / "fields.h5", "frame_000000");
+  expect_described(folder / "fields.h5", "grid");
+  expect_described(folder / "grains.h5", "frame_000000");
+  expect_described(folder / "tracks.h5", "frame_000000");
+  const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(file.attribute<std::string>("frame_000000/d", "long_name"), "diameter");
+}
+
 TEST(Output, GrainsAreTheOnesInside) {
   const TemporaryFolder folder;
   OutputFiles output(folder.path(), {});

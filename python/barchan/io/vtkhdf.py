@@ -28,7 +28,7 @@ def write(run: RunFolder) -> list[Path]:
     if not kinds:
         raise MissingData("needs grains.h5 or fields.h5 with at least one frame")
     folder.mkdir(exist_ok=True)
-    for old in folder.glob("*.vtkhdf*"):
+    for old in folder.glob("*.hdf*"):
         old.unlink()
     return [_write_series(folder, kind, file) for kind, file in kinds]
 
@@ -41,7 +41,7 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
         if kind == "fields":
             _write_mesh(mesh, root["grid"])
         for time, name in file.frames:
-            path = folder / f"{kind}_{name.removeprefix('frame_')}.vtkhdf"
+            path = folder / f"{kind}_{name.removeprefix('frame_')}.hdf"
             with h5py.File(path, "w") as out:
                 top = out.create_group("VTKHDF")
                 top.attrs["Version"], top.attrs["Type"] = [1, 0], np.bytes_("UnstructuredGrid")
@@ -51,7 +51,7 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
                 else:
                     _add_fields(top, root[name], f"../{file.path.name}", name, mesh.name)
             entries.append({"name": path.name, "time": time})
-    series = folder / f"{kind}.vtkhdf.series"
+    series = folder / f"{kind}.hdf.series"
     series.write_text(json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
     return series
 
