@@ -27,7 +27,11 @@ lintian --fail-on error,warning --allow-root "$folder"/barchan_"$version"_*.chan
 
 system="$folder/system"
 [ -d "$system" ] || debootstrap --variant=minbase bookworm "$system" ${MIRROR:+"$MIRROR"} > "$folder/debootstrap.log"
-inside() { unshare --mount --pid --fork --mount-proc="$system/proc" chroot "$system" "$@"; }
+inside() {
+  # shellcheck disable=SC2016  # expanded by the inner sh
+  unshare --mount --pid --fork --mount-proc="$system/proc" \
+    sh -c 'mount --bind /sys "$0/sys" && exec chroot "$0" "$@"' "$system" "$@"
+}
 rm -rf "$system/packages"
 mkdir "$system/packages"
 cp "$folder"/*barchan_"$version"_*.deb "$system/packages"
