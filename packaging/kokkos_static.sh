@@ -14,3 +14,4 @@ cmake -S "$sources" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INST
 cmake --build "$build"
 cmake --install "$build" > "$build/install.log"
 cp "$sources/LICENSE" "$prefix/LICENSE"
+Kokkos_ROOT="$prefix" "$(dirname "${BASH_SOURCE[0]}")/../scripts/probe_kokkos.sh"  # does it work?

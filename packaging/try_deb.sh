@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
 # Builds the Debian packages of the last commit, checks them with lintian, installs them in a new Debian 12 and runs the
-# quickstart there as an ordinary user: packaging/try_deb.sh KOKKOS_SOURCES FOLDER [MIRROR]
+# quickstart there as an ordinary user: packaging/try_deb.sh KOKKOS_SOURCES FOLDER [CMAKE OPTIONS OF KOKKOS]
 # As root. Needs debootstrap, lintian and debian/control's build dependencies. What is in FOLDER from an earlier call
-# (kokkos, barchan-*, system) is used again. MIRROR: of debootstrap.
+# (kokkos, barchan-*, system) is used again. The variable MIRROR is debootstrap's argument.
 set -euo pipefail
-[ $# -ge 2 ] || { echo "usage: packaging/try_deb.sh KOKKOS_SOURCES FOLDER [MIRROR]" >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: packaging/try_deb.sh KOKKOS_SOURCES FOLDER [CMAKE OPTIONS OF KOKKOS]" >&2; exit 2; }
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 version="$(dpkg-parsechangelog --file "$here/debian/changelog" --show-field Version)"
 mkdir -p "$2"
 folder="$(cd "$2" && pwd)"
 say() { echo "try_deb: $*"; }
 
-[ -d "$folder/kokkos" ] || "$here/packaging/kokkos_static.sh" "$1" "$folder/kokkos" > "$folder/kokkos.log" 2>&1
+[ -d "$folder/kokkos" ] ||
+  "$here/packaging/kokkos_static.sh" "$1" "$folder/kokkos" "${@:3}" > "$folder/kokkos.log" 2>&1 ||
+  { tail -n 20 "$folder/kokkos.log"; exit 1; }
 source="$folder/barchan-${version%-*}"
 [ -d "$source" ] || git clone --quiet --no-checkout "$here" "$source"
 git -C "$source" fetch --quiet "$here" HEAD
@@ -24,8 +26,12 @@ say "lintian"
 lintian --fail-on error,warning --allow-root "$folder"/barchan_"$version"_*.changes
 
 system="$folder/system"
-[ -d "$system" ] || debootstrap --variant=minbase bookworm "$system" ${3:+"$3"} > "$folder/debootstrap.log"
-inside() { unshare --mount --pid --fork --mount-proc="$system/proc" chroot "$system" "$@"; }
+[ -d "$system" ] || debootstrap --variant=minbase bookworm "$system" ${MIRROR:+"$MIRROR"} > "$folder/debootstrap.log"
+inside() {
+  # shellcheck disable=SC2016  # expanded by the inner sh
+  unshare --mount --pid --fork --mount-proc="$system/proc" \
+    sh -c 'mount --bind /sys "$0/sys" && exec chroot "$0" "$@"' "$system" "$@"
+}
 rm -rf "$system/packages"
 mkdir "$system/packages"
 cp "$folder"/*barchan_"$version"_*.deb "$system/packages"

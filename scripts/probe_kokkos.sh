@@ -18,6 +18,8 @@ cat > "$scratch/probe.cpp" <<'CPP'
 #include <cstdio>
 int main(int argc, char** argv) {
   Kokkos::ScopeGuard guard(argc, argv);
+  Kokkos::View<double*> view;  // there are pairs of a Kokkos and a compiler where this ends the program
+  view = Kokkos::View<double*>("view", 1);
   long sum = 0;
   Kokkos::parallel_reduce(
       1000, KOKKOS_LAMBDA(int i, long& partial) { partial += i; }, sum);

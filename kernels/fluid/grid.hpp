@@ -110,7 +110,7 @@ struct Field {
     origin = storage.data() + 1 + stride_y + stride_z;
   }
   Field(const char* label, const GridRef& grid)
-      : Field(Storage(label, grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
+      : Field(Storage(std::string(label), grid.nx + 2, grid.ny + 2, grid.nz + 2)) {}
   // NOLINTNEXTLINE(google-explicit-constructor): a Field is one
   KOKKOS_FORCEINLINE_FUNCTION operator FieldRef() { return {origin, stride_y, stride_z}; }
   // NOLINTNEXTLINE(google-explicit-constructor): a const Field is one

@@ -1,5 +1,7 @@
 #include "src/coupling/grain_forces.hpp"
 
+#include <string>
+
 #include "kernels/coupling/force_output.hpp"
 #include "src/parallel/launch.hpp"
 
@@ -7,7 +9,7 @@ namespace barchan {
 
 namespace {
 
-Kokkos::View<Vec3*> grain_vector(const char* name, int n) {
+Kokkos::View<Vec3*> grain_vector(const std::string& name, int n) {
   return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
 }
 

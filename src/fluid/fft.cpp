@@ -1,6 +1,7 @@
 #include "src/fluid/fft.hpp"
 
 #include <array>
+#include <string>
 
 #include "src/parallel/launch.hpp"
 
@@ -17,7 +18,7 @@ StridedArray array(const Spectrum& s) {
                     {s.extent_int(0), s.extent_int(1), s.extent_int(2)});
 }
 template <class View>
-View view_of(const char* label, const std::array<int, 3>& extents) {
+View view_of(const std::string& label, const std::array<int, 3>& extents) {
   return View(label, extents[0], extents[1], extents[2]);
 }
 

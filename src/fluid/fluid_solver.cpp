@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "kernels/fluid/closed_faces.hpp"
@@ -16,7 +17,7 @@ namespace barchan {
 namespace {
 
 /// Of more use as scratch memory than three pieces.
-FaceVector make_faces_in_one_piece(const char* label, const Grid& grid) {
+FaceVector make_faces_in_one_piece(const std::string& label, const Grid& grid) {
   const Kokkos::View<Real****, Kokkos::LayoutLeft> all(label, grid.nx + 2, grid.ny + 2, grid.nz + 2,
                                                        3);
   const auto component = [&all](int c) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -66,7 +67,7 @@ using HostEntries = Kokkos::View<T*, Kokkos::HostSpace>;
 
 /// A copy on the device, of one entry at least.
 template <class T>
-Kokkos::View<T*> to_device(const char* label, const std::vector<T>& values) {
+Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values) {
   const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
   const auto host = Kokkos::create_mirror_view(view);
   std::copy(values.begin(), values.end(), host.data());
@@ -182,7 +183,7 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
     if (touching(p)) pairs.push_back(p);
   }
   const Hyperslab entries = slab_of_entries(pairs.size(), s.ranks);
-  const auto save = [&](const char* name, const auto& value_of) {
+  const auto save = [&](const std::string& name, const auto& value_of) {
     const HostEntries<decltype(value_of(0))> values(name, pairs.size());
     std::transform(pairs.begin(), pairs.end(), values.data(), value_of);
     save_entries(file, name, values, entries);
