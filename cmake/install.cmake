@@ -25,7 +25,7 @@ endif()
 install(TARGETS ${programs} RUNTIME DESTINATION "${program_folder}" COMPONENT program)
 install(PROGRAMS barchan DESTINATION "${launcher_folder}" COMPONENT program)
 install(DIRECTORY configs DESTINATION "${share_folder}" COMPONENT program)
-install(FILES scripts/progress.sh DESTINATION "${share_folder}" COMPONENT program)
+install(FILES scripts/progress.sh scripts/usage.sh DESTINATION "${share_folder}" COMPONENT program)
 install(DIRECTORY python/barchan DESTINATION "${BARCHAN_INSTALL_PYTHONDIR}" COMPONENT program
   PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${barchan_doc_folder}" COMPONENT program)

@@ -1,0 +1,70 @@
+# The help of the launcher, which reads it in. The man page and the completion of the shell are made from it.
+# shellcheck shell=bash
+# shellcheck disable=SC2154  # command_name, installed and shared are the launcher's
+usage() {
+  cat << USAGE
+Barchan: subaqueous dunes, every grain followed, the flow by large-eddy simulation
+
+usage: $command_name COMMAND [arguments]
+
+  run CONFIG.toml     run a case, then draw its pictures
+      --set KEY=VALUE   change one key, e.g. grains.sliding_friction=0.4 (repeatable)
+      --out DIR         run folder (default: runs/<config name>)
+      --restart FILE    go on from a restart file
+      --overwrite       remove the results of an earlier run in the folder and begin again
+      --threads N       threads per rank (default: all cores, shared by the ranks)
+      --ranks N         MPI ranks on this machine (default: 1)
+      --patience S      wall seconds without progress after which several ranks give up (default: 600, 0: never)
+      --dry-run         check the case, print its derived numbers and warnings; nothing is run or written
+      --starts-only     run the cases this one starts from where they are missing, then stop
+      --quiet           no live line on the terminal
+  check CONFIG.toml   validate a case; print it resolved, with derived numbers, how long it takes, and warnings
+      --set KEY=VALUE, --out DIR, --threads N   as of run
+      --resolved-only   print the case with every default as TOML, nothing else
+  keys [SECTION]      the keys of a case, or of one section, with range, unit, default and meaning
+  sweep STUDY.toml    a parameter study: one run folder per case, resumed where it was left
+      --out DIR         folder of the study (default: runs/<study name>)
+      --only RUN ...    these runs of it; patterns with * are taken
+      --at-once N       cases side by side
+      --threads N       threads of each (default: all cores, shared by the cases)
+      --overwrite       begin changed cases again
+      --list            show the cases, run nothing
+      --no-pictures     draw nothing
+  plot RUN_DIR [FIGURE ...]   pictures of a run or a study; --help lists them
+      --pdf             PDF files besides the PNG files
+      --time T, --from T, --to T   seconds, for figures of a moment and of means
+      --debug           show where an unexpected error arose
+  vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
+  info PATH           what a run or study folder, a result, restart file, table or case holds
+USAGE
+  [ "$installed" = yes ] || cat << 'USAGE'
+  plot validation     the figures of docs/validation*.md, from saved results
+  test [CTEST ARGS]   build and run the tests (all but those labelled nightly)
+  bench [NAME]        performance suite, or the cases with NAME in their name; adds records to runs/bench.jsonl
+  docs                make a site of the documentation, with search, in build/site
+  setup [--tests]     install what is missing (Debian packages, Kokkos), nothing else; asks before it calls sudo
+                      (--tests: also what test, bench and "build all" need, which these install themselves)
+  build [TARGET ...]  build only (default: the program; "all" for everything)
+
+Everything but setup also builds when needed, and as root sets up.
+USAGE
+  cat << USAGE
+
+Cases that are not in the current folder are looked for in $shared/configs. Start with:
+  $command_name run configs/quickstart.toml
+
+Exit codes: 0 done, 1 failed, 2 bad input, 3 stopped on request.
+
+Environment:
+  GLIBC_TUNABLES      of the C library (default: large pages)
+  OMP_NUM_THREADS     threads per rank where --threads is not given
+  BARCHAN_CPU         a level of instruction sets in place of the best that the processor has, e.g. x86-64-v3
+  BARCHAN_PYTHON      the Python that draws (default: /usr/bin/python3)
+USAGE
+  [ "$installed" = yes ] || cat << 'USAGE'
+  BARCHAN_PRESET      release, generic, debug, thread, cuda
+  BARCHAN_DEPS        where a private Kokkos goes
+  Kokkos_ROOT         a Kokkos of your own
+  CMAKE_BUILD_PARALLEL_LEVEL   compile jobs
+USAGE
+}
