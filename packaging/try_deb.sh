@@ -43,5 +43,6 @@ inside id tester > /dev/null 2>&1 || inside useradd --create-home --shell /bin/b
 say "barchan run quickstart.toml, as an ordinary user"
 inside su - tester -c 'rm -rf runs && time barchan run quickstart.toml --quiet && ls -s runs/quickstart &&
   grep -q "\"status\": \"done\"" runs/quickstart/run.json && [ -s runs/quickstart/topviews.png ] &&
-  python3 -c "import barchan; print(barchan.open(\"runs/quickstart\").dunes.tail(1).T)" && man -w barchan'
+  python3 -c "import barchan; print(barchan.open(\"runs/quickstart\").dunes.tail(1).T)" &&
+  zgrep -q "NAME" /usr/share/man/man1/barchan.1.gz'
 say "done"
