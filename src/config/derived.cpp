@@ -237,8 +237,10 @@ void add_grains(std::string& text, const GrainNumbers& n, bool by_row) {
     line(text, "fall velocity", "{:.4g} m/s (mean grain alone)", n.fall_velocity);
   }
   if (n.shields > 0) {
-    line(text, "Shields number", "{:.4f}; motion starts at about {:.4f} (Soulsby-Whitehouse)",
-         n.shields, n.shields_threshold);
+    line(
+        text, "Shields number",
+        "{:.4f}; flat beds move from about {:.4f} on (Soulsby-Whitehouse; here: docs/threshold.md)",
+        n.shields, n.shields_threshold);
   }
   if (n.cell_ratio > 0) add_cells_against_grains(text, n, by_row);
 }
