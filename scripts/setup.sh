@@ -15,9 +15,9 @@ speaker="barchan setup"
 
 packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib)
+  python3 python3-h5py python3-numpy python3-matplotlib python3-pandas python3-xarray)
 test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
-  python3-pandas python3-xarray python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
+  python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
   python3-yaml  # the citation file
   nodejs node-jsdom)  # the report page
