@@ -43,7 +43,7 @@ Rows rows_of(const std::string& text) {
   return rows;
 }
 
-/// Words for docs/conventions.md without their links, [words](page).
+/// Words for docs/files.md without their links, [words](page).
 std::string without_links(std::string text) {
   for (std::size_t open; (open = text.find("](")) != text.npos;) {
     text.erase(open, text.find(')', open) - open + 1);
