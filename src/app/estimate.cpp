@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernels/grains/grain_skins.hpp"
+#include "src/app/machine_load.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
 #include "src/grains/grain_skins.hpp"
@@ -70,7 +71,8 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {
-  return run_seconds(config, planned.sizes, time_parts(config, grains_for(config, planned), budget));
+  return run_seconds(config, planned.sizes,
+                     time_parts(config, grains_for(config, planned), budget));
 }
 
 /// Two digits of what takes less than ten seconds.
@@ -90,6 +92,19 @@ std::string shares(const RunSeconds& s) {
   add("flow", s.flow);
   add("output", s.output);
   return text;
+}
+
+/// Says so where others were busy: what was timed is then too long.
+std::string note_of_others(const std::optional<ProcessorSeconds>& before) {
+  const auto after = processor_seconds();
+  if (!before || !after) return {};
+  const double cores = cores_of_others(*before, *after);
+  constexpr double quiet = 0.25;  // of a core
+  if (cores < quiet) return {};
+  return fmt::format(
+      "  {:<24}the machine is busy: others had {:.1f} cores meanwhile. On a quiet one it takes "
+      "less\n",
+      "", cores);
 }
 
 }  // namespace
@@ -131,6 +146,7 @@ std::string estimate(const Case& the_case, const std::filesystem::path& folder,
   const Config& config = the_case.config;
   const auto missing = missing_starts(the_case, folder);
   const double budget = 1.5 / (2 + static_cast<double>(missing.size()));
+  const auto load_before = processor_seconds();
   const RunSeconds here = timed(config, planned, 2 * budget);
   const int threads = Kokkos::DefaultExecutionSpace().concurrency();
   std::string text = fmt::format("  {:<24}{} on {} thread{}, timed just now ({})\n", "wall time",
@@ -141,6 +157,7 @@ std::string estimate(const Case& the_case, const std::filesystem::path& folder,
     text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
                         start.folder.filename().string());
   }
+  text += note_of_others(load_before);
   const RestartConfig& restart = config.restart;
   constexpr double long_run = 3600;
   if (here.all() > long_run && restart.interval == 0 && restart.wall_interval == 0)
