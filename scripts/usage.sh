@@ -7,9 +7,9 @@ Barchan: subaqueous dunes, every grain followed, the flow by large-eddy simulati
 
 usage: $command_name COMMAND [arguments]
 
-  run CONFIG.toml     run a case, then draw its pictures
+  run CASE.toml       run a case, then draw its pictures
       --set KEY=VALUE   change one key, e.g. grains.sliding_friction=0.4 (repeatable)
-      --out DIR         run folder (default: runs/<config name>)
+      --out DIR         run folder (default: runs/<case name>)
       --restart FILE    go on from a restart file
       --overwrite       remove the results of an earlier run in the folder and begin again
       --threads N       threads per rank (default: all cores, shared by the ranks)
@@ -18,7 +18,7 @@ usage: $command_name COMMAND [arguments]
       --dry-run         check the case, print its derived numbers and warnings; nothing is run or written
       --starts-only     run the cases this one starts from where they are missing, then stop
       --quiet           no live line on the terminal
-  check CONFIG.toml   validate a case; print it resolved, with derived numbers, how long it takes, and warnings
+  check CASE.toml     validate a case; print it resolved, with derived numbers, how long it takes, and warnings
       --set KEY=VALUE, --out DIR, --threads N   as of run
       --resolved-only   print the case with every default as TOML, nothing else
   keys [SECTION]      the keys of a case, or of one section, with range, unit, default and meaning

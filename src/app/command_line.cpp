@@ -68,7 +68,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
                    "a run or study folder, a result, restart file, table or case")
       ->required();
   for (CLI::App* command : {run, check}) {
-    command->add_option("CONFIG", line.file, "the case, a TOML file")->required();
+    command->add_option("CASE", line.file, "the case, a TOML file")->required();
     command->add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml

@@ -62,7 +62,7 @@ std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& p
   if (!why.empty()) {
     std::error_code ignored;
     const bool absent = !file.empty() && !fs::exists(file, ignored);
-    problems.push_back({{file.empty() ? "CONFIG" : file.string(), 0},
+    problems.push_back({{file.empty() ? "CASE" : file.string(), 0},
                         "cannot be read: " + why + (absent ? nearest_file(file) : "")});
     return {};
   }

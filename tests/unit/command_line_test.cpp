@@ -73,7 +73,7 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({}, "subcommand is required");
   expect_bad({"rnu", "case.toml"},
              "unknown command \"rnu\" (did you mean \"run\"?); there are run, check, info");
-  expect_bad({"run"}, "CONFIG is required");
+  expect_bad({"run"}, "CASE is required");
   expect_bad({"run", "a.toml", "b.toml"}, "b.toml");
   expect_bad({"run", "a.toml", "--sett", "a=1"}, "--sett");
   expect_bad({"run", "a.toml", "--threads", "many"}, "--threads");
