@@ -25,7 +25,7 @@ usage: $command_name COMMAND [arguments]
   sweep STUDY.toml    a parameter study: one run folder per case, resumed where it was left
       --out DIR         folder of the study (default: runs/<study name>)
       --only RUN ...    these runs of it; patterns with * are taken
-      --at-once N       cases side by side
+      --at-once N       cases side by side (default: one for each core)
       --threads N       threads of each (default: all cores, shared by the cases)
       --overwrite       begin changed cases again
       --list            show the cases, run nothing

@@ -1,5 +1,8 @@
 """barchan.Study: its runs by name, and one table of all."""
 
+import os
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from fake_runs import fake
@@ -43,3 +46,23 @@ def test_a_folder_that_is_no_study(tmp_path):
     (tmp_path / "study.json").write_text('{"cases": 3}')
     with pytest.raises(barchan.BarchanError, match="does not list its cases"):
         barchan.Study(tmp_path)
+
+
+@pytest.mark.parametrize(("cores", "head", "asked", "expected"), [
+    (8, "", {}, (3, 2)),                       # three cases only
+    (2, "", {}, (2, 1)),
+    (8, "threads = 4", {}, (2, 4)),
+    (8, "at_once = 1", {}, (1, 8)),
+    (8, "at_once = 1", {"at_once": 4}, (4, 2)),
+    (2, "threads = 4", {}, (1, 4)),
+    (8, "", {"threads": 8}, (1, 8)),
+])
+def test_a_study_fills_the_cores_unless_told_otherwise(tmp_path, monkeypatch, cores, head, asked, expected):
+    from barchan.studies.spec import read_study
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(cores)))
+    (tmp_path / "case.toml").write_text("[grains]\nrestitution = 0.1\n")
+    grid = "[grid]\ngrains.restitution = [0.1, 0.2, 0.3]\n"
+    (tmp_path / "study.toml").write_text(f"[study]\nbase = 'case.toml'\n{head}\n{grid}")
+    options = SimpleNamespace(**{"at_once": None, "threads": None, "out": None, **asked})
+    study = read_study(tmp_path / "study.toml", options)
+    assert (study.at_once, study.threads) == expected

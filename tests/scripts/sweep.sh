@@ -63,6 +63,7 @@ wait "$pid" 2> /dev/null
 sweep study.toml --no-pictures --out killed > second 2>&1 || fail "going on ended with $?: $(cat second)"
 grep -q "base: goes on from restart_" second || fail "the base case was not continued: $(cat second)"
 sweep study.toml --no-pictures --out whole > third 2>&1 || fail "the unbroken study ended with $?: $(cat third)"
+grep -Eq "3 of 3 cases done, [0-9.e+]+ runs an hour, whole/study.csv" third || fail "the last line: $(tail -n 1 third)"
 for name in base sliding_friction-0.6 restitution-0.5; do
   cmp -s killed/$name/history.csv whole/$name/history.csv || fail "$name: the broken run differs from the unbroken one"
 done

@@ -239,9 +239,11 @@ def read_study(path, options):
     for name, given in (("--at-once", options.at_once), ("--threads", options.threads)):
         if given is not None and given < 1:
             raise StudyError(f"{name} must be at least 1, not {given}")
-    at_once = options.at_once or head.get("at_once", 1)
     cores = len(os.sched_getaffinity(0))
-    threads = options.threads or head.get("threads", max(1, cores // at_once))
+    asked = options.threads or head.get("threads")
+    # Runs of one thread each are more in an hour than the same runs one by one on all cores.
+    at_once = options.at_once or head.get("at_once", min(len(cases), max(1, cores // (asked or 1))))
+    threads = asked or max(1, cores // at_once)
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
     return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,

@@ -133,6 +133,7 @@ class Sweep:
         self.program, self.study, self.chosen, self.draw = program, study, chosen, draw
         self.overwrite = overwrite
         self.running, self.failed, self.stopping = [], {}, False
+        self.finished, self.started = 0, time.monotonic()
         self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
         self.said = time.monotonic()
         self.began = time.time()
@@ -170,9 +171,13 @@ class Sweep:
             say(f"failed: {name}: {why}")
         left_out = len(self.study.cases) - len(self.chosen)
         others = f"{left_out} others not asked for, " * bool(left_out)
-        say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done, {others}"
+        say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done{self.rate()}, {others}"
             f"{self.study.out / 'study.csv'}")
         return 1 if self.failed else 0
+
+    def rate(self):
+        """How many runs an hour were computed, precursor cases included; nothing before the first has ended."""
+        return f", {3600 * self.finished / (time.monotonic() - self.started):.3g} runs an hour" * bool(self.finished)
 
     def start(self, case):
         """First what the case starts from, alone: two cases must not compute the same start."""
@@ -206,6 +211,7 @@ class Sweep:
             self.running.remove(one)
             status = one.process.returncode
             if status == 0:
+                self.finished += 1
                 say(f"{one.case.run_name}: done")
                 if self.draw:
                     draw_figures(one.folder)
@@ -215,7 +221,7 @@ class Sweep:
             self.tabulate()
         if self.running and time.monotonic() - self.said > 30:
             self.said = time.monotonic()
-            say(", ".join(one.progress() for one in self.running) + self.remaining())
+            say(", ".join(one.progress() for one in self.running) + self.remaining() + self.rate())
 
     def remaining(self):
         """The time left, from what the cases have come forward since the start."""
