@@ -15,7 +15,6 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "build/site-pages"
 SITE = ROOT / "build/site"
-PACKAGES = "mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax"
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensions/MathEvents.js", "jax/input/TeX",
@@ -91,7 +90,7 @@ def gather():
 
 def main():
     if shutil.which("mkdocs") is None or not MATHJAX.is_dir():
-        sys.exit(f"MkDocs or a part of it is missing. On Debian: apt-get install --no-install-recommends {PACKAGES}")
+        sys.exit("MkDocs or a part of it is missing: ./barchan setup --docs")
     gather()
     python_path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
     made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", ROOT / "mkdocs.yml"],

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Brings the machine to where the project builds: Debian packages by apt, and Kokkos.
-# scripts/setup.sh [--tests] [--quiet]
+# scripts/setup.sh [--tests] [--docs] [--quiet]
 #   --tests: also what the tests and benchmarks need, not only a run and its pictures
+#   --docs: also what the site of the documentation needs
 #   --quiet: say nothing when there is nothing to do, and ask nothing
 # Installs only what is missing, upgrades nothing, needs no network when all is there. Who is not root is asked before
 # sudo is called, or told the command.
@@ -21,9 +22,8 @@ test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pip python3-venv python3-wheel  # its installation
   python3-yaml  # the citation file
   nodejs node-jsdom)  # the report page
-if [ "${CI:-}" = true ]; then  # large ones; elsewhere their tests are skipped
-  test_packages+=(chromium mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax)
-fi
+docs_packages=(mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax)
+if [ "${CI:-}" = true ]; then test_packages+=(chromium "${docs_packages[@]}"); fi  # large; elsewhere tests are skipped
 
 quiet=no
 tests=no
@@ -34,7 +34,8 @@ for argument in "$@"; do
       tests=yes
       packages+=("${test_packages[@]}")
       ;;
-    *) die 2 "unknown option '$argument'; there are --tests and --quiet" ;;
+    --docs) packages+=("${docs_packages[@]}") ;;
+    *) die 2 "unknown option '$argument'; there are --tests, --docs and --quiet" ;;
   esac
 done
 

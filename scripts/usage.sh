@@ -42,8 +42,9 @@ USAGE
   test [CTEST ARGS]   build and run the tests (all but those labelled nightly)
   bench [NAME]        performance suite, or the cases with NAME in their name; adds records to runs/bench.jsonl
   docs                make a site of the documentation, with search, in build/site
-  setup [--tests]     install what is missing (Debian packages, Kokkos), nothing else; asks before it calls sudo
-                      (--tests: also what test, bench and "build all" need, which these install themselves)
+  setup               install what is missing (Debian packages, Kokkos), nothing else; asks before it calls sudo
+      --tests           also what test, bench and "build all" need, which these install themselves
+      --docs            also what docs needs
   build [TARGET ...]  build only (default: the program; "all" for everything)
 
 Everything but setup also builds when needed, and as root sets up.
@@ -68,3 +69,5 @@ USAGE
   CMAKE_BUILD_PARALLEL_LEVEL   compile jobs
 USAGE
 }
+
+commands() { usage | sed -n 's/^  \([a-z]\+\) .*/\1/p' | awk '!seen[$0]++' | paste -sd ' ' | sed 's/ /, /g'; }

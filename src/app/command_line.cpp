@@ -15,9 +15,8 @@ namespace {
 void check_command(int argc, const char* const* argv) {
   const std::vector<std::string> commands{"run", "check", "info", "keys"};
   if (argc < 2 || argv[1][0] == '-' || std::ranges::count(commands, argv[1]) > 0) return;
-  const std::string close = nearest(argv[1], commands);
   throw InputError(fmt::format("unknown command \"{}\"{}; there are {}", argv[1],
-                               close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+                               did_you_mean(nearest(argv[1], commands)),
                                fmt::join(commands, ", ")));
 }
 

@@ -75,6 +75,10 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
   return best;
 }
 
+std::string did_you_mean(std::string_view close) {
+  return close.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", close);
+}
+
 std::string nearest_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   constexpr int kMost = 10000;  // of a folder of other things

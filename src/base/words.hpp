@@ -12,6 +12,9 @@ namespace barchan {
 /// near enough to be meant.
 std::string nearest(std::string_view typed, std::span<const std::string> candidates);
 
+/// " (did you mean "restitution"?)"; empty if `close` is.
+std::string did_you_mean(std::string_view close);
+
 /// " (did you mean configs/quickstart.toml?)": the file of the same kind beside `path`, which is
 /// not there, whose name is nearest; empty if none is near enough.
 std::string nearest_file(const std::filesystem::path& path);

@@ -81,8 +81,7 @@ std::string entry(const Key& key, const Config& defaults, std::size_t width) {
     for (const Key& key : section.keys) keys.push_back(key.dotted());
   }
   const std::string close = nearest(name, name.find('.') == name.npos ? names : keys);
-  throw InputError(fmt::format("unknown section \"{}\"{}; there are {}", name,
-                               close.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", close),
+  throw InputError(fmt::format("unknown section \"{}\"{}; there are {}", name, did_you_mean(close),
                                fmt::join(names, ", ")));
 }
 

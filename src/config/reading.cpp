@@ -257,7 +257,7 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
   const std::string close = nearest(name, names_in(section));
   if (!close.empty()) {
     bad_.insert(join(section, close));  // what it stands for was not read
-    return fmt::format(" (did you mean \"{}\"?)", close);
+    return did_you_mean(close);
   }
   if (table) return {};
   for (const Section& other : table_) {

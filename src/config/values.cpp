@@ -123,8 +123,7 @@ Mismatch convert_name(const Node& node, std::span<const std::string_view> names,
   const auto found = std::find(names.begin(), names.end(), *text);
   if (found == names.end()) {
     const std::vector<std::string> candidates(names.begin(), names.end());
-    const std::string close = nearest(*text, candidates);
-    return close.empty() ? allowed : fmt::format("{} (did you mean \"{}\"?)", allowed, close);
+    return allowed + did_you_mean(nearest(*text, candidates));
   }
   at = static_cast<std::size_t>(found - names.begin());
   return {};

@@ -146,7 +146,7 @@ class CsvReader {
     const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
     std::string close = nearest(word, names);
     if (word == "radius" || word == "r" || word == "d") close = "diameter";
-    return close.empty() ? close : fmt::format(" (did you mean \"{}\"?)", close);
+    return did_you_mean(close);
   }
 
   void read_row() {

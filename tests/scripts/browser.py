@@ -45,9 +45,7 @@ def main():
             name = f"report-{width}{'-dark' if dark else ''}"
             picture = Path(kept or folder) / f"{name}.png"
             found = browser.visit(run / "report.html", PROBE, width, dark=dark, picture=picture)
-            wrong += [f"{name}: {what}: {found[what]}" for what in ("faults", "from_elsewhere") if found[what]]
-            if found["too_wide"] > 0:
-                wrong.append(f"{name}: {found['too_wide']} pixels wider than the window")
+            wrong += browser.problems(name, found)
             if min(found["colours"]) < 10:
                 wrong.append(f"{name}: the grains are not drawn: {found['colours']} colours")
             if not all(found["moved"]) or not found["same_again"]:

@@ -11,9 +11,9 @@ prefix="$dir/opt/a prefix"
 cmake --install "$build" --prefix "$prefix" --component program > "$dir/log" 2>&1 ||
   { cat "$dir/log"; exit 1; }
 [ ! -e "$prefix/include" ] && [ -f "$prefix/share/doc/barchan/LICENSE" ] || fail "what is installed: $(ls -R "$prefix")"
-mkdir "$dir/bin" "$dir/work" && ln -s "$prefix/bin/barchan" "$dir/bin/barchan" || exit 1
+mkdir "$dir/bin" "$dir/elsewhere" && ln -s "$prefix/bin/barchan" "$dir/bin/barchan" || exit 1
 export PATH="$dir/bin:$PATH" OMP_NUM_THREADS=1
-cd "$dir/work" || exit 1
+cd "$dir/elsewhere" || exit 1
 
 # expect STATUS TEXT ARGUMENT...: barchan ends with STATUS and says TEXT somewhere
 expect() {
@@ -26,12 +26,10 @@ expect() {
 
 expect 0 "  barchan run configs/quickstart.toml" --help
 expect 0 "barchan 0." --version
-[[ "barchan ($(barchan --version | cut -d ' ' -f 2)-" == "$(sed 's/-.*/-/;q' "$root/debian/changelog")" ]] ||
-  fail "debian/changelog has another version: $(head -n 1 "$root/debian/changelog")"
 expect 0 "3,000 grains" check --resolved-only quickstart.toml
 expect 0 "3,000 grains" check --resolved-only configs/quickstart.toml
 expect 0 "heap-3k-soft.toml" sweep paper/sizes.toml --list
-for word in setup build test bench; do expect 2 "of the source tree" "$word"; done
+for word in setup build test bench docs; do expect 2 "of the source tree" "$word"; done
 expect 2 "no_such.toml" run no_such.toml
 [ -z "$(ls)" ] || fail "left behind: $(ls)"
 cp "$prefix/share/barchan/configs/heap-3k.toml" quickstart.toml  # the user's own comes first

@@ -25,7 +25,6 @@ ALWAYS = {
 IF_THERE = {"debian/changelog": rf"\A[\w-]+ \((?:\d+:)?{N}[-~+)]"}
 MAY = {
     "packaging/**/package.py": rf'\A(?:.|\n)*?^    version\("{N}"',  # the newest that Spack knows
-    "README.md": rf"version *= *{{{N}}}",
     "*.md": rf"\bbarchan[_-]v?{N}",
     "docs/*.md": rf"\bbarchan[_-]v?{N}",
 }

@@ -85,9 +85,7 @@ def check_in_browser(wrong, kept):
         name = f"site-{page}-{width}{'-dark' if dark else ''}"
         picture = Path(kept) / f"{name}.png" if kept else None
         found = browser.visit(SITE / f"{page}.html", probe, width, dark=dark, picture=picture)
-        wrong.extend(f"{name}: {what}: {found[what]}" for what in ("faults", "from_elsewhere") if found[what])
-        if found["too_wide"] > 0:
-            wrong.append(f"{name}: {found['too_wide']} pixels wider than the window")
+        wrong.extend(browser.problems(name, found))
         return found
 
     for page, width, dark in (("theory", 1280, False), ("theory-coupling", 400, True)):
@@ -106,7 +104,7 @@ def check_in_browser(wrong, kept):
 
 def main():
     if shutil.which("mkdocs") is None:
-        print("no mkdocs (its packages: scripts/build_site.py)")
+        print("no mkdocs: ./barchan setup --docs")
         return 1 if os.environ.get("CI") == "true" else browser.SKIPPED
     wrong = []
     made = subprocess.run([sys.executable, ROOT / "scripts/build_site.py"], capture_output=True, text=True, check=False)

@@ -1,4 +1,5 @@
 """A real browser without a screen (Chromium), driven by a script that is added to a copy of a page."""
+import html
 import json
 import os
 import re
@@ -67,7 +68,12 @@ def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
     said = re.search(r'<pre id="found-by-probe">(.*?)</pre>', dump, re.S)
     if said is None:
         raise AssertionError(f"{page}: the probe has not come to its end")
-    for entity, sign in (("&lt;", "<"), ("&gt;", ">"), ("&amp;", "&")):
-        said = said if isinstance(said, str) else said[1]
-        said = said.replace(entity, sign)
-    return json.loads(said)
+    return json.loads(html.unescape(said[1]))
+
+
+def problems(name, found):
+    """What no page of ours may do, as sentences."""
+    told = [f"{name}: {what}: {found[what]}" for what in ("faults", "from_elsewhere") if found[what]]
+    if found["too_wide"] > 0:
+        told.append(f"{name}: {found['too_wide']} pixels wider than the window")
+    return told
