@@ -30,18 +30,36 @@ struct ExchangeOfGrain {
   KOKKOS_INLINE_FUNCTION Real beta_dt(int g) const { return dt * on_grains.beta(g); }
 };
 
-/// Bounds of the grains' centres, without a lower one for the height [m].
-struct GrainExtent {
-  Real left = 0, right = -1, top = 0, front = 0, back = 0;  // no grains
+/// Marks the columns of cells, those of all ranks, that hold grains; the height of the highest
+/// centre [m].
+struct MarkColumns {
+  GridRef grid;
+  Kokkos::View<const GrainKinematics*> grains;
+  Real reach;               // of points from a centre, at most [m]
+  Kokkos::View<int*> mark;  // i + nx_all k
+
+  KOKKOS_FUNCTION void operator()(int g, Real& highest) const {
+    const Vec3 x = grains(g).x;
+    const auto column = [](Real at, Real spacing, int n) {
+      return DepositStencil::wrap(GridRef::cell_along(at, spacing), n);
+    };
+    const int i[2] = {column(x.x - reach, grid.dx, grid.nx_all),
+                      column(x.x + reach, grid.dx, grid.nx_all)};
+    const int k[2] = {column(x.z - reach, grid.dz, grid.nz_all),
+                      column(x.z + reach, grid.dz, grid.nz_all)};
+    for (const int kk : k) {
+      for (const int ii : i) Kokkos::atomic_store(&mark(ii + grid.nx_all * kk), 1);
+    }
+    highest = Kokkos::fmax(highest, x.y);
+  }
 };
 
 /// What all grains together give: volume [m^3], beta_p dt [kg], sum of |impulse| components and the
-/// impulse itself [N s]; and their extent. Bounds of what one cell can get.
+/// impulse itself [N s]. Bounds of what one cell can get.
 struct GrainTotals {
   ExchangeOfGrain of_grain;
   KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& beta_dt, Real& size, Real& x, Real& y,
-                                  Real& z, Real& left, Real& right, Real& top, Real& front,
-                                  Real& back) const {
+                                  Real& z) const {
     const GrainExchange e = of_grain(g);
     volume += e.volume;
     beta_dt += of_grain.beta_dt(g);
@@ -49,10 +67,6 @@ struct GrainTotals {
     x += e.impulse.x;
     y += e.impulse.y;
     z += e.impulse.z;
-    const Vec3 at = of_grain.grains(g).x;
-    left = Kokkos::fmin(left, at.x), right = Kokkos::fmax(right, at.x);
-    top = Kokkos::fmax(top, at.y);
-    front = Kokkos::fmin(front, at.z), back = Kokkos::fmax(back, at.z);
   }
 };
 
@@ -65,10 +79,10 @@ struct DepositGrains {
   Deposits deposits;
   int n = 0;  // all grains
 
-  using Cache = DepositCache<(grains_per_item > 1 ? 16 : 1)>;
+  using Cache = DepositCache<(grains_per_item > 1 ? 8 : 1)>;
   static constexpr int items_for(int n) { return (n + grains_per_item - 1) / grains_per_item; }
   KOKKOS_FUNCTION void operator()(int item) const {
-    Cache cache(deposits);
+    Cache cache(by_row.stencil.grid, deposits);
     const int end = Kokkos::min((item + 1) * grains_per_item, n);
     for (int g = item * grains_per_item; g < end; ++g) deposit(g, cache);
   }
@@ -86,12 +100,12 @@ struct DepositGrains {
                                        Cache& cache) const {
     for (int q = 0; q < cells.n; ++q) {
       const Real w = cells.weight(q);
-      const Vec3 impulse = by_row.on ? Vec3{} : w * given.impulse;
-      add(cache, cells.cell[q],
-          {.volume = deposits.volume.encode(w * given.volume),
-           .impulse_x = deposits.impulse.encode(impulse.x),
-           .impulse_y = deposits.impulse.encode(impulse.y),
-           .impulse_z = deposits.impulse.encode(impulse.z)});
+      CellDeposit& cell = cache.at(cells.cell[q]);
+      cell.volume += deposits.volume.encode(w * given.volume);
+      if (by_row.on) continue;
+      cell.impulse_x += deposits.impulse.encode(w * given.impulse.x);
+      cell.impulse_y += deposits.impulse.encode(w * given.impulse.y);
+      cell.impulse_z += deposits.impulse.encode(w * given.impulse.z);
     }
   }
   /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_p dt (u_jf - u_ff +
@@ -107,31 +121,25 @@ struct DepositGrains {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
       const Real C_j = beta_dt * conductance_below(rows, j);
-      add(cache, {u.i, j, u.k}, {.impulse_y = deposits.impulse.encode(w * impulse.y)});
+      cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
       for (int side = 0; side < 2; ++side) {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
         if (c_x > 0) {
           const Real faster =
               (u.x[side][r] - u.mean_of_x[side]) + joined_x * (u.mean_of_x[side] - u.mean_x);
-          const Real lost = w * c_x * (impulse.x + beta_dt * faster);
-          add(cache, by_row.x_face(u, side, j),
-              {.conductance_x = deposits.conductance.encode(c_x * C_j),
-               .impulse_x = deposits.impulse.encode(lost)});
+          CellDeposit& cell = cache.at(by_row.x_face(u, side, j));
+          cell.conductance_x += deposits.conductance.encode(c_x * C_j);
+          cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + beta_dt * faster));
         }
         if (c_z > 0) {
           const Real faster =
               (u.z[side][r] - u.mean_of_z[side]) + joined_z * (u.mean_of_z[side] - u.mean_z);
-          const Real lost = w * c_z * (impulse.z + beta_dt * faster);
-          add(cache, by_row.z_face(u, side, j),
-              {.conductance_z = deposits.conductance.encode(c_z * C_j),
-               .impulse_z = deposits.impulse.encode(lost)});
+          CellDeposit& cell = cache.at(by_row.z_face(u, side, j));
+          cell.conductance_z += deposits.conductance.encode(c_z * C_j);
+          cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + beta_dt * faster));
         }
       }
     }
-  }
-  KOKKOS_INLINE_FUNCTION void add(Cache& cache, const CellIndex& cell,
-                                  const CellDeposit& given) const {
-    cache.add(cell.linear(by_row.stencil.grid), given);
   }
 };
 
@@ -164,8 +172,27 @@ struct DepositSolid {
   }
 };
 
+/// A quantity of the deposits per volume of its cell.
+KOKKOS_FORCEINLINE_FUNCTION Real density_of_deposit(const GridRef& grid, const Deposits& deposits,
+                                                    const FixedPoint& point,
+                                                    Deposits::Quantity quantity, int i, int j,
+                                                    int k) {
+  const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
+  return point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
+}
+
 /// The largest solid fraction that CFDEM's void fraction models leave: its alphaMin is 0.1.
 inline constexpr Real kMaxSolid = 1 - 0.1;
+
+/// Sets the sums of a cell to zero.
+struct ClearDeposits {
+  GridRef grid;
+  Deposits deposits;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
+    for (int q = 0; q < Deposits::kQuantities; ++q) deposits.sum(cell, q) = 0;
+  }
+};
 
 /// One quantity of the deposits as a density on cells, sum / cell volume, without what is above
 /// `most`.
@@ -178,9 +205,8 @@ struct DecodeDeposit {
   FieldRef density;
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const std::int64_t cell = CellIndex{i, j, k}.linear(grid);
-    const Real all = point.decode(deposits.sum(cell, quantity)) / grid.cell_volume(j);
-    density(i, j, k) = Kokkos::min(all, most);
+    density(i, j, k) =
+        Kokkos::min(density_of_deposit(grid, deposits, point, quantity, i, j, k), most);
   }
 };
 
@@ -195,6 +221,15 @@ struct SolidToFluidFraction {
   }
 };
 
+/// Where no grains are.
+struct ClearWater {
+  FieldRef alpha;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    alpha(i, j, k) = 1;
+    return 0;
+  }
+};
+
 /// Shares of a cell's content that go to its lower and upper y-face; nothing goes to the walls.
 struct FaceShares {
   Real lower, upper;
@@ -205,35 +240,65 @@ KOKKOS_INLINE_FUNCTION FaceShares y_face_shares(int j, int ny) {
   return j == ny - 1 ? FaceShares{1, 0} : FaceShares{Real(0.5), Real(0.5)};
 }
 
-/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces. By
-/// row those along the floor are on their faces already.
+/// A density on y-face j from those in the rows below and above it, integrals kept.
+KOKKOS_INLINE_FUNCTION Real spread_to_y_face(const GridRef& grid, Real below, Real above, int j) {
+  if (j == 0) return 0;
+  return (below * grid.dy(j - 1) * y_face_shares(j - 1, grid.ny).upper +
+          above * grid.dy(j) * y_face_shares(j, grid.ny).lower) /
+         grid.dy_centre(j);
+}
+
+/// Integral of a density on the faces of a cell index over their volumes.
+KOKKOS_INLINE_FUNCTION Vec3 over_face_volumes(const GridRef& grid, const Vec3& density, int j) {
+  const Real floor = grid.dx * grid.dz, row = floor * grid.dy(j);
+  return {density.x * row, density.y * floor * grid.dy_centre(j), density.z * row};
+}
+
+/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
+/// Returns what the fluid loses [N s].
 struct SpreadToFaces {
   GridRef grid;
-  bool by_row = false;
   ConstFieldRef impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
   FaceRef given;                                  // on faces
 
-  KOKKOS_INLINE_FUNCTION Real on_y_face(const ConstFieldRef& f, int i, int j, int k) const {
-    if (j == 0) return 0;
-    return (f(i, j - 1, k) * grid.dy(j - 1) * y_face_shares(j - 1, grid.ny).upper +
-            f(i, j, k) * grid.dy(j) * y_face_shares(j, grid.ny).lower) /
-           grid.dy_centre(j);
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
+  KOKKOS_INLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
     // The fluid gets the opposite of what the grains got.
-    given.x(i, j, k) = -(by_row ? impulse_x(i, j, k) : cell_to_xface(impulse_x, i, j, k));
-    given.y(i, j, k) = -on_y_face(impulse_y, i, j, k);
-    given.z(i, j, k) = -(by_row ? impulse_z(i, j, k) : cell_to_zface(impulse_z, i, j, k));
+    const Real below = j > 0 ? impulse_y(i, j - 1, k) : 0;
+    const Vec3 lost{cell_to_xface(impulse_x, i, j, k),
+                    spread_to_y_face(grid, below, impulse_y(i, j, k), j),
+                    cell_to_zface(impulse_z, i, j, k)};
+    given.x(i, j, k) = -lost.x;
+    given.y(i, j, k) = -lost.y;
+    given.z(i, j, k) = -lost.z;
+    return over_face_volumes(grid, lost, j);
   }
 };
 
-/// Integral of the impulse density over the volumes of the faces of one direction, for the ledger.
-struct SumImpulse {
+/// By row those along the floor are on their faces already. And the conductances between rows.
+struct RowsToFaces {
   GridRef grid;
-  bool y_faces;
-  ConstFieldRef impulse;
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    return impulse(i, j, k) * (grid.dx * grid.dz * (y_faces ? grid.dy_centre(j) : grid.dy(j)));
+  Deposits deposits;
+  FaceRef given;
+  FieldRef conductance_x, conductance_z;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real impulse(Deposits::Quantity q, int i, int j, int k) const {
+    return density_of_deposit(grid, deposits, deposits.impulse, q, i, j, k);
+  }
+  KOKKOS_INLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    using enum Deposits::Quantity;
+    const Real below = j > 0 ? impulse(kImpulseY, i, j - 1, k) : 0;
+    const Vec3 lost{impulse(kImpulseX, i, j, k),
+                    spread_to_y_face(grid, below, impulse(kImpulseY, i, j, k), j),
+                    impulse(kImpulseZ, i, j, k)};
+    given.x(i, j, k) = -lost.x;
+    given.y(i, j, k) = -lost.y;
+    given.z(i, j, k) = -lost.z;
+    const auto conductance = [&](Deposits::Quantity q) {
+      return density_of_deposit(grid, deposits, deposits.conductance, q, i, j, k);
+    };
+    conductance_x(i, j, k) = conductance(kConductanceX);
+    conductance_z(i, j, k) = conductance(kConductanceZ);
+    return over_face_volumes(grid, lost, j);
   }
 };
 

@@ -54,32 +54,39 @@ struct Deposits {
   }
 };
 
-/// What grains give to cells, on its way to the sums of all. A few cells are kept until others take
-/// their slots: grains that follow one another in memory share cells, and an atomic addition takes
-/// longer than all else.
-template <int slots>
+/// What grains give to cells, on its way to the sums of all. The cells around a column of cells are
+/// kept until others take their slots: grains that follow one another in memory share cells, and an
+/// atomic addition takes longer than all else. Two columns along x and along z have slots of their
+/// own, and so many rows; one slot on a device.
+template <int rows>
 class DepositCache {
  public:
-  KOKKOS_INLINE_FUNCTION explicit DepositCache(const Deposits& deposits) : deposits_(deposits) {}
+  static constexpr int kSlots = rows > 1 ? 4 * rows : 1;
+
+  KOKKOS_INLINE_FUNCTION DepositCache(const GridRef& grid, const Deposits& deposits)
+      : grid_(grid), deposits_(deposits) {}
   KOKKOS_INLINE_FUNCTION ~DepositCache() {
-    for (int slot = 0; slot < slots; ++slot) deposits_.add(cell_[slot], held_[slot]);
+    for (int slot = 0; slot < kSlots; ++slot) deposits_.add(cell_[slot], held_[slot]);
   }
   DepositCache(const DepositCache&) = delete;
 
-  KOKKOS_INLINE_FUNCTION void add(std::int64_t cell, const CellDeposit& given) {
-    const auto slot = static_cast<int>(cell % slots);
+  /// Where to add what a cell is given.
+  KOKKOS_FORCEINLINE_FUNCTION CellDeposit& at(const CellIndex& c) {
+    const std::int64_t cell = c.linear(grid_);
+    const int slot = rows > 1 ? (c.i & 1) + 2 * (c.k & 1) + 4 * (c.j & (rows - 1)) : 0;
     if (cell_[slot] != cell) {
       deposits_.add(cell_[slot], held_[slot]);
       cell_[slot] = cell;
       held_[slot] = {};
     }
-    held_[slot] += given;
+    return held_[slot];
   }
 
  private:
+  const GridRef& grid_;
   const Deposits& deposits_;
-  std::int64_t cell_[slots]{};
-  CellDeposit held_[slots]{};
+  std::int64_t cell_[kSlots]{};
+  CellDeposit held_[kSlots]{};
 };
 
 }  // namespace barchan

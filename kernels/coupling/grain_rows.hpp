@@ -28,8 +28,8 @@ struct GrainRows {
     const Real low = y - kOuterShell * r, high = y + kOuterShell * r;
     const int own = grid.row_of(mirrored_inside(grid, y));
     const int lowest = grid.row_near(low, own), highest = grid.row_near(high, own);
-    if (low >= 0 && high <= grid.ly && highest - lowest <= 1) {
-      in_two(grid, y, r, lowest, own == highest);
+    if (low >= 0 && high <= grid.ly && highest - lowest < kFew) {
+      in_few(grid, y, r, lowest, own, highest);
     } else {
       one_by_one(grid, y, r, own);
     }
@@ -50,23 +50,37 @@ struct GrainRows {
   }
 
  private:
-  /// A grain inside, in two rows that follow one another or in one: `own_is_upper` says which.
-  KOKKOS_INLINE_FUNCTION void in_two(const GridRef& grid, Real y, Real r, int lower,
-                                     bool own_is_upper) {
-    constexpr DividedSets sets = divided_sets();
-    const Real face = grid.y_face(lower + 1);
-    PointSet above = 0;
-    Real sum_above = 0, sum_below = 0;
+  static constexpr int kFew = 4;
+
+  /// A grain inside, in a few rows that follow one another.
+  KOKKOS_INLINE_FUNCTION void in_few(const GridRef& grid, Real y, Real r, int lowest, int own,
+                                     int highest) {
+    Real at[kDividedOffsets];
+    int row_of[kDividedOffsets];
     for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real at = y + r * divided_offset(q, false), all = Kokkos::popcount(sets.y[q]) * at;
-      const bool is_above = at >= face && lower + 1 < grid.ny;
-      above |= is_above ? sets.y[q] : 0;
-      sum_above += is_above ? all : 0;
-      sum_below += is_above ? 0 : all;
+      at[q] = y + r * divided_offset(q, false);
+      row_of[q] = lowest;
     }
-    if (own_is_upper) add(lower + 1, above, sum_above);
-    add(lower, kAllPoints & ~above, sum_below);
-    if (!own_is_upper) add(lower + 1, above, sum_above);
+    for (int j = lowest + 1; j <= highest; ++j) {
+      const Real face = grid.y_face(j);
+      for (int q = 0; q < kDividedOffsets; ++q) row_of[q] += at[q] >= face ? 1 : 0;
+    }
+    add_row(own, at, row_of);
+    for (int j = lowest; j <= highest; ++j)
+      if (j != own) add_row(j, at, row_of);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void add_row(int j, const Real (&at)[kDividedOffsets],
+                                           const int (&row_of)[kDividedOffsets]) {
+    constexpr DividedSets sets = divided_sets();
+    PointSet set = 0;
+    Real sum = 0;
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const bool here = row_of[q] == j;
+      set |= here ? sets.y[q] : 0;
+      sum += here ? Kokkos::popcount(sets.y[q]) * at[q] : 0;
+    }
+    if (set == 0) return;
+    row[n] = j, points[n] = set, sum_[n++] = sum;
   }
   KOKKOS_INLINE_FUNCTION void one_by_one(const GridRef& grid, Real y, Real r, int own) {
     constexpr DividedSets sets = divided_sets();

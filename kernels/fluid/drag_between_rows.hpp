@@ -13,6 +13,7 @@ namespace barchan {
 /// lost. The drag at the old velocities is in u* already (docs/numerics.md, "Drag between rows").
 struct DragBetweenRows {
   GridRef grid;
+  int rows = 0;               // those above have no conductance
   ConstFieldRef conductance;  // C_j / dy_j on these faces [kg/m^3]
   ConstFieldRef alpha;        // with ghosts
   ConstFieldRef u;            // before the step [m/s]
@@ -26,12 +27,12 @@ struct DragBetweenRows {
   }
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
-    int rows = grid.ny;
-    while (rows > 1 && coupling(i, rows - 1, k) == 0) --rows;
-    if (rows == 1) return;
+    int top = rows;
+    while (top > 1 && coupling(i, top - 1, k) == 0) --top;
+    if (top <= 1) return;
     Real below = 0, e_below = 0, pivot_below = 0;
-    for (int j = 0; j < rows; ++j) {
-      const Real above = j + 1 < rows ? coupling(i, j + 1, k) : 0;
+    for (int j = 0; j < top; ++j) {
+      const Real above = j + 1 < top ? coupling(i, j + 1, k) : 0;
       const Real on_face = along_x ? cell_to_xface(alpha, i, j, k) : cell_to_zface(alpha, i, j, k);
       const Real mass = density * on_face * grid.dy(j);
       pivot_below = 1 / (mass + below + above - below * below * pivot_below);
@@ -40,7 +41,7 @@ struct DragBetweenRows {
       u_star(i, j, k) = u(i, j, k) + e_below;
       below = above;
     }
-    for (int j = rows - 2; j >= 0; --j) {
+    for (int j = top - 2; j >= 0; --j) {
       const Real e_above = u_star(i, j + 1, k) - u(i, j + 1, k);
       u_star(i, j, k) += pivot(i, j, k) * coupling(i, j + 1, k) * e_above;
     }

@@ -5,6 +5,12 @@
 
 namespace barchan {
 
+/// A largest value and sums, of a cell or of many.
+struct LargestAndSums {
+  Real largest = 0;
+  Vec2 sum;
+};
+
 /// A cell field weighted with the height of its row.
 struct HeightSum {
   GridRef grid;

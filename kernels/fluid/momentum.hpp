@@ -112,14 +112,6 @@ struct StressDivergence {
   }
 };
 
-/// What the grains do to the fluid in one step, on faces. Of the impulse wall faces and ghosts are
-/// not read.
-struct ExchangeOnFaces {
-  FaceVector impulse;                      // momentum per volume given to the fluid [N s/m^3]
-  Field conductance_x{}, conductance_z{};  // of DragBetweenRows, on faces [kg/m^3]; empty: none
-  Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
-};
-
 /// Whether the fluid fraction is one everywhere, so that nobody reads it.
 enum class Fraction { uniform, variable };
 
@@ -132,26 +124,41 @@ struct AdamsBashforth {
 ///   alpha' u* = alpha u + now N + before N_before + impulse / rho,
 /// primes are the new time level. The alpha before the stress may be another one than that of the
 /// flow. Without exchange the impulse is zero. The drive is added later. `rate` holds N_before on
-/// entry and N on return.
-template <bool with_exchange>
+/// entry and N on return. Of a uniform fraction alpha is one and not read, and flux is u.
+template <Fraction fraction, bool with_exchange>
 struct Predict {
   GridRef grid;
   Convection convection;
   StressDivergence stress;
   ConstFieldRef stress_share, alpha_new;
   FaceRef rate, u_star;
-  ConstFaceRef impulse;  // of ExchangeOnFaces
+  ConstFaceRef impulse;  // given to the fluid per volume [N s/m^3]
   AdamsBashforth weight;
   Real inv_density;  // 1 / rho [m^3/kg]
 
+  static constexpr bool is_variable = fraction == Fraction::variable;
+
   KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
                                            const Real alpha_here, const Real given) const {
-    return (momentum + weight.now * n + weight.before * n_before + given * inv_density) /
-           alpha_here;
+    const Real all = momentum + weight.now * n + weight.before * n_before + given * inv_density;
+    if constexpr (is_variable) return all / alpha_here;
+    return all;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real at(const ConstFieldRef& f, int i, int j, int k) {
     if constexpr (with_exchange) return f(i, j, k);
     return 0;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static Real x_face(const ConstFieldRef& f, int i, int j, int k) {
+    if constexpr (is_variable) return cell_to_xface(f, i, j, k);
+    return 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y_face(const ConstFieldRef& f, int i, int j, int k) const {
+    if constexpr (is_variable) return cell_to_yface(grid, f, i, j, k);
+    return 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static Real z_face(const ConstFieldRef& f, int i, int j, int k) {
+    if constexpr (is_variable) return cell_to_zface(f, i, j, k);
+    return 1;
   }
 
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
@@ -159,23 +166,20 @@ struct Predict {
     const ConstFaceRef& flux = convection.flux;
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
-    const Real alpha_x = cell_to_xface(alpha_new, i, j, k);
-    const Real nx =
-        convection.x(i, j, k) + cell_to_xface(stress_share, i, j, k) * stress.x(i, j, k);
+    const Real alpha_x = x_face(alpha_new, i, j, k);
+    const Real nx = convection.x(i, j, k) + x_face(stress_share, i, j, k) * stress.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, at(impulse.x, i, j, k));
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
-    const Real ny =
-        convection.y(i, j, k) + cell_to_yface(grid, stress_share, i, j, k) * stress.y(i, j, k);
-    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k),
-                            cell_to_yface(grid, alpha_new, i, j, k), at(impulse.y, i, j, k));
+    const Real ny = convection.y(i, j, k) + y_face(stress_share, i, j, k) * stress.y(i, j, k);
+    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k), y_face(alpha_new, i, j, k),
+                            at(impulse.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
-    const Real nz =
-        convection.z(i, j, k) + cell_to_zface(stress_share, i, j, k) * stress.z(i, j, k);
-    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), cell_to_zface(alpha_new, i, j, k),
+    const Real nz = convection.z(i, j, k) + z_face(stress_share, i, j, k) * stress.z(i, j, k);
+    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), z_face(alpha_new, i, j, k),
                             at(impulse.z, i, j, k));
     rate.z(i, j, k) = nz;
     u_star.z(i, j, k) = uz;

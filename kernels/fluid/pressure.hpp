@@ -14,14 +14,15 @@ struct UpdateMobility {
   ConstFieldRef alpha;
   FaceRef c;
 
-  /// Returns c_x dy: what a unit driving force would add to the flow rate here.
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const Real inside = j > 0 ? Real(1) : Real(0);
-    const Real cx = cell_to_xface(alpha, i, j, k);
+  /// Returns what c_x dy, alpha dy and c_z dy are above dy: the first and the last are what a unit
+  /// driving force would add to the flow rate here.
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Real inside = j > 0 ? Real(1) : Real(0), dy = grid.dy(j);
+    const Real cx = cell_to_xface(alpha, i, j, k), cz = cell_to_zface(alpha, i, j, k);
     c.x(i, j, k) = cx;
     c.y(i, j, k) = inside * cell_to_yface(grid, alpha, i, j, k);
-    c.z(i, j, k) = cell_to_zface(alpha, i, j, k);
-    return cx * grid.dy(j);
+    c.z(i, j, k) = cz;
+    return {(cx - 1) * dy, (alpha(i, j, k) - 1) * dy, (cz - 1) * dy};
   }
 };
 
@@ -38,7 +39,23 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const Co
   return x * (1 / (grid.dx * grid.dx)) + y * (1 / grid.dy(j)) + z * (1 / (grid.dz * grid.dz));
 }
 
-/// Diagonal of the operator above [1/m^2].
+/// E p = -div((c - 1) grad p) in a cell: what grains add to the operator of clear water. Zero where
+/// c is one on all faces inside.
+KOKKOS_FORCEINLINE_FUNCTION Real obstruction(const GridRef& grid, const ConstFaceRef& c,
+                                             const ConstFieldRef& p, int i, int j, int k) {
+  const Real centre = p(i, j, k);
+  const Real below = j > 0 ? Real(1) : Real(0), above = j + 1 < grid.ny ? Real(1) : Real(0);
+  const Real x = (c.x(i, j, k) - 1) * (centre - p(i - 1, j, k)) +
+                 (c.x(i + 1, j, k) - 1) * (centre - p(i + 1, j, k));
+  const Real y =
+      (c.y(i, j, k) - below) * (centre - p(i, j - 1, k)) * (1 / grid.dy_centre(j)) +
+      (c.y(i, j + 1, k) - above) * (centre - p(i, j + 1, k)) * (1 / grid.dy_centre(j + 1));
+  const Real z = (c.z(i, j, k) - 1) * (centre - p(i, j, k - 1)) +
+                 (c.z(i, j, k + 1) - 1) * (centre - p(i, j, k + 1));
+  return x * (1 / (grid.dx * grid.dx)) + y * (1 / grid.dy(j)) + z * (1 / (grid.dz * grid.dz));
+}
+
+/// Diagonal of the pressure operator [1/m^2].
 KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const ConstFaceRef& c,
                                                    int i, int j, int k) {
   return (c.x(i, j, k) + c.x(i + 1, j, k)) * (1 / (grid.dx * grid.dx)) +
@@ -50,17 +67,44 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_diagonal(const GridRef& grid, const Co
 // Steps of the conjugate gradients; inner products are sums over cells weighted with their height
 // (dx dz is the same everywhere), in which the operator is self-adjoint.
 
-/// r = b - A p, which replaces b.
-struct InitialResidual {
+/// Adds up <b, b> and <b, 1>.
+struct NormAndMean {
   GridRef grid;
+  ConstFieldRef b;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Real value = b(i, j, k), weighted = value * grid.dy(j);
+    return {value * weighted, weighted, 0};
+  }
+};
+/// The same of b, before it becomes b - E p; a copy of it.
+struct SubtractObstruction {
+  NormAndMean of_b;
   ConstFaceRef c;
   ConstFieldRef p;
+  FieldRef b, copy;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Vec3 sums = of_b(i, j, k);
+    const Real before = b(i, j, k);
+    copy(i, j, k) = before;
+    b(i, j, k) = before - obstruction(of_b.grid, c, p, i, j, k);
+    return sums;
+  }
+};
+/// r = b - A p; adds up <r, r>.
+struct Residual {
+  GridRef grid;
+  ConstFaceRef c;
+  ConstFieldRef p, b;
   FieldRef r;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const Real value = r(i, j, k) - pressure_operator(grid, c, p, i, j, k);
+    const Real value = b(i, j, k) - pressure_operator(grid, c, p, i, j, k);
     r(i, j, k) = value;
     return value * value * grid.dy(j);
   }
+};
+struct SetZero {
+  FieldRef f;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { f(i, j, k) = 0; }
 };
 /// q = A d; adds up <d, q>.
 struct ApplyOperator {
@@ -74,20 +118,42 @@ struct ApplyOperator {
     return value * d(i, j, k) * grid.dy(j);
   }
 };
-/// p += a d, r -= a q; adds up <r, r>.
-struct AdvanceIterate {
+/// r -= a q; adds up <r, r>.
+struct AdvanceResidual {
   GridRef grid;
-  ConstFieldRef d, q;
-  FieldRef p, r;
+  ConstFieldRef q;
+  FieldRef r;
   Real a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    p(i, j, k) += a * d(i, j, k);
     const Real value = r(i, j, k) - a * q(i, j, k);
     r(i, j, k) = value;
     return value * value * grid.dy(j);
   }
 };
-/// d = a z + b d: the next direction; a first guess, linear in time through two pressures.
+/// p += a d - surplus.
+struct AdvancePressure {
+  ConstFieldRef d;
+  FieldRef p;
+  Real a, surplus;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    p(i, j, k) += a * d(i, j, k) - surplus;
+  }
+};
+/// The same, and then d = z + b d, the next direction; adds up d.
+struct NextDirection {
+  GridRef grid;
+  AdvancePressure advance;
+  ConstFieldRef z;
+  Real b;
+  FieldRef d;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    advance(i, j, k);
+    const Real value = z(i, j, k) + b * d(i, j, k);
+    d(i, j, k) = value;
+    return value * grid.dy(j);
+  }
+};
+/// d = a z + b d: a first guess, linear in time through two pressures.
 struct Combine {
   Real a;
   ConstFieldRef z;
@@ -150,16 +216,19 @@ struct ContinuityResidual {
 
 /// u = u* + f dt e_x - (dt / rho) grad p. Keeps the old velocity's change as du_dt. Walls stay at
 /// rest.
+template <Fraction fraction>
 struct CorrectVelocity {
   GridRef grid;
   ConstFaceRef u_star;
-  ConstFieldRef p;   // with ghosts
-  Real inv_density;  // 1 / rho
+  ConstFieldRef p;      // with ghosts
+  ConstFieldRef alpha;  // with ghosts; one where the fraction is uniform, and not read
+  Real inv_density;     // 1 / rho
   Real drive_dt, dt;
   FaceRef u, du_dt;
 
-  /// Returns the Courant number of the new velocity.
-  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+  /// Returns the Courant number of the new velocity, and alpha u dy and alpha w dy on faces
+  /// [m^2/s].
+  KOKKOS_FORCEINLINE_FUNCTION LargestAndSums operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
     const Real push = dt * inv_density;
     const Real ux = u_star.x(i, j, k) + (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
@@ -171,7 +240,13 @@ struct CorrectVelocity {
     u.x(i, j, k) = ux;
     u.y(i, j, k) = uy;
     u.z(i, j, k) = uz;
-    return courant_number({ux, uy, uz}, {grid.dx, grid.dy_centre(j), grid.dz}, dt);
+    Real flow_x = ux * grid.dy(j), flow_z = uz * grid.dy(j);
+    if constexpr (fraction == Fraction::variable) {
+      flow_x *= cell_to_xface(alpha, i, j, k);
+      flow_z *= cell_to_zface(alpha, i, j, k);
+    }
+    return {courant_number({ux, uy, uz}, {grid.dx, grid.dy_centre(j), grid.dz}, dt),
+            {flow_x, flow_z}};
   }
 };
 

@@ -3,7 +3,13 @@
 namespace barchan {
 
 CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
-    : on_faces{make_faces("exchange impulse", at.grid)} {
+    : of_grains(at.grid),
+      of_fraction(at.grid),
+      of_exchange(at.grid),
+      smoothed(at.grid),
+      on_faces{make_faces("exchange impulse", at.grid)} {
+  on_faces.near = &of_exchange;
+  of_grains.set({}), of_fraction.set({});  // none yet
   const FluidSolver::Scratch idle = solver.scratch();
   const auto& [flux, u_star] = idle.faces;
   pressure_on_faces = stress_on_faces = flux;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/coupling/coupling_grid.hpp"
+#include "src/fluid/exchange_on_faces.hpp"
 
 namespace barchan {
 
@@ -10,6 +11,7 @@ namespace barchan {
 /// only within its steps. The constructor, and nothing else, says which memory is whose.
 struct CouplingFields {
   CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
+  CouplingFields(const CouplingFields&) = delete;
 
   // Gather, force per volume of grain on faces [N/m^3].
   FaceVector pressure_on_faces, stress_on_faces;
@@ -29,8 +31,14 @@ struct CouplingFields {
   // memory with the conductances of `on_faces`, likewise.
   Field solid_x, solid_z;
 
+  // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
+  // the deposit: those over which it spreads their volume, and all of these with the last ones of
+  // alpha_f, which the flow looks at.
+  NearGrains of_grains, of_fraction, of_exchange;
+  Region smoothed;
+
   // Kept through the fluid step.
-  Field alpha_before_smoothing;  // set by the gather; empty without smoothing
+  Field alpha_before_smoothing;  // set by the gather, within of_exchange; empty without
   ExchangeOnFaces on_faces;      // set by the deposit
 
   /// The fraction before the smoothing, with ghosts: alpha_f itself without one.

@@ -1,15 +1,12 @@
 #include "src/coupling/coupling_grid.hpp"
 
-#include <algorithm>
-
+#include "kernels/coupling/deposit.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/decomposition.hpp"
 
 namespace barchan {
 
 namespace {
-
-Real square(Real a) { return a * a; }
 
 /// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
 /// or with walls others.
@@ -35,23 +32,36 @@ WallFaces ends_of(const RankAxis& line, int n) {
 CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow,
                            Real r_max)
     : grid(of_flow),
+      rows(of_flow.on_host()),
       boundary(solver.boundary()),
       box(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil(make_deposit_stencil(config, grid, r_max)),
       by_row(exchanges_by_row(config.coupling)),
       crowded(by_row && may_be_crowded(grid, 2 * r_max)),
       smoothing_length(config.coupling.smoothing_length),
+      reach_of_grain(kOuterShell * r_max),
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
             .z = config.grains->boundary_z == GrainBoundaryZ::wall},
-      smoother(grid, smoothing_fft(config, solver, grid, walls), 1,
-               square(std::max<Real>(smoothing_length, 1e-9))) {}
+      smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
+      marks("coupling: columns of grains",
+            static_cast<std::size_t>(grid.nx_all) * static_cast<std::size_t>(grid.nz_all)) {}
 
-void CouplingGrid::fill_ghosts(FaceVector& f) const {
-  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar);
+ColumnMap CouplingGrid::columns_of(const GrainState& grains) const {
+  Kokkos::deep_copy(marks, 0);
+  Real highest = 0;
+  Kokkos::parallel_reduce("coupling: columns of grains", items(grains.n),
+                          MarkColumns{grid, grains.kin, reach_of_grain, marks},
+                          Kokkos::Max<Real>(highest));
+  const int top = grains.n > 0 ? rows.row_of(highest + reach_of_grain) + 1 : 0;
+  return ColumnMap::marked(grid, marks, top).grown(1);  // the other face of a momentum cell
 }
 
-void CouplingGrid::fill_ghosts(CellVector& f) const {
-  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar);
+void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {
+  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar, region);
+}
+
+void CouplingGrid::fill_ghosts(CellVector& f, const Region& region) const {
+  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar, region);
 }
 
 WallFaces CouplingGrid::wall_faces_x() const {

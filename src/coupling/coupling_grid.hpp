@@ -3,9 +3,10 @@
 
 #include "kernels/coupling/flow_at_grains.hpp"
 #include "src/coupling/deposit_stencil.hpp"
+#include "src/coupling/smoother.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/fluid/poisson_fft.hpp"
+#include "src/grains/grain_state.hpp"
 
 namespace barchan {
 
@@ -20,23 +21,27 @@ struct CellVector {
 struct CouplingGrid {
   CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow, Real r_max);
 
-  /// The implicit step of diffusion over the smoothing length.
-  void smooth(Field& f) const { smoother.solve(f, f); }
-  void fill_ghosts(FaceVector& f) const;  // constant beyond walls
-  void fill_ghosts(CellVector& f) const;
+  /// The columns of cells that these grains give to, and read from. All ranks together.
+  ColumnMap columns_of(const GrainState& grains) const;
+  /// Ghosts beside a region; constant beyond walls.
+  void fill_ghosts(FaceVector& f, const Region& region) const;
+  void fill_ghosts(CellVector& f, const Region& region) const;
   /// The first and the last face across which the smoothing does not go, in this rank's pencil.
   WallFaces wall_faces_x() const;
   WallFaces wall_faces_z() const;
 
   Grid grid;
+  HostGrid rows;
   Boundary boundary;
   PeriodicBox box;  // of the grains
   DepositStencil stencil;
   bool by_row;   // the exchange of momentum
   bool crowded;  // by row, and twice as many grains may belong to a momentum cell as lie there
   Real smoothing_length;  // [m]; 0: none
+  Real reach_of_grain;    // of its points from its centre [m]
   EvenExtension walls;    // of the grains, where the smoothing ends
-  PoissonFft smoother;
+  Smoother smoother;
+  Kokkos::View<int*> marks;  // room of columns_of(): columns of all ranks
 };
 
 }  // namespace barchan

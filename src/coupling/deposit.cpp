@@ -1,11 +1,30 @@
 #include "src/coupling/deposit.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
+
+namespace {
+
+/// Cells around those that grains' volume is spread over: their faces, and the columns that the
+/// pressure equation relaxes. These reach four cells beyond what is obstructed, which ends where a
+/// quarter of the digits has decayed (LocalCorrection).
+int cells_around(int reach) { return 1 + std::max(0, 5 - 3 * reach / 4); }
+
+/// Elsewhere than in a region the fraction before the smoothing is one.
+struct OneBeyond {
+  RegionRef region;
+  FieldRef fraction;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    fraction(i, j, k) = region.has(i, j, k) ? fraction(i, j, k) : Real(1);
+  }
+};
+
+}  // namespace
 
 Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
                  CouplingFields& fields)
@@ -22,8 +41,9 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
                          ExchangeLedger& ledger) {
   const ExchangeOfGrain of_grain{
       .dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
+  find_cells(grains);
   bound_sums(of_grain, grains.n, fluid, ledger);
-  Kokkos::deep_copy(deposits_.sum, 0);
+  clear(fields_.of_exchange.cells);
   using Launch = DepositGrains<kRunsOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
                        Launch{.of_grain = of_grain,
@@ -32,26 +52,33 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
                               .n = grains.n});
   halo_.scatter_add(deposits_.sum);
   update_fraction(fluid, ledger);
-  spread_to_faces();
-  ledger.taken_from_fluid = taken_from_fluid();
+  ledger.taken_from_fluid = grid_.by_row ? rows_to_faces() : spread_to_faces();
 }
 
 void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid) {
   if (!grid_.crowded) return;
-  Kokkos::deep_copy(deposits_.sum, 0);
+  const Region& cells = fields_.of_grains.around;
+  clear(cells);
   Kokkos::parallel_for("coupling: solid of momentum cells", items(grains.n),
                        DepositSolid{exchange_by_row(fluid), grains.kin, deposits_});
   halo_.scatter_add(deposits_.sum);
   for (const auto& [quantity, field] : {std::pair{Deposits::kSolidX, &fields_.solid_x},
                                         std::pair{Deposits::kSolidZ, &fields_.solid_z}}) {
-    for_each_cell("coupling: solid of momentum cells", grid_.grid,
-                  DecodeDeposit{.grid = grid_.grid,
-                                .deposits = deposits_,
-                                .point = deposits_.volume,
-                                .quantity = quantity,
-                                .density = *field});
-    grid_.boundary.fill(*field, FieldKind::scalar);
+    decode(quantity, deposits_.volume, cells, *field);
+    grid_.boundary.fill(*field, FieldKind::scalar, cells);
   }
+}
+
+/// Where the sums are zero that grains are then added to; the ghosts are added to their owners.
+void Deposit::clear(const Region& cells) {
+  const Grid& grid = grid_.grid;
+  const ClearDeposits set_zero{grid, deposits_};
+  for_each_cell("coupling: clear deposits", cells, set_zero);
+  if (grid.ranks == nullptr) return;
+  for (const int i : {-1, grid.nx})
+    for_each_cell("coupling: clear deposits", {i, i + 1, 0, grid.ny, -1, grid.nz + 1}, set_zero);
+  for (const int k : {-1, grid.nz})
+    for_each_cell("coupling: clear deposits", {-1, grid.nx + 1, 0, grid.ny, k, k + 1}, set_zero);
 }
 
 ExchangeByRow Deposit::exchange_by_row(const FluidState& fluid) const {
@@ -62,28 +89,38 @@ ExchangeByRow Deposit::exchange_by_row(const FluidState& fluid) const {
           .alpha_f = fields_.alpha_l(fluid)};
 }
 
-/// The fixed points: one cell can receive everything. And where the grains of all ranks are: a
-/// neighbour's read from the outermost cells of this one.
+/// Where the grains are, what of their volume the smoothing spreads, and what the flow has to know.
+void Deposit::find_cells(const GrainState& grains) {
+  const int reach = grid_.smoother.reach();
+  const ColumnMap of_grains = grid_.columns_of(grains);
+  ColumnMap smoothed = of_grains.grown(reach);
+  smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
+  fields_.smoothed.set(smoothed);
+  fields_.of_exchange.set(
+      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)));
+  if (grid_.smoothing_length == 0) return;
+  Field& before_smoothing = fields_.alpha_before_smoothing;
+  const Region& around = fields_.of_exchange.around;  // of whose faces both sides are read
+  for_each_cell("coupling: fraction before smoothing", around,
+                OneBeyond{fields_.of_fraction.around.ref(), before_smoothing});
+  grid_.boundary.fill(before_smoothing, FieldKind::scalar, around);
+}
+
+/// The fixed points: one cell can receive everything.
 void Deposit::bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidState& fluid,
                          ExchangeLedger& ledger) {
   std::vector<Real> sum(6);
   Kokkos::parallel_reduce("coupling: totals", items(n), GrainTotals{of_grain}, sum[0], sum[1],
-                          sum[2], sum[3], sum[4], sum[5], Kokkos::Min<Real>(extent_.left),
-                          Kokkos::Max<Real>(extent_.right), Kokkos::Max<Real>(extent_.top),
-                          Kokkos::Min<Real>(extent_.front), Kokkos::Max<Real>(extent_.back));
-  const MPI_Comm ranks = ranks_of(grid_.grid);
-  sum_over(ranks, sum);
-  extent_ = {.left = -max_over(ranks, -extent_.left),
-             .right = max_over(ranks, extent_.right),
-             .top = max_over(ranks, extent_.top),
-             .front = -max_over(ranks, -extent_.front),
-             .back = max_over(ranks, extent_.back)};
+                          sum[2], sum[3], sum[4], sum[5]);
+  sum_over(ranks_of(grid_.grid), sum);
   const Real volume = sum[0], beta_dt = sum[1], impulse = sum[2];
   deposits_.conductance = fixed_point_for(beta_dt * (kDividedOffsets * kDividedOffsets / 4));
   // Rows exchange no more than by twice the fastest velocity along x and z.
-  const Real fastest = grid_.by_row
-                           ? max_each_cell("coupling: fastest", grid_.grid, FastestAlong{fluid.u})
-                           : Real(0);
+  Real fastest = 0;
+  if (grid_.by_row) {
+    fastest = max_each_cell("coupling: fastest", grid_.grid, fields_.of_exchange.cells,
+                            FastestAlong{fluid.u});
+  }
   deposits_.impulse = fixed_point_for(impulse + 4 * fastest * beta_dt);
   ledger.grain_volume = volume;
   ledger.given_to_grains = {sum[3], sum[4], sum[5]};
@@ -91,46 +128,51 @@ void Deposit::bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidStat
 
 void Deposit::update_fraction(FluidState& fluid, ExchangeLedger& ledger) {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
-  decode(Deposits::kVolume, deposits_.volume, fluid.alpha_f);
-  ledger.deposited_volume = sum_each_cell("coupling: solid fraction to fluid fraction", grid_.grid,
-                                          SolidToFluidFraction{grid_.grid, fluid.alpha_f});
+  decode(Deposits::kVolume, deposits_.volume, fields_.smoothed, fluid.alpha_f);
+  grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
+  ledger.deposited_volume = sum_each_cell(
+      "coupling: solid fraction to fluid fraction", grid_.grid,
+      ByRegion{fields_.smoothed.ref(), SolidToFluidFraction{grid_.grid, fluid.alpha_f},
+               ClearWater{fluid.alpha_f}});
   grid_.boundary.fill(fluid.alpha_f, FieldKind::scalar);
   if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
     Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
   }
 }
 
-/// The exchange from the deposited impulse, and the conductances between rows.
-void Deposit::spread_to_faces() {
+/// Exchange and conductances; returns what the fluid loses [N s].
+Vec3 Deposit::rows_to_faces() {
+  ExchangeOnFaces& on_faces = fields_.on_faces;
+  return sum_vector("coupling: rows to faces", grid_.grid, fields_.of_exchange.cells,
+                    RowsToFaces{.grid = grid_.grid,
+                                .deposits = deposits_,
+                                .given = on_faces.impulse,
+                                .conductance_x = on_faces.conductance_x,
+                                .conductance_z = on_faces.conductance_z});
+}
+
+/// The same of an exchange that goes to cells, and is smoothed with them.
+Vec3 Deposit::spread_to_faces() {
+  const Region& cells = fields_.of_exchange.cells;
   CellVector& impulse = fields_.impulse_in_cells;
-  decode(Deposits::kImpulseX, deposits_.impulse, impulse.x);
-  decode(Deposits::kImpulseY, deposits_.impulse, impulse.y);
-  decode(Deposits::kImpulseZ, deposits_.impulse, impulse.z);
-  if (!grid_.by_row) grid_.fill_ghosts(impulse);
-  for_each_cell("coupling: spread to faces", grid_.grid,
-                SpreadToFaces{.grid = grid_.grid,
-                              .by_row = grid_.by_row,
-                              .impulse_x = impulse.x,
-                              .impulse_y = impulse.y,
-                              .impulse_z = impulse.z,
-                              .given = fields_.on_faces.impulse});
-  if (!grid_.by_row) return;
-  decode(Deposits::kConductanceX, deposits_.conductance, fields_.on_faces.conductance_x);
-  decode(Deposits::kConductanceZ, deposits_.conductance, fields_.on_faces.conductance_z);
+  for (const auto& [quantity, field] :
+       {std::pair{Deposits::kImpulseX, &impulse.x}, std::pair{Deposits::kImpulseY, &impulse.y},
+        std::pair{Deposits::kImpulseZ, &impulse.z}}) {
+    decode(quantity, deposits_.impulse, cells, *field);
+    if (config_.exchange == Exchange::smoothed) grid_.smoother.solve(*field, fields_.smoothed);
+  }
+  grid_.fill_ghosts(impulse, cells);
+  return sum_vector("coupling: spread to faces", grid_.grid, cells,
+                    SpreadToFaces{.grid = grid_.grid,
+                                  .impulse_x = impulse.x,
+                                  .impulse_y = impulse.y,
+                                  .impulse_z = impulse.z,
+                                  .given = fields_.on_faces.impulse});
 }
 
-/// [N s]
-Vec3 Deposit::taken_from_fluid() const {
-  const FaceVector& impulse = fields_.on_faces.impulse;
-  const auto sum = [&](const Field& component, bool y_faces) {
-    return -sum_each_cell("ledger: taken from the fluid", grid_.grid,
-                          SumImpulse{grid_.grid, y_faces, component});
-  };
-  return {sum(impulse.x, false), sum(impulse.y, true), sum(impulse.z, false)};
-}
-
-/// One quantity as a density in cells, smoothed.
-void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, Field& density) const {
+/// One quantity as a density in the cells of a region.
+void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& cells,
+                     Field& density) const {
   DecodeDeposit functor{.grid = grid_.grid,
                         .deposits = deposits_,
                         .point = point,
@@ -139,13 +181,7 @@ void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, Field
   if (quantity == Deposits::kVolume && config_.void_fraction == VoidFraction::cfdem_faithful) {
     functor.most = kMaxSolid;
   }
-  for_each_cell("coupling: decode deposit", grid_.grid, functor);
-  if (smooths(quantity)) grid_.smooth(density);
-}
-
-bool Deposit::smooths(Deposits::Quantity quantity) const {
-  return grid_.smoothing_length > 0 &&
-         (quantity == Deposits::kVolume || config_.exchange == Exchange::smoothed);
+  for_each_cell("coupling: decode deposit", cells, functor);
 }
 
 }  // namespace barchan

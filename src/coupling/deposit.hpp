@@ -21,25 +21,23 @@ class Deposit {
   /// Before the gather, in crowded cells: the solid of the momentum cells, with ghosts.
   void solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid);
 
-  /// Of the grains of all ranks at the last deposit.
-  const GrainExtent& extent() const { return extent_; }
-
  private:
   ExchangeByRow exchange_by_row(const FluidState& fluid) const;
+  void find_cells(const GrainState& grains);
   void bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidState& fluid,
                   ExchangeLedger& ledger);
+  void clear(const Region& cells);
   void update_fraction(FluidState& fluid, ExchangeLedger& ledger);
-  void spread_to_faces();
-  Vec3 taken_from_fluid() const;
-  void decode(Deposits::Quantity quantity, const FixedPoint& point, Field& density) const;
-  bool smooths(Deposits::Quantity quantity) const;
+  Vec3 rows_to_faces();
+  Vec3 spread_to_faces();
+  void decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& cells,
+              Field& density) const;
 
   CouplingConfig config_;
   const CouplingGrid& grid_;
   CouplingFields& fields_;
   Halo halo_;
   Deposits deposits_;
-  GrainExtent extent_;
 };
 
 }  // namespace barchan

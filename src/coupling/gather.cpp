@@ -37,7 +37,6 @@ Gather::Gather(const Config& config, const GrainState& grains, const CouplingGri
                CouplingFields& fields)
     : grid_(grid),
       fields_(fields),
-      host_grid_(grid.grid.on_host()),
       forces_(forces_of(config.coupling.forces)),
       drag_(make_drag(config.coupling.drag, grains.sauter_diameter)),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
@@ -48,38 +47,16 @@ Gather::Gather(const Config& config, const GrainState& grains, const CouplingGri
       has_floor_(config.fluid->bottom == WallFlow::no_slip),
       reads_as_cfdem_(config.coupling.void_fraction == VoidFraction::cfdem_faithful) {}
 
-void Gather::operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent,
-                        Real dt, ExchangeLedger& ledger) {
+void Gather::operator()(const FluidState& fluid, GrainState& grains, Real dt,
+                        ExchangeLedger& ledger) {
   reserve_flow_at(grains.n);
-  const CellRange around = cells_around(extent);
-  pressure_gradient(fluid, grains, around, dt, ledger);
-  stress(fluid, grains, around, dt, ledger);
+  pressure_gradient(fluid, grains, dt, ledger);
+  stress(fluid, grains, dt, ledger);
   flow_at_grains(fluid, grains);
   ledger.flow_on_grains = dt * force_of_flow(grains);
   drag_and_share(grains, dt);
   if (forces_.lift || forces_.torque) lift_and_torque(fluid, grains);
   is_first_step_ = false;
-}
-
-/// The cells whose faces the grains read.
-CellRange Gather::cells_around(const GrainExtent& grains) const {
-  const Grid& grid = grid_.grid;
-  CellRange cells = owned_cells(grid);
-  if (!(grains.left <= grains.right)) return cells;  // no grains
-  // One more on either side, and above one for faces; everything where that reaches a periodic
-  // side.
-  const auto shrink = [](Real low, Real high, Real spacing, int n_all, int mine, int& first,
-                         int& last) {
-    const Real begin = std::floor(low / spacing) - 1, end = std::floor(high / spacing) + 3;
-    if (!(begin >= 0 && end <= n_all)) return;
-    const int n = last;
-    first = std::clamp(static_cast<int>(begin) - mine, 0, n);
-    last = std::clamp(static_cast<int>(end) - mine, first, n);
-  };
-  shrink(grains.left, grains.right, grid.dx, grid.nx_all, grid.i_begin, cells.i0, cells.i1);
-  shrink(grains.front, grains.back, grid.dz, grid.nz_all, grid.k_begin, cells.k0, cells.k1);
-  cells.j1 = std::min(grid.ny, host_grid_.row_of(grains.top) + 3);
-  return cells;
 }
 
 void Gather::reserve_flow_at(int n) {
@@ -93,70 +70,71 @@ void Gather::reserve_flow_at(int n) {
 void Gather::undo_smoothing(const FluidState& fluid) {
   const Real length = grid_.smoothing_length;
   if (length == 0) return;
-  for_each_cell("coupling: fraction before smoothing", grid_.grid,
+  const Region& cells = fields_.of_fraction.around;
+  for_each_cell("coupling: fraction before smoothing", cells,
                 UnsmoothedFraction{.grid = grid_.grid,
                                    .alpha_f = fluid.alpha_f,
                                    .length_squared = length * length,
                                    .walls_x = grid_.wall_faces_x(),
                                    .walls_z = grid_.wall_faces_z(),
                                    .unsmoothed = fields_.alpha_before_smoothing});
-  grid_.boundary.fill(fields_.alpha_before_smoothing, FieldKind::scalar);
+  grid_.boundary.fill(fields_.alpha_before_smoothing, FieldKind::scalar, cells);
 }
 
 /// By row the grains get it the way that their volume went to alpha_f, backwards: smoothed, then
 /// from their cells (FlowOverCells). So they get what the solid fraction takes.
-void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains,
-                               const CellRange& around, Real dt, ExchangeLedger& ledger) {
+void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
+                               ExchangeLedger& ledger) {
   if (!forces_.pressure_gradient) return;
-  const bool smoothed = grid_.by_row && grid_.smoothing_length > 0;
-  const CellRange cells = smoothed ? owned_cells(grid_.grid) : around;
+  const auto& [cells, and_faces] = fields_.of_fraction;
   FaceVector& on_faces = fields_.pressure_on_faces;
   CellVector& in_cells = fields_.pressure_in_cells;
-  for_each_cell("coupling: pressure force density", cells,
+  for_each_cell("coupling: pressure force density", and_faces,
                 PressureForceDensity{.grid = grid_.grid,
                                      .p = fluid.p,
                                      .rho_f = rho_f_,
                                      .drive = fluid.drive,
                                      .force = on_faces});
-  set_faces_on_walls(on_faces, cells);
+  fill_faces_beside(on_faces, and_faces);
   ledger.flow_on_solid += dt * to_cells(on_faces, fluid.alpha_f, cells, in_cells);
   if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.pressure);
   for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z})
-    if (smoothed) grid_.smooth(*component);
-  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells);
+    grid_.smoother.solve(*component, cells);
+  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
 
-/// And the convective acceleration. The solid takes of the stress what it has before the smoothing.
-void Gather::stress(const FluidState& fluid, const GrainState& grains, const CellRange& around,
-                    Real dt, ExchangeLedger& ledger) {
+/// And the convective acceleration. By row the solid takes of the stress what it has before the
+/// smoothing, so there is none beyond the cells of the grains.
+void Gather::stress(const FluidState& fluid, const GrainState& grains, Real dt,
+                    ExchangeLedger& ledger) {
+  const auto& [cells, and_faces] = grid_.by_row ? fields_.of_grains : fields_.of_fraction;
   FaceVector& on_faces = fields_.stress_on_faces;
   CellVector& in_cells = fields_.stress_in_cells;
-  for_each_cell("coupling: stress force density", around,
+  for_each_cell("coupling: stress force density", and_faces,
                 StressForceDensity{.grid = grid_.grid,
                                    .u = fluid.u,
                                    .stress = {grid_.grid, fluid.u, fluid.nu_t, nu_},
                                    .rho_f = rho_f_,
                                    .force = on_faces,
                                    .convective = fields_.convective});
-  grid_.fill_ghosts(fields_.convective);
+  grid_.fill_ghosts(fields_.convective, and_faces);
   if (!forces_.stress) return;
   const Field& alpha = grid_.by_row ? fields_.alpha_l(fluid) : fluid.alpha_f;
-  set_faces_on_walls(on_faces, around);
-  ledger.flow_on_solid += dt * to_cells(on_faces, alpha, around, in_cells);
+  fill_faces_beside(on_faces, and_faces);
+  ledger.flow_on_solid += dt * to_cells(on_faces, alpha, cells, in_cells);
   if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.stress);
-  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells);
+  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
 
 /// Constant behind both walls, and ghosts.
-void Gather::set_faces_on_walls(FaceVector& force, const CellRange& cells) const {
-  for_each_cell("coupling: force density at the walls",
-                CellRange{cells.i0, cells.i1, 0, 1, cells.k0, cells.k1},
-                HoldForceAtWall{force.y, grid_.grid.ny});
-  grid_.fill_ghosts(force);
+void Gather::fill_faces_beside(FaceVector& force, const Region& cells) const {
+  for_each_column("coupling: force density at the walls", cells,
+                  HoldForceAtWall{force.y, grid_.grid.ny});
+  grid_.fill_ghosts(force, cells);
 }
 
 /// Returns what the solid fraction 1 - alpha takes of it [N].
-Vec3 Gather::to_cells(const FaceVector& force, const Field& alpha, const CellRange& cells,
+Vec3 Gather::to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                       CellVector& in_cells) const {
   return sum_vector("coupling: force density on cells", grid_.grid, cells,
                     ForceOnCells{grid_.grid, force, alpha, in_cells.x, in_cells.y, in_cells.z});

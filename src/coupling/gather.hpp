@@ -22,21 +22,18 @@ class Gather {
 
   /// First of all: the fraction before the smoothing.
   void undo_smoothing(const FluidState& fluid);
-  /// `extent`: of the grains of all ranks. Books what the flow's pressure gradient and stress do.
-  void operator()(const FluidState& fluid, GrainState& grains, const GrainExtent& extent, Real dt,
-                  ExchangeLedger& ledger);
+  /// Books what the flow's pressure gradient and stress do.
+  void operator()(const FluidState& fluid, GrainState& grains, Real dt, ExchangeLedger& ledger);
   /// The next step is the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
 
  private:
-  CellRange cells_around(const GrainExtent& grains) const;
   void reserve_flow_at(int n);
-  void pressure_gradient(const FluidState& fluid, const GrainState& grains, const CellRange& around,
-                         Real dt, ExchangeLedger& ledger);
-  void stress(const FluidState& fluid, const GrainState& grains, const CellRange& around, Real dt,
-              ExchangeLedger& ledger);
-  void set_faces_on_walls(FaceVector& force, const CellRange& cells) const;
-  Vec3 to_cells(const FaceVector& force, const Field& alpha, const CellRange& cells,
+  void pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
+                         ExchangeLedger& ledger);
+  void stress(const FluidState& fluid, const GrainState& grains, Real dt, ExchangeLedger& ledger);
+  void fill_faces_beside(FaceVector& force, const Region& cells) const;
+  Vec3 to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                 CellVector& in_cells) const;
   void at_centres(const FaceVector& force, const GrainState& grains,
                   const Kokkos::View<Vec3*>& at) const;
@@ -48,7 +45,6 @@ class Gather {
 
   const CouplingGrid& grid_;
   CouplingFields& fields_;
-  HostGrid host_grid_;
   FluidForces forces_;
   DragModel drag_;
   SubmergedWeight weight_;

@@ -194,7 +194,7 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
   }
   Real fraction = 0;
   if (state.fluid && state.grains) {
-    fraction = max_each_cell_here("state checks: fluid fraction", state.fluid->grid,
+    fraction = max_each_cell_here("state checks: fluid fraction", owned_cells(state.fluid->grid),
                                   FractionOutside{state.fluid->alpha_f});
   }
   std::vector<Real> worst{mine.displacement.val, mine.in_wall.val, mine.pair.val, fraction};

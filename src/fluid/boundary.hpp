@@ -5,7 +5,7 @@
 #include "src/config/config.hpp"
 #include "src/fluid/fluid_fields.hpp"
 #include "src/parallel/halo.hpp"
-#include "src/parallel/launch.hpp"
+#include "src/parallel/region.hpp"
 
 namespace barchan {
 
@@ -35,6 +35,11 @@ class Boundary {
       : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
   void fill(Field& f, FieldKind kind) const { fill(f, kind, top_velocity_); }
+  /// The ghosts beside a region.
+  void fill(Field& f, FieldKind kind, const Region& region) const {
+    fill_walls(f, kind, top_velocity_, region.floor());
+    if (region.has_ghosts()) halo_.fill(f);
+  }
   void fill_velocity(FaceVector& u) const { fill(u, top_velocity_); }
   /// A rate of change of the velocity: walls do not accelerate.
   void fill_acceleration(FaceVector& du_dt) const { fill(du_dt, 0); }
@@ -58,13 +63,16 @@ class Boundary {
     fill(u.z, FieldKind::velocity_z, top_velocity);
   }
   void fill(Field& f, FieldKind kind, Real top_velocity) const {
-    for_each_cell("boundary: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
+    fill_walls(f, kind, top_velocity, CellRange{0, grid_.nx, 0, 1, 0, grid_.nz});
+    halo_.fill(f);
+  }
+  void fill_walls(Field& f, FieldKind kind, Real top_velocity, const CellRange& columns) const {
+    for_each_cell("boundary: walls", columns,
                   FillWallGhosts{.f = f,
                                  .ny = grid_.ny,
                                  .bottom = ghost_rule(kind, bottom_),
                                  .top = ghost_rule(kind, top_),
                                  .top_value = kind == FieldKind::velocity_x ? top_velocity : 0});
-    halo_.fill(f);
   }
 
   Grid grid_;

@@ -26,7 +26,7 @@ FaceVector make_faces_in_one_piece(const std::string& label, const Grid& grid) {
   return {component(0), component(1), component(2)};
 }
 
-bool is_variable(Fraction fraction) { return fraction == Fraction::variable; }
+constexpr bool is_variable(Fraction fraction) { return fraction == Fraction::variable; }
 
 /// Weights of the explicit terms times dt; exact for rates linear in time also if dt changes.
 AdamsBashforth weights(const FluidState& fluid, Real dt) {
@@ -57,6 +57,7 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fracti
       drive_(config_),
       tolerance_(config.solver.pressure_tolerance),
       grid_(grid),
+      everywhere_(grid),
       boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
@@ -81,6 +82,8 @@ void FluidSolver::close(FaceVector& f) const {
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
+  const bool knows_where = exchange != nullptr && exchange->near != nullptr && !open_;
+  near_ = knows_where ? exchange->near : &everywhere_;
   if (is_variable(fraction_)) fill_fraction_ghosts(boundary_, fluid);
   if (fluid.time == 0)
     fluid.bulk_at_start = {bulk_velocity(fluid),
@@ -98,6 +101,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
 }
 
 void FluidSolver::remove_divergence(FluidState& fluid) {
+  near_ = &everywhere_;
   FluidState work = make_fluid_state(grid_);  // its pressure is not that of the flow
   work.u = fluid.u;
   work.alpha_f = work.alpha_f_previous = fluid.alpha_f;
@@ -117,44 +121,47 @@ void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
-/// alpha u of the old time level, with ghosts.
+/// alpha u of the old time level near the grains, with ghosts.
 void FluidSolver::update_mass_flux(const FluidState& fluid) {
   // Scratch memory: others may have used these fields since.
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
                 CloseFaces{flux_, u_star_.y, grid_.ny});
-  for_each_cell("fluid: mass flux", grid_, MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
-  boundary_.fill_periodic(flux_);
+  for_each_cell("fluid: mass flux", near_->around,
+                MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
+  if (near_->around.has_ghosts()) boundary_.fill_periodic(flux_);
 }
 
-template <bool with_exchange>
-void FluidSolver::predict(FluidState& fluid, const FaceVector& flux, const Field& stress_share,
-                          const FaceVector& impulse, Real dt) {
-  flow_.rate.x = sum_each_cell(
-      "fluid: predict", grid_,
-      Predict<with_exchange>{.grid = grid_,
-                             .convection = {grid_, fluid.u, flux},
-                             .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-                             .stress_share = stress_share,
-                             .alpha_new = fluid.alpha_f,
-                             .rate = fluid.rate_previous,
-                             .u_star = u_star_,
-                             .impulse = impulse,
-                             .weight = weights(fluid, dt),
-                             .inv_density = 1 / config_.density});
+template <Fraction fraction, bool with_exchange>
+Predict<fraction, with_exchange> FluidSolver::prediction(FluidState& fluid,
+                                                         const ExchangeOnFaces* exchange, Real dt) {
+  const bool shared = with_exchange && exchange->stress_share.storage.size() > 0;
+  return {.grid = grid_,
+          .convection = {grid_, fluid.u, is_variable(fraction) ? flux_ : fluid.u},
+          .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
+          .stress_share = shared ? exchange->stress_share : fluid.alpha_f_previous,
+          .alpha_new = fluid.alpha_f,
+          .rate = fluid.rate_previous,
+          .u_star = u_star_,
+          .impulse = with_exchange ? exchange->impulse : FaceVector{},
+          .weight = weights(fluid, dt),
+          .inv_density = 1 / config_.density};
 }
 
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
+  const auto in_clear_water = prediction<Fraction::uniform, false>(fluid, exchange, dt);
+  const auto predict = [&](const auto& each_face) {
+    flow_.rate.x = sum_each_cell("fluid: predict", grid_, each_face);
+  };
   if (is_variable(fraction_)) update_mass_flux(fluid);
   if (exchange != nullptr) {
-    const bool shared = exchange->stress_share.storage.size() > 0;
-    predict<true>(fluid, flux_, shared ? exchange->stress_share : fluid.alpha_f_previous,
-                  exchange->impulse, dt);
+    predict(ByRegion{near_->cells.ref(), prediction<Fraction::variable, true>(fluid, exchange, dt),
+                     in_clear_water});
     drag_between_rows(fluid, *exchange);
   } else if (is_variable(fraction_)) {
-    predict<false>(fluid, flux_, fluid.alpha_f_previous, {}, dt);
+    predict(prediction<Fraction::variable, false>(fluid, exchange, dt));
   } else {
-    predict<false>(fluid, fluid.u, fluid.alpha_f, {}, dt);
+    predict(in_clear_water);
   }
   close(u_star_);
 }
@@ -164,15 +171,16 @@ void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFac
   if (exchange.conductance_x.storage.size() == 0) return;
   for (const bool along_x : {true, false}) {
     const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
-    for_each_cell("fluid: drag between rows", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz},
-                  DragBetweenRows{.grid = grid_,
-                                  .conductance = conductance,
-                                  .alpha = fluid.alpha_f,
-                                  .u = along_x ? fluid.u.x : fluid.u.z,
-                                  .density = config_.density,
-                                  .along_x = along_x,
-                                  .u_star = along_x ? u_star_.x : u_star_.z,
-                                  .pivot = source_});
+    for_each_column("fluid: drag between rows", near_->cells,
+                    DragBetweenRows{.grid = grid_,
+                                    .rows = near_->cells.range().j1,
+                                    .conductance = conductance,
+                                    .alpha = fluid.alpha_f,
+                                    .u = along_x ? fluid.u.x : fluid.u.z,
+                                    .density = config_.density,
+                                    .along_x = along_x,
+                                    .u_star = along_x ? u_star_.x : u_star_.z,
+                                    .pivot = source_});
   }
 }
 
@@ -187,22 +195,24 @@ Vec2 FluidSolver::flow_rate(const FaceVector& u, const FluidState& fluid) const 
   return {x(), drive_.along_z() ? z() : 0};
 }
 
-/// c, and how much a force along x and z adds to the flow.
+/// c near the grains, and how much a force along x and z adds to the flow.
 void FluidSolver::update_mobility(const FluidState& fluid) {
   flow_.height = grid_.height_of_all_columns();
   flow_.response = {flow_.height, flow_.height};
   if (!is_variable(fraction_)) return;
-  flow_.response.x =
-      sum_each_cell("fluid: mobility", grid_, UpdateMobility{grid_, fluid.alpha_f, mobility_});
-  close(mobility_);
-  boundary_.fill_periodic(mobility_);
-  const auto response = [&](const Field& c) {
-    return sum_each_cell("fluid: mobility", grid_, HeightSum{grid_, c});
-  };
-  if (open_) flow_.response.x = response(mobility_.x);
-  if (drive_.along_z()) flow_.response.z = response(mobility_.z);
-  flow_.height = open_ ? flow_.response.x
-                       : sum_each_cell("fluid: volume", grid_, HeightSum{grid_, fluid.alpha_f});
+  const Vec3 less = sum_vector("fluid: mobility", grid_, near_->around,
+                               UpdateMobility{grid_, fluid.alpha_f, mobility_});
+  flow_.response = {flow_.height + less.x, flow_.height + less.z};
+  flow_.height += less.y;
+  if (open_) {
+    close(mobility_);
+    const auto response = [&](const Field& c) {
+      return sum_each_cell("fluid: mobility", grid_, HeightSum{grid_, c});
+    };
+    flow_.response = {response(mobility_.x), drive_.along_z() ? response(mobility_.z) : 0};
+    flow_.height = flow_.response.x;
+  }
+  if (near_->around.has_ghosts()) boundary_.fill_periodic(mobility_);
 }
 
 /// Along x the force is added where the pressure is; across, it is added to u* here.
@@ -226,21 +236,20 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   std::swap(fluid.p, fluid.p_previous);
   boundary_.halo().fill(u_star_.x);
   boundary_.halo().fill(u_star_.z);
+  const auto of_clear_water = pressure_source<Fraction::uniform>(u_star_, fluid, fluid.drive.x, dt);
   PressureReport solved;
   if (!is_variable(fraction_)) {
-    for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<Fraction::uniform>(u_star_, fluid, fluid.drive.x, dt));
+    for_each_cell("fluid: pressure source", grid_, of_clear_water);
     solved = pressure_.solve_uniform(source_, fluid.p);
   } else {
-    if (fluid.has_history) {
-      for_each_cell("fluid: extrapolate pressure", grid_,
-                    Combine{2, fluid.p_previous, -1, fluid.p});
-    } else {
-      Kokkos::deep_copy(fluid.p.storage, fluid.p_previous.storage);
-    }
+    const Real last = fluid.has_history ? 2 : 1, before = fluid.has_history ? -1 : 0;
+    for_each_cell("fluid: extrapolate pressure", near_->around,
+                  Combine{last, fluid.p_previous, before, fluid.p});
     for_each_cell("fluid: pressure source", grid_,
-                  pressure_source<Fraction::variable>(u_star_, fluid, fluid.drive.x, dt));
-    solved = pressure_.solve(mobility_, source_, fluid.p, tolerance_);
+                  ByRegion{near_->cells.ref(),
+                           pressure_source<Fraction::variable>(u_star_, fluid, fluid.drive.x, dt),
+                           of_clear_water});
+    solved = pressure_.solve(mobility_, near_->cells, source_, fluid.p, tolerance_);
   }
   report_.pressure_iterations = solved.iterations;
   report_.pressure_residual = solved.residual;
@@ -261,32 +270,52 @@ PressureSource<fraction> FluidSolver::pressure_source(const FaceVector& u, const
           .b = source_};
 }
 
+template <Fraction fraction>
+CorrectVelocity<fraction> FluidSolver::correction(FluidState& fluid, Real dt) {
+  return {.grid = grid_,
+          .u_star = u_star_,
+          .p = fluid.p,
+          .alpha = fluid.alpha_f,
+          .inv_density = 1 / config_.density,
+          .drive_dt = fluid.drive.x * dt,
+          .dt = dt,
+          .u = fluid.u,
+          .du_dt = fluid.du_dt};
+}
+
 void FluidSolver::correct(FluidState& fluid, Real dt) {
-  report_.courant = max_each_cell("fluid: correct velocity", grid_,
-                                  CorrectVelocity{.grid = grid_,
-                                                  .u_star = u_star_,
-                                                  .p = fluid.p,
-                                                  .inv_density = 1 / config_.density,
-                                                  .drive_dt = fluid.drive.x * dt,
-                                                  .dt = dt,
-                                                  .u = fluid.u,
-                                                  .du_dt = fluid.du_dt});
+  const auto in_clear_water = correction<Fraction::uniform>(fluid, dt);
+  const auto correct = [&](const auto& each_face) {
+    return largest_and_sums("fluid: correct velocity", grid_, each_face);
+  };
+  LargestAndSums corrected =
+      is_variable(fraction_)
+          ? correct(ByRegion{near_->cells.ref(), correction<Fraction::variable>(fluid, dt),
+                             in_clear_water})
+          : correct(in_clear_water);
   if (open_) {
     close(fluid.u), close(fluid.du_dt);
-    report_.courant = max_each_cell("fluid: Courant number", grid_, Courant{grid_, fluid.u, dt});
+    corrected = {max_each_cell("fluid: Courant number", grid_, Courant{grid_, fluid.u, dt}),
+                 flow_rate(fluid.u, fluid)};
   }
   boundary_.fill_velocity(fluid.u);
+  if (is_variable(fraction_)) boundary_.fill_acceleration(fluid.du_dt);
+  measure(fluid, corrected, dt);
+}
+
+/// What is reported of a step.
+void FluidSolver::measure(FluidState& fluid, const LargestAndSums& corrected, Real dt) {
+  report_.courant = corrected.largest;
+  const ContinuityResidual in_clear_water{
+      pressure_source<Fraction::uniform>(fluid.u, fluid, 0, dt)};
   const auto residual = [&](const auto& continuity) {
     report_.continuity_residual = max_each_cell("fluid: continuity", grid_, continuity);
   };
-  if (!is_variable(fraction_)) {
-    using Residual = ContinuityResidual<Fraction::uniform>;
-    return residual(Residual{pressure_source<Fraction::uniform>(fluid.u, fluid, 0, dt)});
-  }
-  boundary_.fill_acceleration(fluid.du_dt);
-  using Residual = ContinuityResidual<Fraction::variable>;
-  residual(Residual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)});
-  const Vec2 flow = flow_rate(fluid.u, fluid);
+  if (!is_variable(fraction_)) return residual(in_clear_water);
+  residual(ByRegion{near_->cells.ref(),
+                    ContinuityResidual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)},
+                    in_clear_water});
+  const Vec2 flow{corrected.sum.x, drive_.along_z() ? corrected.sum.z : 0};
   fluid.flow_rate_defect = {flow_.rate.x - flow.x, flow_.rate.z - flow.z};
   report_.bulk_velocity = {flow.x / flow_.height, flow.z / flow_.height};
 }

@@ -10,6 +10,7 @@
 #include "kernels/fluid/pressure.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/drive.hpp"
+#include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/flow_measures.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/fluid/pressure_solver.hpp"
@@ -88,9 +89,9 @@ class FluidSolver {
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
   void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
-  template <bool with_exchange>
-  void predict(FluidState& fluid, const FaceVector& flux, const Field& stress_share,
-               const FaceVector& impulse, Real dt);
+  template <Fraction fraction, bool with_exchange>
+  Predict<fraction, with_exchange> prediction(FluidState& fluid, const ExchangeOnFaces* exchange,
+                                              Real dt);
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
   void update_mobility(const FluidState& fluid);
   void drive(FluidState& fluid, Real dt);
@@ -99,6 +100,9 @@ class FluidSolver {
   template <Fraction fraction>
   PressureSource<fraction> pressure_source(const FaceVector& u, const FluidState& fluid,
                                            Real drive_x, Real dt);
+  template <Fraction fraction>
+  CorrectVelocity<fraction> correction(FluidState& fluid, Real dt);
+  void measure(FluidState& fluid, const LargestAndSums& corrected, Real dt);
   /// Nothing where no face is closed.
   void close(FaceVector& f) const;
   Vec2 flow_rate(const FaceVector& u, const FluidState& fluid) const;
@@ -108,6 +112,8 @@ class FluidSolver {
   Drive drive_;
   Real tolerance_;  // of the pressure equation
   Grid grid_;
+  NearGrains everywhere_;
+  const NearGrains* near_ = &everywhere_;  // elsewhere the fraction is one, before and after a step
   Boundary boundary_;
   std::shared_ptr<const PlaneFft> fft_;
   PressureSolver pressure_;

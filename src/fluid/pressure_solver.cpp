@@ -35,12 +35,13 @@ LocalCorrection::LocalCorrection(const Grid& grid, const Halo& halo)
 
 template <class Functor>
 void LocalCorrection::each_column(const char* label, const Functor& functor) const {
-  for_each_cell(label, CellRange{0, grid_.nx, 0, 1, 0, grid_.nz}, functor);
+  for_each_column(label, *near_, functor);
 }
 
-void LocalCorrection::update(const FaceVector& c) {
-  c_ = c;
-  each_column("local: find columns", FindColumns{c, grid_.ny, kObstructedBelow, {mask_}});
+void LocalCorrection::update(const FaceVector& c, const Region& near) {
+  for (Field* mask : {&mask_, &mask_1_, &mask_2_}) Kokkos::deep_copy(mask->storage, Real(0));
+  c_ = c, near_ = &near;
+  each_column("local: find columns", FindColumns{c, near.range().j1, kObstructedBelow, {mask_}});
   flat_halo_.fill(mask_);
   each_column("local: widen", WidenColumns{grid_.ny, {mask_}, {mask_1_}});
   flat_halo_.fill(mask_1_);
@@ -66,7 +67,7 @@ void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
 
 void LocalCorrection::apply(const PoissonFft& poisson, Field& r, Field& z) {
   relax(r, local_, true);
-  halo_.fill(local_);
+  if (near_->has_ghosts()) halo_.fill(local_);
   each_column("local: subtract", SubtractLocal{grid_, c_, {mask_2_}, local_, r, saved_r_});
   poisson.solve(r, z);
   each_column("local: add", AddLocal{{mask_2_}, saved_r_, local_, r, z});
@@ -80,14 +81,19 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       config_(config),
       poisson_(grid, std::move(fft), 0, 1),
       local_(grid, halo),
+      r_("pressure: residual", grid),
       z_("pressure: z", grid),
       d_("pressure: direction", grid),
-      a_d_("pressure: image", grid) {}
+      e_("pressure: image", grid) {}
 
-void PressureSolver::remove_mean(Field& f) {
-  const Real height = grid_.height_of_all_columns();
-  const Real mean = sum_each_cell("pressure: mean", grid_, HeightSum{grid_, f}) / height;
-  for_each_cell("pressure: remove mean", grid_, Subtract{f, mean});
+/// What the cells near grains add to the mean of all.
+Real PressureSolver::near_mean(const Field& f) const {
+  return sum_each_cell("pressure: mean", grid_, *near_, HeightSum{grid_, f}) /
+         grid_.height_of_all_columns();
+}
+
+void PressureSolver::fill_ghosts_near(Field& f) const {
+  if (near_->has_ghosts()) halo_.fill(f);
 }
 
 /// z = M^-1 r.
@@ -99,31 +105,69 @@ void PressureSolver::precondition() {
   }
 }
 
-PressureReport PressureSolver::solve(const FaceVector& c, Field& b, Field& p, Real tolerance) {
-  remove_mean(b);
-  r_ = b;
-  if (config_.preconditioner == Preconditioner::local_fft) local_.update(c);
-  const Real bb = sum_each_cell("pressure: norm of b", grid_, InnerProduct{grid_, b, b});
-  halo_.fill(p);
-  Real rr = sum_each_cell("pressure: residual", grid_, InitialResidual{grid_, c, p, r_});
-  const Real enough = tolerance * tolerance * bb;
-  Real rz_before = 0;
-  PressureReport report;
-  while (rr > enough && report.iterations < config_.max_iterations) {
-    precondition();
-    const Real rz = sum_each_cell("pressure: <r, z>", grid_, InnerProduct{grid_, r_, z_});
-    const Real b_factor = rz_before == 0 ? 0 : rz / rz_before;
-    for_each_cell("pressure: direction", grid_, Combine{1, z_, b_factor, d_});
-    halo_.fill(d_);
-    const Real curvature =
-        sum_each_cell("pressure: operator", grid_, ApplyOperator{grid_, c, d_, a_d_});
-    const Real a = rz / curvature;
-    rr = sum_each_cell("pressure: advance", grid_, AdvanceIterate{grid_, d_, a_d_, p, r_, a});
-    rz_before = rz;
-    ++report.iterations;
+/// P p = b - E (the relaxed guess), relaxed; r = b - A p.
+PressureSolver::Start PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
+  const bool relaxes = config_.preconditioner == Preconditioner::local_fft;
+  fill_ghosts_near(p);
+  if (relaxes) {
+    local_.relax(b, p, true);
+    fill_ghosts_near(p);
   }
-  report.residual = bb > 0 ? std::sqrt(rr / bb) : 0;
-  remove_mean(p);
+  const NormAndMean norm{grid_, b};
+  const Vec3 sums =
+      sum_vector("pressure: clear water", grid_, owned_cells(grid_),
+                 ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
+  const Real mean_of_b = sums.y / grid_.height_of_all_columns();
+  poisson_.solve(b, p);
+  for_each_cell("pressure: mean", *near_, Subtract{e_, mean_of_b});
+  fill_ghosts_near(p);
+  Real mean_of_p = 0;
+  if (relaxes) {
+    mean_of_p = -near_mean(p);
+    local_.relax(e_, p, false);
+    mean_of_p += near_mean(p);
+    fill_ghosts_near(p);
+  }
+  const Real rr = sum_each_cell("pressure: residual", grid_, *near_, Residual{grid_, c, p, e_, r_});
+  return {sums.x - sums.y * mean_of_b, rr, mean_of_p};
+}
+
+PressureReport PressureSolver::solve(const FaceVector& c, const Region& near, Field& b, Field& p,
+                                     Real tolerance) {
+  near_ = &near;
+  if (config_.preconditioner == Preconditioner::local_fft) local_.update(c, near);
+  const Start first = start(c, b, p);
+  const Real enough = tolerance * tolerance * first.norm_of_b;
+  const Real height = grid_.height_of_all_columns();
+  PressureReport report{.iterations = 1};
+  Real rr = first.norm_of_r, rz_before = 0;
+  Real a = 0, mean_of_d = 0, surplus = first.mean_of_p;  // p + a d - surplus is the next p
+  for (; rr > enough && report.iterations < config_.max_iterations; ++report.iterations) {
+    precondition();
+    const Real rz = sum_each_cell("pressure: <r, z>", grid_, *near_, InnerProduct{grid_, r_, z_});
+    if (report.iterations == 1) {
+      std::swap(z_, d_);
+      mean_of_d = sum_each_cell("pressure: mean", grid_, HeightSum{grid_, d_}) / height;
+    } else {
+      const NextDirection next{grid_, {d_, p, a, surplus}, z_, rz / rz_before, d_};
+      mean_of_d = sum_each_cell("pressure: direction", grid_, next) / height;
+      surplus = 0;
+    }
+    fill_ghosts_near(d_);
+    const Real curvature =
+        sum_each_cell("pressure: operator", grid_, *near_, ApplyOperator{grid_, c, d_, e_});
+    a = rz / curvature;
+    surplus += a * mean_of_d;
+    rr = sum_each_cell("pressure: advance", grid_, *near_, AdvanceResidual{grid_, e_, r_, a});
+    rz_before = rz;
+  }
+  if (report.iterations > 1) {
+    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, a, surplus});
+  } else {
+    for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
+  }
+  for_each_cell("pressure: clear", near, SetZero{r_});
+  report.residual = first.norm_of_b > 0 ? std::sqrt(rr / first.norm_of_b) : 0;
   halo_.fill(p);
   return report;
 }

@@ -8,6 +8,7 @@
 #include "src/config/config.hpp"
 #include "src/fluid/poisson_fft.hpp"
 #include "src/parallel/halo.hpp"
+#include "src/parallel/region.hpp"
 
 namespace barchan {
 
@@ -20,20 +21,24 @@ class LocalCorrection {
  public:
   LocalCorrection(const Grid& grid, const Halo& halo);
 
-  /// Finds the columns of the mobility c; to be called when c changed.
-  void update(const FaceVector& c);
+  /// Finds the columns of the mobility c within `near`, outside which c is one; to be called when c
+  /// changed.
+  void update(const FaceVector& c, const Region& near);
 
+  /// Sweeps over these columns that bring A z closer to r; z has ghosts. Backward they are the
+  /// adjoint of forward.
+  void relax(const Field& r, Field& z, bool forward);
   /// z = M^-1 r; r changes and is as before on return.
   void apply(const PoissonFft& poisson, Field& r, Field& z);
 
  private:
   template <class Functor>
   void each_column(const char* label, const Functor& functor) const;
-  void relax(const Field& r, Field& z, bool forward);
 
   Grid grid_;
   Halo halo_;
   FaceVector c_;
+  const Region* near_ = nullptr;
   Grid flat_;  // one row of cells
   Halo flat_halo_;
   Field mask_, mask_1_, mask_2_;  // ColumnHeights: obstructed; one layer more; two
@@ -42,37 +47,53 @@ class LocalCorrection {
 };
 
 struct PressureReport {
-  int iterations = 0;
-  Real residual = 0;  // 2-norm over that of the right-hand side
+  int iterations = 0;  // solves for clear water
+  Real residual = 0;   // 2-norm over that of the right-hand side
 };
 
 /// c on faces in (0, 1], zero on walls: periodic in x and z, zero gradient at the walls, so p is
 /// known up to a constant; it gets zero mean, and the mean of b, which no p can meet, is dropped.
+///
+/// With E the part of the operator that grains add, and P that of clear water: the guess is relaxed
+/// near the grains, then gives P p = b - E p, which is solved directly, and this p is relaxed. What
+/// is left of the equation lies near the grains alone, and so do the residuals of the conjugate
+/// gradients that follow (iterations in a subspace: Kuznetsov, Proc. Int. Congr. Math. Warsaw 1983,
+/// 1509).
 class PressureSolver {
  public:
   PressureSolver(const Grid& grid, const Halo& halo, std::shared_ptr<const PlaneFft> fft,
                  const SolverConfig& config);
 
-  /// c with periodic ghosts; b is overwritten; p holds the first guess and becomes the solution,
-  /// with ghosts in x and z. Stops at ||r|| <= tolerance ||b|| or after max_iterations.
-  PressureReport solve(const FaceVector& c, Field& b, Field& p, Real tolerance);
+  /// c is one beyond `near`, and only read there; at its sides c has periodic ghosts. b is
+  /// overwritten; p holds the first guess, in `near` and the cells next to it, and becomes the
+  /// solution, with ghosts in x and z. Stops at ||r|| <= tolerance ||b|| or after max_iterations
+  /// solves for clear water.
+  PressureReport solve(const FaceVector& c, const Region& near, Field& b, Field& p, Real tolerance);
 
   /// The same for c = 1, directly; the guess is not used.
   PressureReport solve_uniform(const Field& b, Field& p);
 
   /// Fields that hold nothing between two solves.
-  std::array<Field, 3> scratch_fields() const { return {z_, d_, a_d_}; }
+  std::array<Field, 3> scratch_fields() const { return {z_, d_, e_}; }
 
  private:
+  struct Start {
+    Real norm_of_b, norm_of_r;  // <b, b>, <r, r>
+    Real mean_of_p;
+  };
+  Start start(const FaceVector& c, Field& b, Field& p);
   void precondition();
-  void remove_mean(Field& f);
+  void fill_ghosts_near(Field& f) const;
+  Real near_mean(const Field& f) const;
 
   Grid grid_;
   Halo halo_;
   SolverConfig config_;
   PoissonFft poisson_;
   LocalCorrection local_;
-  Field r_, z_, d_, a_d_;  // residual, M^-1 r, direction, A d
+  const Region* near_ = nullptr;  // of this solve
+  Field r_, z_, d_, e_;           // residual, zero between solves and beyond near_; M^-1 r;
+                                  // direction; b, then A d
 };
 
 }  // namespace barchan

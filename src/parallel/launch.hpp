@@ -2,6 +2,7 @@
 // every cell is a work item.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "kernels/fluid/grid.hpp"
@@ -11,7 +12,7 @@ namespace barchan {
 /// Half-open index box. Faces take the range of the cells above them; ghosts are reached with
 /// bounds from -1 to n + 1.
 struct CellRange {
-  int i0, i1, j0, j1, k0, k1;
+  int i0 = 0, i1 = 0, j0 = 0, j1 = 0, k0 = 0, k1 = 0;
 };
 template <class Rows>
 CellRange owned_cells(const BasicGrid<Rows>& grid) {
@@ -27,6 +28,40 @@ inline constexpr bool kRunsOnHost =
 using Items = Kokkos::RangePolicy<Kokkos::DefaultExecutionSpace, Kokkos::IndexType<int>,
                                   Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 inline Items items(int n) { return Items(0, n); }
+
+/// Some of the cells of a range: those of whole columns, up to its rows.
+struct RegionRef {
+  /// Columns [begin, end) of a plane.
+  struct Run {
+    int begin, end;
+  };
+  CellRange range;
+  const std::uint8_t* active = nullptr;  // (i, k)
+  const Run* runs = nullptr;             // of all planes; those of k from first_run[k] on
+  const int* first_run = nullptr;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool has_row(int j, int k) const {
+    return j < range.j1 && k >= range.k0 && k < range.k1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION bool has(int i, int j, int k) const {
+    return has_row(j, k) && active[i + (range.i1 - range.i0) * k] != 0;
+  }
+};
+
+/// A functor for the cells of a region alone.
+template <class Inside>
+struct Within {
+  RegionRef region;
+  Inside inside;
+};
+
+/// One functor for the cells of a region, another for all others.
+template <class Inside, class Outside>
+struct ByRegion {
+  RegionRef region;
+  Inside inside;
+  Outside outside;
+};
 
 namespace launch_detail {
 
@@ -52,15 +87,59 @@ struct CellsOfItem {
 template <class Functor>
 using Body = std::conditional_t<kRunsOnHost, const Functor, const Functor&>;
 
+/// action(functor, first, last) for the cells [first, last) of a row that take it.
+template <class Functor, class Action>
+KOKKOS_FORCEINLINE_FUNCTION void each_part(const Functor& functor, const CellsOfItem& at,
+                                           const Action& action) {
+  action(functor, at.i0, at.i1);
+}
+/// action(is inside, first, last) for stretches of a row: those in a region, those between them.
+template <class Action>
+KOKKOS_FORCEINLINE_FUNCTION void each_stretch(const RegionRef& region, const CellsOfItem& at,
+                                              const Action& action) {
+  if (!kRunsOnHost) return action(region.has(at.i0, at.j, at.k), at.i0, at.i1);
+  int begin = at.i0;
+  if (region.has_row(at.j, at.k)) {
+    for (int r = region.first_run[at.k]; r < region.first_run[at.k + 1]; ++r) {
+      const RegionRef::Run run = region.runs[r];
+      action(false, begin, run.begin);
+      action(true, run.begin, run.end);
+      begin = run.end;
+    }
+  }
+  action(false, begin, at.i1);
+}
+template <class Inside, class Outside, class Action>
+KOKKOS_FORCEINLINE_FUNCTION void each_part(const ByRegion<Inside, Outside>& functor,
+                                           const CellsOfItem& at, const Action& action) {
+  each_stretch(functor.region, at, [&](bool is_inside, int begin, int end) {
+    if (is_inside) {
+      action(functor.inside, begin, end);
+    } else {
+      action(functor.outside, begin, end);
+    }
+  });
+}
+template <class Inside, class Action>
+KOKKOS_FORCEINLINE_FUNCTION void each_part(const Within<Inside>& functor, const CellsOfItem& at,
+                                           const Action& action) {
+  each_stretch(functor.region, at, [&](bool is_inside, int begin, int end) {
+    if (is_inside) action(functor.inside, begin, end);
+  });
+}
+
 template <class Functor>
 struct Loop {
   Functor functor;
   CellRange range;
   KOKKOS_FUNCTION void operator()(int item) const {
-    Body<Functor> body = functor;
     const CellsOfItem at(range, item);
+    each_part(functor, at, [&at](const auto& part, int begin, int end) {
+      Body<std::remove_cvref_t<decltype(part)>> body = part;
+      const int j = at.j, k = at.k;
 #pragma omp simd
-    for (int i = at.i0; i < at.i1; ++i) body(i, at.j, at.k);
+      for (int i = begin; i < end; ++i) body(i, j, k);
+    });
   }
 };
 

@@ -140,10 +140,11 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     LocalCorrection local(grid.mine, here.halo()), local_whole(grid.whole, there.halo());
     const PoissonFft poisson(grid.mine, std::make_shared<const PlaneFft>(grid.mine), 0, 1);
     const PoissonFft poisson_whole(grid.whole, std::make_shared<const PlaneFft>(grid.whole), 0, 1);
+    const Region everywhere(grid.mine), everywhere_whole(grid.whole);
     for (int twice = 0; twice < 2; ++twice) {  // the second time with what the first left behind
-      local.update(c);
+      local.update(c, everywhere);
       local.apply(poisson, r, z);
-      local_whole.update(c_whole);
+      local_whole.update(c_whole, everywhere_whole);
       local_whole.apply(poisson_whole, r_whole, z_whole);
       EXPECT_LT(grid.difference(z_whole, z), 1e-13);
     }

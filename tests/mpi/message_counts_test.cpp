@@ -79,25 +79,31 @@ MessageCounts fft_solve(const Grid& grid) {
          there_and_back(x, rows, planes, modes.count(z.position), 2);
 }
 
-/// nu_t, u*_x, u*_z, p twice, u; flow rate, Courant number, continuity.
+/// nu_t, u*_x, u*_z, p twice, u; flow rate before and after, Courant number, continuity.
 MessageCounts flow_step(const Grid& grid) {
-  return 8 * fill(grid) + fft_solve(grid) + reductions(3);
+  return 8 * fill(grid) + fft_solve(grid) + reductions(4);
 }
 
-/// An iteration: the direction, the local part before the FFT solve, a fill for each colour in
-/// three sweeps there and back; three inner products.
-MessageCounts pressure_iteration(const Grid& grid) {
+/// A fill for each colour in three sweeps there and back.
+MessageCounts relaxation(const Grid& grid) {
   const int colours = grid.nx_all % 2 == 0 && grid.nz_all % 2 == 0 ? 2 : 3;
-  return (2 + 2 * 3 * colours) * fill(grid) + fft_solve(grid) + reductions(3);
+  return (2 * 3 * colours) * fill(grid);
 }
-/// Around the iterations: p before and after, heights of columns twice; two means, two norms.
-MessageCounts pressure_solve(const Grid& grid) {
-  return 2 * fill(grid) + 2 * fill(grid, 1) + reductions(4);
+/// An iteration: the direction, the local part before the FFT solve; three inner products and a
+/// mean.
+MessageCounts pressure_iteration(const Grid& grid) {
+  return 2 * fill(grid) + relaxation(grid) + fft_solve(grid) + reductions(4);
 }
-/// alpha_f twice, nu_t, alpha u, mobility, u*_x, u*_z, p, u, du/dt.
+/// The first one: p as guessed, relaxed, solved, relaxed; heights of columns twice; norms of b and
+/// of what is left, the mean before and after. At the end p.
+MessageCounts pressure_solve(const Grid& grid, int iterations) {
+  return 5 * fill(grid) + relaxation(grid) + fft_solve(grid) + 2 * fill(grid, 1) + reductions(4) +
+         (iterations - 1) * pressure_iteration(grid);
+}
+/// alpha_f twice, nu_t, alpha u, mobility, u*_x, u*_z, p, u, du/dt; flow rate, mobility, flow rate,
+/// Courant number, continuity.
 MessageCounts flow_step_around_grains(const Grid& grid, int iterations) {
-  return 18 * fill(grid) + pressure_solve(grid) + iterations * pressure_iteration(grid) +
-         reductions(6);
+  return 18 * fill(grid) + pressure_solve(grid, iterations) + reductions(5);
 }
 
 // --- the exchange ------------------------------------------------------------------------------
@@ -109,12 +115,14 @@ MessageCounts scatter_add(const Grid& grid) {
                       6 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Unsmoothed fraction; pressure and stress on faces, on cells, three of these smoothed, what the
-/// flow gets of each and the grains of both; convective acceleration. Fraction, smoothed; totals,
-/// extent of the grains, fastest velocity, volume, three sums over faces.
+/// Which columns have grains, or less fluid: a map and a height. Unsmoothed fraction; pressure and
+/// stress on faces, on cells, three of these smoothed, what the flow gets of each and the grains of
+/// both; convective acceleration. Columns again, the fraction of those that are new; fraction,
+/// smoothed; totals, fastest velocity, volume, what the flow loses.
 MessageCounts exchange(const Grid& grid) {
-  return (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) + reductions(2 + 1) +
-         scatter_add(grid) + fill(grid) + fft_solve(grid) + reductions(1 + 5 + 1 + 1 + 3);
+  return reductions(4) + (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) +
+         reductions(2 + 1) + reductions(2) + fill(grid) + scatter_add(grid) + fill(grid) +
+         fft_solve(grid) + reductions(1 + 1 + 1 + 1);
 }
 
 /// In cells narrower than 2.4 d: what of the grains belongs to the momentum cells, along x and z.

@@ -80,6 +80,7 @@ TEST(DragBetweenRows, SolvesEachColumnOfFaces) {
     const auto c = test::host_field(
         grid, [&](int i, int j, int k) { return j > 6 || j == 3 ? 0 : drag.ref()(i, j, k); });
     const DragBetweenRows solve{.grid = grid,
+                                .rows = grid.ny,
                                 .conductance = c.ref(),
                                 .alpha = alpha.ref(),
                                 .u = u.ref(),

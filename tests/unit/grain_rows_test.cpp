@@ -85,18 +85,21 @@ TEST(Rows, AGrainIsInTheRowsOfItsPoints) {
 
 // Cells that take the same slot push each other out; what they held is not lost.
 TEST(DepositCache, SumsAreThoseOfEachGiftOnItsOwn) {
-  constexpr int cells = 200, gifts = 5000;
+  constexpr int gifts = 5000;
+  const GridRef grid{{.nx = 7, .ny = 11, .nz = 5}};
+  const auto cells = static_cast<int>(CellIndex::count(grid));
   Deposits deposits, one_by_one;
   deposits.sum = decltype(deposits.sum)("test: kept", cells);
   one_by_one.sum = decltype(deposits.sum)("test: one by one", cells);
   Kokkos::parallel_for(
       "test: gifts", 1, KOKKOS_LAMBDA(int) {
-        DepositCache<16> cache(deposits);
-        for (std::int64_t n = 0; n < gifts; ++n) {
-          const std::int64_t cell = n / 7 * 31 % cells;
-          const CellDeposit given{n, -n, 1, n * n, cell - 50, 3 * n};
-          cache.add(cell, given);
-          one_by_one.add(cell, given);
+        DepositCache<8> cache(grid, deposits);
+        for (int n = 0; n < gifts; ++n) {
+          const int at = n / 3 * 31;
+          const CellIndex cell{at % 9 - 1, at / 5 % 11, at / 7 % 7 - 1};  // ghosts, too
+          const CellDeposit given{n, -n, 1, n * n, cell.i - 50, 3 * n};
+          cache.at(cell) += given;
+          one_by_one.add(cell.linear(grid), given);
         }
       });
   const auto kept = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, deposits.sum);

@@ -1,0 +1,55 @@
+// The smoothing of coupling fields, where the grains are.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "src/fluid/poisson_fft.hpp"
+#include "src/parallel/region.hpp"
+
+namespace barchan {
+
+/// One implicit step of diffusion over a length L, (1 - L^2 lap) phi = f, of fields that vanish
+/// away from the grains. What is far from them has decayed, and is not computed: phi is cut off at
+/// reach() cells, where of a source less than kTolerance is left.
+class Smoother {
+ public:
+  static constexpr Real kTolerance = 1e-12;
+
+  /// `whole`: the transforms of the grid; `even`: where it ends at walls of the grains. No length:
+  /// nothing is smoothed.
+  Smoother(const Grid& grid, std::shared_ptr<const PlaneFft> whole, const EvenExtension& even,
+           Real length);
+
+  /// Cells along x and z over which what is smoothed decays.
+  int reach() const { return reach_; }
+  /// The rows [0, top) over which what lies in the rows [0, from) decays.
+  int top_above(int from) const;
+
+  /// f becomes phi in the cells of a region, in which it must be known; beyond, it counts as zero,
+  /// and afterwards holds no more than what has decayed. All ranks together.
+  void solve(Field& f, const Region& region) const;
+
+ private:
+  /// Some columns of cells as a periodic grid of their own: its ends feel each other as little as
+  /// they feel the grains.
+  struct Columns {
+    Columns(const Grid& whole, int nx, const EvenExtension& even, Real length);
+    Grid grid;
+    PoissonFft poisson;
+    Field f;
+  };
+  const Columns& columns(int nx) const;
+  bool takes_all(const std::vector<ColumnMap::Interval>& stretches) const;
+
+  Grid grid_;
+  EvenExtension even_;
+  Real length_;
+  int reach_ = 0;
+  std::vector<Real> decay_;  // from a row to the next
+  PoissonFft whole_;
+  mutable std::list<Columns> columns_;  // of the last sizes, the latest first
+};
+
+}  // namespace barchan

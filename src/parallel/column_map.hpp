@@ -1,0 +1,53 @@
+// Which columns of cells are near grains.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/parallel/grid.hpp"
+
+namespace barchan {
+
+/// Some x-z columns of the cells of all ranks, up to one height: the same on every rank. Small, and
+/// made on the host. x and z are periodic.
+class ColumnMap {
+ public:
+  /// None yet.
+  ColumnMap() = default;
+  explicit ColumnMap(const Grid& grid);
+
+  static ColumnMap everything(const Grid& grid);
+  /// Those where a field is not one, up to its highest such cell. All ranks together.
+  static ColumnMap not_one(const Grid& grid, const Field& field);
+  /// Those where `marks` (i + nx_all k) is not zero, up to the rows [0, top). All ranks together.
+  static ColumnMap marked(const Grid& grid, const Kokkos::View<const int*>& marks, int top);
+
+  int top() const { return top_; }
+  void set_top(int rows) { top_ = rows; }
+  bool is_empty() const { return top_ == 0; }
+  bool has(int i, int k) const { return on_[index(i, k)] != 0; }
+
+  /// With so many columns and rows more on all sides.
+  ColumnMap grown(int by) const;
+  ColumnMap united(const ColumnMap& other) const;
+
+  struct Interval {
+    int first, last;
+  };
+  /// The stretches of x that have columns, each with `apart` columns or more to the next, across
+  /// the periodic end, too: there `last` is beyond nx_all.
+  std::vector<Interval> stretches_of_x(int apart) const;
+
+ private:
+  std::size_t index(int i, int k) const {
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(nx_) * static_cast<std::size_t>(k);
+  }
+  void unite_ranks(const Grid& grid);
+
+  int nx_ = 0, ny_ = 0, nz_ = 0;  // of all ranks
+  int top_ = 0;                   // rows
+  std::vector<std::uint8_t> on_;  // (nx_, nz_)
+};
+
+}  // namespace barchan

@@ -1,0 +1,86 @@
+// The cells of this rank near grains: kernels run in them, or in them and elsewhere in other ways.
+#pragma once
+
+#include <cstdint>
+
+#include "src/parallel/column_map.hpp"
+#include "src/parallel/reduce.hpp"
+
+namespace barchan {
+
+/// Of columns of cells the part of this rank.
+class Region {
+ public:
+  /// All cells.
+  explicit Region(const Grid& grid);
+
+  void set(const ColumnMap& columns);
+  /// Those that it was made of.
+  const ColumnMap& columns() const { return columns_; }
+
+  /// For kernels.
+  RegionRef ref() const { return {range_, active_.data(), runs_.data(), first_run_.data()}; }
+  /// All rows and planes that have cells, whole.
+  const CellRange& range() const { return range_; }
+  /// Its columns.
+  CellRange floor() const { return {range_.i0, range_.i1, 0, 1, range_.k0, range_.k1}; }
+  /// Whether ghosts in x and z are copies of its cells, or may be. The same on all ranks.
+  bool has_ghosts() const { return has_ghosts_; }
+
+ private:
+  Grid grid_;
+  ColumnMap columns_;
+  template <class T>
+  struct Mirrored {
+    Kokkos::View<T*> values;
+    typename Kokkos::View<T*>::host_mirror_type on_host;
+    Mirrored(const char* label, std::size_t n)
+        : values(label, n), on_host(Kokkos::create_mirror_view(values)) {}
+    void update() const { Kokkos::deep_copy(values, on_host); }
+    const T* data() const { return values.data(); }
+  };
+  Mirrored<std::uint8_t> active_;  // (nx, nz)
+  Mirrored<RegionRef::Run> runs_;  // of columns, plane by plane
+  Mirrored<int> first_run_;        // (nz + 1)
+  CellRange range_;
+  bool has_ghosts_ = true;
+};
+
+/// Cells near grains, and with one more on all sides.
+struct NearGrains {
+  explicit NearGrains(const Grid& grid) : cells(grid), around(grid) {}
+  void set(const ColumnMap& columns) {
+    cells.set(columns);
+    around.set(columns.grown(1));
+  }
+  Region cells, around;
+};
+
+/// functor(i, j, k) for the cells of a region.
+template <class Functor>
+void for_each_cell(const char* label, const Region& region, const Functor& functor) {
+  for_each_cell(label, region.range(), Within<Functor>{region.ref(), functor});
+}
+/// For its columns (i, 0, k).
+template <class Functor>
+void for_each_column(const char* label, const Region& region, const Functor& functor) {
+  for_each_cell(label, region.floor(), Within<Functor>{region.ref(), functor});
+}
+
+/// Sums and maxima over a region, as in reduce.hpp over ranges.
+template <class Functor>
+Real sum_each_cell(const char* label, const Grid& grid, const Region& region,
+                   const Functor& functor) {
+  return sum_each_cell(label, grid, region.range(), Within<Functor>{region.ref(), functor});
+}
+template <class Functor>
+Vec3 sum_vector(const char* label, const Grid& grid, const Region& region, const Functor& functor) {
+  return sum_vector(label, grid, region.range(), Within<Functor>{region.ref(), functor});
+}
+template <class Functor>
+Real max_each_cell(const char* label, const Grid& grid, const Region& region,
+                   const Functor& functor) {
+  return max_each_cell(label, grid, region.range(), Within<Functor>{region.ref(), functor});
+}
+
+}  // namespace barchan
