@@ -5,10 +5,10 @@ namespace barchan {
 CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
     : of_grains(at.grid),
       of_fraction(at.grid),
-      of_exchange(at.grid),
       smoothed(at.grid),
+      of_flow(at.grid),
       on_faces{make_faces("exchange impulse", at.grid)} {
-  on_faces.near = &of_exchange;
+  on_faces.regions = &of_flow;
   of_grains.set({}), of_fraction.set({});  // none yet
   const FluidSolver::Scratch idle = solver.scratch();
   const auto& [flux, u_star] = idle.faces;

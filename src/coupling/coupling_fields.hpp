@@ -32,13 +32,14 @@ struct CouplingFields {
   Field solid_x, solid_z;
 
   // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
-  // the deposit: those over which it spreads their volume, and all of these with the last ones of
-  // alpha_f, which the flow looks at.
-  NearGrains of_grains, of_fraction, of_exchange;
+  // the deposit: those over which it spreads their volume, and what the flow has to know, which
+  // holds all of these and the last ones of alpha_f.
+  NearGrains of_grains, of_fraction;
   Region smoothed;
+  FlowRegions of_flow;
 
   // Kept through the fluid step.
-  Field alpha_before_smoothing;  // set by the gather, within of_exchange; empty without
+  Field alpha_before_smoothing;  // set by the gather, within of_flow; empty without
   ExchangeOnFaces on_faces;      // set by the deposit
 
   /// The fraction before the smoothing, with ghosts: alpha_f itself without one.

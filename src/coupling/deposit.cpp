@@ -43,7 +43,7 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
       .dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
   find_cells(grains);
   bound_sums(of_grain, grains.n, fluid, ledger);
-  clear(fields_.of_exchange.cells);
+  clear(fields_.of_flow.exchange);
   using Launch = DepositGrains<kRunsOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
                        Launch{.of_grain = of_grain,
@@ -96,11 +96,12 @@ void Deposit::find_cells(const GrainState& grains) {
   ColumnMap smoothed = of_grains.grown(reach);
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
-  fields_.of_exchange.set(
-      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)));
+  fields_.of_flow.exchange.set(of_grains.grown(1).in_blocks());
+  fields_.of_flow.fraction.set(
+      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)).in_blocks());
   if (grid_.smoothing_length == 0) return;
   Field& before_smoothing = fields_.alpha_before_smoothing;
-  const Region& around = fields_.of_exchange.around;  // of whose faces both sides are read
+  const Region& around = fields_.of_flow.fraction.around;  // of whose faces both sides are read
   for_each_cell("coupling: fraction before smoothing", around,
                 OneBeyond{fields_.of_fraction.around.ref(), before_smoothing});
   grid_.boundary.fill(before_smoothing, FieldKind::scalar, around);
@@ -118,7 +119,7 @@ void Deposit::bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidStat
   // Rows exchange no more than by twice the fastest velocity along x and z.
   Real fastest = 0;
   if (grid_.by_row) {
-    fastest = max_each_cell("coupling: fastest", grid_.grid, fields_.of_exchange.cells,
+    fastest = max_each_cell("coupling: fastest", grid_.grid, fields_.of_flow.exchange,
                             FastestAlong{fluid.u});
   }
   deposits_.impulse = fixed_point_for(impulse + 4 * fastest * beta_dt);
@@ -143,7 +144,7 @@ void Deposit::update_fraction(FluidState& fluid, ExchangeLedger& ledger) {
 /// Exchange and conductances; returns what the fluid loses [N s].
 Vec3 Deposit::rows_to_faces() {
   ExchangeOnFaces& on_faces = fields_.on_faces;
-  return sum_vector("coupling: rows to faces", grid_.grid, fields_.of_exchange.cells,
+  return sum_vector("coupling: rows to faces", grid_.grid, fields_.of_flow.exchange,
                     RowsToFaces{.grid = grid_.grid,
                                 .deposits = deposits_,
                                 .given = on_faces.impulse,
@@ -153,7 +154,7 @@ Vec3 Deposit::rows_to_faces() {
 
 /// The same of an exchange that goes to cells, and is smoothed with them.
 Vec3 Deposit::spread_to_faces() {
-  const Region& cells = fields_.of_exchange.cells;
+  const Region& cells = fields_.of_flow.exchange;
   CellVector& impulse = fields_.impulse_in_cells;
   for (const auto& [quantity, field] :
        {std::pair{Deposits::kImpulseX, &impulse.x}, std::pair{Deposits::kImpulseY, &impulse.y},

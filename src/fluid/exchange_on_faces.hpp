@@ -5,13 +5,19 @@
 
 namespace barchan {
 
+/// Where the flow meets grains.
+struct FlowRegions {
+  explicit FlowRegions(const Grid& grid) : exchange(grid), fraction(grid) {}
+  Region exchange;      // elsewhere nothing is exchanged
+  NearGrains fraction;  // elsewhere the fraction is one, before and after the step
+};
+
 /// On faces. Of the impulse wall faces and ghosts are not read.
 struct ExchangeOnFaces {
   FaceVector impulse;                      // momentum per volume given to the fluid [N s/m^3]
   Field conductance_x{}, conductance_z{};  // of DragBetweenRows, on faces [kg/m^3]; empty: none
-  Field stress_share{};              // of the stress, what the fluid takes; empty: its old fraction
-  const NearGrains* near = nullptr;  // none: everywhere. Elsewhere water is clear: the new and the
-                                     // old fraction are one, and nothing is exchanged or read
+  Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
+  const FlowRegions* regions = nullptr;  // none: everywhere. Nothing is read elsewhere
 };
 
 }  // namespace barchan

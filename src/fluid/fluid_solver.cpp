@@ -82,8 +82,8 @@ void FluidSolver::close(FaceVector& f) const {
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
-  const bool knows_where = exchange != nullptr && exchange->near != nullptr && !open_;
-  near_ = knows_where ? exchange->near : &everywhere_;
+  const bool knows_where = exchange != nullptr && exchange->regions != nullptr && !open_;
+  regions_ = knows_where ? exchange->regions : &everywhere_;
   if (is_variable(fraction_)) fill_fraction_ghosts(boundary_, fluid);
   if (fluid.time == 0)
     fluid.bulk_at_start = {bulk_velocity(fluid),
@@ -101,7 +101,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
 }
 
 void FluidSolver::remove_divergence(FluidState& fluid) {
-  near_ = &everywhere_;
+  regions_ = &everywhere_;
   FluidState work = make_fluid_state(grid_);  // its pressure is not that of the flow
   work.u = fluid.u;
   work.alpha_f = work.alpha_f_previous = fluid.alpha_f;
@@ -127,15 +127,15 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
                 CloseFaces{flux_, u_star_.y, grid_.ny});
-  for_each_cell("fluid: mass flux", near_->around,
+  for_each_cell("fluid: mass flux", regions_->fraction.around,
                 MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
-  if (near_->around.has_ghosts()) boundary_.fill_periodic(flux_);
+  if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(flux_);
 }
 
 template <Fraction fraction, bool with_exchange>
 Predict<fraction, with_exchange> FluidSolver::prediction(FluidState& fluid,
                                                          const ExchangeOnFaces* exchange, Real dt) {
-  const bool shared = with_exchange && exchange->stress_share.storage.size() > 0;
+  const bool shared = exchange != nullptr && exchange->stress_share.storage.size() > 0;
   return {.grid = grid_,
           .convection = {grid_, fluid.u, is_variable(fraction) ? flux_ : fluid.u},
           .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
@@ -155,8 +155,10 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
   };
   if (is_variable(fraction_)) update_mass_flux(fluid);
   if (exchange != nullptr) {
-    predict(ByRegion{near_->cells.ref(), prediction<Fraction::variable, true>(fluid, exchange, dt),
-                     in_clear_water});
+    predict(ByRegion{
+        regions_->exchange.ref(), prediction<Fraction::variable, true>(fluid, exchange, dt),
+        ByRegion{regions_->fraction.cells.ref(),
+                 prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water}});
     drag_between_rows(fluid, *exchange);
   } else if (is_variable(fraction_)) {
     predict(prediction<Fraction::variable, false>(fluid, exchange, dt));
@@ -171,9 +173,9 @@ void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFac
   if (exchange.conductance_x.storage.size() == 0) return;
   for (const bool along_x : {true, false}) {
     const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
-    for_each_column("fluid: drag between rows", near_->cells,
+    for_each_column("fluid: drag between rows", regions_->exchange,
                     DragBetweenRows{.grid = grid_,
-                                    .rows = near_->cells.range().j1,
+                                    .rows = regions_->exchange.range().j1,
                                     .conductance = conductance,
                                     .alpha = fluid.alpha_f,
                                     .u = along_x ? fluid.u.x : fluid.u.z,
@@ -200,7 +202,7 @@ void FluidSolver::update_mobility(const FluidState& fluid) {
   flow_.height = grid_.height_of_all_columns();
   flow_.response = {flow_.height, flow_.height};
   if (!is_variable(fraction_)) return;
-  const Vec3 less = sum_vector("fluid: mobility", grid_, near_->around,
+  const Vec3 less = sum_vector("fluid: mobility", grid_, regions_->fraction.around,
                                UpdateMobility{grid_, fluid.alpha_f, mobility_});
   flow_.response = {flow_.height + less.x, flow_.height + less.z};
   flow_.height += less.y;
@@ -212,7 +214,7 @@ void FluidSolver::update_mobility(const FluidState& fluid) {
     flow_.response = {response(mobility_.x), drive_.along_z() ? response(mobility_.z) : 0};
     flow_.height = flow_.response.x;
   }
-  if (near_->around.has_ghosts()) boundary_.fill_periodic(mobility_);
+  if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(mobility_);
 }
 
 /// Along x the force is added where the pressure is; across, it is added to u* here.
@@ -243,13 +245,13 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
     solved = pressure_.solve_uniform(source_, fluid.p);
   } else {
     const Real last = fluid.has_history ? 2 : 1, before = fluid.has_history ? -1 : 0;
-    for_each_cell("fluid: extrapolate pressure", near_->around,
+    for_each_cell("fluid: extrapolate pressure", regions_->fraction.around,
                   Combine{last, fluid.p_previous, before, fluid.p});
     for_each_cell("fluid: pressure source", grid_,
-                  ByRegion{near_->cells.ref(),
+                  ByRegion{regions_->fraction.cells.ref(),
                            pressure_source<Fraction::variable>(u_star_, fluid, fluid.drive.x, dt),
                            of_clear_water});
-    solved = pressure_.solve(mobility_, near_->cells, source_, fluid.p, tolerance_);
+    solved = pressure_.solve(mobility_, regions_->fraction.cells, source_, fluid.p, tolerance_);
   }
   report_.pressure_iterations = solved.iterations;
   report_.pressure_residual = solved.residual;
@@ -290,8 +292,8 @@ void FluidSolver::correct(FluidState& fluid, Real dt) {
   };
   LargestAndSums corrected =
       is_variable(fraction_)
-          ? correct(ByRegion{near_->cells.ref(), correction<Fraction::variable>(fluid, dt),
-                             in_clear_water})
+          ? correct(ByRegion{regions_->fraction.cells.ref(),
+                             correction<Fraction::variable>(fluid, dt), in_clear_water})
           : correct(in_clear_water);
   if (open_) {
     close(fluid.u), close(fluid.du_dt);
@@ -312,7 +314,7 @@ void FluidSolver::measure(FluidState& fluid, const LargestAndSums& corrected, Re
     report_.continuity_residual = max_each_cell("fluid: continuity", grid_, continuity);
   };
   if (!is_variable(fraction_)) return residual(in_clear_water);
-  residual(ByRegion{near_->cells.ref(),
+  residual(ByRegion{regions_->fraction.cells.ref(),
                     ContinuityResidual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)},
                     in_clear_water});
   const Vec2 flow{corrected.sum.x, drive_.along_z() ? corrected.sum.z : 0};

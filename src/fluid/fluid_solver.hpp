@@ -112,8 +112,8 @@ class FluidSolver {
   Drive drive_;
   Real tolerance_;  // of the pressure equation
   Grid grid_;
-  NearGrains everywhere_;
-  const NearGrains* near_ = &everywhere_;  // elsewhere the fraction is one, before and after a step
+  FlowRegions everywhere_;
+  const FlowRegions* regions_ = &everywhere_;  // of this step
   Boundary boundary_;
   std::shared_ptr<const PlaneFft> fft_;
   PressureSolver pressure_;

@@ -94,6 +94,18 @@ ColumnMap ColumnMap::united(const ColumnMap& other) const {
   return both;
 }
 
+ColumnMap ColumnMap::in_blocks(int width) const {
+  ColumnMap blocks = *this;
+  for (int k = 0; k < nz_; ++k) {
+    for (int begin = 0; begin < nx_; begin += width) {
+      const auto first = blocks.on_.begin() + static_cast<std::ptrdiff_t>(index(begin, k));
+      const auto last = first + std::min(width, nx_ - begin);
+      if (std::find(first, last, 1) != last) std::fill(first, last, 1);
+    }
+  }
+  return blocks;
+}
+
 ColumnMap ColumnMap::grown(int by) const {
   if (is_empty()) return *this;
   ColumnMap wide = *this, all = *this;

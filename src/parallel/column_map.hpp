@@ -30,6 +30,9 @@ class ColumnMap {
   /// With so many columns and rows more on all sides.
   ColumnMap grown(int by) const;
   ColumnMap united(const ColumnMap& other) const;
+  /// With all of each block of so many columns along x that has one: loops over them then fill
+  /// whole vectors, and a rest takes as long as many of these.
+  ColumnMap in_blocks(int width = 8) const;
 
   struct Interval {
     int first, last;

@@ -55,7 +55,7 @@ struct Within {
   Inside inside;
 };
 
-/// One functor for the cells of a region, another for all others.
+/// One functor for the cells of a region, another for all others; either may be of this kind again.
 template <class Inside, class Outside>
 struct ByRegion {
   RegionRef region;
@@ -70,18 +70,16 @@ inline Items policy(const CellRange& r) {
   return items(kRunsOnHost ? rows : rows * (r.i1 - r.i0));
 }
 
-/// The cells of a work item: a row on the host, a single cell on a device.
-struct CellsOfItem {
+/// Cells [i0, i1) of a row.
+struct CellsOfRow {
   int i0, i1, j, k;
-  KOKKOS_FORCEINLINE_FUNCTION CellsOfItem(const CellRange& r, int item) {
-    const int length = kRunsOnHost ? 1 : r.i1 - r.i0;
-    const int rows_y = r.j1 - r.j0, row = item / length;
-    i0 = r.i0 + item % length;
-    i1 = kRunsOnHost ? r.i1 : i0 + 1;
-    j = r.j0 + row % rows_y;
-    k = r.k0 + row / rows_y;
-  }
 };
+/// The cells of a work item: a row on the host, a single cell on a device.
+KOKKOS_FORCEINLINE_FUNCTION CellsOfRow cells_of_item(const CellRange& r, int item) {
+  const int length = kRunsOnHost ? 1 : r.i1 - r.i0;
+  const int rows_y = r.j1 - r.j0, row = item / length, i0 = r.i0 + item % length;
+  return {i0, kRunsOnHost ? r.i1 : i0 + 1, r.j0 + row % rows_y, r.k0 + row / rows_y};
+}
 
 /// A functor within a work item. On the host a local copy: its members stay in registers.
 template <class Functor>
@@ -89,42 +87,44 @@ using Body = std::conditional_t<kRunsOnHost, const Functor, const Functor&>;
 
 /// action(functor, first, last) for the cells [first, last) of a row that take it.
 template <class Functor, class Action>
-KOKKOS_FORCEINLINE_FUNCTION void each_part(const Functor& functor, const CellsOfItem& at,
+KOKKOS_FORCEINLINE_FUNCTION void each_part(const Functor& functor, const CellsOfRow& at,
                                            const Action& action) {
   action(functor, at.i0, at.i1);
 }
-/// action(is inside, first, last) for stretches of a row: those in a region, those between them.
+/// action(is inside, stretch) for stretches of a row: those in a region, those between them.
 template <class Action>
-KOKKOS_FORCEINLINE_FUNCTION void each_stretch(const RegionRef& region, const CellsOfItem& at,
+KOKKOS_FORCEINLINE_FUNCTION void each_stretch(const RegionRef& region, const CellsOfRow& at,
                                               const Action& action) {
-  if (!kRunsOnHost) return action(region.has(at.i0, at.j, at.k), at.i0, at.i1);
+  if (!kRunsOnHost) return action(region.has(at.i0, at.j, at.k), at);
   int begin = at.i0;
   if (region.has_row(at.j, at.k)) {
     for (int r = region.first_run[at.k]; r < region.first_run[at.k + 1]; ++r) {
       const RegionRef::Run run = region.runs[r];
-      action(false, begin, run.begin);
-      action(true, run.begin, run.end);
-      begin = run.end;
+      const int first = Kokkos::clamp(run.begin, begin, at.i1);
+      const int last = Kokkos::clamp(run.end, first, at.i1);
+      action(false, CellsOfRow{begin, first, at.j, at.k});
+      action(true, CellsOfRow{first, last, at.j, at.k});
+      begin = last;
     }
   }
-  action(false, begin, at.i1);
+  action(false, CellsOfRow{begin, at.i1, at.j, at.k});
 }
 template <class Inside, class Outside, class Action>
 KOKKOS_FORCEINLINE_FUNCTION void each_part(const ByRegion<Inside, Outside>& functor,
-                                           const CellsOfItem& at, const Action& action) {
-  each_stretch(functor.region, at, [&](bool is_inside, int begin, int end) {
+                                           const CellsOfRow& at, const Action& action) {
+  each_stretch(functor.region, at, [&](bool is_inside, const CellsOfRow& cells) {
     if (is_inside) {
-      action(functor.inside, begin, end);
+      each_part(functor.inside, cells, action);
     } else {
-      action(functor.outside, begin, end);
+      each_part(functor.outside, cells, action);
     }
   });
 }
 template <class Inside, class Action>
-KOKKOS_FORCEINLINE_FUNCTION void each_part(const Within<Inside>& functor, const CellsOfItem& at,
+KOKKOS_FORCEINLINE_FUNCTION void each_part(const Within<Inside>& functor, const CellsOfRow& at,
                                            const Action& action) {
-  each_stretch(functor.region, at, [&](bool is_inside, int begin, int end) {
-    if (is_inside) action(functor.inside, begin, end);
+  each_stretch(functor.region, at, [&](bool is_inside, const CellsOfRow& cells) {
+    if (is_inside) action(functor.inside, cells.i0, cells.i1);
   });
 }
 
@@ -133,7 +133,7 @@ struct Loop {
   Functor functor;
   CellRange range;
   KOKKOS_FUNCTION void operator()(int item) const {
-    const CellsOfItem at(range, item);
+    const CellsOfRow at = cells_of_item(range, item);
     each_part(functor, at, [&at](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
       const int j = at.j, k = at.k;

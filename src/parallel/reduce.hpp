@@ -39,7 +39,7 @@ struct Reduction {
   Functor functor;
   CellRange range;
   KOKKOS_FUNCTION void operator()(int item, Real& result) const {
-    const CellsOfItem at(range, item);
+    const CellsOfRow at = cells_of_item(range, item);
     Real row_max = result, row_sum = 0;
     each_part(functor, at, [&at, &row_max, &row_sum](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
@@ -67,7 +67,7 @@ struct VectorSum {
   Functor functor;
   CellRange range;
   KOKKOS_FUNCTION void operator()(int item, Real& x, Real& y, Real& z) const {
-    const CellsOfItem at(range, item);
+    const CellsOfRow at = cells_of_item(range, item);
     each_part(functor, at, [&at, &x, &y, &z](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
       const int j = at.j, k = at.k;
@@ -92,7 +92,7 @@ struct MaxAndSum {
   Functor functor;
   CellRange range;
   KOKKOS_FUNCTION void operator()(int item, Real& largest, Real& x, Real& y) const {
-    const CellsOfItem at(range, item);
+    const CellsOfRow at = cells_of_item(range, item);
     each_part(functor, at, [&at, &largest, &x, &y](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
       const int j = at.j, k = at.k;
