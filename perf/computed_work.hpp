@@ -68,28 +68,23 @@ inline Work deposit() {
 
 /// u, v, w read, nu_t written.
 inline Work wale() { return pass(4, 135); }
-/// u, v, w, nu_t, alpha, three old rates read; rates and u* written; in addition with grains: three
-/// fluxes, the new alpha, three fields of the exchange. Columns of drag between rows left out.
-inline Work predict(bool with_grains) { return with_grains ? pass(21, 315) : pass(14, 301); }
+/// u, v, w, nu_t, three old rates read; rates and u* written.
+inline Work predict() { return pass(13, 298); }
 /// FFT in x (there 2, back 2), in z (2, 2), columns (2 and half a pivot); real transforms take
 /// 2.5 n log2 n flops, the columns 10 a cell.
 inline Work poisson(int nx, int nz) { return pass(10.5, 5 * (std::log2(nx) + std::log2(nz)) + 10); }
-/// One iteration of the conjugate gradients: the solve above, <r, z> (2), direction (3), operator
-/// (5), advance (6). Relaxed columns are few and left out.
-inline Work pressure_iteration(int nx, int nz) { return poisson(nx, nz) + pass(16, 40); }
+/// One iteration of the conjugate gradients: the solve above, direction and pressure (5).
+inline Work pressure_iteration(int nx, int nz) { return poisson(nx, nz) + pass(5, 6); }
 
 /// A step without grains: WALE, predictor, source (4), solve, correction (13), continuity (3).
 inline Work flow_step(int nx, int nz) {
-  return wale() + predict(false) + pass(4, 9) + poisson(nx, nz) + pass(13, 32) + pass(3, 11);
+  return wale() + predict() + pass(4, 9) + poisson(nx, nz) + pass(13, 32) + pass(3, 11);
 }
-/// The fluid's part of a coupled step. Passes: mass flux 7, mobility 7, volume 1, extrapolation 3,
-/// source 7, start of the iterations 13, correction 17, continuity 5, flow rate 2; deposits cleared
-/// 5 and decoded 10, fractions 2, faces 10, velocity change 6, ledger 9; unsmoothed fraction 2,
-/// pressure 4 on faces and 7 on cells; four smoothing solves. The stress is only formed around the
-/// grains and left out.
+/// The fluid's part of a coupled step: besides, the norm of the source (1), the pressure at last
+/// (3), the fraction looked at (1) and set (1), iterations after the first. What is done near
+/// grains alone, smoothing and the exchange among it, is left out.
 inline Work coupled_step(int nx, int nz, double iterations) {
-  return wale() + predict(true) + pass(62, 120) + pass(55, 130) +
-         iterations * pressure_iteration(nx, nz) + 4 * poisson(nx, nz);
+  return flow_step(nx, nz) + pass(6, 6) + (iterations - 1) * pressure_iteration(nx, nz);
 }
 
 }  // namespace work

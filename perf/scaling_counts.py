@@ -14,8 +14,8 @@ BYTES = 8                    # of a number
 GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain step
 GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
 DEPOSIT = 20                 # to the fluid ranks after them
-SWEEPS = 3                   # src/fluid/pressure_solver.cpp
-SMOOTHINGS, EXCHANGE_FILLS = 4, 17
+SWEEPS = 5                   # src/fluid/pressure_solver.cpp
+SMOOTHINGS, EXCHANGE_FILLS = 4, 18
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
 
@@ -127,27 +127,28 @@ def fft_solve(p):
 
 def flow_step(p):
     """FluidSolver::advance() without grains: halo fills, transposes, reductions."""
-    return 8 * fill(p) + fft_solve(p) + Counts(reductions=3)
+    return 8 * fill(p) + fft_solve(p) + Counts(reductions=4)
 
 
-def fills_per_iteration(p):
-    """The direction; in LocalCorrection::apply() one, and one for each colour and sweep, there and back."""
-    return 2 + 2 * SWEEPS * p.colours
+def relaxation(p):
+    """LocalCorrection::relax() there and back: a fill for each colour and sweep."""
+    return 2 * SWEEPS * p.colours * fill(p)
 
 
 def pressure_iteration(p):
-    """The loop of PressureSolver::solve()."""
-    return fills_per_iteration(p) * fill(p) + fft_solve(p) + Counts(reductions=3)
+    """The loop of PressureSolver::solve(): the direction, and in LocalCorrection::apply() one more."""
+    return 2 * fill(p) + relaxation(p) + fft_solve(p) + Counts(reductions=4)
 
 
-def pressure_solve(p):
-    """What PressureSolver::solve() does around the loop, and LocalCorrection::update()."""
-    return 2 * fill(p) + 2 * fill(p, ny=1) + Counts(reductions=4)
+def pressure_solve(p, iterations):
+    """PressureSolver::solve() and LocalCorrection::update(); the first iteration is start()."""
+    return (5 * fill(p) + relaxation(p) + fft_solve(p) + 2 * fill(p, ny=1) + Counts(reductions=4)
+            + (iterations - 1) * pressure_iteration(p))
 
 
 def flow_step_around_grains(p, iterations):
     """FluidSolver::advance() with an exchange."""
-    return 18 * fill(p) + pressure_solve(p) + iterations * pressure_iteration(p) + Counts(reductions=6)
+    return 18 * fill(p) + pressure_solve(p, iterations) + Counts(reductions=5)
 
 
 def deposit_halo(p):
@@ -157,9 +158,9 @@ def deposit_halo(p):
 
 
 def exchange(p):
-    """Gather and Deposit, with smoothing."""
+    """Gather and Deposit, with smoothing: here of all columns, as where x is cut."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=14))
+            + Counts(reductions=13))
 
 
 # --- the grains --------------------------------------------------------------------------------------

@@ -105,13 +105,16 @@ struct FactoriseColumn {
   }
 };
 
-/// Solves the columns of one colour for z with all other columns, and the cells above, as they are:
-/// a block Gauss-Seidel step, whose result does not depend on the order within a colour.
+/// Solves the columns of one colour for z with all other columns, and the cells above, as they are,
+/// and goes `over` times as far: a step of block SOR, whose result does not depend on the order
+/// within a colour. With 0 < over < 2 sweeps there and back are symmetric and positive definite.
 struct RelaxColumns {
   ColumnEquations equations;
   ColumnHeights height;
   ConstFieldRef pivot, r;
   FieldRef z;
+  Real* room;  // for a number in each cell
+  Real over;
   int colour;
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {
@@ -124,6 +127,7 @@ struct RelaxColumns {
     const int left = neighbors.left(i), right = neighbors.right(i);
     const int back = neighbors.back(k), front = neighbors.front(k);
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
+    Real* const solved = room + std::ptrdiff_t{grid.ny} * (i + std::ptrdiff_t{grid.nx} * k);
     Real below = 0;  // pivot * eliminated right-hand side of the row below
     for (int j = 0; j < rows; ++j) {
       const Real x = c.x(i, j, k) * z(left, j, k) + c.x(i + 1, j, k) * z(right, j, k);
@@ -131,10 +135,13 @@ struct RelaxColumns {
       Real g = grid.dy(j) * (r(i, j, k) + x * per_dx2 + across * per_dz2);
       if (j == rows - 1 && rows < grid.ny) g += equations.coupling(i, rows, k) * z(i, rows, k);
       below = pivot(i, j, k) * (g + equations.coupling(i, j, k) * below);
-      z(i, j, k) = below;
+      solved[j] = below;
     }
-    for (int j = rows - 2; j >= 0; --j) {
-      z(i, j, k) += pivot(i, j, k) * equations.coupling(i, j + 1, k) * z(i, j + 1, k);
+    Real above = 0;
+    for (int j = rows - 1; j >= 0; --j) {
+      const Real coupling = j + 1 < rows ? equations.coupling(i, j + 1, k) : 0;
+      above = solved[j] + pivot(i, j, k) * coupling * above;
+      z(i, j, k) += over * (above - z(i, j, k));
     }
   }
 };

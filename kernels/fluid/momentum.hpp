@@ -114,6 +114,7 @@ struct StressDivergence {
 
 /// Whether the fluid fraction is one everywhere, so that nobody reads it.
 enum class Fraction { uniform, variable };
+constexpr bool is_variable(Fraction fraction) { return fraction == Fraction::variable; }
 
 /// Weights of the explicit terms, now and one step ago, times dt [s].
 struct AdamsBashforth {
@@ -136,12 +137,10 @@ struct Predict {
   AdamsBashforth weight;
   Real inv_density;  // 1 / rho [m^3/kg]
 
-  static constexpr bool is_variable = fraction == Fraction::variable;
-
   KOKKOS_FORCEINLINE_FUNCTION Real advance(const Real n, const Real n_before, const Real momentum,
                                            const Real alpha_here, const Real given) const {
     const Real all = momentum + weight.now * n + weight.before * n_before + given * inv_density;
-    if constexpr (is_variable) return all / alpha_here;
+    if constexpr (is_variable(fraction)) return all / alpha_here;
     return all;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real at(const ConstFieldRef& f, int i, int j, int k) {
@@ -149,15 +148,15 @@ struct Predict {
     return 0;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real x_face(const ConstFieldRef& f, int i, int j, int k) {
-    if constexpr (is_variable) return cell_to_xface(f, i, j, k);
+    if constexpr (is_variable(fraction)) return cell_to_xface(f, i, j, k);
     return 1;
   }
   KOKKOS_FORCEINLINE_FUNCTION Real y_face(const ConstFieldRef& f, int i, int j, int k) const {
-    if constexpr (is_variable) return cell_to_yface(grid, f, i, j, k);
+    if constexpr (is_variable(fraction)) return cell_to_yface(grid, f, i, j, k);
     return 1;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Real z_face(const ConstFieldRef& f, int i, int j, int k) {
-    if constexpr (is_variable) return cell_to_zface(f, i, j, k);
+    if constexpr (is_variable(fraction)) return cell_to_zface(f, i, j, k);
     return 1;
   }
 

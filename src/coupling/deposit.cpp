@@ -96,9 +96,11 @@ void Deposit::find_cells(const GrainState& grains) {
   ColumnMap smoothed = of_grains.grown(reach);
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
-  fields_.of_flow.exchange.set(of_grains.grown(1).in_blocks());
-  fields_.of_flow.fraction.set(
-      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)).in_blocks());
+  const ColumnMap of_flow =
+      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)).in_blocks();
+  fields_.of_flow.fraction.set(of_flow);
+  const bool spreads = config_.exchange == Exchange::smoothed;
+  fields_.of_flow.exchange.set(spreads ? of_flow : of_grains.grown(1).in_blocks());
   if (grid_.smoothing_length == 0) return;
   Field& before_smoothing = fields_.alpha_before_smoothing;
   const Region& around = fields_.of_flow.fraction.around;  // of whose faces both sides are read

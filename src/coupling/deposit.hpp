@@ -1,7 +1,7 @@
 // From the grains to the flow.
 #pragma once
 
-#include "kernels/coupling/deposit.hpp"
+#include "kernels/coupling/deposit_on_faces.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 

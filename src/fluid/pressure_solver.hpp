@@ -14,7 +14,7 @@ namespace barchan {
 
 /// Preconditioner where grains hinder the flow: the constant-coefficient solve misses the few cells
 /// where c is far below one. Symmetric multiplicative combination: relax the columns with grains
-/// (block Gauss-Seidel over columns, by colours), solve globally for what is left, relax again in
+/// (block SOR over columns, by colours), solve globally for what is left, relax again in
 /// the reverse order. Symmetric and positive definite in the volume-weighted inner product. It
 /// keeps nothing from step to step, so a restarted run repeats the same bits.
 class LocalCorrection {
@@ -22,14 +22,15 @@ class LocalCorrection {
   LocalCorrection(const Grid& grid, const Halo& halo);
 
   /// Finds the columns of the mobility c within `near`, outside which c is one; to be called when c
-  /// changed.
-  void update(const FaceVector& c, const Region& near);
+  /// changed. `room`: a field whose values nobody needs while sweeps go on.
+  void update(const FaceVector& c, const Region& near, const Field& room);
+  void take_room(const Field& room) { room_ = room; }
 
   /// Sweeps over these columns that bring A z closer to r; z has ghosts. Backward they are the
   /// adjoint of forward.
   void relax(const Field& r, Field& z, bool forward);
-  /// z = M^-1 r; r changes and is as before on return.
-  void apply(const PoissonFft& poisson, Field& r, Field& z);
+  /// z = M^-1 r; r changes and is as before on return. One more field holds a copy meanwhile.
+  void apply(const PoissonFft& poisson, Field& r, Field& z, Field& copy_of_r);
 
  private:
   template <class Functor>
@@ -42,7 +43,7 @@ class LocalCorrection {
   Grid flat_;  // one row of cells
   Halo flat_halo_;
   Field mask_, mask_1_, mask_2_;  // ColumnHeights: obstructed; one layer more; two
-  Field pivot_, saved_r_;
+  Field pivot_, room_;
   Field local_;  // zero between two calls of apply()
 };
 

@@ -141,11 +141,13 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
     const PoissonFft poisson(grid.mine, std::make_shared<const PlaneFft>(grid.mine), 0, 1);
     const PoissonFft poisson_whole(grid.whole, std::make_shared<const PlaneFft>(grid.whole), 0, 1);
     const Region everywhere(grid.mine), everywhere_whole(grid.whole);
+    const Field room("room", grid.mine), room_whole("room", grid.whole);
+    Field copy("copy", grid.mine), copy_whole("copy", grid.whole);
     for (int twice = 0; twice < 2; ++twice) {  // the second time with what the first left behind
-      local.update(c, everywhere);
-      local.apply(poisson, r, z);
-      local_whole.update(c_whole, everywhere_whole);
-      local_whole.apply(poisson_whole, r_whole, z_whole);
+      local.update(c, everywhere, room);
+      local.apply(poisson, r, z, copy);
+      local_whole.update(c_whole, everywhere_whole, room_whole);
+      local_whole.apply(poisson_whole, r_whole, z_whole, copy_whole);
       EXPECT_LT(grid.difference(z_whole, z), 1e-13);
     }
   }

@@ -84,10 +84,10 @@ MessageCounts flow_step(const Grid& grid) {
   return 8 * fill(grid) + fft_solve(grid) + reductions(4);
 }
 
-/// A fill for each colour in three sweeps there and back.
+/// A fill for each colour in five sweeps there and back.
 MessageCounts relaxation(const Grid& grid) {
   const int colours = grid.nx_all % 2 == 0 && grid.nz_all % 2 == 0 ? 2 : 3;
-  return (2 * 3 * colours) * fill(grid);
+  return (2 * 5 * colours) * fill(grid);
 }
 /// An iteration: the direction, the local part before the FFT solve; three inner products and a
 /// mean.

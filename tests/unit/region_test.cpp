@@ -1,0 +1,171 @@
+// The columns of cells near grains, loops over them, and the smoothing there.
+#include "src/parallel/region.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "kernels/fluid/flow_sums.hpp"
+#include "src/coupling/smoother.hpp"
+#include "tests/support/flow_fields.hpp"
+
+namespace barchan {
+namespace {
+
+using Column = std::pair<int, int>;  // i, k
+
+Grid grid_of(std::array<int, 3> n) {
+  return test::stretched_grid(n, {n[0] * 1e-3, 0.01, n[2] * 1e-3}, 0.5 * 0.01 / n[1]);
+}
+
+/// Up to the rows [0, top).
+ColumnMap map_of(const Grid& grid, const std::vector<Column>& columns, int top) {
+  const Kokkos::View<int*> marks("test: marks", static_cast<std::size_t>(grid.nx * grid.nz));
+  const auto host = Kokkos::create_mirror_view(marks);
+  for (const auto& [i, k] : columns) host(static_cast<std::size_t>(i + grid.nx * k)) = 1;
+  Kokkos::deep_copy(marks, host);
+  return ColumnMap::marked(grid, marks, top);
+}
+
+std::set<Column> columns_of(const Grid& grid, const ColumnMap& map) {
+  std::set<Column> found;
+  for (int k = 0; k < grid.nz; ++k) {
+    for (int i = 0; i < grid.nx; ++i)
+      if (map.has(i, k)) found.insert({i, k});
+  }
+  return found;
+}
+
+TEST(ColumnMap, GrowsAcrossThePeriodicEnds) {
+  const Grid grid = grid_of({9, 5, 7});
+  const ColumnMap map = map_of(grid, {{0, 6}, {4, 3}}, 4).grown(1);
+  const std::set<Column> expected{{8, 5}, {0, 5}, {1, 5}, {8, 6}, {0, 6}, {1, 6},
+                                  {8, 0}, {0, 0}, {1, 0}, {3, 2}, {4, 2}, {5, 2},
+                                  {3, 3}, {4, 3}, {5, 3}, {3, 4}, {4, 4}, {5, 4}};
+  EXPECT_EQ(columns_of(grid, map), expected);
+  EXPECT_EQ(map.top(), 5);
+  EXPECT_EQ(map.grown(9).top(), 5);
+  EXPECT_EQ(columns_of(grid, map.grown(9)).size(), 63u);
+  EXPECT_TRUE(ColumnMap().grown(3).is_empty());
+}
+
+TEST(ColumnMap, BlocksAndUnions) {
+  const Grid grid = grid_of({11, 5, 3});
+  const ColumnMap map = map_of(grid, {{5, 0}, {9, 2}}, 2);
+  const std::set<Column> blocks{{4, 0}, {5, 0}, {6, 0}, {7, 0}, {8, 2}, {9, 2}, {10, 2}};
+  EXPECT_EQ(columns_of(grid, map.in_blocks(4)), blocks);
+  const ColumnMap both = map.united(map_of(grid, {{1, 1}}, 3));
+  EXPECT_EQ(columns_of(grid, both), (std::set<Column>{{5, 0}, {9, 2}, {1, 1}}));
+  EXPECT_EQ(both.top(), 3);
+}
+
+TEST(ColumnMap, StretchesOfXMayGoAcrossTheEnd) {
+  const Grid grid = grid_of({20, 5, 3});
+  const auto stretches =
+      map_of(grid, {{1, 0}, {7, 1}, {8, 2}, {10, 0}, {19, 2}}, 2).stretches_of_x(2);
+  ASSERT_EQ(stretches.size(), 2u);
+  EXPECT_EQ(stretches[0].first, 7);
+  EXPECT_EQ(stretches[0].last, 11);
+  EXPECT_EQ(stretches[1].first, 19);
+  EXPECT_EQ(stretches[1].last, 22);
+}
+
+TEST(ColumnMap, FindsWhereAFieldIsNotOne) {
+  const Grid grid = grid_of({6, 5, 4});
+  Field f("f", grid);
+  test::set_field(f, grid, [](int i, int j, int k) {
+    return (i == 2 && j == 3 && k == 1) || (i == 5 && j == 0 && k == 3) ? 1 - 1e-15 : 1.0;
+  });
+  const ColumnMap map = ColumnMap::not_one(grid, f);
+  EXPECT_EQ(columns_of(grid, map), (std::set<Column>{{2, 1}, {5, 3}}));
+  EXPECT_EQ(map.top(), 4);
+  test::set_field(f, grid, [](int, int, int) { return 1.0; });
+  EXPECT_TRUE(ColumnMap::not_one(grid, f).is_empty());
+}
+
+/// Adds a number to a cell, and returns it.
+struct Add {
+  FieldRef f;
+  Real number;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    f(i, j, k) += number;
+    return number;
+  }
+};
+
+TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
+  const Grid grid = grid_of({13, 4, 5});
+  const ColumnMap inner = map_of(grid, {{3, 1}, {4, 1}, {12, 1}, {0, 2}, {7, 2}}, 2);
+  const ColumnMap outer = inner.grown(1);
+  Region in(grid), out(grid);
+  in.set(inner), out.set(outer);
+  Field f("f", grid);
+  const Real sum = sum_each_cell(
+      "test", grid, ByRegion{in.ref(), Add{f, 100}, ByRegion{out.ref(), Add{f, 10}, Add{f, 1}}});
+  const Real sum_inside = sum_each_cell("test", grid, in, Add{f, 1000});
+  const auto got = test::to_host(f);
+  Real expected_sum = 0, expected_inside = 0;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    const bool is_in = inner.has(i, k) && j < inner.top();
+    const bool is_out = outer.has(i, k) && j < outer.top();
+    const Real once = is_in ? 100 : is_out ? 10 : 1;
+    EXPECT_EQ(got(i, j, k), once + (is_in ? 1000 : 0)) << i << " " << j << " " << k;
+    expected_sum += once;
+    expected_inside += is_in ? 1000 : 0;
+  });
+  EXPECT_EQ(sum, expected_sum);
+  EXPECT_EQ(sum_inside, expected_inside);
+  in.set({});
+  EXPECT_EQ(sum_each_cell("test", grid, in, Add{f, 1000}), 0);
+  EXPECT_FALSE(in.has_ghosts());
+}
+
+/// The same as over all columns, in the middle, across the periodic end, in two stretches.
+TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
+  const Grid grid = grid_of({90, 12, 10});
+  const Real length = 4e-4;
+  const auto fft = std::make_shared<const PlaneFft>(grid);
+  const Smoother smoother(grid, fft, {}, length);
+  const PoissonFft everywhere(grid, fft, 1, length * length);
+  EXPECT_GT(smoother.reach(), 5);
+  for (const std::vector<Column>& grains :
+       {std::vector<Column>{{44, 3}, {46, 7}}, {{1, 2}}, {{20, 0}, {62, 9}}}) {
+    const ColumnMap held = map_of(grid, grains, 3);
+    ColumnMap columns = held.grown(smoother.reach());
+    columns.set_top(smoother.top_above(held.top()));
+    Region region(grid);
+    region.set(columns);
+    Field f("f", grid), g("g", grid);
+    const auto solid = [&](int i, int j, int k) {
+      return held.has(i, k) && j < 3 ? 0.3 + 0.1 * j : 0.0;
+    };
+    test::set_field(g, grid, solid);
+    everywhere.solve(g, g);
+    test::set_field(f, grid, [&](int i, int j, int k) {  // elsewhere it is not looked at
+      return columns.has(i, k) && j < columns.top() ? solid(i, j, k) : 1e9;
+    });
+    smoother.solve(f, region);
+    const auto near = test::to_host(f), all = test::to_host(g);
+    Real beyond = 0;
+    test::for_owned_cells(grid, [&](int i, int j, int k) {
+      if (columns.has(i, k) && j < columns.top()) {
+        EXPECT_NEAR(near(i, j, k), all(i, j, k), 1e-12);
+      } else {
+        beyond = std::max(beyond, std::abs(all(i, j, k)));
+      }
+    });
+    EXPECT_LT(beyond, Smoother::kTolerance);
+  }
+}
+
+TEST(Smoother, WithoutALengthNothingSpreads) {
+  const Grid grid = grid_of({12, 4, 5});
+  const Smoother smoother(grid, std::make_shared<const PlaneFft>(grid), {}, 0);
+  EXPECT_EQ(smoother.reach(), 0);
+  EXPECT_EQ(smoother.top_above(2), 2);
+}
+
+}  // namespace
+}  // namespace barchan
