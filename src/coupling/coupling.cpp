@@ -18,7 +18,7 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   ledger_ = ExchangeLedger{};
   fields_.of_grains.set(grid_.columns_of(grains));
-  fields_.of_fraction.set(ColumnMap::not_one(grid_.grid, fluid.alpha_f));
+  fields_.of_fraction.set(ColumnMap::not_one(grid_.grid, fluid.alpha_f, grid_.marks));
   gather_.undo_smoothing(fluid);
   deposit_.solid_of_momentum_cells(grains, fluid);
   gather_(fluid, grains, dt, ledger_);

@@ -43,14 +43,13 @@ CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, cons
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
             .z = config.grains->boundary_z == GrainBoundaryZ::wall},
       smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
-      marks("coupling: columns of grains",
-            static_cast<std::size_t>(grid.nx_all) * static_cast<std::size_t>(grid.nz_all)) {}
+      marks("coupling: columns of grains", grid.nx_all * grid.nz_all) {}
 
 ColumnMap CouplingGrid::columns_of(const GrainState& grains) const {
-  Kokkos::deep_copy(marks, 0);
+  Kokkos::deep_copy(marks.on_device, 0);
   Real highest = 0;
   Kokkos::parallel_reduce("coupling: columns of grains", items(grains.n),
-                          MarkColumns{grid, grains.kin, reach_of_grain, marks},
+                          MarkColumns{grid, grains.kin, reach_of_grain, marks.on_device},
                           Kokkos::Max<Real>(highest));
   const int top = grains.n > 0 ? rows.row_of(highest + reach_of_grain) + 1 : 0;
   return ColumnMap::marked(grid, marks, top).grown(1);  // the other face of a momentum cell

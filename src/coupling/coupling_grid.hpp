@@ -41,7 +41,7 @@ struct CouplingGrid {
   Real reach_of_grain;    // of its points from its centre [m]
   EvenExtension walls;    // of the grains, where the smoothing ends
   Smoother smoother;
-  Kokkos::View<int*> marks;  // room of columns_of(): columns of all ranks
+  ColumnMarks marks;  // room for columns of all ranks
 };
 
 }  // namespace barchan

@@ -9,7 +9,7 @@ namespace barchan {
 
 namespace {
 
-constexpr std::size_t kSizesKept = 4;  // a dune may waver between two
+constexpr std::size_t kSizesKept = 2;  // a dune may waver between two
 constexpr Real kWorthIt = 0.8;         // of the columns: with more of them take all
 
 Real square(Real a) { return a * a; }
@@ -75,10 +75,7 @@ Smoother::Columns::Columns(const Grid& whole, int nx, const EvenExtension& even,
 
 Smoother::Smoother(const Grid& grid, std::shared_ptr<const PlaneFft> whole,
                    const EvenExtension& even, Real length)
-    : grid_(grid),
-      even_(even),
-      length_(length),
-      whole_(grid, std::move(whole), 1, square(std::max<Real>(length, 1e-9))) {
+    : grid_(grid), even_(even), length_(length), whole_fft_(std::move(whole)) {
   if (length == 0) return;
   const auto cells = [&](Real spacing) {
     return static_cast<int>(
@@ -109,6 +106,11 @@ const Smoother::Columns& Smoother::columns(int nx) const {
   return columns_.front();
 }
 
+const PoissonFft& Smoother::whole() const {
+  if (!whole_) whole_ = std::make_unique<const PoissonFft>(grid_, whole_fft_, 1, square(length_));
+  return *whole_;
+}
+
 /// Whether one solve over all columns is the cheaper one, or the only one.
 bool Smoother::takes_all(const std::vector<ColumnMap::Interval>& stretches) const {
   int columns = 0;
@@ -127,7 +129,7 @@ void Smoother::solve(Field& f, const Region& region) const {
     Field all = f;
     const TakeIn zero_beyond{region.ref(), f, 0, grid_.nx, grid_.nx, all};
     for_each_cell("smoother: all columns", grid_, zero_beyond);
-    return whole_.solve(f, f);
+    return whole().solve(f, f);
   }
   for (const auto& [first, last] : stretches) {
     const int length = last - first;

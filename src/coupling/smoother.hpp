@@ -41,6 +41,7 @@ class Smoother {
     Field f;
   };
   const Columns& columns(int nx) const;
+  const PoissonFft& whole() const;
   bool takes_all(const std::vector<ColumnMap::Interval>& stretches) const;
 
   Grid grid_;
@@ -48,8 +49,9 @@ class Smoother {
   Real length_;
   int reach_ = 0;
   std::vector<Real> decay_;  // from a row to the next
-  PoissonFft whole_;
-  mutable std::list<Columns> columns_;  // of the last sizes, the latest first
+  std::shared_ptr<const PlaneFft> whole_fft_;
+  mutable std::unique_ptr<const PoissonFft> whole_;  // made where it is needed
+  mutable std::list<Columns> columns_;               // of the last sizes, the latest first
 };
 
 }  // namespace barchan

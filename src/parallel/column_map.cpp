@@ -46,29 +46,29 @@ ColumnMap ColumnMap::everything(const Grid& grid) {
   return all;
 }
 
-ColumnMap ColumnMap::not_one(const Grid& grid, const Field& field) {
-  const Kokkos::View<int*> marks(
-      "columns: not one", static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.nz));
+ColumnMap ColumnMap::not_one(const Grid& grid, const Field& field, const ColumnMarks& room) {
+  Kokkos::deep_copy(room.on_device, 0);
   int top = 0;
   Kokkos::parallel_reduce("columns: not one", items(kRunsOnHost ? grid.nz : grid.nx * grid.nz),
-                          MarkNotOne{field, grid.nx, grid.ny, marks}, Kokkos::Max<int>(top));
-  const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, marks);
+                          MarkNotOne{field, grid.nx, grid.ny, room.on_device},
+                          Kokkos::Max<int>(top));
+  Kokkos::deep_copy(room.on_host, room.on_device);
   ColumnMap map(grid);
   for (int k = 0; k < grid.nz; ++k) {
     for (int i = 0; i < grid.nx; ++i)
       map.on_[map.index(grid.i_begin + i, grid.k_begin + k)] =
-          here(static_cast<std::size_t>(i + grid.nx * k)) != 0;
+          room.on_host(static_cast<std::size_t>(i + grid.nx * k)) != 0;
   }
   map.top_ = std::max(top, 0);
   map.unite_ranks(grid);
   return map;
 }
 
-ColumnMap ColumnMap::marked(const Grid& grid, const Kokkos::View<const int*>& marks, int top) {
-  const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, marks);
+ColumnMap ColumnMap::marked(const Grid& grid, const ColumnMarks& marks, int top) {
+  Kokkos::deep_copy(marks.on_host, marks.on_device);
   ColumnMap map(grid);
   for (std::size_t column = 0; column < map.on_.size(); ++column)
-    map.on_[column] = here(column) != 0;
+    map.on_[column] = marks.on_host(column) != 0;
   map.top_ = top;
   map.unite_ranks(grid);
   return map;

@@ -8,6 +8,17 @@
 
 namespace barchan {
 
+/// Marks of columns, made by kernels: not zero, or zero.
+struct ColumnMarks {
+  Kokkos::View<int*> on_device;
+  Kokkos::View<int*>::host_mirror_type on_host;
+
+  ColumnMarks() = default;
+  ColumnMarks(const char* label, int columns)
+      : on_device(label, static_cast<std::size_t>(columns)),
+        on_host(Kokkos::create_mirror_view(on_device)) {}
+};
+
 /// Some x-z columns of the cells of all ranks, up to one height: the same on every rank. Small, and
 /// made on the host. x and z are periodic.
 class ColumnMap {
@@ -17,10 +28,11 @@ class ColumnMap {
   explicit ColumnMap(const Grid& grid);
 
   static ColumnMap everything(const Grid& grid);
-  /// Those where a field is not one, up to its highest such cell. All ranks together.
-  static ColumnMap not_one(const Grid& grid, const Field& field);
-  /// Those where `marks` (i + nx_all k) is not zero, up to the rows [0, top). All ranks together.
-  static ColumnMap marked(const Grid& grid, const Kokkos::View<const int*>& marks, int top);
+  /// Those where a field is not one, up to its highest such cell. `room`: for the columns of this
+  /// rank. All ranks together.
+  static ColumnMap not_one(const Grid& grid, const Field& field, const ColumnMarks& room);
+  /// Those that are marked (i + nx_all k), up to the rows [0, top). All ranks together.
+  static ColumnMap marked(const Grid& grid, const ColumnMarks& marks, int top);
 
   int top() const { return top_; }
   void set_top(int rows) { top_ = rows; }

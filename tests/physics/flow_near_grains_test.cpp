@@ -21,11 +21,10 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   const auto is_in_mound = [](int i, int j, int k) {
     return i >= 12 && i < 16 && k >= 3 && k < 6 && j < 3;
   };
-  const auto marks = Kokkos::View<int*>("test: marks", 40u * 9u);
-  const auto host_marks = Kokkos::create_mirror_view(marks);
+  const ColumnMarks marks("test: marks", 40 * 9);
   for (int column = 0; column < 40 * 9; ++column)
-    host_marks(static_cast<std::size_t>(column)) = is_in_mound(column % 40, 0, column / 40);
-  Kokkos::deep_copy(marks, host_marks);
+    marks.on_host(static_cast<std::size_t>(column)) = is_in_mound(column % 40, 0, column / 40);
+  Kokkos::deep_copy(marks.on_device, marks.on_host);
   const ColumnMap mound = ColumnMap::marked(near.grid, marks, 3);
   FlowRegions regions(near.grid);
   regions.exchange.set(mound.grown(1)), regions.fraction.set(mound.grown(5));

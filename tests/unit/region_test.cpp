@@ -22,10 +22,9 @@ Grid grid_of(std::array<int, 3> n) {
 
 /// Up to the rows [0, top).
 ColumnMap map_of(const Grid& grid, const std::vector<Column>& columns, int top) {
-  const Kokkos::View<int*> marks("test: marks", static_cast<std::size_t>(grid.nx * grid.nz));
-  const auto host = Kokkos::create_mirror_view(marks);
-  for (const auto& [i, k] : columns) host(static_cast<std::size_t>(i + grid.nx * k)) = 1;
-  Kokkos::deep_copy(marks, host);
+  const ColumnMarks marks("test: marks", grid.nx * grid.nz);
+  for (const auto& [i, k] : columns) marks.on_host(static_cast<std::size_t>(i + grid.nx * k)) = 1;
+  Kokkos::deep_copy(marks.on_device, marks.on_host);
   return ColumnMap::marked(grid, marks, top);
 }
 
@@ -78,11 +77,12 @@ TEST(ColumnMap, FindsWhereAFieldIsNotOne) {
   test::set_field(f, grid, [](int i, int j, int k) {
     return (i == 2 && j == 3 && k == 1) || (i == 5 && j == 0 && k == 3) ? 1 - 1e-15 : 1.0;
   });
-  const ColumnMap map = ColumnMap::not_one(grid, f);
+  const ColumnMarks room("test: room", grid.nx * grid.nz);
+  const ColumnMap map = ColumnMap::not_one(grid, f, room);
   EXPECT_EQ(columns_of(grid, map), (std::set<Column>{{2, 1}, {5, 3}}));
   EXPECT_EQ(map.top(), 4);
   test::set_field(f, grid, [](int, int, int) { return 1.0; });
-  EXPECT_TRUE(ColumnMap::not_one(grid, f).is_empty());
+  EXPECT_TRUE(ColumnMap::not_one(grid, f, room).is_empty());
 }
 
 /// Adds a number to a cell, and returns it.
