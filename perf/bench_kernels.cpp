@@ -146,8 +146,7 @@ void register_flow_kernels() {
                 .unit = "cell-steps",
                 .per_unit = std::move(per_unit)});
   };
-  add("momentum", {"fluid: predict"}, advance_flow,
-      [](RunningCase&) { return work::predict(); });
+  add("momentum", {"fluid: predict"}, advance_flow, [](RunningCase&) { return work::predict(); });
   add("wale", {"fluid: eddy viscosity"}, advance_flow, [](RunningCase&) { return work::wale(); });
   add(
       "poisson", {}, [](RunningCase& c) { return solve_once(c, 0, 1); }, solve_work);

@@ -21,8 +21,8 @@ namespace {
 // Measured in runs of the shipped cases (docs/performance-method.md, "Estimates"). A grain step of
 // a moving dune is dearer than one at rest: contacts come and go, and are looked for more often.
 constexpr double kMovingOverResting = 1.2;
-// Iterations of the pressure equation where grains move.
-constexpr double kIterationsOfMoving = 4;
+// Direct solves of the pressure equation in a step where grains move.
+constexpr double kIterationsOfMoving = 2.5;
 // A line of history.csv with run.json [s], and what frames take on their way to the disk [byte/s].
 constexpr double kSecondsPerHistoryLine = 1e-3, kBytesPerSecond = 1e8;
 constexpr double kBytesOfGrain = 100, kBytesOfCell = 56;

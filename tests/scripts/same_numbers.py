@@ -55,7 +55,7 @@ SAME = [
     ("a moving grain step over one at rest", ("src/app/estimate.cpp", rf"kMovingOverResting = {N};"),
      ("docs/performance-method.md", rf"moves the grains takes {N} times that at rest")),
     ("iterations with moving grains", ("src/app/estimate.cpp", rf"kIterationsOfMoving = {N};"),
-     ("docs/performance-method.md", rf"equation then takes {N} iterations")),
+     ("docs/performance-method.md", rf"equation then takes {N} direct solves")),
     ("speed of the fastest grains", ("src/app/estimate.cpp", rf"std::max\({N} \* derive"),
      ("docs/performance-method.md", rf"go at {N} of the bulk velocity")),
     ("latency of a message", ("perf/scaling.py", rf"latency: float = {N}e-6"),
