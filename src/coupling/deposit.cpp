@@ -11,9 +11,9 @@ namespace barchan {
 namespace {
 
 /// Cells around those that grains' volume is spread over: their faces, and the columns that the
-/// pressure equation relaxes. These reach four cells beyond what is obstructed, which ends where a
-/// quarter of the digits has decayed (LocalCorrection).
-int cells_around(int reach) { return 1 + std::max(0, 5 - 3 * reach / 4); }
+/// pressure equation relaxes. These reach four cells beyond what is obstructed by more than 1e-5,
+/// which ends where less than half of the twelve digits has decayed (LocalCorrection).
+int cells_around(int reach) { return 1 + std::max(0, 5 - reach / 2); }
 
 /// Elsewhere than in a region the fraction before the smoothing is one.
 struct OneBeyond {
