@@ -15,7 +15,7 @@ GHOST, GHOST_MOTION = 13, 9  # numbers of a new ghost, and of a ghost in a grain
 GATHER = (15, 21)            # numbers of a grain to the fluid ranks and back, before the grain steps
 DEPOSIT = 20                 # to the fluid ranks after them
 SWEEPS = 5                   # src/fluid/pressure_solver.cpp
-SMOOTHINGS, EXCHANGE_FILLS = 4, 18
+SMOOTHINGS, EXCHANGE_FILLS = 3, 16
 LARGEST_RADIUS, SKIN = 1.25e-4, 4e-5  # [m], Table II of the paper, grains.skin
 CHUNK = 1 << 20                       # columns looked at together
 

@@ -13,6 +13,7 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
   const FluidSolver::Scratch idle = solver.scratch();
   const auto& [flux, u_star] = idle.faces;
   pressure_on_faces = stress_on_faces = flux;
+  smoothed_pressure = flux.x;
   convective = u_star;
   const auto& [a, b, c] = idle.cells;
   pressure_in_cells = velocity_in_cells = impulse_in_cells = {a, b, c};

@@ -13,7 +13,8 @@ struct CouplingFields {
   CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
   CouplingFields(const CouplingFields&) = delete;
 
-  // Gather, force per volume of grain on faces [N/m^3].
+  // Gather, smoothed [Pa]; force per volume of grain on faces [N/m^3].
+  Field smoothed_pressure;
   FaceVector pressure_on_faces, stress_on_faces;
 
   // Gather, u . grad u on faces [m/s^2].

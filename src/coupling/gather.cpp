@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "kernels/coupling/force_density.hpp"
 #include "kernels/coupling/gather_shear.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/reduce.hpp"
@@ -86,6 +87,10 @@ void Gather::undo_smoothing(const FluidState& fluid) {
 void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
                                ExchangeLedger& ledger) {
   if (!forces_.pressure_gradient) return;
+  if (grid_.by_row && grid_.walls == EvenExtension{}) {
+    ledger.flow_on_solid += dt * smoothed_pressure_gradient(fluid);
+    return;
+  }
   const auto& [cells, and_faces] = fields_.of_fraction;
   FaceVector& on_faces = fields_.pressure_on_faces;
   CellVector& in_cells = fields_.pressure_in_cells;
@@ -101,6 +106,27 @@ void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains
   for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z})
     grid_.smoother.solve(*component, cells);
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
+}
+
+/// The same in two solves for three: without walls of the grains the smoothing commutes with
+/// differences along the floor. Returns what the solid fraction takes [N].
+Vec3 Gather::smoothed_pressure_gradient(const FluidState& fluid) {
+  const auto& [cells, around] = fields_.of_fraction;
+  CellVector& in_cells = fields_.pressure_in_cells;
+  Field& p = fields_.smoothed_pressure;
+  PressureForceInCell force{
+      .grid = grid_.grid, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive};
+  const Vec3 taken = sum_vector(
+      "coupling: pressure to smooth", grid_.grid, around,
+      PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
+  for (Field* f : {&p, &in_cells.y}) grid_.smoother.solve(*f, cells);
+  grid_.boundary.fill(p, FieldKind::scalar, around);
+  force.p = p;
+  const Region& of_grains = fields_.of_grains.cells;
+  for_each_cell("coupling: smoothed pressure force", of_grains,
+                SmoothedPressureForce{.force = force, .x = in_cells.x, .z = in_cells.z});
+  if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, of_grains);
+  return taken;
 }
 
 /// And the convective acceleration. By row the solid takes of the stress what it has before the

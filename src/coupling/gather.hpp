@@ -31,6 +31,7 @@ class Gather {
   void reserve_flow_at(int n);
   void pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
                          ExchangeLedger& ledger);
+  Vec3 smoothed_pressure_gradient(const FluidState& fluid);
   void stress(const FluidState& fluid, const GrainState& grains, Real dt, ExchangeLedger& ledger);
   void fill_faces_beside(FaceVector& force, const Region& cells) const;
   Vec3 to_cells(const FaceVector& force, const Field& alpha, const Region& cells,

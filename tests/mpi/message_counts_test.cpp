@@ -115,12 +115,13 @@ MessageCounts scatter_add(const Grid& grid) {
                       6 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Which columns have grains, or less fluid: a map and a height. Unsmoothed fraction; pressure and
-/// stress on faces, on cells, three of these smoothed, what the flow gets of each and the grains of
-/// both; convective acceleration. Columns again, the fraction of those that are new; fraction,
-/// smoothed; totals, fastest velocity, volume, what the flow loses.
+/// Which columns have grains, or less fluid: a map and a height. Unsmoothed fraction; pressure, it
+/// and a component of its force smoothed, the force in cells; stress on faces, in cells; what the
+/// flow gets of each and the grains of both; convective acceleration. Columns again, the fraction
+/// of those that are new; fraction, smoothed; totals, fastest velocity, volume, what the flow
+/// loses.
 MessageCounts exchange(const Grid& grid) {
-  return reductions(4) + (1 + 2 * (3 + 3) + 3) * fill(grid) + 3 * fft_solve(grid) +
+  return reductions(4) + (1 + (1 + 3) + (3 + 3) + 3) * fill(grid) + 2 * fft_solve(grid) +
          reductions(2 + 1) + reductions(2) + fill(grid) + scatter_add(grid) + fill(grid) +
          fft_solve(grid) + reductions(1 + 1 + 1 + 1);
 }

@@ -1,6 +1,10 @@
 // What a grain finds of the flow around it: velocity, forces of pressure gradient and stress.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "src/fluid/poisson_fft.hpp"
 #include "tests/support/coupled_run.hpp"
 
 namespace barchan {
@@ -44,6 +48,41 @@ TEST(FlowAtGrains, ForceInACellIsTheMeanOfItsFaces) {
   EXPECT_NEAR(force.x / (-10.0 * 1 / kCell), 1, 1e-12);
   EXPECT_NEAR(force.y / (-20.0 * 2 / kCell), 1, 1e-12);
   EXPECT_NEAR(force.z / (-30.0 * 2 / kCell), 1, 1e-12);
+}
+
+// Any pressure, smoothed: each component of the force in cells, the mean of its faces, is smoothed.
+TEST(FlowAtGrains, PressureForceIsThatOfTheCellsSmoothed) {
+  Config config = test::water_box({8, 6, 5}, {8 * kCell, 6 * kCell, 5 * kCell});
+  config.grains->frozen = true;
+  config.coupling.smoothing_length = 1.3 * kCell;
+  InitialGrains grain;
+  test::add_grain(grain, 2e-4, {1.5 * kCell, 0.5 * kCell, 4.5 * kCell});
+  test::CoupledRun run(config, grain);
+  FluidState& fluid = *run.state.fluid;
+  const Grid& grid = fluid.grid;
+  test::set_random(fluid.p, grid, 11);
+  run.fill_ghosts();
+  const test::HostField p = test::to_host(fluid.p);
+  const PoissonFft smoother(grid, std::make_shared<const PlaneFft>(grid), 1,
+                            std::pow(config.coupling.smoothing_length, 2));
+  const auto smoothed = [&](auto mean_of_faces) {
+    Field f("test: force", grid);
+    test::set_field(f, grid, mean_of_faces);
+    smoother.solve(f, f);
+    return test::to_host(f)(1, 0, 4);
+  };
+  const auto at_face_y = [&](int i, int j, int k) {  // those on the walls are as the next ones
+    const int inside = std::clamp(j, 1, 5);
+    return -(p(i, inside, k) - p(i, inside - 1, k)) / kCell;
+  };
+  const Vec3 expected{
+      smoothed([&](int i, int j, int k) { return -(p(i + 1, j, k) - p(i - 1, j, k)) / 2 / kCell; }),
+      smoothed(
+          [&](int i, int j, int k) { return (at_face_y(i, j, k) + at_face_y(i, j + 1, k)) / 2; }),
+      smoothed(
+          [&](int i, int j, int k) { return -(p(i, j, k + 1) - p(i, j, k - 1)) / 2 / kCell; })};
+  const Vec3 force = pressure_force(run);
+  EXPECT_NEAR(norm(force - expected) / norm(expected), 0, 1e-12);
 }
 
 TEST(FlowAtGrains, ByRowVerticalVelocityIsThatAtTheCentre) {
