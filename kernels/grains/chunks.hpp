@@ -1,14 +1,9 @@
 // The grains in pieces, each of which one thread takes at a time.
 #pragma once
 
-#include <Kokkos_Core.hpp>
+#include "kernels/math/on_host.hpp"
 
 namespace barchan {
-
-/// Whether kernels run on a CPU.
-inline constexpr bool kOnHost =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
-                               Kokkos::DefaultExecutionSpace::memory_space>::accessible;
 
 /// Most entries of a chunk: on a CPU they stay in its L2 cache, on a GPU every entry is a chunk.
 inline constexpr int kMaxChunk = kOnHost ? 4096 : 1;

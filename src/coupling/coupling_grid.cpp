@@ -56,11 +56,11 @@ ColumnMap CouplingGrid::columns_of(const GrainState& grains) const {
 }
 
 void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {
-  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar, region);
+  boundary.fill_scalars(region, f.x, f.y, f.z);
 }
 
 void CouplingGrid::fill_ghosts(CellVector& f, const Region& region) const {
-  for (Field* component : {&f.x, &f.y, &f.z}) boundary.fill(*component, FieldKind::scalar, region);
+  boundary.fill_scalars(region, f.x, f.y, f.z);
 }
 
 WallFaces CouplingGrid::wall_faces_x() const {

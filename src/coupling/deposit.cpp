@@ -44,7 +44,7 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
   find_cells(grains);
   bound_sums(of_grain, grains.n, fluid, ledger);
   clear(fields_.of_flow.exchange);
-  using Launch = DepositGrains<kRunsOnHost ? 128 : 1>;
+  using Launch = DepositGrains<kOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
                        Launch{.of_grain = of_grain,
                               .by_row = exchange_by_row(fluid),
@@ -65,8 +65,8 @@ void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState
   for (const auto& [quantity, field] : {std::pair{Deposits::kSolidX, &fields_.solid_x},
                                         std::pair{Deposits::kSolidZ, &fields_.solid_z}}) {
     decode(quantity, deposits_.volume, cells, *field);
-    grid_.boundary.fill(*field, FieldKind::scalar, cells);
   }
+  grid_.boundary.fill_scalars(cells, fields_.solid_x, fields_.solid_z);
 }
 
 /// Where the sums are zero that grains are then added to; the ghosts are added to their owners.
@@ -106,7 +106,7 @@ void Deposit::find_cells(const GrainState& grains) {
   const Region& around = fields_.of_flow.fraction.around;  // of whose faces both sides are read
   for_each_cell("coupling: fraction before smoothing", around,
                 OneBeyond{fields_.of_fraction.around.ref(), before_smoothing});
-  grid_.boundary.fill(before_smoothing, FieldKind::scalar, around);
+  grid_.boundary.fill_scalars(around, before_smoothing);
 }
 
 /// The fixed points: one cell can receive everything.

@@ -79,7 +79,7 @@ void Gather::undo_smoothing(const FluidState& fluid) {
                                    .walls_x = grid_.wall_faces_x(),
                                    .walls_z = grid_.wall_faces_z(),
                                    .unsmoothed = fields_.alpha_before_smoothing});
-  grid_.boundary.fill(fields_.alpha_before_smoothing, FieldKind::scalar, cells);
+  grid_.boundary.fill_scalars(cells, fields_.alpha_before_smoothing);
 }
 
 /// By row the grains get it the way that their volume went to alpha_f, backwards: smoothed, then
@@ -120,7 +120,7 @@ Vec3 Gather::smoothed_pressure_gradient(const FluidState& fluid) {
       "coupling: pressure to smooth", grid_.grid, around,
       PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
   for (Field* f : {&p, &in_cells.y}) grid_.smoother.solve(*f, cells);
-  grid_.boundary.fill(p, FieldKind::scalar, around);
+  grid_.boundary.fill_scalars(around, p);
   force.p = p;
   const Region& of_grains = fields_.of_grains.cells;
   for_each_cell("coupling: smoothed pressure force", of_grains,

@@ -1,6 +1,9 @@
 // Boundary treatment of every field: the one table.
 #pragma once
 
+#include <array>
+#include <concepts>
+
 #include "kernels/fluid/boundary_values.hpp"
 #include "src/config/config.hpp"
 #include "src/fluid/fluid_fields.hpp"
@@ -34,11 +37,19 @@ class Boundary {
   Boundary(const Grid& grid, WallFlow bottom, WallFlow top, Real top_velocity = 0)
       : grid_(grid), halo_(grid), bottom_(bottom), top_(top), top_velocity_(top_velocity) {}
 
-  void fill(Field& f, FieldKind kind) const { fill(f, kind, top_velocity_); }
+  void fill(Field& f, FieldKind kind) const {
+    halo_.fill_with_walls(std::array{with_walls(f, kind, top_velocity_)});
+  }
+  template <std::same_as<Field>... Fields>
+  void fill_scalars(Fields&... f) const {
+    halo_.fill_with_walls(std::array{with_walls(f, FieldKind::scalar, 0)...});
+  }
   /// The ghosts beside a region.
-  void fill(Field& f, FieldKind kind, const Region& region) const {
-    fill_walls(f, kind, top_velocity_, region.floor());
-    if (region.has_ghosts()) halo_.fill(f);
+  template <std::same_as<Field>... Fields>
+  void fill_scalars(const Region& region, Fields&... f) const {
+    const Kokkos::Array fields{with_walls(f, FieldKind::scalar, 0)...};
+    if (region.has_ghosts()) return halo_.fill_with_walls({fields.data(), fields.size()});
+    for_each_cell("boundary: walls", region.floor(), FillWallsOf<sizeof...(f)>{fields});
   }
   void fill_velocity(FaceVector& u) const { fill(u, top_velocity_); }
   /// A rate of change of the velocity: walls do not accelerate.
@@ -51,28 +62,21 @@ class Boundary {
     fill(f, ghosts == Ghosts::velocity ? top_velocity_ : 0);
   }
   /// Only x and z, for face vectors that no wall rule applies to.
-  void fill_periodic(FaceVector& f) const {
-    for (Field* component : {&f.x, &f.y, &f.z}) halo_.fill(*component);
-  }
+  void fill_periodic(FaceVector& f) const { halo_.fill(f.x, f.y, f.z); }
   const Halo& halo() const { return halo_; }
 
  private:
   void fill(FaceVector& u, Real top_velocity) const {
-    fill(u.x, FieldKind::velocity_x, top_velocity);
-    fill(u.y, FieldKind::velocity_y, top_velocity);
-    fill(u.z, FieldKind::velocity_z, top_velocity);
+    halo_.fill_with_walls(std::array{with_walls(u.x, FieldKind::velocity_x, top_velocity),
+                                     with_walls(u.y, FieldKind::velocity_y, top_velocity),
+                                     with_walls(u.z, FieldKind::velocity_z, top_velocity)});
   }
-  void fill(Field& f, FieldKind kind, Real top_velocity) const {
-    fill_walls(f, kind, top_velocity, CellRange{0, grid_.nx, 0, 1, 0, grid_.nz});
-    halo_.fill(f);
-  }
-  void fill_walls(Field& f, FieldKind kind, Real top_velocity, const CellRange& columns) const {
-    for_each_cell("boundary: walls", columns,
-                  FillWallGhosts{.f = f,
-                                 .ny = grid_.ny,
-                                 .bottom = ghost_rule(kind, bottom_),
-                                 .top = ghost_rule(kind, top_),
-                                 .top_value = kind == FieldKind::velocity_x ? top_velocity : 0});
+  FieldWithWalls with_walls(Field& f, FieldKind kind, Real top_velocity) const {
+    return {.f = f,
+            .ny = grid_.ny,
+            .walls = {.bottom = ghost_rule(kind, bottom_),
+                      .top = ghost_rule(kind, top_),
+                      .top_value = kind == FieldKind::velocity_x ? top_velocity : 0}};
   }
 
   Grid grid_;

@@ -25,11 +25,6 @@ FaceVector make_faces_in_one_piece(const std::string& label, const Grid& grid) {
   return {component(0), component(1), component(2)};
 }
 
-void fill_fraction_ghosts(const Boundary& boundary, FluidState& fluid) {
-  boundary.fill(fluid.alpha_f, FieldKind::scalar);
-  boundary.fill(fluid.alpha_f_previous, FieldKind::scalar);
-}
-
 }  // namespace
 
 void fill_ghosts(const Boundary& boundary, FluidState& fluid) {
@@ -74,7 +69,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   report_ = {};
   const bool knows_where = exchange != nullptr && exchange->regions != nullptr && !open_;
   regions_ = knows_where ? exchange->regions : &everywhere_;
-  if (is_variable(fraction_)) fill_fraction_ghosts(boundary_, fluid);
+  if (is_variable(fraction_)) boundary_.fill_scalars(fluid.alpha_f, fluid.alpha_f_previous);
   if (fluid.time == 0)
     fluid.bulk_at_start = {bulk_velocity(fluid),
                            drive_.along_z() ? bulk_velocity_across(fluid) : 0};
@@ -161,8 +156,7 @@ void FluidSolver::drive(FluidState& fluid, Real dt) {
 void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   const ScopedSeconds timer(report_.seconds_pressure);
   std::swap(fluid.p, fluid.p_previous);
-  boundary_.halo().fill(u_star_.x);
-  boundary_.halo().fill(u_star_.z);
+  boundary_.halo().fill(u_star_.x, u_star_.z);
   const auto of_clear_water = pressure_source<Fraction::uniform>(u_star_, fluid, fluid.drive.x, dt);
   PressureReport solved;
   if (!is_variable(fraction_)) {

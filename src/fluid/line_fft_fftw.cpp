@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-static_assert(kRunsOnHost, "FFTW works on the host only: a device needs a library of its own");
+static_assert(kOnHost, "FFTW works on the host only: a device needs a library of its own");
 
 namespace {
 

@@ -64,8 +64,8 @@ void PoissonFft::solve(const Field& in, Field& out) const {
   const ColumnSolve columns = columns_;
   // On a host all columns of a plane kz, side by side in vectors; on a device one column.
   Kokkos::parallel_for(
-      "poisson: columns", items(kRunsOnHost ? planes : planes * n_modes), KOKKOS_LAMBDA(int index) {
-        if (kRunsOnHost) {
+      "poisson: columns", items(kOnHost ? planes : planes * n_modes), KOKKOS_LAMBDA(int index) {
+        if (kOnHost) {
           columns.solve(0, n_modes, index);
         } else {
           const int kx = index % n_modes;

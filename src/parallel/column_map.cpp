@@ -18,8 +18,8 @@ struct MarkNotOne {
   Kokkos::View<int*> marks;  // (nx, nz)
 
   KOKKOS_FUNCTION void operator()(int item, int& top) const {
-    const int k = kRunsOnHost ? item : item / nx;
-    const int begin = kRunsOnHost ? 0 : item % nx, end = kRunsOnHost ? nx : begin + 1;
+    const int k = kOnHost ? item : item / nx;
+    const int begin = kOnHost ? 0 : item % nx, end = kOnHost ? nx : begin + 1;
     int* const mark = marks.data() + static_cast<std::ptrdiff_t>(nx) * k;
     for (int j = 0; j < ny; ++j) {
       int found = 0;
@@ -49,7 +49,7 @@ ColumnMap ColumnMap::everything(const Grid& grid) {
 ColumnMap ColumnMap::not_one(const Grid& grid, const Field& field, const ColumnMarks& room) {
   Kokkos::deep_copy(room.on_device, 0);
   int top = 0;
-  Kokkos::parallel_reduce("columns: not one", items(kRunsOnHost ? grid.nz : grid.nx * grid.nz),
+  Kokkos::parallel_reduce("columns: not one", items(kOnHost ? grid.nz : grid.nx * grid.nz),
                           MarkNotOne{field, grid.nx, grid.ny, room.on_device},
                           Kokkos::Max<int>(top));
   Kokkos::deep_copy(room.on_host, room.on_device);

@@ -21,7 +21,7 @@ MessageCounts sent_so_far;
 /// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
 /// MPI library says so. Otherwise messages pass through the host.
 bool mpi_reaches_device() {
-  if (kRunsOnHost) return true;
+  if (kOnHost) return true;
 #if defined(MPIX_CUDA_AWARE_SUPPORT)
   return MPIX_Query_cuda_support() == 1;
 #else

@@ -1,8 +1,12 @@
 // Ghost cells in x and z.
 #pragma once
 
+#include <array>
+#include <concepts>
 #include <cstdint>
+#include <span>
 
+#include "kernels/fluid/boundary_values.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/parallel/grid.hpp"
 
@@ -26,9 +30,14 @@ class Halo {
   /// `n_sums`: quantities for scatter_add(); 0 where it is not used.
   explicit Halo(const Grid& grid, int n_sums = 0);
 
-  /// Makes the ghosts of `f` in x and z valid, rows -1 and ny and the corners included; the rows
-  /// behind the walls are taken as they are. All ranks together.
-  void fill(Field& f) const;
+  /// Makes all ghosts of some fields valid, behind the walls by their rules, corners included.
+  /// Where no direction is cut one launch fills three fields. All ranks together.
+  void fill_with_walls(std::span<const FieldWithWalls> fields) const;
+  /// Those in x and z alone; the rows behind the walls are taken as they are.
+  template <std::same_as<Field>... Fields>
+  void fill(Fields&... f) const {
+    fill_with_walls(std::array{FieldWithWalls{.f = f, .ny = grid_.ny, .walls = {}}...});
+  }
 
   /// The adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies
   /// of, first along x, then along z. Integers, so the order does not matter. Nothing happens where
@@ -36,6 +45,10 @@ class Halo {
   void scatter_add(const CellSums& sums) const;
 
  private:
+  void fill_uncut(std::span<const FieldWithWalls> fields) const;
+  void fill_x(const FieldRef& f) const;
+  void fill_z(const FieldRef& f) const;
+
   Grid grid_;
   HaloBuffers x_, z_;
 };

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "kernels/fluid/grid.hpp"
+#include "kernels/math/on_host.hpp"
 
 namespace barchan {
 
@@ -18,9 +19,6 @@ template <class Rows>
 CellRange owned_cells(const BasicGrid<Rows>& grid) {
   return {0, grid.nx, 0, grid.ny, 0, grid.nz};
 }
-
-inline constexpr bool kRunsOnHost =
-    std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
 
 /// Work items 0..n-1. "Light" makes a device take the functor as the kernel's argument. Kokkos
 /// would copy one of more than 512 bytes through a buffer in constant memory, and wait at every
@@ -37,7 +35,8 @@ struct RegionRef {
   };
   CellRange range;
   const std::uint8_t* active = nullptr;  // (i, k)
-  const Run* runs = nullptr;             // of all planes; those of k from first_run[k] on
+  // On a host, runs of all planes; those of k from first_run[k] on.
+  const Run* runs = nullptr;
   const int* first_run = nullptr;
 
   KOKKOS_FORCEINLINE_FUNCTION bool has_row(int j, int k) const {
@@ -67,7 +66,7 @@ namespace launch_detail {
 
 inline Items policy(const CellRange& r) {
   const int rows = (r.j1 - r.j0) * (r.k1 - r.k0);
-  return items(kRunsOnHost ? rows : rows * (r.i1 - r.i0));
+  return items(kOnHost ? rows : rows * (r.i1 - r.i0));
 }
 
 /// Cells [i0, i1) of a row.
@@ -76,14 +75,14 @@ struct CellsOfRow {
 };
 /// The cells of a work item: a row on the host, a single cell on a device.
 KOKKOS_FORCEINLINE_FUNCTION CellsOfRow cells_of_item(const CellRange& r, int item) {
-  const int length = kRunsOnHost ? 1 : r.i1 - r.i0;
+  const int length = kOnHost ? 1 : r.i1 - r.i0;
   const int rows_y = r.j1 - r.j0, row = item / length, i0 = r.i0 + item % length;
-  return {i0, kRunsOnHost ? r.i1 : i0 + 1, r.j0 + row % rows_y, r.k0 + row / rows_y};
+  return {i0, kOnHost ? r.i1 : i0 + 1, r.j0 + row % rows_y, r.k0 + row / rows_y};
 }
 
 /// A functor within a work item. On the host a local copy: its members stay in registers.
 template <class Functor>
-using Body = std::conditional_t<kRunsOnHost, const Functor, const Functor&>;
+using Body = std::conditional_t<kOnHost, const Functor, const Functor&>;
 
 /// action(functor, first, last) for the cells [first, last) of a row that take it.
 template <class Functor, class Action>
@@ -95,7 +94,7 @@ KOKKOS_FORCEINLINE_FUNCTION void each_part(const Functor& functor, const CellsOf
 template <class Action>
 KOKKOS_FORCEINLINE_FUNCTION void each_stretch(const RegionRef& region, const CellsOfRow& at,
                                               const Action& action) {
-  if (!kRunsOnHost) return action(region.has(at.i0, at.j, at.k), at);
+  if (!kOnHost) return action(region.has(at.i0, at.j, at.k), at);
   int begin = at.i0;
   if (region.has_row(at.j, at.k)) {
     for (int r = region.first_run[at.k]; r < region.first_run[at.k + 1]; ++r) {

@@ -30,18 +30,11 @@ class Region {
  private:
   Grid grid_;
   ColumnMap columns_;
-  template <class T>
-  struct Mirrored {
-    Kokkos::View<T*> values;
-    typename Kokkos::View<T*>::host_mirror_type on_host;
-    Mirrored(const char* label, std::size_t n)
-        : values(label, n), on_host(Kokkos::create_mirror_view(values)) {}
-    void update() const { Kokkos::deep_copy(values, on_host); }
-    const T* data() const { return values.data(); }
-  };
-  Mirrored<std::uint8_t> active_;  // (nx, nz)
-  Mirrored<RegionRef::Run> runs_;  // of columns, plane by plane
-  Mirrored<int> first_run_;        // (nz + 1)
+  Kokkos::View<std::uint8_t*> active_;  // (nx, nz)
+  Kokkos::View<std::uint8_t*>::host_mirror_type active_on_host_;
+  // Runs of columns, plane by plane: for kernels that run on the host.
+  Kokkos::View<RegionRef::Run*, Kokkos::HostSpace> runs_;
+  Kokkos::View<int*, Kokkos::HostSpace> first_run_;  // (nz + 1)
   CellRange range_;
   bool has_ghosts_ = true;
 };
