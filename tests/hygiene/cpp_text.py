@@ -222,6 +222,9 @@ class Source:
         while self.at(at) not in (stop, ""):
             if NAME.match(self.tokens[at]) and self.at(at + 1) in (",", ";", "=", "{", "[", ":"):
                 names.append(self.tokens[at])
+            if self.tokens[at] == "=":
+                at = self.past_value(at)
+                continue
             behind = self.past_angles(at) if self.tokens[at] == "<" else at
             at = behind if behind > at else self.partner.get(at, at) + 1
         return names

@@ -18,8 +18,9 @@ from cpp_text import MARKS, NAME, Source, Unreadable
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = tomllib.loads(pathlib.Path(__file__).with_name("device_code.toml").read_text())
 LAMBDA, LAUNCHES = "KOKKOS_LAMBDA", {"parallel_for", "parallel_reduce", "parallel_scan"}
-# Names of the standard library that are no functions and no containers; what `move` becomes is compiled in place.
-HARMLESS = re.compile(r"u?int(_\w+)?\d+_t|size_t|ptrdiff_t|numbers|move|forward|(is|remove|add|make)_\w+|conditional_t|"
+# Names of the standard library that are no functions and no containers; nvcc has the three functions among
+# them for the device.
+HARMLESS = re.compile(r"u?int(_\w+)?\d+_t|size_t|ptrdiff_t|numbers|move|forward|memcpy|(is|remove|add|make)_\w+|conditional_t|"
                       r"declval|decay_t|enable_if_t|integral_constant|true_type|false_type|same_as|pair|memory_order_\w+")
 NO_WORDS = {"throw", "try", "catch", "new", "delete", "typeid", "dynamic_cast", "thread_local"}
 NOT_RUN = {"KOKKOS_IF_ON_HOST", "static_assert", "decltype", "sizeof"}
@@ -48,7 +49,7 @@ class Program:
     """All files together."""
 
     def __init__(self, sources, launchers=frozenset()):
-        self.sources, self.found = sources, []
+        self.sources, self.found, self.pointers = sources, [], set()
         self.functions, self.classes, self.aliases = {}, {}, {}
         for source in sources:
             for one in source.functions:
@@ -61,6 +62,7 @@ class Program:
             one.name for source in sources for one in source.functions if source.at(one.params[1] - 1) == "functor"}
         self.bodies = [body for source in sources for body in bodies_of(source)]
         self.functors = self.find_functors()
+        self.on_device = self.find_on_device()
 
     def report(self, rule, source, at, text):
         self.report_line(rule, source, source.lines[at], text)
@@ -70,20 +72,32 @@ class Program:
 
     def find_functors(self):
         """Classes that are launched or captured, and their parts."""
-        names = {one.owner for one in self.functions.get("operator ( )", []) if one.marked}
+        waiting = [(source, one.owner) for source in self.sources for one in source.functions
+                   if one.name == "operator ( )" and one.marked]
         for body in self.bodies:
             if body.is_lambda:
                 used = {body.source.tokens[at] for at in body.places}
-                names |= {kind for kind, name in declarations(body.source, body.function) if name in used}
-        waiting, seen = list(names), set()
+                waiting += [(body.source, kind) for kind, name in declarations(body.source, body.function)
+                            if name in used]
+        seen, functors = set(), []
         while waiting:
-            name = waiting.pop()
-            if name not in seen:
-                seen.add(name)
-                waiting += self.aliases.get(name, [])
-                for _, one in self.classes.get(name, []):
-                    waiting += one.bases + [token for member in one.members for token in member.tokens]
-        return seen & set(self.classes)
+            source, name = waiting.pop()
+            if (source.path, name) in seen:
+                continue
+            seen.add((source.path, name))
+            waiting += [(source, word) for word in self.aliases.get(name, [])]
+            for its_source, one in self.classes.get(name, []):
+                if its_source is source or not its_source.path.endswith(".cpp"):
+                    functors.append((its_source, one))
+                    waiting += [(its_source, word) for word in one.bases]
+                    waiting += [(its_source, word) for member in one.members for word in member.tokens]
+        return functors
+
+    def find_on_device(self):
+        """Names of classes that device code can have objects of."""
+        named = {body.source.tokens[at] for body in self.bodies for at in body.places}
+        marked = {one.owner for known in self.functions.values() for one in known if one.marked}
+        return marked | {one.name for _, one in self.functors} | named & set(self.classes)
 
     def check(self):
         for body in self.bodies:
@@ -92,9 +106,8 @@ class Program:
             if body.is_lambda:
                 check_captures(self, body)
                 check_place(self, body)
-        for name in sorted(self.functors):
-            for source, one in self.classes[name]:
-                check_members(self, source, one)
+        for source, one in self.functors:
+            check_members(self, source, one)
         for source in self.sources:
             check_launches(self, source)
         return sorted(set(self.found))
@@ -189,7 +202,7 @@ def called(program, source, at, owner, variables):
     if before in (".", "->"):
         is_variable = any(name in member.names for entries in program.classes.values() for _, one in entries
                           for member in one.members)
-        return [] if is_variable else [one for one in known if one.owner]
+        return [] if is_variable else [one for one in known if one.owner in program.on_device]
     if before == "::":
         scope = source.at(at - 2)
         if scope in ("std", "Kokkos", "Experimental", "fmt"):
@@ -213,7 +226,9 @@ def check_members(program, source, one):
     for member in one.members:
         for name in member.names:
             reached = [word for word in ("&", "&&", "*") if word in member.flat]
-            if reached and not (reached == ["*"] and f"{one.name}.{name}" in TABLE["pointers"]):
+            if reached == ["*"] and f"{one.name}.{name}" in TABLE["pointers"]:
+                program.pointers.add(f"{one.name}.{name}")
+            elif reached:
                 kind = "pointer" if reached == ["*"] else "reference"
                 program.report_line("members", source, member.line, f"{kind} {one.name}.{name}")
         for at, token in enumerate(member.tokens):
@@ -277,6 +292,7 @@ def check_place(program, body):
 
 def check_launches(program, source):
     in_device = {at for body in program.bodies if body.source is source for at in body.places}
+    functors = {one.name for _, one in program.functors}
     unmarked = {one.owner for one in program.functions.get("operator ( )", []) if not one.marked}
     for at, name in enumerate(source.tokens):
         if name == "KOKKOS_CLASS_LAMBDA":
@@ -290,13 +306,14 @@ def check_launches(program, source):
             for here in range(behind, source.partner[behind]):
                 word = source.tokens[here]
                 kind = word if word in program.classes else kinds.get(word)
-                if word == "[" and source.at(here - 1) in FREE_ARE and here not in in_device or \
-                        kinds.get(word) == "auto" and is_lambda(source, function, word):
+                if here in in_device or source.at(here - 1) in (".", "->"):
+                    continue
+                if word == "[" and source.at(here - 1) in FREE_ARE or is_lambda(source, function, word):
                     program.report("lambdas", source, here, f"a lambda to {name}")
-                elif kind in unmarked and source.at(here - 1) not in (".", "->"):
+                elif kind in unmarked:
                     program.report("marked", source, here, f"operator() of {kind}")
             check_addresses(program, source, behind, in_device, function)
-        elif name in program.functors:
+        elif name in functors:
             if NAME.match(source.at(behind)):
                 behind += 1
             if source.at(behind) in ("{", "(") and function:
@@ -356,6 +373,8 @@ def main(wanted):
         sys.exit(f"device_code: {error}")
     for path, line, rule, text in found:
         print(f"{path}:{line}: {rule}: {text}")
+    for name in sorted(set(TABLE["pointers"]) - program.pointers):
+        found.append(("tests/hygiene/device_code.toml", 0, "", f"{name} is no pointer in a functor any more"))
     for rule in sorted({one[2] for one in found}):
         print(f"{rule}: {TABLE['rules'][rule]['why']}")
     if found:
