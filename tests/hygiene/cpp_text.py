@@ -11,8 +11,8 @@ TOKEN = re.compile(
     |(?P<token>\.?\d(?:[eEpP][+-]|'\w|[\w.])*|'(?:\\.|[^'\\])+'|\w+|::|->|&&|\.\.\.|\S)""", re.S | re.M | re.X)
 CLOSING = {"(": ")", "[": "]", "{": "}"}
 NAME = re.compile(r"[A-Za-z_]\w*$")
-NOT_CALLED = {"alignas", "requires", "decltype", "noexcept", "explicit", "__attribute__", "if", "for", "while", "switch",
-              "return", "sizeof", "alignof", "static_assert", "catch", "operator"}
+NOT_CALLED = {"alignas", "requires", "decltype", "noexcept", "explicit", "__attribute__", "if", "for", "while",
+              "switch", "return", "sizeof", "alignof", "static_assert", "catch", "operator"}
 MARKS = {"KOKKOS_FUNCTION", "KOKKOS_INLINE_FUNCTION", "KOKKOS_FORCEINLINE_FUNCTION"}
 ACCESS = {"public", "private", "protected"}
 
