@@ -14,6 +14,8 @@ NAME = re.compile(r"[A-Za-z_]\w*$")
 NOT_CALLED = {"alignas", "requires", "decltype", "noexcept", "explicit", "__attribute__", "if", "for", "while",
               "switch", "return", "sizeof", "alignof", "static_assert", "catch", "operator"}
 MARKS = {"KOKKOS_FUNCTION", "KOKKOS_INLINE_FUNCTION", "KOKKOS_FORCEINLINE_FUNCTION"}
+NO_TYPES = {"return", "else", "throw", "new", "delete", "case", "goto", "typename", "using", "operator", "struct"}
+BEHIND_NAME = {"=", "{", "(", ";", ",", ")", ":", "["}  # of a variable that is declared
 ACCESS = {"public", "private", "protected"}
 
 
@@ -228,3 +230,39 @@ class Source:
             behind = self.past_angles(at) if self.tokens[at] == "<" else at
             at = behind if behind > at else self.partner.get(at, at) + 1
         return names
+
+
+def function_around(source, at):
+    return next((one for one in source.functions if one.body and one.body[0] < at < one.body[1]), None)
+
+
+def declarations(source, function):
+    """(type, name) of variables and parameters of a function, also of those of lambdas in it."""
+    if function is None:
+        return
+    for at in range(function.params[0], function.body[1] if function.body else function.params[1]):
+        if source.tokens[at] == "[" and source.at(at - 1) in ("auto", "&", "&&"):  # auto [a, b]
+            yield from (("", name) for name in source.tokens[at + 1:source.partner[at]] if NAME.match(name))
+        kind = type_before(source, at) if NAME.match(source.tokens[at]) else ""
+        if kind:
+            yield kind, source.tokens[at]
+            while source.at(at := source.past_value(at + 1)) == ",":  # int a = 1, b
+                at += 2 if source.at(at + 1) in ("*", "&") else 1
+                if not NAME.match(source.at(at)) or source.at(at + 1) not in BEHIND_NAME:
+                    break
+                yield kind, source.tokens[at]
+
+
+def type_before(source, at):
+    """The type that a variable declared at this place gets; "" if none is declared here."""
+    before = at - 1
+    while source.at(before) in ("&", "*", "&&", "const", "..."):
+        before -= 1
+    if source.at(at + 1) not in BEHIND_NAME or before != at - 1 and source.at(at + 1) == "(":
+        return ""
+    if source.at(before) == ">":
+        before = source.before_angles(before)
+    before_type = source.at(before - 1)
+    if not NAME.match(source.at(before)) or source.at(before) in NO_TYPES or before_type in (".", "->", "="):
+        return ""
+    return source.at(before)

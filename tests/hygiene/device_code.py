@@ -14,7 +14,7 @@ import re
 import sys
 import tomllib
 
-from cpp_text import MARKS, NAME, Source, Unreadable
+from cpp_text import NAME, Source, Unreadable, declarations, function_around
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = tomllib.loads(pathlib.Path(__file__).with_name("device_code.toml").read_text())
@@ -26,8 +26,6 @@ NO_WORDS = {"throw", "try", "catch", "new", "delete", "typeid", "dynamic_cast", 
 NOT_RUN = {"KOKKOS_IF_ON_HOST", "static_assert", "decltype", "sizeof"}
 ON_HOST = {"HostSpace", "HostMirror", "host_mirror_type", "host_mirror_space", "DefaultHostExecutionSpace"}
 HOLDERS = {"vector", "array", "string", "span", "string_view", "map", "unique_ptr"}
-NO_TYPES = {"return", "else", "throw", "new", "delete", "case", "goto", "typename", "using", "operator", "struct"}
-BEHIND_NAME = {"=", "{", "(", ";", ",", ")", ":", "["}
 FREE_ARE = ("(", ",", "{", "=", "?", ":", "return")  # what stands before an & that takes an address, or a lambda
 
 
@@ -114,8 +112,7 @@ class Program:
             check_members(self, source, one)
         for source in self.sources:
             check_launches(self, source)
-            if source.path.startswith("kernels/"):
-                check_kernels(self, source)
+            check_marks(self, source)
         return sorted(set(self.found))
 
 
@@ -130,42 +127,6 @@ def bodies_of(source):
                        function_around(source, at), True)
 
 
-def function_around(source, at):
-    return next((one for one in source.functions if one.body and one.body[0] < at < one.body[1]), None)
-
-
-def declarations(source, function):
-    """(type, name) of variables and parameters of a function, also of those of lambdas in it."""
-    if function is None:
-        return
-    for at in range(function.params[0], function.body[1] if function.body else function.params[1]):
-        if source.tokens[at] == "[" and source.at(at - 1) in ("auto", "&", "&&"):  # auto [a, b]
-            yield from (("", name) for name in source.tokens[at + 1:source.partner[at]] if NAME.match(name))
-        kind = type_before(source, at) if NAME.match(source.tokens[at]) else ""
-        if kind:
-            yield kind, source.tokens[at]
-            while source.at(at := source.past_value(at + 1)) == ",":  # int a = 1, b
-                at += 2 if source.at(at + 1) in ("*", "&") else 1
-                if not NAME.match(source.at(at)) or source.at(at + 1) not in BEHIND_NAME:
-                    break
-                yield kind, source.tokens[at]
-
-
-def type_before(source, at):
-    """The type that a variable declared at this place gets; "" if none is declared here."""
-    before = at - 1
-    while source.at(before) in ("&", "*", "&&", "const", "..."):
-        before -= 1
-    if source.at(at + 1) not in BEHIND_NAME or before != at - 1 and source.at(at + 1) == "(":
-        return ""
-    if source.at(before) == ">":
-        before = source.before_angles(before)
-    before_type = source.at(before - 1)
-    if not NAME.match(source.at(before)) or source.at(before) in NO_TYPES or before_type in (".", "->", "="):
-        return ""
-    return source.at(before)
-
-
 def members_of(program, name, seen=()):
     """Names of variables of a class and its bases."""
     names = set()
@@ -177,10 +138,19 @@ def members_of(program, name, seen=()):
     return names
 
 
-def check_kernels(program, source):
+def check_marks(program, source):
+    """Marks that no call shows to be missing."""
+    of_name = {}
     for one in source.functions:
-        if one.body and not one.marked and not program.is_listed("host", f"{one.owner}.{one.name}"):
-            program.report_line("kernels", source, one.line, f"{one.owner}.{one.name}".strip("."))
+        full_name = f"{one.owner}.{one.name}"
+        if one.name == "operator ( )" and "int" in source.tokens[one.params[0]:one.params[0] + 2] and not one.marked:
+            program.report_line("marked", source, one.line, f"operator() of {one.owner}")
+        if one.body:
+            of_name.setdefault(full_name, set()).add(one.marked)
+            if len(of_name[full_name]) > 1:
+                program.report_line("marked", source, one.line, f"only some functions {one.name}")
+            if source.path.startswith("kernels/") and not one.marked and not program.is_listed("host", full_name):
+                program.report_line("kernels", source, one.line, full_name.strip("."))
 
 
 def check_calls(program, body):
@@ -303,7 +273,6 @@ def check_place(program, body):
 def check_launches(program, source):
     in_device = {at for body in program.bodies if body.source is source for at in body.places}
     functors = {one.name for _, one in program.functors}
-    unmarked = {one.owner for one in program.functions.get("operator ( )", []) if not one.marked}
     for at, name in enumerate(source.tokens):
         if name == "KOKKOS_CLASS_LAMBDA":
             program.report("lambdas", source, at, name)
@@ -312,16 +281,12 @@ def check_launches(program, source):
         behind = source.past_angles(at + 1) if source.at(at + 1) == "<" else at + 1
         function = function_around(source, at)
         if name in program.launchers and source.at(behind) == "(" and function:
-            kinds = dict((variable, kind) for kind, variable in declarations(source, function))
             for here in range(behind, source.partner[behind]):
                 word = source.tokens[here]
-                kind = word if word in program.classes else kinds.get(word)
                 if here in in_device or source.at(here - 1) in (".", "->"):
                     continue
                 if word == "[" and source.at(here - 1) in FREE_ARE or is_lambda(source, function, word):
                     program.report("lambdas", source, here, f"a lambda to {name}")
-                elif kind in unmarked:
-                    program.report("marked", source, here, f"operator() of {kind}")
             check_addresses(program, source, behind, in_device, function)
         elif name in functors:
             if NAME.match(source.at(behind)):
@@ -362,8 +327,8 @@ def prove(launchers):
 
 def host_only():
     """Sources that a build for CUDA leaves out, as CMakeLists.txt says."""
-    return set(re.findall(r'if\(Kokkos_ENABLE_CUDA\).*\n *list\(REMOVE_ITEM core_sources "\${PROJECT_SOURCE_DIR}/(.*?)"',
-                          (ROOT / "CMakeLists.txt").read_text()))
+    rule = r'if\(Kokkos_ENABLE_CUDA\).*\n *list\(REMOVE_ITEM core_sources "\${PROJECT_SOURCE_DIR}/(.*?)"\)'
+    return set(re.findall(rule, (ROOT / "CMakeLists.txt").read_text()))
 
 
 def main(wanted):
