@@ -26,7 +26,7 @@ NO_WORDS = {"throw", "try", "catch", "new", "delete", "typeid", "dynamic_cast", 
 NOT_RUN = {"KOKKOS_IF_ON_HOST", "static_assert", "decltype", "sizeof"}
 ON_HOST = {"HostSpace", "HostMirror", "host_mirror_type", "host_mirror_space", "DefaultHostExecutionSpace"}
 HOLDERS = {"vector", "array", "string", "span", "string_view", "map", "unique_ptr"}
-FREE_ARE = ("(", ",", "{", "=", "?", ":", "return")  # what stands before an & that takes an address, or a lambda
+BEFORE_VALUE = ("(", ",", "{", "=", "?", ":", "return")  # what stands before an & that takes an address, or a lambda
 
 
 class Body:
@@ -254,6 +254,7 @@ def check_captures(program, body):
 
 
 def check_place(program, body):
+    """Whether nvcc takes a KOKKOS_LAMBDA where it stands."""
     source, function, begin = body.source, body.function, body.params[0]
     if function is None:
         return
@@ -263,7 +264,7 @@ def check_place(program, body):
     if function.name == function.owner:
         program.report("places", source, begin, f"in the constructor of {function.name}")
     for at in range(function.body[0], begin):
-        if source.tokens[at] == "[" and source.at(at - 1) in FREE_ARE and source.at(source.partner[at] + 1) == "(":
+        if source.tokens[at] == "[" and source.at(at - 1) in BEFORE_VALUE and source.at(source.partner[at] + 1) == "(":
             params = source.partner[at] + 1
             inner = source.tokens.index("{", source.partner[params])
             if "auto" in source.tokens[params:source.partner[params]] and inner < begin < source.partner[inner]:
@@ -285,7 +286,7 @@ def check_launches(program, source):
                 word = source.tokens[here]
                 if here in in_device or source.at(here - 1) in (".", "->"):
                     continue
-                if word == "[" and source.at(here - 1) in FREE_ARE or is_lambda(source, function, word):
+                if word == "[" and source.at(here - 1) in BEFORE_VALUE or is_lambda(source, function, word):
                     program.report("lambdas", source, here, f"a lambda to {name}")
             check_addresses(program, source, behind, in_device, function)
         elif name in functors:
@@ -307,7 +308,7 @@ def check_addresses(program, source, bracket, in_device, function):
         word, before = source.tokens[at], source.at(at - 1)
         if at in in_device:
             continue
-        if word == "&" and before in FREE_ARE or word == "this" and before != "*" and source.at(at + 1) != "->":
+        if word == "&" and before in BEFORE_VALUE or word == "this" and before != "*" and source.at(at + 1) != "->":
             program.report("addresses", source, at, f"{word}{source.at(at + 1)}" if word == "&" else word)
         elif word in held and held[word] != "address" and source.tokens[at + 1:at + 3] == [".", "data"]:
             program.report("addresses", source, at, f"{word}.data() of the host")
