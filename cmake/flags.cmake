@@ -43,6 +43,8 @@ if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   # its own is its own affair.
   target_compile_options(barchan_flags INTERFACE -Wno-unknown-pragmas -Wno-sign-conversion
     -Wno-deprecated-declarations)
+  # g++ has it by itself, but for KOKKOS_LAMBDA, which is a macro of a system header.
+  target_compile_options(barchan_flags INTERFACE -Wdeprecated-this-capture)
 endif()
 # Where Kokkos was built for a processor, its flags come with it.
 if(BARCHAN_ENABLE_NATIVE AND NOT Kokkos_ARCH MATCHES "NATIVE|AMD|ARM|ZEN|SKX|KNL|HSW|BDW|ICX|SPR|POWER|A64FX|APPLE")

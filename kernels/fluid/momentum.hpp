@@ -114,7 +114,9 @@ struct StressDivergence {
 
 /// Whether the fluid fraction is one everywhere, so that nobody reads it.
 enum class Fraction { uniform, variable };
-constexpr bool is_variable(Fraction fraction) { return fraction == Fraction::variable; }
+KOKKOS_FORCEINLINE_FUNCTION constexpr bool is_variable(Fraction fraction) {
+  return fraction == Fraction::variable;
+}
 
 /// Weights of the explicit terms, now and one step ago, times dt [s].
 struct AdamsBashforth {
