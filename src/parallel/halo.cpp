@@ -32,6 +32,53 @@ HaloBuffers buffers_for(const RankAxis& line, int n) {
   return {line, {"halo: send", room}, {"halo: receive", room}};
 }
 
+/// Of an uncut grid, up to three fields at once.
+void fill_uncut(const Grid& grid, std::span<const FieldWithWalls> fields) {
+  for (; !fields.empty(); fields = fields.subspan(std::min<std::size_t>(fields.size(), 3))) {
+    FillGhosts fill{.nx = grid.nx, .ny = grid.ny, .nz = grid.nz, .field = {}};
+    for (const FieldWithWalls& field : fields.first(std::min<std::size_t>(fields.size(), 3)))
+      fill.field[fill.n++] = field;
+    const int longest = fill.longest(), per_item = kOnHost ? longest : 1;
+    Kokkos::parallel_for(
+        "halo: ghosts", items(fill.n * fill.lines() * longest / per_item), KOKKOS_LAMBDA(int item) {
+          const int at = item * per_item, begin = at % longest - 1;
+          fill(at / longest, begin, begin + per_item);
+        });
+  }
+}
+
+void fill_x(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
+  const int nx = grid.nx, ny = grid.ny, nz = grid.nz;
+  if (!buffers.is_cut()) {  // j is the inner index
+    for_each_cell(
+        "halo: wrap x", CellRange{-1, ny + 1, 0, 1, 0, nz}, KOKKOS_LAMBDA(int j, int, int k) {
+          f(-1, j, k) = f(nx - 1, j, k);
+          f(nx, j, k) = f(0, j, k);
+        });
+    return;
+  }
+  const BoxShape plane{.n = {ny + 2, 1, nz}, .stride = {f.stride_y, 0, f.stride_z}};
+  const auto at = [&](int i) { return &f(i, -1, 0); };
+  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(nx - 1)},
+                                   Planes<Real>{at(-1), at(nx)});
+}
+
+void fill_z(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
+  const int nx = grid.nx, ny = grid.ny, nz = grid.nz;
+  if (!buffers.is_cut()) {
+    for_each_cell(
+        "halo: wrap z", CellRange{-1, nx + 1, -1, ny + 1, 0, 1}, KOKKOS_LAMBDA(int i, int j, int) {
+          f(i, j, -1) = f(i, j, nz - 1);
+          f(i, j, nz) = f(i, j, 0);
+        });
+    return;
+  }
+  const BoxShape plane{.n = {nx + 2, ny + 2, 1}, .stride = {1, f.stride_y, 0}};
+  const auto at = [&](int k) { return &f(-1, -1, k); };
+  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(nz - 1)},
+                                   Planes<Real>{at(-1), at(nz)});
+}
+
 }  // namespace
 
 Halo::Halo(const Grid& grid, int n_sums) : grid_(grid) {
@@ -44,59 +91,13 @@ Halo::Halo(const Grid& grid, int n_sums) : grid_(grid) {
 }
 
 void Halo::fill_with_walls(std::span<const FieldWithWalls> fields) const {
-  if (!x_.is_cut() && !z_.is_cut()) return fill_uncut(fields);
+  if (!x_.is_cut() && !z_.is_cut()) return fill_uncut(grid_, fields);
   for (const FieldWithWalls& field : fields) {
     if (field.has_rules())
       for_each_cell("halo: walls", CellRange{0, grid_.nx, 0, 1, 0, grid_.nz}, FillWalls{field});
-    fill_x(field.f);
-    fill_z(field.f);
+    fill_x(grid_, x_, field.f);
+    fill_z(grid_, z_, field.f);
   }
-}
-
-void Halo::fill_uncut(std::span<const FieldWithWalls> fields) const {
-  for (; !fields.empty(); fields = fields.subspan(std::min<std::size_t>(fields.size(), 3))) {
-    FillGhosts fill{.nx = grid_.nx, .ny = grid_.ny, .nz = grid_.nz, .field = {}};
-    for (const FieldWithWalls& field : fields.first(std::min<std::size_t>(fields.size(), 3)))
-      fill.field[fill.n++] = field;
-    const int longest = fill.longest(), per_item = kOnHost ? longest : 1;
-    Kokkos::parallel_for(
-        "halo: ghosts", items(fill.n * fill.lines() * longest / per_item), KOKKOS_LAMBDA(int item) {
-          const int at = item * per_item, begin = at % longest - 1;
-          fill(at / longest, begin, begin + per_item);
-        });
-  }
-}
-
-void Halo::fill_x(const FieldRef& f) const {
-  const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz;
-  if (!x_.is_cut()) {  // j is the inner index
-    for_each_cell(
-        "halo: wrap x", CellRange{-1, ny + 1, 0, 1, 0, nz}, KOKKOS_LAMBDA(int j, int, int k) {
-          f(-1, j, k) = f(nx - 1, j, k);
-          f(nx, j, k) = f(0, j, k);
-        });
-    return;
-  }
-  const BoxShape plane{.n = {ny + 2, 1, nz}, .stride = {f.stride_y, 0, f.stride_z}};
-  const auto at = [&](int i) { return &f(i, -1, 0); };
-  exchange_planes<BoxCopy::unpack>(x_, plane, Planes<Real>{at(0), at(nx - 1)},
-                                   Planes<Real>{at(-1), at(nx)});
-}
-
-void Halo::fill_z(const FieldRef& f) const {
-  const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz;
-  if (!z_.is_cut()) {
-    for_each_cell(
-        "halo: wrap z", CellRange{-1, nx + 1, -1, ny + 1, 0, 1}, KOKKOS_LAMBDA(int i, int j, int) {
-          f(i, j, -1) = f(i, j, nz - 1);
-          f(i, j, nz) = f(i, j, 0);
-        });
-    return;
-  }
-  const BoxShape plane{.n = {nx + 2, ny + 2, 1}, .stride = {1, f.stride_y, 0}};
-  const auto at = [&](int k) { return &f(-1, -1, k); };
-  exchange_planes<BoxCopy::unpack>(z_, plane, Planes<Real>{at(0), at(nz - 1)},
-                                   Planes<Real>{at(-1), at(nz)});
 }
 
 void Halo::scatter_add(const CellSums& sums) const {

@@ -45,10 +45,6 @@ class Halo {
   void scatter_add(const CellSums& sums) const;
 
  private:
-  void fill_uncut(std::span<const FieldWithWalls> fields) const;
-  void fill_x(const FieldRef& f) const;
-  void fill_z(const FieldRef& f) const;
-
   Grid grid_;
   HaloBuffers x_, z_;
 };
