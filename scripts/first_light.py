@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Makes the page of scripts/first_light.sh: first_light.md and first_light.json.
 
-usage: first_light.py FOLDER BUILD CPU_BUILD
+usage: first_light.py FOLDER BUILD CPU_BUILD HOW
 
-FOLDER/steps has the list of steps (name|title), a stamp (status, seconds, reason) of each that was tried, and the parts
-of some; beside it are benchmark records, runs, and what ncu said. The exit code is 1 if a step failed.
+HOW is a sentence about what kind of run it was, or empty. FOLDER/steps has the list of steps (name|title), a stamp
+(status, seconds, reason) of each that was tried, and the parts of some; beside it are benchmark records, runs, and what
+ncu said. The exit code is 1 if a step failed.
 """
 import csv
 import datetime
@@ -15,19 +16,20 @@ import shutil
 import subprocess
 import sys
 
-import ptxas_table
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import ptxas_table  # noqa: E402
 
-# What a program says about itself, and what to call it.
+# What is asked, how, and a word of the line of the answer that counts.
 ASKED = (
-    ("card, driver, memory", ["nvidia-smi", "--query-gpu=name,driver_version,memory.total", "--format=csv,noheader"]),
-    ("nvcc", ["nvcc", "--version"]),
-    ("compute-sanitizer", ["compute-sanitizer", "--version"]),
-    ("ncu", ["ncu", "--version"]),
-    ("cmake", ["cmake", "--version"]),
-    ("host compiler", ["c++", "--version"]),
-    ("MPI", ["mpirun", "--version"]),
+    ("card, driver, memory", "",
+     ["nvidia-smi", "--query-gpu=name,driver_version,memory.total", "--format=csv,noheader"]),
+    ("nvcc", "release", ["nvcc", "--version"]),
+    ("compute-sanitizer", "ersion", ["compute-sanitizer", "--version"]),
+    ("ncu", "ersion", ["ncu", "--version"]),
+    ("cmake", "", ["cmake", "--version"]),
+    ("host compiler", "", ["c++", "--version"]),
+    ("MPI", "", ["mpirun", "--version"]),
 )
-PICKED = ("release", "Version", "version", ",")  # of several lines the first one with such a word counts
 RUNS = ("quickstart", "whole-cpu", "dune")
 RUN_KEYS = ("backend", "device", "steps", "simulated_seconds", "wall_seconds", "grain_steps_per_second",
             "cell_steps_per_second", "pressure_iterations_mean", "list_rebuilds", "grains_inside", "phases")
@@ -35,14 +37,17 @@ OCCUPANCY = {"Achieved Occupancy": "achieved_percent", "Theoretical Occupancy": 
              "Registers Per Thread": "registers"}
 
 
-def answer(command):
+def answer(command, word=""):
     if not shutil.which(command[0]):
         return "not here"
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=30)
+    except subprocess.TimeoutExpired:
+        return "says nothing"
     lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
     if done.returncode != 0 or not lines:
         return "says nothing"
-    return next((line for word in PICKED for line in lines if word in line), lines[0])
+    return next((line for line in lines if word in line), lines[0])
 
 
 def cpu_name():
@@ -55,7 +60,7 @@ def machine(build, cpu_build):
              "system": platform.platform(), "processor": cpu_name(),
              "program": answer([str(build / "barchan"), "--version"]),
              "program on the CPU": answer([str(cpu_build / "barchan"), "--version"])}
-    return found | {name: answer(command) for name, command in ASKED}
+    return found | {name: answer(command, word) for name, word, command in ASKED}
 
 
 def rows_of(path, names):
@@ -126,7 +131,7 @@ def table(heads, rows):
 
 
 def number(value, scale=1.0):
-    return "-" if value is None else f"{value * scale:.4g}"
+    return "-" if value is None else f"{value * scale:.4g}" if isinstance(value, float) else value
 
 
 def benchmark_row(record):
@@ -138,7 +143,7 @@ def benchmark_row(record):
 
 
 def page(found):
-    yield from ("# First light", "", f"**{found['verdict']}**: {found['counts']}.", "")
+    yield from ("# First light", "", f"**{found['verdict']}**: {found['counts']}.", "", found["how"], "")
     yield from ("## Steps", "")
     yield from table(("step", "result", "s", "what it found"),
                      [(s["title"], s["status"], s["seconds"], s["reason"]) for s in found["steps"]])
@@ -149,9 +154,7 @@ def page(found):
         triad = max(record.get("bandwidth", 0) for record in found["benchmarks"])
         yield from ("## Benchmarks", "")
         yield f"On {one['device']} with {one['backend']}, Kokkos {one['kokkos']}. Triad: {triad / 1e9:.4g} GB/s."
-        yield "Bytes are computed: every array that a step needs once." + (
-            " **Tiny cases: no measurement.**" if one["tiny"] else "")
-        yield ""
+        yield from ("Bytes are computed: every array that a step needs once.", "")
         yield from table(("case", "ms a step", "least to most", "MB", "GB/s", "% of the triad", "rates"),
                          map(benchmark_row, found["benchmarks"]))
     if found["runs"]:
@@ -159,7 +162,7 @@ def page(found):
         phases = sorted({phase for run in found["runs"].values() for phase in run["phases"]})
         names = [key for key in RUN_KEYS if key != "phases"]
         yield from table(("", *found["runs"]),
-                         [(name.replace("_", " "), *(run.get(name, "-") for run in found["runs"].values()))
+                         [(name.replace("_", " "), *(number(run.get(name)) for run in found["runs"].values()))
                           for name in names] +
                          [(f"{phase}, ms a step", *(number(run["phases"].get(phase), 1e3)
                                                     for run in found["runs"].values())) for phase in phases])
@@ -170,11 +173,11 @@ def page(found):
                           for name, values in found["occupancy"].items()])
 
 
-def main(folder, build, cpu_build):
+def main(folder, build, cpu_build, how):
     folder = pathlib.Path(folder)
     steps = list(read_steps(folder / "steps"))
     word, counts = verdict(steps)
-    found = {"verdict": word, "counts": counts, "steps": steps,
+    found = {"verdict": word, "counts": counts, "how": how, "steps": steps,
              "machine": machine(pathlib.Path(build), pathlib.Path(cpu_build)),
              "benchmarks": read_benchmarks(folder / "bench.jsonl"), "runs": dict(read_runs(folder / "runs")),
              "occupancy": read_occupancy(folder / "ncu.csv")}

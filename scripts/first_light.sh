@@ -57,7 +57,7 @@ if [ -n "$limit" ] && [[ ! $limit =~ ^([1-9][0-9]{0,4}|0?\.[0-9]{1,2})$ ]]; then
   wrong_call "--limit $limit: must be a number of minutes"
 fi
 status=0
-grep -qE -- "$tests" <<< "" || status=$?
+grep -qE -- "$tests" <<< "" 2> /dev/null || status=$?
 [ "$status" -lt 2 ] || wrong_call "--tests $tests: not a regular expression"
 for folder in ${build:+"$build"} ${cpu_build:+"$cpu_build"}; do
   [ -x "$folder/barchan" ] || die 2 "there is no program $folder/barchan"
@@ -115,7 +115,7 @@ stamp_of() { if [ -f "$out/steps/$1.stamp" ]; then cut -f 1 "$out/steps/$1.stamp
 
 key_of() {  # of all that results rest on
   {
-    find "$build" "$cpu_build" -maxdepth 1 -type f -executable -print0 2> /dev/null | sort -zu | xargs -0r sha256sum
+    find -L "$build" "$cpu_build" -maxdepth 1 -type f -executable -print0 2> /dev/null | sort -zu | xargs -0r sha256sum
     sha256sum "$case" "$dune_case" "$root"/configs/{channel-small,heap-3k}.toml "$root"/scripts/first_light*
     echo "$stand_in $tiny $tests"
     nvidia-smi -L 2> /dev/null || true
@@ -126,7 +126,11 @@ forget() { rm -rf "$out/steps" "$out/runs" "$out/heaps" "$out/bench.jsonl" "$out
 
 page() {
   printf '%s\n' "${steps[@]}" > "$out/steps/list"
-  "$python" "$root/scripts/first_light.py" "$out" "$build" "$cpu_build"
+  local how=""
+  [ "$stand_in" = no ] || how+="The CPU stands in: nothing of this was on a card. "
+  [ "$tiny" = no ] || how+="A rehearsal on tiny cases: nothing of this is a measurement. "
+  [ "$tests" = . ] || how+="Only the test suites that match $tests."
+  "$python" "$root/scripts/first_light.py" "$out" "$build" "$cpu_build" "$how"
 }
 
 main() {

@@ -89,10 +89,11 @@ ran_on() {  # ran_on card|cpu FOLDER
   local backend
   backend="$(sed -n 's/^ *"backend": "\(.*\)",$/\1/p' "$out/runs/$2/run.json")"
   case $1-$backend in
-    *-) fail "run.json does not say where it ran" ;;
+    *-) fail "run.json does not say where it ran" || return ;;
     card-Cuda | card-HIP | card-SYCL | cpu-OpenMP | cpu-Serial | cpu-Threads) ;;
-    *) [ "$stand_in" = yes ] || fail "the program that is to run on the $1 runs with $backend" ;;
+    *) [ "$stand_in" = yes ] || fail "the program that is to run on the $1 runs with $backend" || return ;;
   esac
+  reason="$(sed -n 's/^ *"steps": \(.*\),$/\1/p' "$out/runs/$2/run.json") steps with $backend"
 }
 
 judge() {  # judge bits|step|statistics FOLDER OTHER
@@ -168,7 +169,7 @@ sanitizer() {
   [ "$stand_in" = no ] || { not_here "no card"; return; }
   within "$1 of three steps" compute-sanitizer --tool "$1" --error-exitcode 86 "$build/barchan" run "$case" --quiet \
     --overwrite --out "$out/runs/$1" --set "$(until_step 3)" || return
-  reason="$(grep -o 'SUMMARY: .*' "$log" | tail -n 1)"
+  reason="$(grep -o '[A-Z]* SUMMARY: .*' "$log" | tail -n 1)"
 }
 step_memcheck() { sanitizer memcheck; }
 step_racecheck() { sanitizer racecheck; }
@@ -221,6 +222,5 @@ step_dune() {
     "${starts[@]}" --set "time.end=1000" --set "time.wall_clock_limit=$dune_seconds" || status=$?
   [ "$status" -ne 75 ] || return 75
   [ "$status" -eq 3 ] || { fail "exit code $status, not 3 (its time is up); $(last_words)"; return; }
-  ran_on card dune || return
-  reason="$(sed -n 's/^ *"steps": \(.*\),$/\1/p' "$out/runs/dune/run.json") steps"
+  ran_on card dune
 }
