@@ -112,7 +112,7 @@ build_preset() {  # build_preset PRESET FOLDER GIVEN: what a target leaves is re
   within "configuring the preset $1" cmake --preset "$1" -S "$root" -B "$2" || return
   for target in barchan unit_tests physics_tests barchan_bench; do
     status=0
-    within "building $target" cmake --build "$2" --parallel "${JOBS:-$(nproc)}" --target "$target" -- -k 0 || status=$?
+    within "building $target" ninja -C "$2" -k 0 -j "${JOBS:-$(nproc)}" "$target" || status=$?
     [ "$status" -eq 0 ] || rm -f "$2/$target"
     [ "$status" -ne 75 ] || return 75
     [ "$status" -eq 0 ] || failed+=" $target"

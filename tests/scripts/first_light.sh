@@ -179,4 +179,32 @@ step card quickstart failed "the program that is to run on the card runs with Op
 step card tests passed "5 passed"
 light 1 card --cpu-build "$real" --fresh
 grep -q -- "--- tests: passed" "$dir/said" || fail "--fresh did not start over"
+
+# Its own builds, by a cmake and a ninja that only pretend: presets, each with its Kokkos; a target that fails leaves no
+# old program behind, and without one all steps fail.
+copy="$dir/copy"
+mkdir -p "$copy/kokkos/bin" "$copy/build/cuda" "$copy/tests"
+cp -r "$root/scripts" "$root/configs" "$copy"
+cp -r "$root/tests/support" "$copy/tests"
+cat > "$tools/cmake" << 'TOOL'
+#!/bin/sh
+echo "$* with $Kokkos_ROOT" >> "$STATE/configured"
+TOOL
+cat > "$tools/ninja" << 'TOOL'
+#!/usr/bin/env bash
+[ "${!#}" != barchan ] || { echo "barchan.cpp: an error"; exit 1; }
+echo "#!/bin/false" > "$2/${!#}"
+chmod +x "$2/${!#}"
+TOOL
+touch "$copy/build/cuda/barchan" "$copy/kokkos/bin/nvcc_wrapper"
+chmod +x "$tools"/* "$copy/kokkos/bin/nvcc_wrapper"
+status=0
+Kokkos_ROOT="$copy/kokkos" CPU_KOKKOS_ROOT="$copy/other" "$copy/scripts/first_light.sh" --tiny --out "$dir/built" \
+  > "$dir/said" 2>&1 || status=$?
+[ "$status" = 1 ] || fail "without a program the exit code is $status"
+step built build failed "not built: barchan (in "
+[ ! -e "$copy/build/cuda/barchan" ] || fail "a program from before is left"
+step built quickstart failed "exit code 127"
+grep -q -- "--preset cuda .* with $copy/kokkos$" "$dir/configured" &&
+  grep -q -- "--preset release .* with $copy/other$" "$dir/configured" || fail "not the presets: $(cat "$dir/configured")"
 finish "first light: passes, fails and goes on as it should"
