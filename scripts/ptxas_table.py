@@ -15,7 +15,7 @@ ENTRY = re.compile(r"Compiling entry function '(.*)' for '(sm_\w+)'$")
 FRAME = re.compile(r"(\d+) bytes stack frame, (\d+) bytes spill stores, (\d+) bytes spill loads")
 USED = re.compile(r"Used (\d+) registers")
 LAUNCH = re.compile(r".*?Kokkos::Impl::Parallel(?:For|Reduce|Scan)<")
-POLICY = re.compile(r", Kokkos::(RangePolicy|MDRangePolicy|TeamPolicy|Impl::FunctorAnalysis|HostSpace).*")
+POLICY = re.compile(r", Kokkos::(Impl::)?(RangePolicy|MDRangePolicy|TeamPolicy|FunctorAnalysis|HostSpace).*")
 NOISE = re.compile(r"barchan::|launch_detail::|\(anonymous namespace\)::|Kokkos::Impl::Combined[A-Za-z]*<|Kokkos::")
 COLUMNS = ("registers", "stack", "spills")
 
