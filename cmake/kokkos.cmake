@@ -20,3 +20,7 @@ endif()
 if(NOT Kokkos_FOUND)
   message(FATAL_ERROR "Kokkos 4.6 to 5.x was not found. Run ./barchan setup, or set Kokkos_ROOT.")
 endif()
+if(BARCHAN_BACKEND AND NOT Kokkos_ENABLE_${BARCHAN_BACKEND})
+  message(FATAL_ERROR "The Kokkos in ${Kokkos_DIR} was built for ${Kokkos_DEVICES}, without ${BARCHAN_BACKEND}. "
+          "Set Kokkos_ROOT to one built with Kokkos_ENABLE_${BARCHAN_BACKEND}=ON.")
+endif()

@@ -2,6 +2,7 @@
 # Builds everything with the preset "cuda", lists what each kernel takes of a multiprocessor, and runs
 # the tests if there is a GPU: Kokkos_ROOT=/path/to/kokkos scripts/check_cuda.sh
 # Kokkos_ROOT: a Kokkos built with CUDA, OpenMP and the card's architecture. JOBS: compilers at once.
+# ARCHITECTURES: what the table has a column for, one program for all of them; what Kokkos was built for comes with it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,7 +11,10 @@ if [ ! -x "${Kokkos_ROOT:?set it to a Kokkos built with CUDA}/bin/nvcc_wrapper" 
   echo "check_cuda: no bin/nvcc_wrapper in $Kokkos_ROOT: was that Kokkos built with CUDA?" >&2
   exit 1
 fi
-cmake --preset cuda -DCMAKE_CXX_FLAGS=-Xptxas=-v
+read -r -a architectures <<< "${ARCHITECTURES:-80 90 100}"
+flags=-Xptxas=-v
+for one in "${architectures[@]}"; do flags+=" -gencode=arch=compute_$one,code=sm_$one"; done
+cmake --preset cuda -DCMAKE_CXX_FLAGS="$flags"
 # The log grows: what is not compiled again keeps the lines of its last compilation.
 set +e
 cmake --build $build --parallel "${JOBS:-$(nproc)}" --target all tests -- -k 0 2>&1 | tee -a $build/ptxas.log |
@@ -20,22 +24,7 @@ set -e
 [ "$status" -eq 0 ] || exit "$status"
 
 echo
-echo "registers, stack [bytes], spills [bytes], kernel"
-c++filt < $build/ptxas.log | awk '
-  /Compiling entry function/ {
-    name = $0
-    known = sub(/.*Kokkos::Impl::(ParallelFor|ParallelReduce|ParallelScan)</, "", name) && name ~ /barchan::/
-    sub(/, Kokkos::(RangePolicy|MDRangePolicy|TeamPolicy|Impl::FunctorAnalysis|HostSpace).*/, "", name)
-    gsub(/barchan::|launch_detail::|\(anonymous namespace\)::|Kokkos::Impl::Combined[A-Za-z]*</, "", name)
-    gsub(/Kokkos::/, "", name)
-  }
-  /bytes stack frame/ { stack = $1; spills = $5 + $9 }
-  /Used [0-9]+ registers/ && known {
-    match($0, /Used [0-9]+/)
-    row[name] = sprintf("%4d %6d %6d  %s", substr($0, RSTART + 5, RLENGTH - 5), stack, spills, name)
-    known = 0
-  }
-  END { for (name in row) if (name !~ /^Impl::/) print row[name] }' | sort -k 4
+/usr/bin/env python3 scripts/ptxas_table.py $build/ptxas.log --expect "${architectures[@]/#/sm_}"
 
 echo
 if command -v nvidia-smi > /dev/null && nvidia-smi -L; then

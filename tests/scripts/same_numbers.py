@@ -21,6 +21,8 @@ SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400}
 
 # What, and (file, pattern with the numbers in brackets) of each place. perf/estimates.csv: what estimates() counts.
 SAME = [
+    ("agreement of a card and a CPU", ("docs/cluster.md", rf"positions agree to {N}, forces and velocities to {N}\."),
+     ("scripts/first_light_judge.py", rf"STEP, FORCES = {N}, {N} ")),
     ("bed load over Wong & Parker's", ("docs/threshold.md", rf"{N} to {N} up to 0\.2,"),
      ("docs/validation-beds.md", rf"a flat bed carries {N} to {N} of the flux"),
      ("docs/validation.md", rf"Shields 0\.15 to 0\.2: Wong & Parker \| {N} to {N} of it")),
