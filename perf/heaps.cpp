@@ -13,6 +13,7 @@
 #include "src/coupling/coupled_step.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -38,8 +39,8 @@ void pour(Config& c, int n) {
 
 InitialGrains read_back(const GrainState& grains) {
   InitialGrains list;
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grains.kin);
-  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), grains.id);
+  const auto kin = host_copy(grains.kin);
+  const auto id = host_copy(grains.id);
   for (int g = 0; g < grains.n; ++g) {
     list.id.push_back(id(g));
     list.diameter.push_back(2 * kin(g).r);

@@ -5,8 +5,17 @@
 
 namespace barchan {
 
+/// A build in which the host plays a device: kernels have the shapes that they have there, and the
+/// host has copies of its own of all arrays (docs/rehearsal.md).
+#ifdef BARCHAN_REHEARSAL
+inline constexpr bool kRehearsal = true;
+#else
+inline constexpr bool kRehearsal = false;
+#endif
+
 /// Whether kernels run on the host, in its memory.
 inline constexpr bool kOnHost =
+    !kRehearsal &&
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                Kokkos::DefaultExecutionSpace::memory_space>::accessible;
 

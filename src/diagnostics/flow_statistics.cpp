@@ -7,6 +7,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/parallel/exchange.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -14,7 +15,7 @@ FlowStatistics::FlowStatistics(const FluidConfig& config, const Grid& grid)
     : grid_(grid),
       viscosity_(config.kinematic_viscosity),
       sample_("statistics: plane sums", static_cast<std::size_t>(grid.ny) + 1),
-      sums_("statistics: sums of all samples", static_cast<std::size_t>(grid.ny) + 1) {}
+      sums_("host: sums of all samples", static_cast<std::size_t>(grid.ny) + 1) {}
 
 void FlowStatistics::sample(const FluidState& fluid) {
   Kokkos::deep_copy(sample_, PlaneSums{});
@@ -23,7 +24,7 @@ void FlowStatistics::sample(const FluidState& fluid) {
                        AddPlaneMeans{grid_, fluid.u, fluid.p, fluid.nu_t, stress, sample_});
   // Summed over ranks before it is added: a restart then goes on with the same bits.
   static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
-  const auto row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, sample_);
+  const auto row = host_copy(sample_);
   const std::span<Real> numbers(row.data()->value, row.size() * PlaneSums::n_quantities);
   all_reduce(ranks_of(grid_), numbers, MPI_SUM);
   for (std::size_t j = 0; j < row.size(); ++j) sums_(j) += row(j);
@@ -32,7 +33,7 @@ void FlowStatistics::sample(const FluidState& fluid) {
 
 FlowStatisticsTable FlowStatistics::table() const {
   using Q = PlaneSums;
-  const auto faces = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid_.y_face_);
+  const auto faces = host_copy(grid_.y_face_);
   const double per_sample =
       1 / (static_cast<double>(n_samples_) * grid_.nx_all * static_cast<double>(grid_.nz_all));
   const auto mean = [&](int j, Q::Quantity q) {

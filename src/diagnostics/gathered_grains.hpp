@@ -6,6 +6,7 @@
 #include "src/diagnostics/dune_shape.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -45,7 +46,7 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
 
 /// All grains as the dune analytics take them. All ranks together; empty on ranks other than 0.
 inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  const auto kin = host_copy(grains.kin);
   std::vector<GrainSample> mine;
   for (int g = 0; g < grains.n; ++g)
     mine.push_back({.x = kin(g).x, .d = 2 * kin(g).r, .u_x = kin(g).u.x});

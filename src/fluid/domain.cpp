@@ -4,6 +4,7 @@
 
 #include "src/config/load.hpp"
 #include "src/config/mesh.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -13,7 +14,7 @@ namespace {
 void set_rows_at(Grid& grid, const std::vector<double>& y_faces) {
   const int parts = Grid::kParts * grid.ny;
   grid.row_at_ = Kokkos::View<Real*>("grid: rows", parts);
-  const auto row = Kokkos::create_mirror_view(grid.row_at_);
+  const auto row = mirror(grid.row_at_);
   int j = 0;
   for (int part = 0; part < parts; ++part) {
     const double y = part * grid.ly / parts;
@@ -46,8 +47,8 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   grid.y_face_ = Kokkos::View<Real*>("grid: y faces", grid.ny + 3);
   grid.y_centre_ = Kokkos::View<Real*>("grid: y centres", grid.ny + 2);
 
-  const auto face = Kokkos::create_mirror_view(grid.y_face_);
-  const auto centre = Kokkos::create_mirror_view(grid.y_centre_);
+  const auto face = mirror(grid.y_face_);
+  const auto centre = mirror(grid.y_centre_);
   const std::size_t last = y_faces.size() - 1;
   for (std::size_t j = 0; j <= last; ++j) face(j + 1) = y_faces[j];
   face(0) = 2 * y_faces[0] - y_faces[1];

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -31,9 +32,9 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
   columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
   columns_.pivot = Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
   const auto rows = grid.on_host();
-  const auto weight = Kokkos::create_mirror_view(columns_.weight);
-  const auto coupling = Kokkos::create_mirror_view(columns_.coupling);
-  const auto pivot = Kokkos::create_mirror_view(columns_.pivot);
+  const auto weight = mirror(columns_.weight);
+  const auto coupling = mirror(columns_.coupling);
+  const auto pivot = mirror(columns_.pivot);
   const int period_x = fft_->period_x(), period_z = fft_->period_z();
   for (int j = 0; j < ny; ++j) weight(j) = rows.dy(j) / (Real(period_x) * period_z);
   for (int j = 1; j < ny; ++j) coupling(j) = diffusion / rows.dy_centre(j);

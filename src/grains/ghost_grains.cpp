@@ -1,10 +1,10 @@
 #include "src/grains/ghost_grains.hpp"
 
-#include <Kokkos_Sort.hpp>
 #include <utility>
 
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
+#include "src/parallel/sort.hpp"
 
 namespace barchan {
 
@@ -56,7 +56,7 @@ void GhostGrains::unpack(GrainState& grains, const SearchColumns& columns) {
         key(p) = columns.key_of({x[0], x[1], x[2]});
         order(p) = p;
       });
-  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, order);
+  sort_by_key(key, order);
   entry_ = uninitialized<Entries>("ghosts: entry", n_ghosts);
   const auto entry = entry_;
   Kokkos::parallel_for(

@@ -5,6 +5,7 @@
 
 #include "src/base/report.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -29,7 +30,7 @@ Kokkos::View<std::uint64_t*> work_at_places(const GrainState& grains, const Sear
 class WorkAlongCurve {
  public:
   explicit WorkAlongCurve(const Kokkos::View<std::uint64_t*>& at_places) {
-    const auto here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, at_places);
+    const auto here = host_copy(at_places);
     grain_.assign(here.data(), here.data() + here.size());
     std::sort(grain_.begin(), grain_.end());
     for (const std::uint64_t grain : grain_)
@@ -78,7 +79,7 @@ GrainPartition::GrainPartition(MPI_Comm ranks)
       me_(rank_of(ranks)),
       count_(rank_count(ranks)),
       start_("partition: starts", static_cast<std::size_t>(count_)),
-      on_host_(Kokkos::create_mirror_view(start_)) {}
+      on_host_(mirror(start_)) {}
 
 void GrainPartition::balance(const GrainState& grains, const SearchColumns& columns,
                              const Kokkos::View<const int*>& contacts) {

@@ -9,6 +9,7 @@
 #include "kernels/grains/grain_step.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/stable_step.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -103,7 +104,7 @@ void GrainSolver::add_walls(const Config& config, Real r_max) {
 void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
   if (excess_.extent_int(0) != ahead_ + 1) {
     excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
-    host_excess_ = Kokkos::create_mirror_view(excess_);
+    host_excess_ = mirror(excess_);
   }
   Kokkos::deep_copy(grains.list.expired, 1);  // the first drift does not keep account
   Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),

@@ -7,6 +7,7 @@
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
 #include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -72,8 +73,8 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;
 
-  const auto kin = Kokkos::create_mirror_view(s.kin);
-  const auto id = Kokkos::create_mirror_view(s.id);
+  const auto kin = mirror(s.kin);
+  const auto id = mirror(s.id);
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Kokkos_Profiling_ScopedRegion.hpp>
-#include <Kokkos_Sort.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/parallel/sort.hpp"
 
 namespace barchan {
 
@@ -147,7 +147,7 @@ void NeighborList::sort(GrainState& grains, bool drop) {
         dropped += outside ? 1 : 0;
       },
       n_dropped);
-  Kokkos::Experimental::sort_by_key(Kokkos::DefaultExecutionSpace(), key, entry);
+  sort_by_key(key, entry);
   permute(grains, entry, n - n_dropped, grain_memory_);
   grains.n_left += n_dropped;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/config/derived.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -88,8 +89,8 @@ std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size
 HostArray potential(std::size_t c, const Grid& grid, const HostGrid& rows, const Profile& profile,
                     const std::vector<Mode>& modes) {
   const int nx = grid.nx + 1, ny = grid.ny + 1, nz = grid.nz + 1;
-  HostArray psi("potential", nx, ny, nz);
-  const HostRow along_x("potential: along x", nx), envelope("potential: envelope", ny);
+  HostArray psi("host: potential", nx, ny, nz);
+  const HostRow along_x("host: potential along x", nx), envelope("host: potential's envelope", ny);
   for (int j = 0; j < ny; ++j) {
     envelope(j) = profile.envelope(c == 1 ? rows.y_centre(j) : rows.y_face(j));
   }
@@ -135,7 +136,7 @@ double reichardt_profile(double y_plus) {
 /// Mean velocity of every row [m/s], with the bulk velocity exact on the grid.
 HostRow mean_profile(const FluidNumbers& numbers, const Profile& profile, const HostGrid& rows,
                      double viscosity) {
-  const HostRow mean("mean profile", rows.ny);
+  const HostRow mean("host: mean profile", rows.ny);
   double flow = 0;
   for (int j = 0; j < rows.ny; ++j) {
     const double y = rows.y_centre(j);
@@ -160,7 +161,7 @@ void for_each_owned(const Grid& grid, const Action& action) {
 
 template <class Value>
 void set_owned(Field& f, const Grid& grid, const Value& value) {
-  const auto host = Kokkos::create_mirror_view(f.storage);
+  const auto host = mirror(f.storage);
   for_each_owned(grid, [&](int i, int j, int k) { host(i + 1, j + 1, k + 1) = value(i, j, k); });
   Kokkos::deep_copy(f.storage, host);
 }

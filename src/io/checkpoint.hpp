@@ -15,6 +15,7 @@
 
 #include "kernels/math/vec3.hpp"
 #include "src/io/hdf5_file.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -59,7 +60,7 @@ auto to_numbers(const View& view) {
   using Number = Stored<typename View::non_const_value_type>;
   const auto dense = dense_like(view);
   Kokkos::deep_copy(dense, view);
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, dense);
+  const auto host = host_copy(dense);
   const auto* elements = reinterpret_cast<const typename Number::element*>(host.data());
   return std::vector<typename Number::type>(elements, elements + host.size() * Number::count);
 }
@@ -69,7 +70,7 @@ template <class View, class Number>
 void from_numbers(const std::vector<Number>& numbers, const View& view) {
   using Element = typename Stored<typename View::non_const_value_type>::element;
   const auto dense = dense_like(view);
-  const auto host = Kokkos::create_mirror_view(dense);
+  const auto host = mirror(dense);
   std::transform(numbers.begin(), numbers.end(), reinterpret_cast<Element*>(host.data()),
                  [](Number number) { return static_cast<Element>(number); });
   Kokkos::deep_copy(dense, host);

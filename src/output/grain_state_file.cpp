@@ -16,6 +16,7 @@
 #include "src/grains/grain_arrays.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -69,7 +70,7 @@ using HostEntries = Kokkos::View<T*, Kokkos::HostSpace>;
 template <class T>
 Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values) {
   const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
-  const auto host = Kokkos::create_mirror_view(view);
+  const auto host = mirror(view);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(view, host);
   return view;
@@ -80,7 +81,7 @@ Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& value
 ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, std::uint64_t begin,
                              std::uint64_t end, bool both, bool with_rolling) {
   constexpr std::uint64_t piece = 1 << 20;
-  const auto id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, s.id);
+  const auto id = host_copy(s.id);
   std::unordered_map<std::int64_t, int> entry;
   for (int g = 0; g < s.n; ++g) entry[id(g)] = g;
   struct Contact {
@@ -92,8 +93,8 @@ ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, 
   const std::uint64_t n_all = file.extents("contacts/first")[0];
   for (; begin < end; begin += piece) {
     const std::uint64_t n = std::min(end - begin, piece);
-    const HostEntries<std::int64_t> first("first", n), second("second", n);
-    const HostEntries<Vec3> xi_t("xi_t", n), rolling("rolling", n);
+    const HostEntries<std::int64_t> first("host: first", n), second("host: second", n);
+    const HostEntries<Vec3> xi_t("host: xi_t", n), rolling("host: rolling", n);
     load_entries(file, "contacts/first", first, begin, n_all);
     load_entries(file, "contacts/second", second, begin, n_all);
     load_entries(file, "contacts/xi_t", xi_t, begin, n_all);
@@ -170,9 +171,7 @@ void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Com
 /// both ranks.
 void save_contacts(CheckpointWriter& file, const GrainState& s) {
   const PairList& list = s.list;
-  const auto here = [](const auto& view, int n) {
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, first_entries(view, n));
-  };
+  const auto here = [](const auto& view, int n) { return host_copy(first_entries(view, n)); };
   const auto touching = here(list.touching, list.n_pairs);
   const auto i = here(list.i, list.n_pairs), j = here(list.j, list.n_pairs);
   const auto xi_t = here(list.xi_t, list.n_pairs);
@@ -184,7 +183,7 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   }
   const Hyperslab entries = slab_of_entries(pairs.size(), s.ranks);
   const auto save = [&](const std::string& name, const auto& value_of) {
-    const HostEntries<decltype(value_of(0))> values(name, pairs.size());
+    const HostEntries<decltype(value_of(0))> values("host: " + name, pairs.size());
     std::transform(pairs.begin(), pairs.end(), values.data(), value_of);
     save_entries(file, name, values, entries);
   };

@@ -6,6 +6,7 @@
 #include "src/io/xdmf.hpp"
 #include "src/output/long_names.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -14,16 +15,11 @@ namespace {
 using Cells = Kokkos::MDRangePolicy<Kokkos::Rank<3, Kokkos::Iterate::Left, Kokkos::Iterate::Left>>;
 using Entries = Kokkos::RangePolicy<>;
 
-template <class View>
-auto on_host(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-}
-
 /// An array of this rank's grains, scalars (n) or vectors (n, 3), among those of all ranks.
 template <class View>
 void write_entries(Hdf5File& file, const std::string& name, const View& view, const char* units,
                    const Hyperslab& entries) {
-  const auto host = on_host(view);
+  const auto host = host_copy(view);
   Extents extents{host.extent(0)};
   if (View::rank() == 2) extents.push_back(host.extent(1));
   const std::span<const typename View::non_const_value_type> values(host.data(), host.size());
@@ -66,7 +62,7 @@ class FieldWriter {
 
   void average(const std::string& name, const AverageToFrame& functor, const std::string& units) {
     Kokkos::parallel_for("output: average to centres", cells_, functor);
-    const auto host = on_host(values_);
+    const auto host = host_copy(values_);
     write_named(file_, Arrays::flow, group_ + "/" + name,
                 std::span<const float>(host.data(), host.size()), extents_, units, slab_);
   }
@@ -125,7 +121,7 @@ void write_grid(Hdf5File& file, const Grid& grid) {
   std::vector<double> x, y, z;
   for (int i = 0; i <= grid.nx_all; ++i) x.push_back(i * grid.dx);
   for (int k = 0; k <= grid.nz_all; ++k) z.push_back(k * grid.dz);
-  const auto y_face = on_host(grid.y_face_);
+  const auto y_face = host_copy(grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y.push_back(y_face(j + 1));
   write_axis(file, "grid/x", x);
   write_axis(file, "grid/y", y);

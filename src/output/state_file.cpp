@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/output/grain_state_file.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -54,7 +55,7 @@ void save_field(CheckpointWriter& file, const std::string& name, const Grid& gri
     file.array(name, f.storage);
     return;
   }
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, f.storage);
+  const auto host = host_copy(f.storage);
   const Written x(grid.i_begin, grid.nx, grid.nx_all), z(grid.k_begin, grid.nz, grid.nz_all);
   std::vector<double> values;
   values.reserve(size(x.count) * size(grid.ny + 2) * size(z.count));
@@ -76,7 +77,7 @@ void load_field(const CheckpointReader& file, const std::string& name, const Gri
   const std::vector<double> values =
       file.array<double>(name, whole_extents(grid), {size(grid.k_begin), 0, size(grid.i_begin)},
                          {size(grid.nz + 2), size(grid.ny + 2), size(grid.nx + 2)});
-  const auto host = Kokkos::create_mirror_view(f.storage);
+  const auto host = mirror(f.storage);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(f.storage, host);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/parallel/grid.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -15,8 +16,7 @@ struct ColumnMarks {
 
   ColumnMarks() = default;
   ColumnMarks(const char* label, int columns)
-      : on_device(label, static_cast<std::size_t>(columns)),
-        on_host(Kokkos::create_mirror_view(on_device)) {}
+      : on_device(label, static_cast<std::size_t>(columns)), on_host(mirror(on_device)) {}
 };
 
 /// Some x-z columns of the cells of all ranks, up to one height: the same on every rank. Small, and

@@ -11,6 +11,7 @@
 
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -52,7 +53,7 @@ void MessageBuffer::reserve(std::size_t n) {
   const std::size_t room = size() == 0 ? n : n + n / 8;
   numbers_ = Kokkos::View<Real*>(label_, room);
   if (!mpi_reaches_device())
-    staged_ = Kokkos::View<Real*, Kokkos::HostSpace>(label_ + ", staged", room);
+    staged_ = Kokkos::View<Real*, Kokkos::HostSpace>("host: " + label_, room);
 }
 
 const Real* MessageBuffer::to_send() const {
@@ -124,7 +125,7 @@ SendList sort_by_rank(const Kokkos::View<int*>& rank, int n, int n_ranks) {
       "entries by rank: count", items(n), KOKKOS_LAMBDA(int p) {
         if (rank(p) >= 0) Kokkos::atomic_inc(&count(rank(p)));
       });
-  const auto to = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, count);
+  const auto to = host_copy(count);
   int begin = 0;
   for (int r = 0; r <= n_ranks && begin < n; ++r) {
     const int wanted = r < n_ranks ? r : -1, first = begin;

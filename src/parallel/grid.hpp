@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
@@ -18,9 +19,7 @@ struct Grid : BasicGrid<Kokkos::View<Real*>> {
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
   HostGrid on_host() const {
     const Kokkos::HostSpace host;
-    return {*this, Kokkos::create_mirror_view_and_copy(host, y_face_),
-            Kokkos::create_mirror_view_and_copy(host, y_centre_),
-            Kokkos::create_mirror_view_and_copy(host, row_at_)};
+    return {*this, host_copy(y_face_), host_copy(y_centre_), host_copy(row_at_)};
   }
   // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one
   KOKKOS_FORCEINLINE_FUNCTION operator GridRef() const {

@@ -1,5 +1,7 @@
 #include "src/parallel/region.hpp"
 
+#include "src/parallel/mirror.hpp"
+
 #include <algorithm>
 
 namespace barchan {
@@ -17,9 +19,9 @@ Region::Region(const Grid& grid)
     : grid_(grid),
       active_("region: columns",
               static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.nz)),
-      active_on_host_(Kokkos::create_mirror_view(active_)),
-      runs_("region: runs", most_runs(grid)),
-      first_run_("region: first runs", static_cast<std::size_t>(grid.nz) + 1) {
+      active_on_host_(mirror(active_)),
+      runs_("host: runs", most_runs(grid)),
+      first_run_("host: first runs", static_cast<std::size_t>(grid.nz) + 1) {
   set(ColumnMap::everything(grid));
 }
 

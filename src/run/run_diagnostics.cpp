@@ -3,6 +3,7 @@
 #include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -57,8 +58,7 @@ void RunDiagnostics::sample() {
   if (!force_map_) return;
   const GrainState& grains = *run_.state.grains;
   const std::vector<GrainSample> all = gathered_grains(grains);
-  const auto mine = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{}, mean_resultant_force(grains, run_.coupled_step.dt()));
+  const auto mine = host_copy(mean_resultant_force(grains, run_.coupled_step.dt()));
   const auto force =
       on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
   if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The test suite under the sanitizers: tests/hygiene/sanitizers.sh address|thread [CTEST ARGUMENT...]
+# The test suite under the sanitizers: tests/hygiene/sanitizers.sh address|thread|rehearsal [CTEST ARGUMENT...]
 #
 #   address   preset debug: addresses, leaks, undefined behaviour, subscripts of Kokkos views and std containers
 #   thread    preset thread: data races, with two threads a process
+#   rehearsal preset rehearsal: arrays of the device that the host touches, as if there were one
 #
 # First programs with deliberate mistakes, which must be found, and one without, which must not be; then all that
 # ./barchan test runs but the scripts below. Exit status 0: all tests passed and nothing was reported. The
@@ -14,13 +15,14 @@ here="$root/tests/hygiene"
 # Left out: scripts that run Python alone, or look at sources.
 without='script\.(browser|horn_figures|layers|no_shell|paper_figures|plot|release|report|report_controls|same_numbers|site|validation_figures)$'
 
-usage() { sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+usage() { sed -n '2,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 
 kind="${1:-}"
 [ $# -eq 0 ] || shift
 case $kind in
   address) preset=debug ;;
   thread) preset=thread ;;
+  rehearsal) preset=rehearsal ;;
   *) usage ;;
 esac
 export BARCHAN_PRESET="$preset"  # for tests that call the launcher
@@ -71,20 +73,30 @@ probe() {  # probe WORDS MODE: reported with these words; none for "must not be 
   head -n 30 "$build/probe.out"
   exit 1
 }
-probe "" ordered_loops
-if [ "$kind" = thread ]; then
-  for mode in for reduce scan; do probe "data race .*in operator()" "race_in_$mode"; done
-  probe "data race .*in operator()" race_of_neighbours
-  probe "data race .*in race_with_a_thread" race_with_a_thread
-else
-  probe heap-buffer-overflow past_the_end
-  probe "out of bounds access" past_the_row
-  probe "Assertion '__n < this->size()' failed" past_the_vector
-  probe stack-use-after-return after_return
-  probe "signed integer overflow" overflow
-  probe "outside the range of representable values" not_an_int
-  probe "LeakSanitizer: detected memory leaks" leak
-fi
+case $kind in
+  address)
+    probe "" ordered_loops
+    probe heap-buffer-overflow past_the_end
+    probe "out of bounds access" past_the_row
+    probe "Assertion '__n < this->size()' failed" past_the_vector
+    probe stack-use-after-return after_return
+    probe "signed integer overflow" overflow
+    probe "outside the range of representable values" not_an_int
+    probe "LeakSanitizer: detected memory leaks" leak
+    ;;
+  thread)
+    probe "" ordered_loops
+    for mode in for reduce scan; do probe "data race .*in operator()" "race_in_$mode"; done
+    probe "data race .*in operator()" race_of_neighbours
+    probe "data race .*in race_with_a_thread" race_with_a_thread
+    ;;
+  rehearsal)
+    for mode in with_copies memory_again; do probe "" $mode; done
+    for mode in read write read_a_part read_before_any_kernel view_of_a_mirror copy_by_hand sort_by_hand send; do
+      probe "use-after-poison" $mode
+    done
+    ;;
+esac
 rm -f "$reports"/*
 echo "sanitizers.sh: the $kind sanitizer finds what it should"
 

@@ -14,7 +14,6 @@ namespace {
 using test::by_id;
 using test::from_all_ranks;
 using test::GrainBench;
-using test::host_copy;
 using test::numbers_of;
 using test::SharedGrains;
 

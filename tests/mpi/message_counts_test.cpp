@@ -134,7 +134,7 @@ MessageCounts solid_of_momentum_cells(const Grid& grid) {
 /// Grains of this rank in the pencil of each rank.
 std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& grains) {
   std::vector<int> n(static_cast<std::size_t>(n_ranks()));
-  const auto kin = test::host_copy(grains.kin);
+  const auto kin = host_copy(grains.kin);
   const auto part = [](const BlockPartition& split, Real at, Real spacing) {
     int p = 0;
     while (p + 1 < split.parts && at >= split.begin(p + 1) * spacing) ++p;

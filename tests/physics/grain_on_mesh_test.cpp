@@ -98,7 +98,7 @@ TEST(GrainOnMesh, AsCfdemReadsTheFlowItIsThatOfTheCentres) {
   c.coupling.exchange = Exchange::interpolated;
   const auto read = [&](const auto& flow) {
     const CoupledRun run = held_grain(c, on_a_face, flow);
-    return test::host_copy(run.state.grains->fluid.u_f)(0).x;
+    return host_copy(run.state.grains->fluid.u_f)(0).x;
   };
   EXPECT_NEAR(read(zigzag), u, 1e-14);
   c.coupling.void_fraction = VoidFraction::cfdem_faithful;
@@ -135,7 +135,7 @@ struct Momentum {
 Momentum momentum(const CoupledRun& run) {
   const FluidState& f = *run.state.fluid;
   const Grid grid = f.grid;
-  const GrainKinematics grain = test::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics grain = host_copy(run.state.grains->kin)(0);
   return {1000 * grid.dx * grid.dz *
               sum_each_cell("test: momentum", grid, FlowRate{grid, f.u.x, f.alpha_f}),
           grain.m * grain.u.x};
@@ -214,7 +214,7 @@ void expect_newtons_law(const char* what, Config c, double displaced_density) {
     const Vec3 total = test::force_on_first(run, "force_total");
     worst = std::max(worst, norm(total - rate) / norm(rate));
     if (displaced_density == 0) continue;
-    const Vec3 mean = test::host_copy(mean_resultant_force(*run.state.grains, run.step.dt()))(0);
+    const Vec3 mean = host_copy(mean_resultant_force(*run.state.grains, run.step.dt()))(0);
     EXPECT_LT(norm(mean - rate), 1e-12 * norm(rate)) << what;
     const double parts = weight + test::force_on_first(run, "force_drag").y +
                          test::force_on_first(run, "force_added_mass").y;

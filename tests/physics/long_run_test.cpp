@@ -30,8 +30,8 @@ struct Pairs {
 
 /// Every pair of grains is looked at; those that touch must be in the list.
 Pairs against_all_pairs(const GrainState& s, const PeriodicBox& box) {
-  const auto kin = test::host_copy(s.kin);
-  const auto i = test::host_copy(s.list.i), j = test::host_copy(s.list.j);
+  const auto kin = host_copy(s.kin);
+  const auto i = host_copy(s.list.i), j = host_copy(s.list.j);
   std::set<std::pair<int, int>> listed;
   for (int p = 0; p < s.list.n_pairs; ++p) listed.insert(std::minmax(i(p), j(p)));
   Pairs pairs;
@@ -61,7 +61,7 @@ Config moving_heap() {
 }
 
 Real mean_speed(const GrainState& s) {
-  const auto kin = test::host_copy(s.kin);
+  const auto kin = host_copy(s.kin);
   Real sum = 0;
   for (int g = 0; g < s.n; ++g) sum += kin(g).u.x;
   return sum / s.n;

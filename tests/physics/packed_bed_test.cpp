@@ -133,11 +133,11 @@ Lift lift_in_bed(const Bed& bed) {
   FrozenBed frozen(bed);
   frozen.run.advance(60);
   const FluidState& f = *frozen.run.state.fluid;
-  const auto rows = test::host_copy(frozen.run.state.grains->kin);
+  const auto rows = host_copy(frozen.run.state.grains->kin);
   double force = 0, weight = 0;
   for (const NamedForce& part : frozen.run.forces()) {
     if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
-    const auto values = test::host_copy(part.values);
+    const auto values = host_copy(part.values);
     for (std::size_t g = 0; g < rows.extent(0); ++g) {
       if (std::abs(rows(g).x.x / f.grid.dx - 14) < 2) force += values(g).x;
     }

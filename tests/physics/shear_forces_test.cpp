@@ -108,8 +108,8 @@ TEST(FluidTorque, WhatTheFluidIsSparedIsAPartOfTheViscousStress) {
   const GrainState& grains = *run.state.grains;
   const test::HostGrid h(run.state.fluid->grid);
   const test::HostField alpha = test::to_host(run.state.fluid->alpha_f);
-  const auto kin = test::host_copy(grains.kin);
-  const auto omega_f = test::host_copy(grains.fluid.omega_f);
+  const auto kin = host_copy(grains.kin);
+  const auto omega_f = host_copy(grains.fluid.omega_f);
   double spared = 0, viscous = 0, solid = 0;
   for (int g = 0; g < grains.n; ++g) {
     const double s =
@@ -217,7 +217,7 @@ TEST(GrainOnFloor, FeelsTheFlowThatItSlows) {
 
 double momentum_along_z(const CoupledRun& run) {
   const FluidState& f = *run.state.fluid;
-  const GrainKinematics grain = test::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics grain = host_copy(run.state.grains->kin)(0);
   const Grid grid = f.grid;
   const ConstFieldRef w = f.u.z, alpha = f.alpha_f;
   const double fluid = sum_each_cell(
@@ -243,7 +243,7 @@ double lost_along_z(const Config& c, double& impulse, double& of_grain) {
     run.advance();
     impulse += 2.5e-4 * test::force_on_first(run, "force_lift").z;
   }
-  const GrainKinematics after = test::host_copy(run.state.grains->kin)(0);
+  const GrainKinematics after = host_copy(run.state.grains->kin)(0);
   of_grain = after.m * after.u.z;
   return std::abs((momentum_along_z(run) - before) / impulse);
 }

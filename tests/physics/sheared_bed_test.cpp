@@ -112,11 +112,11 @@ Layers program(Exchange exchange, int rows, double smoothing, double lid) {
   });
   Layers result{.slowest = *std::min_element(row.begin(), row.end())};
   result.stress = kMu * (lid - row.back()) / (kHeight / rows / 2);
-  const auto kin = test::host_copy(run.state.grains->kin);
+  const auto kin = host_copy(run.state.grains->kin);
   std::array<double, kLayers> count{};
   for (const NamedForce& force : run.forces()) {
     if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
-    const auto values = test::host_copy(force.values);
+    const auto values = host_copy(force.values);
     for (std::size_t g = 0; g < values.extent(0); ++g) {
       const auto layer = std::size_t(std::min(kin(g).x.y / kDiameter, kLayers - 0.5));
       result.force[layer] += values(g).x / (kWeight * test::volume_of(kDiameter));
@@ -180,7 +180,7 @@ TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
     });
     for (const NamedForce& force : run.forces()) {
       if (force.name != "force_drag") continue;
-      const auto values = test::host_copy(force.values);
+      const auto values = host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) least = std::min(least, values(g).x);
     }
     const std::string what = fmt::format(", smoothed over {:.1f} d", smoothing / kDiameter);
@@ -249,7 +249,7 @@ TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
     double on_grains = 0;
     for (const NamedForce& force : run.forces()) {
       if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
-      const auto values = test::host_copy(force.values);
+      const auto values = host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) on_grains += values(g).x;
     }
     const double u_star = run.step.fluid_solver()->friction_velocity(*run.state.fluid);

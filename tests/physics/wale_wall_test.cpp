@@ -3,6 +3,7 @@
 
 #include "kernels/fluid/wale.hpp"
 #include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/measured.hpp"
 
@@ -63,7 +64,7 @@ TEST(WaleOnGrid, FilterWidthIsThatOfTheCellsVolume) {
   const HostGrid h(grid);
   const Kokkos::View<Real*> width("width", grid.ny);
   Kokkos::parallel_for("test", grid.ny, FilterWidth{grid, 0.3, width});
-  const auto rows = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), width);
+  const auto rows = host_copy(width);
   for (int j = 0; j < grid.ny; ++j)
     EXPECT_NEAR(std::pow(rows(j) / 0.3, 3), 0.4 / 6 * h.dy(j) * 0.9 / 5, 1e-14);
 }

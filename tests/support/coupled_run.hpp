@@ -77,7 +77,7 @@ inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
   CoupledRun pour(c, loose);
   pour.advance(steps);
   InitialGrains grains;
-  const auto kin = test::host_copy(pour.state.grains->kin);
+  const auto kin = host_copy(pour.state.grains->kin);
   for (int g = 0; g < pour.state.grains->n; ++g) test::add_grain(grains, 2 * kin(g).r, kin(g).x);
   return grains;
 }
@@ -85,7 +85,7 @@ inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
 /// A named force on the grain in row 0 of the last step [N].
 inline Vec3 force_on_first(CoupledRun& run, const std::string& name) {
   for (const NamedForce& f : run.forces()) {
-    if (f.name == name) return test::host_copy(f.values)(0);
+    if (f.name == name) return host_copy(f.values)(0);
   }
   return {NAN, NAN, NAN};
 }

@@ -24,12 +24,7 @@ struct HostField {
   }
 };
 
-inline HostField to_host(const Field& f) {
-  HostField host{decltype(HostField::values)("host", f.storage.extent(0), f.storage.extent(1),
-                                             f.storage.extent(2))};
-  Kokkos::deep_copy(host.values, f.storage);
-  return host;
-}
+inline HostField to_host(const Field& f) { return {host_copy(f.storage)}; }
 
 /// Calls each(i, j, k) for the owned cells.
 template <class Each>

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "src/grains/grain_solver.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan::test {
-
-/// A copy on the host.
-template <class View>
-auto host_copy(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
-}
 
 /// A dry case without gravity in a 10 x 10 x 10 mm box; change what the test needs.
 inline Config grain_config() {

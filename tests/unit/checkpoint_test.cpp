@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "src/grains/grain_state.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -31,7 +32,7 @@ std::vector<std::int64_t> steps_in(const std::filesystem::path& folder) {
 /// A view of another layout than the stored one, with different extents per index.
 template <class View>
 void fill(const View& view) {
-  const auto host = Kokkos::create_mirror_view(view);
+  const auto host = mirror(view);
   int value = 1;
   for (std::size_t i = 0; i < host.extent(0); ++i) {
     for (std::size_t j = 0; j < host.extent(1); ++j) host(i, j) = value++;
@@ -41,8 +42,8 @@ void fill(const View& view) {
 
 template <class A, class B>
 void expect_equal(const A& a, const B& b) {
-  const auto x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, a);
-  const auto y = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, b);
+  const auto x = host_copy(a);
+  const auto y = host_copy(b);
   ASSERT_EQ(x.extent(0), y.extent(0));
   ASSERT_EQ(x.extent(1), y.extent(1));
   for (std::size_t i = 0; i < x.extent(0); ++i) {
@@ -112,7 +113,7 @@ TEST(Checkpoint, ViewsOfStructsKeepEveryBit) {
   const Kokkos::View<GrainKinematics*> grains("grains", 2);
   const Kokkos::View<Vec3**, Kokkos::LayoutLeft> walls("walls", 2, 3);
   const Kokkos::View<std::uint8_t*> bits("bits", 2);
-  const auto host = Kokkos::create_mirror_view(grains);
+  const auto host = mirror(grains);
   host(0) = host(1) = GrainKinematics{};
   host(1).x = {0.1, 0.2, 0.3};
   host(1).m = 5e-324;
@@ -133,15 +134,15 @@ TEST(Checkpoint, ViewsOfStructsKeepEveryBit) {
   reader.array("kin", grains_back);
   reader.array("walls", walls_back);
   reader.array("bits", bits_back);
-  const auto back = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains_back);
+  const auto back = host_copy(grains_back);
   const auto as_numbers = [](const GrainKinematics& grain) {
     std::array<std::uint64_t, sizeof(GrainKinematics) / 8> numbers{};
     std::memcpy(numbers.data(), &grain, sizeof(grain));
     return numbers;
   };
   for (std::size_t p = 0; p < 2; ++p) EXPECT_EQ(as_numbers(back(p)), as_numbers(host(p)));
-  EXPECT_EQ(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, walls_back)(1, 2).z, 3.0);
-  EXPECT_EQ(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, bits_back)(1), 200);
+  EXPECT_EQ(host_copy(walls_back)(1, 2).z, 3.0);
+  EXPECT_EQ(host_copy(bits_back)(1), 200);
 }
 
 TEST(Checkpoint, AFileThatDoesNotFitIsRefusedInASentence) {

@@ -23,7 +23,7 @@ GrainExchange exchange_of_first(const ExchangeOfGrain& of) {
   const Kokkos::View<GrainExchange*> result("test: exchange", 1);
   Kokkos::parallel_for(
       "test: exchange", 1, KOKKOS_LAMBDA(int g) { result(g) = of(g); });
-  return test::host_copy(result)(0);
+  return host_copy(result)(0);
 }
 
 // What one grain gives the fluid: what it got of it in the grain steps, and what acts all along.
@@ -187,7 +187,7 @@ TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   test::CoupledRun run(c, grains);
   const ExchangeOnFaces exchange = exchange_of(run);
   const auto x = test::to_host(exchange.conductance_x), z = test::to_host(exchange.conductance_z);
-  const double beta = test::host_copy(run.state.grains->fluid.beta)(0);
+  const double beta = host_copy(run.state.grains->fluid.beta)(0);
   const double expected = 1e-4 * beta * 19 * 10 / 29 / 29 / (h * h * h);
   test::for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
     EXPECT_NEAR(x(i, j, k), i == 4 && j == 2 && k == 2 ? expected : 0, 1e-12 * expected);
@@ -342,12 +342,12 @@ TEST(Coupling, PartsOfTheForceAddUp) {
     c.advance(5);
     const auto forces = c.forces();
     ASSERT_EQ(forces.size(), 8u);
-    const auto kin = test::host_copy(c.state.grains->kin);
-    const auto contact = test::host_copy(c.state.grains->contact_force);
+    const auto kin = host_copy(c.state.grains->kin);
+    const auto contact = host_copy(c.state.grains->contact_force);
     const auto n = static_cast<std::size_t>(c.state.grains->n);
     std::vector<Vec3> of_contacts(n), of_all(n), total(n);
     for (const NamedForce& f : forces) {
-      const auto values = test::host_copy(f.values);
+      const auto values = host_copy(f.values);
       for (std::size_t g = 0; g < n; ++g) {
         if (f.name.starts_with("force_contact")) of_contacts[g] += values(g);
         (f.name == "force_total" ? total : of_all)[g] += values(g);

@@ -89,7 +89,7 @@ TEST(FlowAtGrains, ByRowVerticalVelocityIsThatAtTheCentre) {
   test::CoupledRun run = held_grain({1.7e-3, 2.3e-3, 2.2e-3});
   set(run.state.fluid->u.y, run, [](int, int j, int) { return 3.0 * j * kCell; });
   run.advance();
-  EXPECT_NEAR(test::host_copy(run.state.grains->fluid.u_f)(0).y / (3.0 * 2.3e-3), 1, 1e-12);
+  EXPECT_NEAR(host_copy(run.state.grains->fluid.u_f)(0).y / (3.0 * 2.3e-3), 1, 1e-12);
 }
 
 }  // namespace

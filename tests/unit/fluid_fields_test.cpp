@@ -11,6 +11,7 @@
 #include "src/io/frame_file.hpp"
 #include "src/output/output_files.hpp"
 #include "src/output/state_file.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
@@ -49,7 +50,7 @@ TEST(FluidFields, AllOfTheTableAreAllocatedRestartedAndShown) {
   n = 0;
   for_each_fluid_field(*back.fluid, [&](auto& member, const FluidField& field) {
     for_each_component(member, [&](const Field& f, const char* component) {
-      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, f.storage);
+      const auto host = host_copy(f.storage);
       const Real wanted = (field.uses & kInRestart) != 0 ? ++n : (++n, field.at_rest);
       EXPECT_EQ(host.data()[host.size() / 2], wanted) << field.name << component;
     });
@@ -65,7 +66,7 @@ TEST(FluidFields, AllOfTheTableAreAllocatedRestartedAndShown) {
 TEST(FluidFields, AFlowAtRestIsWaterWithoutGrains) {
   const FluidState s = make_fluid_state(make_grid(kChannel));
   for (const Field& f : {s.alpha_f, s.alpha_f_previous, s.p, s.u.x, s.du_dt.z}) {
-    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, f.storage);
+    const auto host = host_copy(f.storage);
     const bool fraction = f.storage.label().find("alpha") != std::string::npos;
     for (std::size_t q = 0; q < host.size(); ++q) ASSERT_EQ(host.data()[q], fraction ? 1 : 0);
   }

@@ -6,6 +6,7 @@
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/fluid/wale.hpp"
+#include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_fields.hpp"
 
@@ -72,7 +73,7 @@ TEST(FluidStencil, GradientIsExactForLinearFieldsAndParabolasInY) {
   const HostGrid h(grid);
   const Kokkos::View<Mat3****> out("gradient", grid.nx, grid.ny, grid.nz, 1);
   for_each_cell("test", grid, StoreGradient{grid, linear_and_parabola(grid, 1, 10), out});
-  const auto got = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
+  const auto got = host_copy(out);
   test::for_owned_cells(grid, [&](int i, int j, int k) {
     const Mat3 a = got(i, j, k, 0), &g = kGradient;
     // The ghost rows mirror the height of the first row, so parabolas hold there, too.

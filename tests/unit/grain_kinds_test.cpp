@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kernels/grains/contact_geometry.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {
@@ -71,7 +72,7 @@ struct Pairs {
     kind.push_back(on_floor);
     GrainState s = make_grain_state(grains, kDensity);
     s.kind = Kokkos::View<std::uint8_t*>("kind", kind.size());
-    const auto host = Kokkos::create_mirror_view(s.kind);
+    const auto host = mirror(s.kind);
     for (std::size_t g = 0; g < kind.size(); ++g) host(g) = static_cast<std::uint8_t>(kind[g]);
     Kokkos::deep_copy(s.kind, host);
     return s;

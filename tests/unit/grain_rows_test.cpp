@@ -9,6 +9,7 @@
 #include <random>
 
 #include "kernels/coupling/deposit_cache.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -102,8 +103,8 @@ TEST(DepositCache, SumsAreThoseOfEachGiftOnItsOwn) {
           one_by_one.add(cell.linear(grid), given);
         }
       });
-  const auto kept = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, deposits.sum);
-  const auto plain = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, one_by_one.sum);
+  const auto kept = host_copy(deposits.sum);
+  const auto plain = host_copy(one_by_one.sum);
   std::int64_t size = 0;
   for (int cell = 0; cell < cells; ++cell) {
     for (int q = 0; q < Deposits::kQuantities; ++q) {

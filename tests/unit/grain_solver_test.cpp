@@ -14,7 +14,6 @@ namespace {
 using test::add_grain;
 using test::grain_config;
 using test::GrainBench;
-using test::host_copy;
 using test::rows_by_id;
 using test::set_weight;
 

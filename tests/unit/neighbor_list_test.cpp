@@ -12,7 +12,6 @@ namespace {
 using test::drift;
 using test::grain_config;
 using test::handle_marks;
-using test::host_copy;
 using test::random_grains;
 using PairSet = std::set<std::pair<std::int64_t, std::int64_t>>;
 

@@ -5,6 +5,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,7 +17,7 @@ const std::vector<double> y_faces{0.0, 0.1, 0.3, 0.7, 1.5};
 
 Grid awkward_grid() {
   Grid grid = make_grid(nx, nz, nx * 0.5, nz * 0.25, y_faces);
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grid.y_face_);
+  const auto host = host_copy(grid.y_face_);
   host(0) = host(ny + 2) = -99;  // ghosts must not be written
   Kokkos::deep_copy(grid.y_face_, host);
   return grid;
@@ -199,7 +200,7 @@ TEST(Output, TracksAreIdsAndPositions) {
   EXPECT_EQ(frames[0].arrays.size(), 2u);
   EXPECT_EQ(file.read<std::int64_t>("frame_000000/id", {4}).size(), 4u);
   const auto x = file.read<double>("frame_000000/x", {4, 3});
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, grains.kin);
+  const auto kin = host_copy(grains.kin);
   for (int g = 0; g < grains.n; ++g) {
     EXPECT_NEAR(x[3 * static_cast<std::size_t>(g) + 1], kin(g).x.y, 1e-6 * std::abs(kin(g).x.y));
   }

@@ -10,6 +10,7 @@
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include "src/config/config.hpp"
@@ -86,7 +87,7 @@ Vec3 placed(const Vec3& x, GrainBoundaryX sides) {
   config.size = {0.1, 0.02, 0.05};
   config.grains.emplace().boundary_x = sides;
   const SystemState state = make_initial_state(config, {.fluid = {}, .grains = path});
-  const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, state.grains->kin);
+  const auto kin = host_copy(state.grains->kin);
   return kin(0).x;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "src/parallel/mirror.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {
@@ -11,7 +12,6 @@ namespace {
 using test::add_grain;
 using test::grain_config;
 using test::GrainBench;
-using test::host_copy;
 
 /// Two unequal grains side by side along x, at rest but for their spins about z.
 struct SoftPair {
@@ -140,7 +140,7 @@ TEST(SoftContact, AWallForgetsAnEarlierTouch) {
   ASSERT_GT(used.grain(1).u.y, 0) << "it has left";
   ASSERT_NE(host_copy(used.state.wall_xi_t)(0, 0).x, 0) << "it was dragged";
   for (GrainBench* bench : {&used, &fresh}) {
-    const auto kin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, bench->state.kin);
+    const auto kin = host_copy(bench->state.kin);
     kin(0).x = above, kin(0).u = {0, -0.01, 0}, kin(0).omega = {};
     Kokkos::deep_copy(bench->state.kin, kin);
     bench->advance(400, dt);

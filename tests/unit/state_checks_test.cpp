@@ -47,8 +47,8 @@ std::string complaint(const CoupledRun& run) {
 template <class Change>
 void change_grain(const CoupledRun& run, std::int64_t id, const Change& change) {
   const GrainState& s = *run.state.grains;
-  const auto kin = test::host_copy(s.kin);
-  const auto ids = test::host_copy(s.id);
+  const auto kin = host_copy(s.kin);
+  const auto ids = host_copy(s.id);
   for (int g = 0; g < s.n; ++g) {
     if (ids(g) == id) change(kin(g));
   }
@@ -56,7 +56,7 @@ void change_grain(const CoupledRun& run, std::int64_t id, const Change& change) 
 }
 
 void set_cell(const Field& field, int i, int j, int k, Real value) {
-  const auto host = test::host_copy(field.storage);
+  const auto host = host_copy(field.storage);
   host(i + 1, j + 1, k + 1) = value;
   Kokkos::deep_copy(field.storage, host);
 }
