@@ -127,7 +127,7 @@ def fft_solve(p):
 
 def flow_step(p):
     """FluidSolver::advance() without grains: halo fills, transposes, reductions."""
-    return 8 * fill(p) + fft_solve(p) + Counts(reductions=4)
+    return 8 * fill(p) + fft_solve(p) + Counts(reductions=3)
 
 
 def relaxation(p):
@@ -137,18 +137,18 @@ def relaxation(p):
 
 def pressure_iteration(p):
     """The loop of PressureSolver::solve(): the direction, and in LocalCorrection::apply() one more."""
-    return 2 * fill(p) + relaxation(p) + fft_solve(p) + Counts(reductions=4)
+    return 2 * fill(p) + relaxation(p) + fft_solve(p) + Counts(reductions=3)
 
 
 def pressure_solve(p, iterations):
     """PressureSolver::solve() and LocalCorrection::update(); the first iteration is start()."""
-    return (5 * fill(p) + relaxation(p) + fft_solve(p) + 2 * fill(p, ny=1) + Counts(reductions=4)
+    return (5 * fill(p) + relaxation(p) + fft_solve(p) + 2 * fill(p, ny=1) + Counts(reductions=2)
             + (iterations - 1) * pressure_iteration(p))
 
 
 def flow_step_around_grains(p, iterations):
     """FluidSolver::advance() with an exchange."""
-    return 18 * fill(p) + pressure_solve(p, iterations) + Counts(reductions=5)
+    return 18 * fill(p) + pressure_solve(p, iterations) + Counts(reductions=3)
 
 
 def deposit_halo(p):
@@ -160,7 +160,7 @@ def deposit_halo(p):
 def exchange(p):
     """Gather and Deposit, with smoothing: here of all columns, as where x is cut."""
     return (EXCHANGE_FILLS * fill(p) + SMOOTHINGS * fft_solve(p) + deposit_halo(p)
-            + Counts(reductions=13))
+            + Counts(reductions=9))
 
 
 # --- the grains --------------------------------------------------------------------------------------

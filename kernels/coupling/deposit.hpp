@@ -6,6 +6,7 @@
 #include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/math/raise_to.hpp"
 
 namespace barchan {
 
@@ -30,15 +31,14 @@ struct ExchangeOfGrain {
   KOKKOS_INLINE_FUNCTION Real beta_dt(int g) const { return dt * on_grains.beta(g); }
 };
 
-/// Marks the columns of cells, those of all ranks, that hold grains; the height of the highest
-/// centre [m].
+/// Marks the columns of cells, those of all ranks, that hold grains.
 struct MarkColumns {
   GridRef grid;
   Kokkos::View<const GrainKinematics*> grains;
   Real reach;               // of points from a centre, at most [m]
-  Kokkos::View<int*> mark;  // i + nx_all k
+  Kokkos::View<int*> mark;  // i + nx_all k, then the rows up to the highest
 
-  KOKKOS_FUNCTION void operator()(int g, Real& highest) const {
+  KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 x = grains(g).x;
     const auto column = [](Real at, Real spacing, int n) {
       return DepositStencil::wrap(GridRef::cell_along(at, spacing), n);
@@ -50,23 +50,30 @@ struct MarkColumns {
     for (const int kk : k) {
       for (const int ii : i) Kokkos::atomic_store(&mark(ii + grid.nx_all * kk), 1);
     }
-    highest = Kokkos::fmax(highest, x.y);
+    raise_to(&mark(grid.nx_all * grid.nz_all), grid.row_of(x.y + reach) + 1);
   }
 };
 
 /// What all grains together give: volume [m^3], beta_p dt [kg], sum of |impulse| components and the
 /// impulse itself [N s]. Bounds of what one cell can get.
 struct GrainTotals {
+  Real volume = 0, beta_dt = 0, size = 0;
+  Vec3 impulse;
+
+  KOKKOS_FORCEINLINE_FUNCTION GrainTotals& operator+=(const GrainTotals& more) {
+    volume += more.volume;
+    beta_dt += more.beta_dt;
+    size += more.size;
+    impulse += more.impulse;
+    return *this;
+  }
+};
+struct AddTotals {
   ExchangeOfGrain of_grain;
-  KOKKOS_FUNCTION void operator()(int g, Real& volume, Real& beta_dt, Real& size, Real& x, Real& y,
-                                  Real& z) const {
-    const GrainExchange e = of_grain(g);
-    volume += e.volume;
-    beta_dt += of_grain.beta_dt(g);
-    size += Kokkos::abs(e.impulse.x) + Kokkos::abs(e.impulse.y) + Kokkos::abs(e.impulse.z);
-    x += e.impulse.x;
-    y += e.impulse.y;
-    z += e.impulse.z;
+  KOKKOS_FUNCTION void operator()(int g, GrainTotals& sum) const {
+    const auto [volume, impulse] = of_grain(g);
+    const Real size = Kokkos::abs(impulse.x) + Kokkos::abs(impulse.y) + Kokkos::abs(impulse.z);
+    sum += {volume, of_grain.beta_dt(g), size, impulse};
   }
 };
 

@@ -200,11 +200,8 @@ struct FlowOfRows {
 struct SumOfForces {
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
-  KOKKOS_FUNCTION void operator()(int g, Real& x, Real& y, Real& z) const {
-    const Vec3 force = sphere_volume(grains(g).r) * (flow.pressure(g) + flow.stress(g));
-    x += force.x;
-    y += force.y;
-    z += force.z;
+  KOKKOS_FUNCTION void operator()(int g, Vec3& sum) const {
+    sum += sphere_volume(grains(g).r) * (flow.pressure(g) + flow.stress(g));
   }
 };
 

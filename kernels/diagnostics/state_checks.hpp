@@ -34,6 +34,11 @@ struct PairOverlap {
   }
 };
 
+/// The worst of grains, of two kinds.
+struct WorstGrains {
+  WorstItem in_wall{0, -1}, displacement{0, -1};
+};
+
 /// Of a grain: its overlap with walls over its diameter, and its displacement in a grain step over
 /// its radius [-]; infinite where its position or velocity is not finite.
 struct GrainLimits {
@@ -41,17 +46,21 @@ struct GrainLimits {
   WallShapes walls;
   Real dt;  // grain step [s]
 
-  KOKKOS_FUNCTION void operator()(int g, WorstItem& in_wall, WorstItem& displacement) const {
+  KOKKOS_FUNCTION void operator()(int g, WorstGrains& worst) const {
     const GrainKinematics& grain = grains(g);
     Real overlap = 0;
     for (int w = 0; w < walls.n; ++w) {
       const Real depth = walls.at(w, grain.x).overlap(grain);
       overlap = Kokkos::max(overlap, or_infinity(depth / (2 * grain.r)));
     }
-    take_worse(in_wall, overlap, g);
+    take_worse(worst.in_wall, overlap, g);
     const Real speed = norm(grain.u) + grain.r * norm(grain.omega);
     const Real finite = 0 * (grain.x.x + grain.x.y + grain.x.z);  // zero, or not a number
-    take_worse(displacement, or_infinity(dt * speed / grain.r + finite), g);
+    take_worse(worst.displacement, or_infinity(dt * speed / grain.r + finite), g);
+  }
+  KOKKOS_FUNCTION static void join(WorstGrains& all, const WorstGrains& more) {
+    take_worse(all.in_wall, more.in_wall.val, more.in_wall.loc);
+    take_worse(all.displacement, more.displacement.val, more.displacement.loc);
   }
 };
 

@@ -16,16 +16,19 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 }
 
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
-  ledger_ = ExchangeLedger{};
-  fields_.of_grains.set(grid_.columns_of(grains));
-  fields_.of_fraction.set(ColumnMap::not_one(grid_.grid, fluid.alpha_f, grid_.marks));
+  grid_.mark_columns_of(grains);
+  grid_.marks.mark_not_one(CouplingGrid::kOfFraction, grid_.grid, fluid.alpha_f);
+  grid_.marks.fetch();
+  fields_.of_grains.set(grid_.columns_of_grains());
+  fields_.of_fraction.set(ColumnMap::marked(grid_.grid, grid_.marks, CouplingGrid::kOfFraction));
   gather_.undo_smoothing(fluid);
   deposit_.solid_of_momentum_cells(grains, fluid);
-  gather_(fluid, grains, dt, ledger_);
+  gather_(fluid, grains, dt, sums_);
 }
 
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
-  deposit_(grains, fluid, dt, ledger_);
+  deposit_(grains, fluid, dt, sums_);
+  ledger_ = sums_.ledger(ranks_of(grid_.grid), dt);
 }
 
 }  // namespace barchan

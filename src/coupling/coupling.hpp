@@ -29,6 +29,7 @@ class Coupling {
   CouplingFields fields_;
   Gather gather_;
   Deposit deposit_;
+  ExchangeSums sums_;
   ExchangeLedger ledger_;
 };
 

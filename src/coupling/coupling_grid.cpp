@@ -32,7 +32,6 @@ WallFaces ends_of(const RankAxis& line, int n) {
 CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow,
                            Real r_max)
     : grid(of_flow),
-      rows(of_flow.on_host()),
       boundary(solver.boundary()),
       box(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
       stencil(make_deposit_stencil(config, grid, r_max)),
@@ -43,16 +42,16 @@ CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, cons
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
             .z = config.grains->boundary_z == GrainBoundaryZ::wall},
       smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
-      marks("coupling: columns of grains", grid.nx_all * grid.nz_all) {}
+      marks("coupling: columns", grid, kMarks) {}
 
-ColumnMap CouplingGrid::columns_of(const GrainState& grains) const {
-  Kokkos::deep_copy(marks.on_device, 0);
-  Real highest = 0;
-  Kokkos::parallel_reduce("coupling: columns of grains", items(grains.n),
-                          MarkColumns{grid, grains.kin, reach_of_grain, marks.on_device},
-                          Kokkos::Max<Real>(highest));
-  const int top = grains.n > 0 ? rows.row_of(highest + reach_of_grain) + 1 : 0;
-  return ColumnMap::marked(grid, marks, top).grown(1);  // the other face of a momentum cell
+void CouplingGrid::mark_columns_of(const GrainState& grains) const {
+  marks.set_zero();
+  Kokkos::parallel_for("coupling: columns of grains", items(grains.n),
+                       MarkColumns{grid, grains.kin, reach_of_grain, marks.row(kOfGrains)});
+}
+
+ColumnMap CouplingGrid::columns_of_grains() const {
+  return ColumnMap::marked(grid, marks, kOfGrains).grown(1);  // the other face of a momentum cell
 }
 
 void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {

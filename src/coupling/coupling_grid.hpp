@@ -21,8 +21,10 @@ struct CellVector {
 struct CouplingGrid {
   CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow, Real r_max);
 
-  /// The columns of cells that these grains give to, and read from. All ranks together.
-  ColumnMap columns_of(const GrainState& grains) const;
+  /// Clears `marks`, and marks the columns of cells that these grains give to, and read from.
+  void mark_columns_of(const GrainState& grains) const;
+  /// As they were fetched. All ranks together.
+  ColumnMap columns_of_grains() const;
   /// Ghosts beside a region; constant beyond walls.
   void fill_ghosts(FaceVector& f, const Region& region) const;
   void fill_ghosts(CellVector& f, const Region& region) const;
@@ -31,7 +33,6 @@ struct CouplingGrid {
   WallFaces wall_faces_z() const;
 
   Grid grid;
-  HostGrid rows;
   Boundary boundary;
   PeriodicBox box;  // of the grains
   DepositStencil stencil;
@@ -41,7 +42,8 @@ struct CouplingGrid {
   Real reach_of_grain;    // of its points from its centre [m]
   EvenExtension walls;    // of the grains, where the smoothing ends
   Smoother smoother;
-  ColumnMarks marks;  // room for columns of all ranks
+  enum Mark : int { kOfGrains, kOfFraction, kMarks };  // alpha_f is less than one
+  ColumnMarks marks;
 };
 
 }  // namespace barchan

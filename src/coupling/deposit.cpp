@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
-#include "src/parallel/reduce.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -38,11 +37,12 @@ Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingG
 }
 
 void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
-                         ExchangeLedger& ledger) {
+                         const ExchangeSums& sums) {
   const ExchangeOfGrain of_grain{
       .dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
-  find_cells(grains);
-  bound_sums(of_grain, grains.n, fluid, ledger);
+  add_totals(of_grain, grains, fluid, sums);
+  find_cells();
+  bound_sums(sums);
   clear(fields_.of_flow.exchange);
   using Launch = DepositGrains<kOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
@@ -51,8 +51,12 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
                               .deposits = deposits_,
                               .n = grains.n});
   halo_.scatter_add(deposits_.sum);
-  update_fraction(fluid, ledger);
-  ledger.taken_from_fluid = grid_.by_row ? rows_to_faces() : spread_to_faces();
+  update_fraction(fluid, sums);
+  if (grid_.by_row) {
+    rows_to_faces(sums);
+  } else {
+    spread_to_faces(sums);
+  }
 }
 
 void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid) {
@@ -90,9 +94,9 @@ ExchangeByRow Deposit::exchange_by_row(const FluidState& fluid) const {
 }
 
 /// Where the grains are, what of their volume the smoothing spreads, and what the flow has to know.
-void Deposit::find_cells(const GrainState& grains) {
+void Deposit::find_cells() {
   const int reach = grid_.smoother.reach();
-  const ColumnMap of_grains = grid_.columns_of(grains);
+  const ColumnMap of_grains = grid_.columns_of_grains();
   ColumnMap smoothed = of_grains.grown(reach);
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
@@ -109,53 +113,58 @@ void Deposit::find_cells(const GrainState& grains) {
   grid_.boundary.fill_scalars(around, before_smoothing);
 }
 
-/// The fixed points: one cell can receive everything.
-void Deposit::bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidState& fluid,
-                         ExchangeLedger& ledger) {
-  std::vector<Real> sum(6);
-  Kokkos::parallel_reduce("coupling: totals", items(n), GrainTotals{of_grain}, sum[0], sum[1],
-                          sum[2], sum[3], sum[4], sum[5]);
-  sum_over(ranks_of(grid_.grid), sum);
-  const Real volume = sum[0], beta_dt = sum[1], impulse = sum[2];
-  deposits_.conductance = fixed_point_for(beta_dt * (kDividedOffsets * kDividedOffsets / 4));
-  // Rows exchange no more than by twice the fastest velocity along x and z.
-  Real fastest = 0;
-  if (grid_.by_row) {
-    fastest = max_each_cell("coupling: fastest", grid_.grid, fields_.of_flow.exchange,
-                            FastestAlong{fluid.u});
-  }
-  deposits_.impulse = fixed_point_for(impulse + 4 * fastest * beta_dt);
-  ledger.grain_volume = volume;
-  ledger.given_to_grains = {sum[3], sum[4], sum[5]};
+/// The columns of the grains and what they give, for the host.
+void Deposit::add_totals(const ExchangeOfGrain& of_grain, const GrainState& grains,
+                         const FluidState& fluid, const ExchangeSums& sums) {
+  grid_.mark_columns_of(grains);
+  Kokkos::parallel_reduce("coupling: totals", items(grains.n), AddTotals{of_grain},
+                          sums.into<GrainTotals>(ExchangeSums::kTotals));
+  if (grid_.by_row)
+    max_each_cell("coupling: fastest", sums, ExchangeSums::kFastest, owned_cells(grid_.grid),
+                  FastestAlong{fluid.u});
+  sums.combine_totals(ranks_of(grid_.grid));
+  grid_.marks.copy_to_host();
+  sums.copy_to_host();
+  Kokkos::fence("coupling: columns and totals");
 }
 
-void Deposit::update_fraction(FluidState& fluid, ExchangeLedger& ledger) {
+/// The fixed points: one cell can receive everything.
+void Deposit::bound_sums(const ExchangeSums& sums) {
+  const auto totals = sums.get<GrainTotals>(ExchangeSums::kTotals);
+  deposits_.conductance = fixed_point_for(totals.beta_dt * (kDividedOffsets * kDividedOffsets / 4));
+  // Rows exchange no more than by twice the fastest velocity along x and z.
+  const Real fastest = sums.get(ExchangeSums::kFastest);
+  deposits_.impulse = fixed_point_for(totals.size + 4 * fastest * totals.beta_dt);
+}
+
+void Deposit::update_fraction(FluidState& fluid, const ExchangeSums& sums) {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   decode(Deposits::kVolume, deposits_.volume, fields_.smoothed, fluid.alpha_f);
   grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
-  ledger.deposited_volume = sum_each_cell(
-      "coupling: solid fraction to fluid fraction", grid_.grid,
-      ByRegion{fields_.smoothed.ref(), SolidToFluidFraction{grid_.grid, fluid.alpha_f},
-               ClearWater{fluid.alpha_f}});
+  sum_each_cell("coupling: solid fraction to fluid fraction", sums, ExchangeSums::kDepositedVolume,
+                owned_cells(grid_.grid),
+                ByRegion{fields_.smoothed.ref(), SolidToFluidFraction{grid_.grid, fluid.alpha_f},
+                         ClearWater{fluid.alpha_f}});
   grid_.boundary.fill(fluid.alpha_f, FieldKind::scalar);
   if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
     Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);
   }
 }
 
-/// Exchange and conductances; returns what the fluid loses [N s].
-Vec3 Deposit::rows_to_faces() {
+/// Exchange and conductances; adds up what the fluid loses [N s].
+void Deposit::rows_to_faces(const ExchangeSums& sums) {
   ExchangeOnFaces& on_faces = fields_.on_faces;
-  return sum_vector("coupling: rows to faces", grid_.grid, fields_.of_flow.exchange,
-                    RowsToFaces{.grid = grid_.grid,
-                                .deposits = deposits_,
-                                .given = on_faces.impulse,
-                                .conductance_x = on_faces.conductance_x,
-                                .conductance_z = on_faces.conductance_z});
+  sum_vector("coupling: rows to faces", sums, ExchangeSums::kTakenFromFluid,
+             fields_.of_flow.exchange,
+             RowsToFaces{.grid = grid_.grid,
+                         .deposits = deposits_,
+                         .given = on_faces.impulse,
+                         .conductance_x = on_faces.conductance_x,
+                         .conductance_z = on_faces.conductance_z});
 }
 
 /// The same of an exchange that goes to cells, and is smoothed with them.
-Vec3 Deposit::spread_to_faces() {
+void Deposit::spread_to_faces(const ExchangeSums& sums) {
   const Region& cells = fields_.of_flow.exchange;
   CellVector& impulse = fields_.impulse_in_cells;
   for (const auto& [quantity, field] :
@@ -165,12 +174,12 @@ Vec3 Deposit::spread_to_faces() {
     if (config_.exchange == Exchange::smoothed) grid_.smoother.solve(*field, fields_.smoothed);
   }
   grid_.fill_ghosts(impulse, cells);
-  return sum_vector("coupling: spread to faces", grid_.grid, cells,
-                    SpreadToFaces{.grid = grid_.grid,
-                                  .impulse_x = impulse.x,
-                                  .impulse_y = impulse.y,
-                                  .impulse_z = impulse.z,
-                                  .given = fields_.on_faces.impulse});
+  sum_vector("coupling: spread to faces", sums, ExchangeSums::kTakenFromFluid, cells,
+             SpreadToFaces{.grid = grid_.grid,
+                           .impulse_x = impulse.x,
+                           .impulse_y = impulse.y,
+                           .impulse_z = impulse.z,
+                           .given = fields_.on_faces.impulse});
 }
 
 /// One quantity as a density in the cells of a region.

@@ -16,20 +16,21 @@ class Deposit {
 
   /// alpha_f from the grains' volume, and their exchange on the faces; the old alpha_f is kept in
   /// alpha_f_previous. Books what the grains give and what arrives.
-  void operator()(const GrainState& grains, FluidState& fluid, Real dt, ExchangeLedger& ledger);
+  void operator()(const GrainState& grains, FluidState& fluid, Real dt, const ExchangeSums& sums);
 
   /// Before the gather, in crowded cells: the solid of the momentum cells, with ghosts.
   void solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid);
 
  private:
   ExchangeByRow exchange_by_row(const FluidState& fluid) const;
-  void find_cells(const GrainState& grains);
-  void bound_sums(const ExchangeOfGrain& of_grain, int n, const FluidState& fluid,
-                  ExchangeLedger& ledger);
+  void add_totals(const ExchangeOfGrain& of_grain, const GrainState& grains,
+                  const FluidState& fluid, const ExchangeSums& sums);
+  void find_cells();
+  void bound_sums(const ExchangeSums& sums);
   void clear(const Region& cells);
-  void update_fraction(FluidState& fluid, ExchangeLedger& ledger);
-  Vec3 rows_to_faces();
-  Vec3 spread_to_faces();
+  void update_fraction(FluidState& fluid, const ExchangeSums& sums);
+  void rows_to_faces(const ExchangeSums& sums);
+  void spread_to_faces(const ExchangeSums& sums);
   void decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& cells,
               Field& density) const;
 

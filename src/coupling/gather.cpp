@@ -8,7 +8,7 @@
 #include "kernels/coupling/force_density.hpp"
 #include "kernels/coupling/gather_shear.hpp"
 #include "src/grains/grain_arrays.hpp"
-#include "src/parallel/reduce.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -49,12 +49,14 @@ Gather::Gather(const Config& config, const GrainState& grains, const CouplingGri
       reads_as_cfdem_(config.coupling.void_fraction == VoidFraction::cfdem_faithful) {}
 
 void Gather::operator()(const FluidState& fluid, GrainState& grains, Real dt,
-                        ExchangeLedger& ledger) {
+                        const ExchangeSums& sums) {
   reserve_flow_at(grains.n);
-  pressure_gradient(fluid, grains, dt, ledger);
-  stress(fluid, grains, dt, ledger);
+  pressure_gradient(fluid, grains, sums);
+  stress(fluid, grains, sums);
   flow_at_grains(fluid, grains);
-  ledger.flow_on_grains = dt * force_of_flow(grains);
+  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
+                          SumOfForces{grains.kin, flow_at_},
+                          sums.into<Vec3>(ExchangeSums::kForceOnGrains));
   drag_and_share(grains, dt);
   if (forces_.lift || forces_.torque) lift_and_torque(fluid, grains);
   is_first_step_ = false;
@@ -84,13 +86,11 @@ void Gather::undo_smoothing(const FluidState& fluid) {
 
 /// By row the grains get it the way that their volume went to alpha_f, backwards: smoothed, then
 /// from their cells (FlowOverCells). So they get what the solid fraction takes.
-void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
-                               ExchangeLedger& ledger) {
+void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains,
+                               const ExchangeSums& sums) {
   if (!forces_.pressure_gradient) return;
-  if (grid_.by_row && grid_.walls == EvenExtension{}) {
-    ledger.flow_on_solid += dt * smoothed_pressure_gradient(fluid);
-    return;
-  }
+  if (grid_.by_row && grid_.walls == EvenExtension{})
+    return smoothed_pressure_gradient(fluid, sums);
   const auto& [cells, and_faces] = fields_.of_fraction;
   FaceVector& on_faces = fields_.pressure_on_faces;
   CellVector& in_cells = fields_.pressure_in_cells;
@@ -101,7 +101,7 @@ void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains
                                      .drive = fluid.drive,
                                      .force = on_faces});
   fill_faces_beside(on_faces, and_faces);
-  ledger.flow_on_solid += dt * to_cells(on_faces, fluid.alpha_f, cells, in_cells);
+  to_cells(on_faces, fluid.alpha_f, cells, in_cells, sums, ExchangeSums::kPressureOnSolid);
   if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.pressure);
   for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z})
     grid_.smoother.solve(*component, cells);
@@ -109,16 +109,15 @@ void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains
 }
 
 /// The same in two solves for three: without walls of the grains the smoothing commutes with
-/// differences along the floor. Returns what the solid fraction takes [N].
-Vec3 Gather::smoothed_pressure_gradient(const FluidState& fluid) {
+/// differences along the floor.
+void Gather::smoothed_pressure_gradient(const FluidState& fluid, const ExchangeSums& sums) {
   const auto& [cells, around] = fields_.of_fraction;
   CellVector& in_cells = fields_.pressure_in_cells;
   Field& p = fields_.smoothed_pressure;
   PressureForceInCell force{
       .grid = grid_.grid, .p = fluid.p, .rho_f = rho_f_, .drive = fluid.drive};
-  const Vec3 taken = sum_vector(
-      "coupling: pressure to smooth", grid_.grid, around,
-      PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
+  sum_vector("coupling: pressure to smooth", sums, ExchangeSums::kPressureOnSolid, around,
+             PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
   for (Field* f : {&p, &in_cells.y}) grid_.smoother.solve(*f, cells);
   grid_.boundary.fill_scalars(around, p);
   force.p = p;
@@ -126,13 +125,11 @@ Vec3 Gather::smoothed_pressure_gradient(const FluidState& fluid) {
   for_each_cell("coupling: smoothed pressure force", of_grains,
                 SmoothedPressureForce{.force = force, .x = in_cells.x, .z = in_cells.z});
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, of_grains);
-  return taken;
 }
 
 /// And the convective acceleration. By row the solid takes of the stress what it has before the
 /// smoothing, so there is none beyond the cells of the grains.
-void Gather::stress(const FluidState& fluid, const GrainState& grains, Real dt,
-                    ExchangeLedger& ledger) {
+void Gather::stress(const FluidState& fluid, const GrainState& grains, const ExchangeSums& sums) {
   const auto& [cells, and_faces] = grid_.by_row ? fields_.of_grains : fields_.of_fraction;
   FaceVector& on_faces = fields_.stress_on_faces;
   CellVector& in_cells = fields_.stress_in_cells;
@@ -147,7 +144,7 @@ void Gather::stress(const FluidState& fluid, const GrainState& grains, Real dt,
   if (!forces_.stress) return;
   const Field& alpha = grid_.by_row ? fields_.alpha_l(fluid) : fluid.alpha_f;
   fill_faces_beside(on_faces, and_faces);
-  ledger.flow_on_solid += dt * to_cells(on_faces, alpha, cells, in_cells);
+  to_cells(on_faces, alpha, cells, in_cells, sums, ExchangeSums::kStressOnSolid);
   if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.stress);
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
@@ -159,11 +156,11 @@ void Gather::fill_faces_beside(FaceVector& force, const Region& cells) const {
   grid_.fill_ghosts(force, cells);
 }
 
-/// Returns what the solid fraction 1 - alpha takes of it [N].
-Vec3 Gather::to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
-                      CellVector& in_cells) const {
-  return sum_vector("coupling: force density on cells", grid_.grid, cells,
-                    ForceOnCells{grid_.grid, force, alpha, in_cells.x, in_cells.y, in_cells.z});
+/// Adds up what the solid fraction 1 - alpha takes of it [N].
+void Gather::to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
+                      CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const {
+  sum_vector("coupling: force density on cells", sums, sum, cells,
+             ForceOnCells{grid_.grid, force, alpha, in_cells.x, in_cells.y, in_cells.z});
 }
 
 void Gather::at_centres(const FaceVector& force, const GrainState& grains,
@@ -204,15 +201,6 @@ void Gather::flow_of_cfdem(const FluidState& fluid, const GrainState& grains) {
   Kokkos::parallel_for(
       "coupling: flow at grains", items(grains.n),
       FlowFromCells{grid_.grid, grid_.box, x, y, z, fluid.alpha_f, grains.kin, flow_at_});
-}
-
-/// Of pressure gradient and stress on the grains of all ranks [N].
-Vec3 Gather::force_of_flow(const GrainState& grains) const {
-  std::vector<Real> sum(3);
-  Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
-                          SumOfForces{grains.kin, flow_at_}, sum[0], sum[1], sum[2]);
-  sum_over(ranks_of(grid_.grid), sum);
-  return {sum[0], sum[1], sum[2]};
 }
 
 void Gather::drag_and_share(const GrainState& grains, Real dt) const {

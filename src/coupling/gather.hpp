@@ -23,24 +23,23 @@ class Gather {
   /// First of all: the fraction before the smoothing.
   void undo_smoothing(const FluidState& fluid);
   /// Books what the flow's pressure gradient and stress do.
-  void operator()(const FluidState& fluid, GrainState& grains, Real dt, ExchangeLedger& ledger);
+  void operator()(const FluidState& fluid, GrainState& grains, Real dt, const ExchangeSums& sums);
   /// The next step is the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
 
  private:
   void reserve_flow_at(int n);
-  void pressure_gradient(const FluidState& fluid, const GrainState& grains, Real dt,
-                         ExchangeLedger& ledger);
-  Vec3 smoothed_pressure_gradient(const FluidState& fluid);
-  void stress(const FluidState& fluid, const GrainState& grains, Real dt, ExchangeLedger& ledger);
+  void pressure_gradient(const FluidState& fluid, const GrainState& grains,
+                         const ExchangeSums& sums);
+  void smoothed_pressure_gradient(const FluidState& fluid, const ExchangeSums& sums);
+  void stress(const FluidState& fluid, const GrainState& grains, const ExchangeSums& sums);
   void fill_faces_beside(FaceVector& force, const Region& cells) const;
-  Vec3 to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
-                CellVector& in_cells) const;
+  void to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
+                CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const;
   void at_centres(const FaceVector& force, const GrainState& grains,
                   const Kokkos::View<Vec3*>& at) const;
   void flow_at_grains(const FluidState& fluid, const GrainState& grains);
   void flow_of_cfdem(const FluidState& fluid, const GrainState& grains);
-  Vec3 force_of_flow(const GrainState& grains) const;
   void drag_and_share(const GrainState& grains, Real dt) const;
   void lift_and_torque(const FluidState& fluid, const GrainState& grains) const;
 

@@ -18,6 +18,23 @@ double relative(const Vec3& difference, const Vec3& reference) {
 
 }  // namespace
 
+void ExchangeSums::combine_totals(MPI_Comm ranks) const {
+  combine(ranks, kTotals, kFastest - kTotals, MPI_SUM);
+  combine(ranks, kFastest, 1, MPI_MAX);
+}
+
+ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
+  combine(ranks, kPressureOnSolid, kSums - kPressureOnSolid, MPI_SUM);
+  fetch();
+  const auto totals = get<GrainTotals>(kTotals);
+  return {.grain_volume = totals.volume,
+          .deposited_volume = get(kDepositedVolume),
+          .given_to_grains = totals.impulse,
+          .taken_from_fluid = get<Vec3>(kTakenFromFluid),
+          .flow_on_solid = dt * (get<Vec3>(kPressureOnSolid) + get<Vec3>(kStressOnSolid)),
+          .flow_on_grains = dt * get<Vec3>(kForceOnGrains)};
+}
+
 void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
   std::vector<std::int64_t> counts{grains.n, grains.n_left};
   sum_over(grains.ranks, counts);

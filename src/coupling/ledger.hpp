@@ -4,7 +4,9 @@
 #include <map>
 #include <string>
 
+#include "kernels/coupling/deposit.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/parallel/tally.hpp"
 
 namespace barchan {
 
@@ -15,6 +17,26 @@ struct ExchangeLedger {
   Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
   Vec3 flow_on_solid;   // pressure gradient and stress: what the solid fraction takes [N s]
   Vec3 flow_on_grains;  // the same on the grains [N s]
+};
+
+/// Sums of a step over cells and grains, on the device until the step needs them.
+struct ExchangeSums : Tally {
+  enum Sum : int {
+    kTotals,           // GrainTotals
+    kFastest = 6,      // along x or z [m/s]
+    kPressureOnSolid,  // Vec3 [N]
+    kStressOnSolid = 10,
+    kForceOnGrains = 13,
+    kTakenFromFluid = 16,   // [N s]
+    kDepositedVolume = 19,  // [m^3]
+    kSums
+  };
+  ExchangeSums() : Tally("ledger: sums", kSums) {}
+
+  /// What grains give, and the fastest flow, over all ranks.
+  void combine_totals(MPI_Comm ranks) const;
+  /// Of a step of dt [s], over all ranks.
+  ExchangeLedger ledger(MPI_Comm ranks, Real dt) const;
 };
 
 /// Adds up what changed sides over a run and keeps the largest mismatch of any step.

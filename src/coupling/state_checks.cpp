@@ -11,33 +11,13 @@
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/reduce.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
 namespace {
 
 using WorstOf = Kokkos::MaxLoc<Real, int>;
-
-/// Where it is worst among this rank's grains; nowhere: -1.
-struct WorstGrains {
-  WorstItem displacement{0, -1}, in_wall{0, -1}, pair{0, -1};
-};
-
-WorstGrains worst_of(const GrainState& grains, const CoupledStep& step, Real dt) {
-  WorstGrains worst;
-  Kokkos::parallel_reduce("state checks: pairs", items(grains.list.n_pairs),
-                          PairOverlap{.box = step.neighbor_list()->box(),
-                                      .list = grains.list,
-                                      .grains = grains.kin,
-                                      .n_owned = grains.n},
-                          WorstOf(worst.pair));
-  Kokkos::parallel_reduce(
-      "state checks: grains", items(grains.n),
-      GrainLimits{.grains = grains.kin, .walls = step.grain_solver()->walls(), .dt = dt},
-      WorstOf(worst.in_wall), WorstOf(worst.displacement));
-  return worst;
-}
 
 template <class Functor>
 WorstItem worst_cell(const Grid& grid, const Functor& functor) {
@@ -185,19 +165,40 @@ std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepRe
       where(courant));
 }
 
+StateChecks::Worst StateChecks::worst_here(const SystemState& state, const CoupledStep& step,
+                                           bool grains_move) const {
+  using OnDevice = Kokkos::MaxLoc<Real, int, Kokkos::DefaultExecutionSpace::memory_space>;
+  if (grains_move) {
+    const GrainState& grains = *state.grains;
+    Kokkos::parallel_reduce("state checks: pairs", items(grains.list.n_pairs),
+                            PairOverlap{.box = step.neighbor_list()->box(),
+                                        .list = grains.list,
+                                        .grains = grains.kin,
+                                        .n_owned = grains.n},
+                            OnDevice(worst_.into<WorstItem>(kPair)));
+    Kokkos::parallel_reduce("state checks: grains", items(grains.n),
+                            GrainLimits{.grains = grains.kin,
+                                        .walls = step.grain_solver()->walls(),
+                                        .dt = true_grain_step(config_.time)},
+                            worst_.into<WorstGrains>(kGrains));
+  }
+  const bool has_fraction = state.fluid && state.grains;
+  if (has_fraction)
+    max_each_cell("state checks: fluid fraction", worst_, kFraction, owned_cells(state.fluid->grid),
+                  FractionOutside{state.fluid->alpha_f});
+  worst_.fetch();
+  Worst worst;
+  if (grains_move) worst = {worst_.get<WorstItem>(kPair), worst_.get<WorstGrains>(kGrains), 0};
+  if (has_fraction) worst.fraction = std::max<Real>(worst_.get(kFraction), 0);
+  return worst;
+}
+
 std::string StateChecks::problem_of(const SystemState& state, const CoupledStep& step,
                                     bool at_start) const {
   const bool grains_move = state.grains && !config_.grains->frozen;  // others may lie anyhow
-  WorstGrains mine;
-  if (grains_move) {
-    mine = worst_of(*state.grains, step, true_grain_step(config_.time));
-  }
-  Real fraction = 0;
-  if (state.fluid && state.grains) {
-    fraction = max_each_cell_here("state checks: fluid fraction", owned_cells(state.fluid->grid),
-                                  FractionOutside{state.fluid->alpha_f});
-  }
-  std::vector<Real> worst{mine.displacement.val, mine.in_wall.val, mine.pair.val, fraction};
+  const Worst mine = worst_here(state, step, grains_move);
+  std::vector<Real> worst{mine.grains.displacement.val, mine.grains.in_wall.val, mine.pair.val,
+                          mine.fraction};
   all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (grains_move) {
     const GrainProblems problems{*state.grains, step.grain_solver()->walls(),
@@ -208,8 +209,8 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
       return of_the_worst(ranks_, item.val, item.val > 0 ? (problems.*problem)(item) : "");
     };
     for (const std::string& found :
-         {check(worst[0], kMaxDisplacement, mine.displacement, &GrainProblems::displacement),
-          check(worst[1], problems.limit, mine.in_wall, &GrainProblems::in_wall),
+         {check(worst[0], kMaxDisplacement, mine.grains.displacement, &GrainProblems::displacement),
+          check(worst[1], problems.limit, mine.grains.in_wall, &GrainProblems::in_wall),
           check(worst[2], problems.limit, mine.pair, &GrainProblems::pair)}) {
       if (!found.empty()) return found;
     }

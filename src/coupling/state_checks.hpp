@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "kernels/diagnostics/state_checks.hpp"
 #include "src/config/config.hpp"
 #include "src/coupling/coupled_step.hpp"
+#include "src/parallel/tally.hpp"
 
 namespace barchan {
 
@@ -32,12 +34,21 @@ class StateChecks {
                    const std::string& source) const;
 
  private:
+  /// What is worst, and where, on this rank.
+  struct Worst {
+    WorstItem pair{0, -1};
+    WorstGrains grains;
+    Real fraction = 0;
+  };
+  enum Slot : int { kPair = 0, kGrains = 2, kFraction = 6, kSlots };
+  Worst worst_here(const SystemState& state, const CoupledStep& step, bool grains_move) const;
   std::string flow_problem(const FluidState& fluid, const FluidStepReport& report,
                            Real fraction_outside, bool at_start) const;
   std::string problem_of(const SystemState& state, const CoupledStep& step, bool at_start) const;
 
   Config config_;
   MPI_Comm ranks_;
+  Tally worst_{"state checks: worst", kSlots};
 };
 
 }  // namespace barchan

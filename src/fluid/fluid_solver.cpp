@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "kernels/fluid/closed_faces.hpp"
+#include "kernels/fluid/conjugate_gradients.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/parallel/reduce.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -106,43 +107,53 @@ void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
-Vec2 FluidSolver::flow_rate(const FaceVector& u, const FluidState& fluid) const {
-  const auto x = [&] {
-    return sum_each_cell("fluid: flow rate", grid_, FlowRate{grid_, u.x, fluid.alpha_f});
-  };
-  const auto z = [&] {
-    return sum_each_cell("fluid: flow rate across", grid_,
-                         FlowRateAcross{grid_, u.z, fluid.alpha_f});
-  };
-  return {x(), drive_.along_z() ? z() : 0};
+void FluidSolver::add_flow_rate(const FaceVector& u, const FluidState& fluid, int slot) const {
+  const CellRange all = owned_cells(grid_);
+  sum_each_cell("fluid: flow rate", numbers_, slot, all, FlowRate{grid_, u.x, fluid.alpha_f});
+  if (!drive_.along_z()) return;
+  sum_each_cell("fluid: flow rate across", numbers_, slot + 1, all,
+                FlowRateAcross{grid_, u.z, fluid.alpha_f});
 }
 
 /// c near the grains, and how much a force along x and z adds to the flow.
 void FluidSolver::update_mobility(const FluidState& fluid) {
-  flow_.height = grid_.height_of_all_columns();
-  flow_.response = {flow_.height, flow_.height};
   if (!is_variable(fraction_)) return;
-  const Vec3 less = sum_vector("fluid: mobility", grid_, regions_->fraction.around,
-                               UpdateMobility{grid_, fluid.alpha_f, mobility_});
-  flow_.response = {flow_.height + less.x, flow_.height + less.z};
-  flow_.height += less.y;
+  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.around,
+             UpdateMobility{grid_, fluid.alpha_f, mobility_});
   if (open_) {
     close(mobility_);
-    const auto response = [&](const Field& c) {
-      return sum_each_cell("fluid: mobility", grid_, HeightSum{grid_, c});
-    };
-    flow_.response = {response(mobility_.x), drive_.along_z() ? response(mobility_.z) : 0};
-    flow_.height = flow_.response.x;
+    const CellRange all = owned_cells(grid_);
+    sum_each_cell("fluid: mobility", numbers_, kMobility, all, HeightSum{grid_, mobility_.x});
+    sum_each_cell("fluid: mobility", numbers_, kMobility + 2, all, HeightSum{grid_, mobility_.z});
   }
   if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(mobility_);
 }
 
+/// What predictor and mobility added up.
+void FluidSolver::find_driven_flow(const FluidState& fluid) {
+  if (open_) {
+    add_flow_rate(u_star_, fluid, kPredictedRate);
+  } else if (drive_.along_z()) {
+    sum_each_cell("fluid: flow rate across", numbers_, kPredictedRate + 1, owned_cells(grid_),
+                  FlowRateAcross{grid_, u_star_.z, fluid.alpha_f});
+  }
+  numbers_.combine(ranks_of(grid_), kPredictedRate, kFlowNumbers - kPredictedRate, MPI_SUM);
+  numbers_.fetch();
+  flow_.rate = {numbers_.get(kPredictedRate), numbers_.get(kPredictedRate + 1)};
+  const auto mobility = numbers_.get<Vec3>(kMobility);
+  const Real full = grid_.height_of_all_columns();
+  if (open_) {
+    flow_.response = {mobility.x, drive_.along_z() ? mobility.z : 0};
+    flow_.height = flow_.response.x;
+  } else {
+    flow_.response = {full + mobility.x, full + mobility.z};
+    flow_.height = full + mobility.y;
+  }
+}
+
 /// Along x the force is added where the pressure is; across, it is added to u* here.
 void FluidSolver::drive(FluidState& fluid, Real dt) {
-  if (open_ || drive_.along_z()) {
-    const Vec2 rate = flow_rate(u_star_, fluid);
-    flow_.rate = {open_ ? rate.x : flow_.rate.x, rate.z};
-  }
+  find_driven_flow(fluid);
   fluid.drive = report_.drive = drive_.force(fluid, flow_, dt);
   flow_.rate.x += fluid.drive.x * dt * flow_.response.x;
   flow_.rate.z += fluid.drive.z * dt * flow_.response.z;
@@ -207,36 +218,46 @@ CorrectVelocity<fraction> FluidSolver::correction(FluidState& fluid, Real dt) {
 void FluidSolver::correct(FluidState& fluid, Real dt) {
   const auto in_clear_water = correction<Fraction::uniform>(fluid, dt);
   const auto correct = [&](const auto& each_face) {
-    return largest_and_sums("fluid: correct velocity", grid_, each_face);
+    largest_and_sums("fluid: correct velocity", numbers_, kCourant, owned_cells(grid_), each_face);
   };
-  LargestAndSums corrected =
-      is_variable(fraction_)
-          ? correct(ByRegion{regions_->fraction.cells.ref(),
-                             correction<Fraction::variable>(fluid, dt), in_clear_water})
-          : correct(in_clear_water);
+  if (is_variable(fraction_)) {
+    correct(ByRegion{regions_->fraction.cells.ref(), correction<Fraction::variable>(fluid, dt),
+                     in_clear_water});
+  } else {
+    correct(in_clear_water);
+  }
   if (open_) {
     close(fluid.u), close(fluid.du_dt);
-    corrected = {max_each_cell("fluid: Courant number", grid_, Courant{grid_, fluid.u, dt}),
-                 flow_rate(fluid.u, fluid)};
+    max_each_cell("fluid: Courant number", numbers_, kCourant, owned_cells(grid_),
+                  Courant{grid_, fluid.u, dt});
+    add_flow_rate(fluid.u, fluid, kNewRate);
   }
   boundary_.fill_velocity(fluid.u);
   if (is_variable(fraction_)) boundary_.fill_acceleration(fluid.du_dt);
-  measure(fluid, corrected, dt);
+  measure(fluid, dt);
 }
 
 /// What is reported of a step.
-void FluidSolver::measure(FluidState& fluid, const LargestAndSums& corrected, Real dt) {
-  report_.courant = corrected.largest;
+void FluidSolver::measure(FluidState& fluid, Real dt) {
   const ContinuityResidual in_clear_water{
       pressure_source<Fraction::uniform>(fluid.u, fluid, 0, dt)};
   const auto residual = [&](const auto& continuity) {
-    report_.continuity_residual = max_each_cell("fluid: continuity", grid_, continuity);
+    max_each_cell("fluid: continuity", numbers_, kContinuity, owned_cells(grid_), continuity);
   };
-  if (!is_variable(fraction_)) return residual(in_clear_water);
-  residual(ByRegion{regions_->fraction.cells.ref(),
-                    ContinuityResidual{pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)},
-                    in_clear_water});
-  const Vec2 flow{corrected.sum.x, drive_.along_z() ? corrected.sum.z : 0};
+  if (is_variable(fraction_)) {
+    const ContinuityResidual near_grains{
+        pressure_source<Fraction::variable>(fluid.u, fluid, 0, dt)};
+    residual(ByRegion{regions_->fraction.cells.ref(), near_grains, in_clear_water});
+  } else {
+    residual(in_clear_water);
+  }
+  numbers_.combine(ranks_of(grid_), kContinuity, 2, MPI_MAX);
+  numbers_.combine(ranks_of(grid_), kNewRate, 2, MPI_SUM);
+  numbers_.fetch();
+  report_.continuity_residual = numbers_.get(kContinuity);
+  report_.courant = numbers_.get(kCourant);
+  if (!is_variable(fraction_)) return;
+  const Vec2 flow{numbers_.get(kNewRate), drive_.along_z() ? numbers_.get(kNewRate + 1) : 0};
   fluid.flow_rate_defect = {flow_.rate.x - flow.x, flow_.rate.z - flow.z};
   report_.bulk_velocity = {flow.x / flow_.height, flow.z / flow_.height};
 }

@@ -94,6 +94,7 @@ class FluidSolver {
                                               Real dt);
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
   void update_mobility(const FluidState& fluid);
+  void find_driven_flow(const FluidState& fluid);
   void drive(FluidState& fluid, Real dt);
   void solve_pressure(FluidState& fluid, Real dt);
   void correct(FluidState& fluid, Real dt);
@@ -102,10 +103,20 @@ class FluidSolver {
                                            Real drive_x, Real dt);
   template <Fraction fraction>
   CorrectVelocity<fraction> correction(FluidState& fluid, Real dt);
-  void measure(FluidState& fluid, const LargestAndSums& corrected, Real dt);
+  void measure(FluidState& fluid, Real dt);
   /// Nothing where no face is closed.
   void close(FaceVector& f) const;
-  Vec2 flow_rate(const FaceVector& u, const FluidState& fluid) const;
+  void add_flow_rate(const FaceVector& u, const FluidState& fluid, int slot) const;
+
+  /// Sums and maxima of a step over all cells, two a slot along x and z, three that of a vector.
+  enum FlowNumber : int {
+    kContinuity,
+    kCourant,            // and, after it, the flow rate of the new velocity [m^2/s]
+    kNewRate,            //
+    kPredictedRate = 4,  // of u* [m^2/s]
+    kMobility = 6,       // what the mobility lacks to one, or all of it where faces are closed [m]
+    kFlowNumbers = 9
+  };
 
   FluidConfig config_;
   Fraction fraction_;
@@ -121,6 +132,7 @@ class FluidSolver {
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
   std::optional<FaceVector> open_;       // where faces are closed
+  Tally numbers_{"fluid: numbers", kFlowNumbers};
   DrivenFlow flow_;                      // its rate is that with the drive after drive()
   FluidStepReport report_;
 };

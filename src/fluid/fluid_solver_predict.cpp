@@ -1,6 +1,7 @@
 // The predictor of the fluid step.
 #include "kernels/fluid/drag_between_rows.hpp"
 #include "src/fluid/fluid_solver.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -45,7 +46,7 @@ Predict<fraction, with_exchange> FluidSolver::prediction(FluidState& fluid,
 void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   const auto in_clear_water = prediction<Fraction::uniform, false>(fluid, exchange, dt);
   const auto predict = [&](const auto& each_face) {
-    flow_.rate.x = sum_each_cell("fluid: predict", grid_, each_face);
+    sum_each_cell("fluid: predict", numbers_, kPredictedRate, owned_cells(grid_), each_face);
   };
   if (is_variable(fraction_)) update_mass_flux(fluid);
   if (exchange != nullptr) {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "src/parallel/reduce.hpp"
+#include "kernels/fluid/conjugate_gradients.hpp"
+#include "kernels/fluid/flow_sums.hpp"
 
 namespace barchan {
 
@@ -40,7 +41,8 @@ void LocalCorrection::each_column(const char* label, const Functor& functor) con
 }
 
 void LocalCorrection::update(const FaceVector& c, const Region& near, const Field& room) {
-  for (Field* mask : {&mask_, &mask_1_, &mask_2_}) Kokkos::deep_copy(mask->storage, Real(0));
+  const Kokkos::DefaultExecutionSpace space;
+  for (Field* mask : {&mask_, &mask_1_, &mask_2_}) Kokkos::deep_copy(space, mask->storage, Real(0));
   c_ = c, near_ = &near, room_ = room;
   each_column("local: find columns", FindColumns{c, near.range().j1, kObstructedBelow, {mask_}});
   flat_halo_.fill(mask_);
@@ -84,16 +86,11 @@ PressureSolver::PressureSolver(const Grid& grid, const Halo& halo,
       config_(config),
       poisson_(grid, std::move(fft), 0, 1),
       local_(grid, halo),
+      numbers_("pressure: numbers", kGradientNumbers),
       r_("pressure: residual", grid),
       z_("pressure: z", grid),
       d_("pressure: direction", grid),
       e_("pressure: image", grid) {}
-
-/// What the cells near grains add to the mean of all.
-Real PressureSolver::near_mean(const Field& f) const {
-  return sum_each_cell("pressure: mean", grid_, *near_, HeightSum{grid_, f}) /
-         grid_.height_of_all_columns();
-}
 
 void PressureSolver::fill_ghosts_near(Field& f) const {
   if (near_->has_ghosts()) halo_.fill(f);
@@ -108,70 +105,92 @@ void PressureSolver::precondition() {
   }
 }
 
+/// A few numbers from others, on the device.
+template <class Functor>
+void PressureSolver::launch_once(const char* label, const Functor& functor) const {
+  Kokkos::parallel_for(label, items(1), functor);
+}
+
 /// P p = b - E (the relaxed guess), relaxed; r = b - A p.
-PressureSolver::Start PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
+void PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
   const bool relaxes = config_.preconditioner == Preconditioner::local_fft;
+  const MPI_Comm ranks = ranks_of(grid_);
   fill_ghosts_near(p);
   if (relaxes) {
     local_.relax(b, p, true);
     fill_ghosts_near(p);
   }
   const NormAndMean norm{grid_, b};
-  const Vec3 sums =
-      sum_vector("pressure: clear water", grid_, owned_cells(grid_),
-                 ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
-  const Real mean_of_b = sums.y / grid_.height_of_all_columns();
+  sum_vector("pressure: clear water", numbers_, kNormOfB, owned_cells(grid_),
+             ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
+  numbers_.combine(ranks, kNormOfB, 2, MPI_SUM);
+  launch_once("pressure: mean of b", FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
   poisson_.solve(b, p);
-  for_each_cell("pressure: mean", *near_, Subtract{e_, mean_of_b});
+  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.late(kMeanOfB)});
   fill_ghosts_near(p);
-  Real mean_of_p = 0;
+  const auto mean_of_p = [&](int slot) {
+    sum_each_cell("pressure: mean", numbers_, slot, *near_, HeightSum{grid_, p});
+  };
   if (relaxes) {
-    mean_of_p = -near_mean(p);
+    mean_of_p(kSumOfP);
     local_.relax(e_, p, false);
-    mean_of_p += near_mean(p);
+    mean_of_p(kSumOfRelaxed);
     fill_ghosts_near(p);
   }
-  const Real rr = sum_each_cell("pressure: residual", grid_, *near_, Residual{grid_, c, p, e_, r_});
-  return {sums.x - sums.y * mean_of_b, rr, mean_of_p};
+  sum_each_cell("pressure: residual", numbers_, kRR, *near_, Residual{grid_, c, p, e_, r_});
+  numbers_.combine(ranks, kSumOfP, 3, MPI_SUM);
+  launch_once("pressure: mean of p", FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
+}
+
+/// d from z; before, p goes along the last one.
+void PressureSolver::find_direction(Field& p, int iteration) {
+  if (iteration == 1) {
+    std::swap(z_, d_);
+    return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
+                         HeightSum{grid_, d_});
+  }
+  const LateReal a = numbers_.late(kA), surplus = numbers_.late(kSurplus);
+  launch_once("pressure: beta", FindBeta{numbers_.data()});
+  sum_each_cell("pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
+                NextDirection{grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), d_});
 }
 
 PressureReport PressureSolver::solve(const FaceVector& c, const Region& near, Field& b, Field& p,
                                      Real tolerance) {
   near_ = &near;
+  const MPI_Comm ranks = ranks_of(grid_);
   if (config_.preconditioner == Preconditioner::local_fft) local_.update(c, near, z_);
-  const Start first = start(c, b, p);
+  start(c, b, p);
   local_.take_room(b);  // which is no longer needed
-  const Real enough = tolerance * tolerance * first.norm_of_b;
-  const Real height = grid_.height_of_all_columns();
+  numbers_.fetch();
+  const Real norm_of_b = numbers_.get(kNormOfB) - numbers_.get(kSumOfB) * numbers_.get(kMeanOfB);
+  const Real enough = tolerance * tolerance * norm_of_b;
   PressureReport report{.iterations = 1};
-  Real rr = first.norm_of_r, rz_before = 0;
-  Real a = 0, mean_of_d = 0, surplus = first.mean_of_p;  // p + a d - surplus is the next p
-  for (; rr > enough && report.iterations < config_.max_iterations; ++report.iterations) {
+  for (; numbers_.get(kRR) > enough && report.iterations < config_.max_iterations;
+       ++report.iterations) {
     precondition();
-    const Real rz = sum_each_cell("pressure: <r, z>", grid_, *near_, InnerProduct{grid_, r_, z_});
-    if (report.iterations == 1) {
-      std::swap(z_, d_);
-      mean_of_d = sum_each_cell("pressure: mean", grid_, HeightSum{grid_, d_}) / height;
-    } else {
-      const NextDirection next{grid_, {d_, p, a, surplus}, z_, rz / rz_before, d_};
-      mean_of_d = sum_each_cell("pressure: direction", grid_, next) / height;
-      surplus = 0;
-    }
+    sum_each_cell("pressure: <r, z>", numbers_, kRZ, *near_, InnerProduct{grid_, r_, z_});
+    numbers_.combine(ranks, kRZ, 1, MPI_SUM);
+    find_direction(p, report.iterations);
     fill_ghosts_near(d_);
-    const Real curvature =
-        sum_each_cell("pressure: operator", grid_, *near_, ApplyOperator{grid_, c, d_, e_});
-    a = rz / curvature;
-    surplus += a * mean_of_d;
-    rr = sum_each_cell("pressure: advance", grid_, *near_, AdvanceResidual{grid_, e_, r_, a});
-    rz_before = rz;
+    sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
+                  ApplyOperator{grid_, c, d_, e_});
+    numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
+    launch_once("pressure: step",
+                FindStep{numbers_.data(), grid_.height_of_all_columns(), report.iterations == 1});
+    sum_each_cell("pressure: advance", numbers_, kRR, *near_,
+                  AdvanceResidual{grid_, e_, r_, numbers_.late(kA)});
+    numbers_.combine(ranks, kRR, 1, MPI_SUM);
+    numbers_.fetch();
   }
+  const LateReal surplus = numbers_.late(kSurplus);
   if (report.iterations > 1) {
-    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, a, surplus});
+    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.late(kA), surplus});
   } else {
     for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
   }
   for_each_cell("pressure: clear", near, SetZero{r_});
-  report.residual = first.norm_of_b > 0 ? std::sqrt(rr / first.norm_of_b) : 0;
+  report.residual = norm_of_b > 0 ? std::sqrt(numbers_.get(kRR) / norm_of_b) : 0;
   halo_.fill(p);
   return report;
 }

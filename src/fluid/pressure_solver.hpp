@@ -8,7 +8,7 @@
 #include "src/config/config.hpp"
 #include "src/fluid/poisson_fft.hpp"
 #include "src/parallel/halo.hpp"
-#include "src/parallel/region.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -78,14 +78,12 @@ class PressureSolver {
   std::array<Field, 3> scratch_fields() const { return {z_, d_, e_}; }
 
  private:
-  struct Start {
-    Real norm_of_b, norm_of_r;  // <b, b>, <r, r>
-    Real mean_of_p;
-  };
-  Start start(const FaceVector& c, Field& b, Field& p);
+  void start(const FaceVector& c, Field& b, Field& p);
+  void find_direction(Field& p, int iteration);
+  template <class Functor>
+  void launch_once(const char* label, const Functor& functor) const;
   void precondition();
   void fill_ghosts_near(Field& f) const;
-  Real near_mean(const Field& f) const;
 
   Grid grid_;
   Halo halo_;
@@ -93,6 +91,7 @@ class PressureSolver {
   PoissonFft poisson_;
   LocalCorrection local_;
   const Region* near_ = nullptr;  // of this solve
+  Tally numbers_;                 // GradientNumber
   Field r_, z_, d_, e_;           // residual, zero between solves and beyond near_; M^-1 r;
                                   // direction; b, then A d
 };

@@ -101,12 +101,14 @@ void GrainSolver::add_walls(const Config& config, Real r_max) {
 }
 
 /// Before the grain steps: first half kick and drift.
-void GrainSolver::kick_and_drift(const GrainState& grains, Real dt) {
-  if (excess_.extent_int(0) != ahead_ + 1) {
-    excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(ahead_) + 1);
+void GrainSolver::kick_and_drift(const GrainState& grains, int n, Real dt) {
+  if (excess_.extent_int(0) <= n) {
+    excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(n) + 1);
     host_excess_ = mirror(excess_);
+    kernels_.drop_graph();
   }
-  Kokkos::deep_copy(grains.list.expired, 1);  // the first drift does not keep account
+  // The first drift does not keep account.
+  Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), grains.list.expired, 1);
   Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),
                           KickAndDrift{.motion = motion(grains, dt, 0),
                                        .n = grains.n,
@@ -147,11 +149,11 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
   using Law = ContactLaw<Stiffness, Rolling, many>;
   const PairForces<Law> pairs{.law = {.table = of_pairs, .rolling = rolling, .dt = dt},
                               .box = list_.box(),
-                              .validity = {.excess = excess_, .before = element(s)},
+                              .validity = {.excess = excess_, .before = s},
                               .grains = grains.kin,
                               .list = grains.list,
                               .keep_force = list_.with_force && last};
-  Kokkos::parallel_for("grains: inter-chunk pairs", items(tiles_of(grains.list.n_inter)), pairs);
+  kernels_.for_each("grains: inter-chunk pairs", tiles_of(grains.list.n_inter), pairs);
   const Walls<Law> walls{.shapes = walls_,
                          .law = {.table = of_walls, .rolling = rolling, .dt = dt},
                          .grains = grains.kin,
@@ -166,20 +168,20 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
                               .contact_torque = grains.contact_torque,
                               .last = last,
                               .min_slack = list_.min_slack()};
-  Kokkos::parallel_reduce("grains: intra-chunk pairs, sum, kick and drift",
-                          items(grains.list.chunks.count()), sum, max_excess(s + 1));
+  kernels_.reduce("grains: intra-chunk pairs, sum, kick and drift", grains.list.chunks.count(), sum,
+                  max_excess(s + 1));
 }
 
 void GrainSolver::rebuild(GrainState& grains, int s) {
   list_.rebuild(grains, false);
-  Kokkos::deep_copy(Kokkos::subview(excess_, element(s)), Real(0));
+  Kokkos::deep_copy(Kokkos::subview(excess_, s), Real(0));
 }
 
 /// Over ranks, before each grain step: ghosts to where their grains are, or a new list as soon as a
 /// grain of any rank has moved too far for it.
 void GrainSolver::update_ghosts(GrainState& grains, int s) {
   Real excess = 0;
-  Kokkos::deep_copy(excess, Kokkos::subview(excess_, element(s)));
+  Kokkos::deep_copy(excess, Kokkos::subview(excess_, s));
   if (max_over(grains.ranks, excess) <= 0) {
     list_.update_ghosts(grains);
   } else {
@@ -187,13 +189,34 @@ void GrainSolver::update_ghosts(GrainState& grains, int s) {
   }
 }
 
-/// On one rank, from grain step s: as many as are launched ahead. Returns the first one that the
-/// list no longer covered, after a new list for it.
+/// A graph of all grain steps, if the list has lived for a fluid step already: it may well outlive
+/// another one, and making a graph takes as long as launching its kernels.
+bool GrainSolver::has_graph(const GrainState& grains, int n, Real dt) {
+  const GraphOf now{list_.rebuilds(), n, dt};
+  const bool list_lives = list_.rebuilds() == rebuilds_before_;
+  rebuilds_before_ = list_.rebuilds();
+  if (now != graph_of_) kernels_.drop_graph();
+  if (kernels_.has_graph()) return true;
+  if (!makes_graphs_ || !list_lives) return false;
+  kernels_.begin_graph();
+  for (int s = 0; s < n; ++s) grain_step(grains, s, s + 1 == n, dt);
+  kernels_.end_graph();
+  graph_of_ = now;
+  return true;
+}
+
+/// On one rank, from grain step s: as many as are launched ahead, or all that are in the graph.
+/// Returns the first one that the list no longer covered, after a new list for it.
 int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
-  const int end = std::min(s + ahead_, n);
-  for (int next = s; next < end; ++next) grain_step(grains, next, next + 1 == n, dt);
+  int end = std::min(s + ahead_, n);
+  if (s == 0 && has_graph(grains, n, dt)) {
+    end = n;
+    kernels_.launch_graph("grains: graph of grain steps");
+  } else {
+    for (int next = s; next < end; ++next) grain_step(grains, next, next + 1 == n, dt);
+  }
   Kokkos::deep_copy(host_excess_, excess_);
-  const auto is_stale = [&](int step) { return !(host_excess_(element(step)) <= 0); };
+  const auto is_stale = [&](int step) { return !(host_excess_(step) <= 0); };
   while (s < end && !is_stale(s)) ++s;
   if (s < n && is_stale(s)) rebuild(grains, s);
   return s;
@@ -201,7 +224,7 @@ int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
 
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
   if (n == 0 || (grains.n == 0 && !list_.partition())) return;
-  kick_and_drift(grains, dt);
+  kick_and_drift(grains, n, dt);
   for (int s = 0; s < n;) {
     if (list_.partition()) {
       update_ghosts(grains, s);

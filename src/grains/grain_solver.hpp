@@ -7,6 +7,7 @@
 #include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/neighbor_list.hpp"
+#include "src/grains/step_kernels.hpp"
 
 namespace barchan {
 
@@ -53,18 +54,18 @@ class GrainSolver {
   /// Grain steps that are launched before the host waits and looks whether the list still holds;
   /// the results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
+  /// Whether a device takes all grain steps of a fluid step in one launch where that pays; the
+  /// results do not depend on it.
+  void set_graphs(bool on) { makes_graphs_ = on && !kOnHost; }
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  /// Element of excess_ for a grain step.
-  int element(int step) const { return step % (ahead_ + 1); }
   /// Reduces into the element of a grain step, without a wait.
   Kokkos::Max<Real, DeviceMemory> max_excess(int step) const {
-    return Kokkos::Max<Real, DeviceMemory>(
-        Kokkos::View<Real, DeviceMemory>(excess_.data() + element(step)));
+    return Kokkos::Max<Real, DeviceMemory>(Kokkos::View<Real, DeviceMemory>(excess_.data() + step));
   }
   void add_walls(const Config& config, Real r_max);
-  void kick_and_drift(const GrainState& grains, Real dt);
+  void kick_and_drift(const GrainState& grains, int n, Real dt);
   void grain_step(const GrainState& grains, int s, bool last, Real dt);
   template <class Stiffness, bool many, class Rolling>
   void launch(const GrainState& grains, const LawTable<Stiffness, many>& of_pairs,
@@ -74,6 +75,7 @@ class GrainSolver {
   void with_laws(const Launch& launch) const;
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
+  bool has_graph(const GrainState& grains, int n, Real dt);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
   NeighborList list_;
@@ -82,6 +84,15 @@ class GrainSolver {
   RollingLaw rolling_;
   WallShapes walls_;
   int ahead_ = kOnHost ? 1 : 16;
+  bool makes_graphs_ = !kOnHost;
+  StepKernels kernels_;
+  struct GraphOf {
+    std::int64_t rebuilds = -1;
+    int n = 0;
+    Real dt = 0;
+    bool operator==(const GraphOf&) const = default;
+  } graph_of_;
+  std::int64_t rebuilds_before_ = -1;  // as the last fluid step began
   // Largest squared displacement beyond the skin of a grain as a grain step begins [m^2].
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 
+#include "kernels/math/raise_to.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/parallel/launch.hpp"
 
@@ -15,12 +16,14 @@ namespace {
 struct MarkNotOne {
   ConstFieldRef field;
   int nx, ny;
-  Kokkos::View<int*> marks;  // (nx, nz)
+  int first, stride, last;   // mark of this rank's first column, from plane to plane, of the height
+  Kokkos::View<int*> marks;  // of all ranks
 
-  KOKKOS_FUNCTION void operator()(int item, int& top) const {
+  KOKKOS_FUNCTION void operator()(int item) const {
+    int top = 0;
     const int k = kOnHost ? item : item / nx;
     const int begin = kOnHost ? 0 : item % nx, end = kOnHost ? nx : begin + 1;
-    int* const mark = marks.data() + static_cast<std::ptrdiff_t>(nx) * k;
+    int* const mark = marks.data() + first + static_cast<std::ptrdiff_t>(stride) * k;
     for (int j = 0; j < ny; ++j) {
       int found = 0;
 #pragma omp simd reduction(| : found)
@@ -29,8 +32,9 @@ struct MarkNotOne {
         mark[i] |= here;
         found |= here;
       }
-      top = found != 0 && j + 1 > top ? j + 1 : top;
+      top = found != 0 ? j + 1 : top;
     }
+    raise_to(&marks(last), top);
   }
 };
 
@@ -46,30 +50,23 @@ ColumnMap ColumnMap::everything(const Grid& grid) {
   return all;
 }
 
-ColumnMap ColumnMap::not_one(const Grid& grid, const Field& field, const ColumnMarks& room) {
-  Kokkos::deep_copy(room.on_device, 0);
-  int top = 0;
-  Kokkos::parallel_reduce("columns: not one", items(kOnHost ? grid.nz : grid.nx * grid.nz),
-                          MarkNotOne{field, grid.nx, grid.ny, room.on_device},
-                          Kokkos::Max<int>(top));
-  Kokkos::deep_copy(room.on_host, room.on_device);
-  ColumnMap map(grid);
-  for (int k = 0; k < grid.nz; ++k) {
-    for (int i = 0; i < grid.nx; ++i)
-      map.on_[map.index(grid.i_begin + i, grid.k_begin + k)] =
-          room.on_host(static_cast<std::size_t>(i + grid.nx * k)) != 0;
-  }
-  map.top_ = std::max(top, 0);
-  map.unite_ranks(grid);
-  return map;
+void ColumnMarks::mark_not_one(int row, const Grid& grid, const Field& field) const {
+  Kokkos::parallel_for("columns: not one", items(kOnHost ? grid.nz : grid.nx * grid.nz),
+                       MarkNotOne{.field = field,
+                                  .nx = grid.nx,
+                                  .ny = grid.ny,
+                                  .first = grid.i_begin + grid.nx_all * grid.k_begin,
+                                  .stride = grid.nx_all,
+                                  .last = grid.nx_all * grid.nz_all,
+                                  .marks = this->row(row)});
 }
 
-ColumnMap ColumnMap::marked(const Grid& grid, const ColumnMarks& marks, int top) {
-  Kokkos::deep_copy(marks.on_host, marks.on_device);
+ColumnMap ColumnMap::marked(const Grid& grid, const ColumnMarks& marks, int row) {
   ColumnMap map(grid);
-  for (std::size_t column = 0; column < map.on_.size(); ++column)
-    map.on_[column] = marks.on_host(column) != 0;
-  map.top_ = top;
+  const int n = grid.nx_all * grid.nz_all;
+  for (int column = 0; column < n; ++column)
+    map.on_[static_cast<std::size_t>(column)] = marks.on_host(row, column) != 0;
+  map.top_ = marks.on_host(row, n);
   map.unite_ranks(grid);
   return map;
 }

@@ -9,14 +9,28 @@
 
 namespace barchan {
 
-/// Marks of columns, made by kernels: not zero, or zero.
+/// Marks of columns of all ranks, made by kernels: a row of them for each purpose. The last mark of
+/// a row says how many rows of cells the columns reach up, the others (i + nx_all k) are zero or
+/// not.
 struct ColumnMarks {
-  Kokkos::View<int*> on_device;
-  Kokkos::View<int*>::host_mirror_type on_host;
+  Kokkos::View<int**, Kokkos::LayoutRight> on_device;
+  Kokkos::View<int**, Kokkos::LayoutRight>::host_mirror_type on_host;
 
   ColumnMarks() = default;
-  ColumnMarks(const char* label, int columns)
-      : on_device(label, static_cast<std::size_t>(columns)), on_host(mirror(on_device)) {}
+  ColumnMarks(const char* label, const Grid& grid, int rows)
+      : on_device(label, rows, grid.nx_all * grid.nz_all + 1), on_host(mirror(on_device)) {}
+
+  void set_zero() const { Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), on_device, 0); }
+  /// The columns of this rank where a field is not one, up to its highest such cell.
+  void mark_not_one(int row, const Grid& grid, const Field& field) const;
+  /// For kernels.
+  Kokkos::View<int*> row(int row) const { return Kokkos::subview(on_device, row, Kokkos::ALL); }
+  /// Brings them to the host, which has them after a fence.
+  void copy_to_host() const {
+    Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), on_host, on_device);
+  }
+  /// The same, and waits.
+  void fetch() const { Kokkos::deep_copy(on_host, on_device); }
 };
 
 /// Some x-z columns of the cells of all ranks, up to one height: the same on every rank. Small, and
@@ -28,11 +42,8 @@ class ColumnMap {
   explicit ColumnMap(const Grid& grid);
 
   static ColumnMap everything(const Grid& grid);
-  /// Those where a field is not one, up to its highest such cell. `room`: for the columns of this
-  /// rank. All ranks together.
-  static ColumnMap not_one(const Grid& grid, const Field& field, const ColumnMarks& room);
-  /// Those that are marked (i + nx_all k), up to the rows [0, top). All ranks together.
-  static ColumnMap marked(const Grid& grid, const ColumnMarks& marks, int top);
+  /// Those that are marked, as they were fetched. All ranks together.
+  static ColumnMap marked(const Grid& grid, const ColumnMarks& marks, int row);
 
   int top() const { return top_; }
   void set_top(int rows) { top_ = rows; }

@@ -18,7 +18,6 @@ struct Grid : BasicGrid<Kokkos::View<Real*>> {
   /// All x-z columns times the height of the domain [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
   HostGrid on_host() const {
-    const Kokkos::HostSpace host;
     return {*this, host_copy(y_face_), host_copy(y_centre_), host_copy(row_at_)};
   }
   // NOLINTNEXTLINE(google-explicit-constructor): a Grid is one

@@ -1,7 +1,6 @@
 // Sums and maxima over cells and ranks.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,14 +60,19 @@ struct Reduction {
   }
 };
 
+template <class Functor>
+using Sum = Reduction<false, Functor>;
+template <class Functor>
+using Largest = Reduction<true, Functor>;
+
 /// The sum of a functor's vectors.
 template <class Functor>
 struct VectorSum {
   Functor functor;
   CellRange range;
-  KOKKOS_FUNCTION void operator()(int item, Real& x, Real& y, Real& z) const {
+  KOKKOS_FUNCTION void operator()(int item, Vec3& sum) const {
     const CellsOfRow at = cells_of_item(range, item);
-    each_part(functor, at, [&at, &x, &y, &z](const auto& part, int begin, int end) {
+    each_part(functor, at, [&at, &sum](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
       const int j = at.j, k = at.k;
       Real row_x = 0, row_y = 0, row_z = 0;
@@ -79,9 +83,7 @@ struct VectorSum {
         row_y += value.y;
         row_z += value.z;
       }
-      x += row_x;
-      y += row_y;
-      z += row_z;
+      sum += Vec3{row_x, row_y, row_z};
     });
   }
 };
@@ -91,12 +93,12 @@ template <class Functor>
 struct MaxAndSum {
   Functor functor;
   CellRange range;
-  KOKKOS_FUNCTION void operator()(int item, Real& largest, Real& x, Real& y) const {
+  KOKKOS_FUNCTION void operator()(int item, LargestAndSums& all) const {
     const CellsOfRow at = cells_of_item(range, item);
-    each_part(functor, at, [&at, &largest, &x, &y](const auto& part, int begin, int end) {
+    each_part(functor, at, [&at, &all](const auto& part, int begin, int end) {
       Body<std::remove_cvref_t<decltype(part)>> body = part;
       const int j = at.j, k = at.k;
-      Real row_max = largest, row_all = 0, row_x = 0, row_y = 0;
+      Real row_max = all.largest, row_all = 0, row_x = 0, row_y = 0;
 #pragma omp simd reduction(max : row_max) reduction(+ : row_all, row_x, row_y)
       for (int i = begin; i < end; ++i) {
         const LargestAndSums value = body(i, j, k);
@@ -105,75 +107,40 @@ struct MaxAndSum {
         row_x += value.sum.x;
         row_y += value.sum.z;
       }
-      largest = row_all == row_all ? row_max : Kokkos::Experimental::infinity_v<Real>;
-      x += row_x;
-      y += row_y;
+      const Real largest = row_all == row_all ? row_max : Kokkos::Experimental::infinity_v<Real>;
+      join(all, {largest, {row_x, row_y}});
     });
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static void join(LargestAndSums& all, const LargestAndSums& more) {
+    all.largest = Kokkos::max(all.largest, more.largest);
+    all.sum.x += more.sum.x;
+    all.sum.z += more.sum.z;
   }
 };
 
 }  // namespace launch_detail
 
-/// Sum of functor(i, j, k), which may also write, over the given cells of each rank, by default
-/// all. The order of additions depends only on these cells and the numbers of threads and ranks.
-template <class Functor>
-Real sum_each_cell(const char* label, const Grid& grid, const CellRange& range,
-                   const Functor& functor) {
-  Real sum = 0;
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::Reduction<false, Functor>{functor, range}, sum);
-  return sum_over(ranks_of(grid), sum);
-}
+/// Sum of functor(i, j, k), which may also write, over all cells. The order of additions depends
+/// only on the cells of each rank and the numbers of threads and ranks.
 template <class Functor>
 Real sum_each_cell(const char* label, const Grid& grid, const Functor& functor) {
-  return sum_each_cell(label, grid, owned_cells(grid), functor);
+  Real sum = 0;
+  const CellRange range = owned_cells(grid);
+  Kokkos::parallel_reduce(label, launch_detail::policy(range),
+                          launch_detail::Sum<Functor>{functor, range}, sum);
+  return sum_over(ranks_of(grid), sum);
 }
 
-/// The same of vectors.
-template <class Functor>
-Vec3 sum_vector(const char* label, const Grid& grid, const CellRange& range,
-                const Functor& functor) {
-  std::vector<Real> sum(3);
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::VectorSum<Functor>{functor, range}, sum[0], sum[1],
-                          sum[2]);
-  sum_over(ranks_of(grid), sum);
-  return {sum[0], sum[1], sum[2]};
-}
-
-/// Largest functor(i, j, k) over the given cells of this rank, by default all, for values that are
-/// not negative; infinity if one is not a number.
-template <class Functor>
-Real max_each_cell_here(const char* label, const CellRange& range, const Functor& functor) {
-  Real largest = 0;
-  Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::Reduction<true, Functor>{functor, range},
-                          Kokkos::Max<Real>(largest));
-  return std::max<Real>(largest, 0);  // of no cells
-}
-/// Of all ranks.
-template <class Functor>
-Real max_each_cell(const char* label, const Grid& grid, const CellRange& range,
-                   const Functor& functor) {
-  return max_over(ranks_of(grid), max_each_cell_here(label, range, functor));
-}
+/// Largest functor(i, j, k) over all cells, for values that are not negative; infinity if one is
+/// not a number.
 template <class Functor>
 Real max_each_cell(const char* label, const Grid& grid, const Functor& functor) {
-  return max_each_cell(label, grid, owned_cells(grid), functor);
-}
-
-/// Of functors that return LargestAndSums: the largest, not negative, and the sums, over all ranks;
-/// infinity if one of the former is not a number.
-template <class Functor>
-LargestAndSums largest_and_sums(const char* label, const Grid& grid, const Functor& functor) {
-  LargestAndSums all;
+  Real largest = 0;
   const CellRange range = owned_cells(grid);
-  std::vector<Real> sum(2);
   Kokkos::parallel_reduce(label, launch_detail::policy(range),
-                          launch_detail::MaxAndSum<Functor>{functor, range},
-                          Kokkos::Max<Real>(all.largest), sum[0], sum[1]);
-  sum_over(ranks_of(grid), sum);
-  return {max_over(ranks_of(grid), all.largest), {sum[0], sum[1]}};
+                          launch_detail::Largest<Functor>{functor, range},
+                          Kokkos::Max<Real>(largest));
+  return max_over(ranks_of(grid), largest);
 }
 
 }  // namespace barchan

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "src/parallel/column_map.hpp"
-#include "src/parallel/reduce.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
@@ -58,22 +58,6 @@ void for_each_cell(const char* label, const Region& region, const Functor& funct
 template <class Functor>
 void for_each_column(const char* label, const Region& region, const Functor& functor) {
   for_each_cell(label, region.floor(), Within<Functor>{region.ref(), functor});
-}
-
-/// Sums and maxima over a region, as in reduce.hpp over ranges.
-template <class Functor>
-Real sum_each_cell(const char* label, const Grid& grid, const Region& region,
-                   const Functor& functor) {
-  return sum_each_cell(label, grid, region.range(), Within<Functor>{region.ref(), functor});
-}
-template <class Functor>
-Vec3 sum_vector(const char* label, const Grid& grid, const Region& region, const Functor& functor) {
-  return sum_vector(label, grid, region.range(), Within<Functor>{region.ref(), functor});
-}
-template <class Functor>
-Real max_each_cell(const char* label, const Grid& grid, const Region& region,
-                   const Functor& functor) {
-  return max_each_cell(label, grid, region.range(), Within<Functor>{region.ref(), functor});
 }
 
 }  // namespace barchan

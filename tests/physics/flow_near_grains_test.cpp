@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/fluid/pressure.hpp"
+#include "kernels/fluid/conjugate_gradients.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_run.hpp"
 
@@ -21,11 +21,12 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   const auto is_in_mound = [](int i, int j, int k) {
     return i >= 12 && i < 16 && k >= 3 && k < 6 && j < 3;
   };
-  const ColumnMarks marks("test: marks", 40 * 9);
+  const ColumnMarks marks("test: marks", near.grid, 1);
   for (int column = 0; column < 40 * 9; ++column)
-    marks.on_host(static_cast<std::size_t>(column)) = is_in_mound(column % 40, 0, column / 40);
+    marks.on_host(0, column) = is_in_mound(column % 40, 0, column / 40);
+  marks.on_host(0, 40 * 9) = 3;
   Kokkos::deep_copy(marks.on_device, marks.on_host);
-  const ColumnMap mound = ColumnMap::marked(near.grid, marks, 3);
+  const ColumnMap mound = ColumnMap::marked(near.grid, marks, 0);
   FlowRegions regions(near.grid);
   regions.exchange.set(mound.grown(1)), regions.fraction.set(mound.grown(5));
   for (test::FlowRun* run : {&whole, &near}) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/fluid/pressure.hpp"
+#include "kernels/fluid/conjugate_gradients.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_run.hpp"

@@ -7,6 +7,7 @@
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/half_kick.hpp"
 #include "tests/support/grain_bench.hpp"
+#include "tests/support/launch_counter.hpp"
 
 namespace barchan {
 namespace {
@@ -261,6 +262,31 @@ TEST(GrainSolver, LaunchingAheadChangesNothing) {
   EXPECT_GT(one.solver.list().rebuilds(), 10);
   EXPECT_EQ(one.solver.list().rebuilds(), ahead.solver.list().rebuilds());
   const auto a = rows_by_id(one.state), b = rows_by_id(ahead.state);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t id = 1; id < a.size(); ++id) {
+    EXPECT_EQ(a[id].x.x, b[id].x.x);
+    EXPECT_EQ(a[id].u.y, b[id].u.y);
+    EXPECT_EQ(a[id].omega.z, b[id].omega.z);
+  }
+}
+
+// Grain steps of a device that are launched together, as long as the list lives.
+TEST(GrainSolver, AGraphChangesNothing) {
+  if (kOnHost) GTEST_SKIP() << "a host launches kernels one by one";
+  Config config = grain_config();
+  config.size = {0.003, 0.003, 0.003};
+  config.grains->material.rolling_friction = 0.1;
+  GrainBench one(config, gas()), graph(config, gas());
+  one.solver.set_graphs(false);
+  const test::LaunchCounter counter;
+  for (int step = 0; step < 60; ++step) {
+    one.advance(20, 2.5e-6);
+    graph.advance(20, 2.5e-6);
+  }
+  EXPECT_GT(counter.launches().at("grains: graph of grain steps"), 10);
+  EXPECT_GT(one.solver.list().rebuilds(), 3);
+  EXPECT_EQ(one.solver.list().rebuilds(), graph.solver.list().rebuilds());
+  const auto a = rows_by_id(one.state), b = rows_by_id(graph.state);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t id = 1; id < a.size(); ++id) {
     EXPECT_EQ(a[id].x.x, b[id].x.x);

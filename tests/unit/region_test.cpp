@@ -9,6 +9,7 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/coupling/smoother.hpp"
+#include "src/parallel/tally_cells.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -22,10 +23,11 @@ Grid grid_of(std::array<int, 3> n) {
 
 /// Up to the rows [0, top).
 ColumnMap map_of(const Grid& grid, const std::vector<Column>& columns, int top) {
-  const ColumnMarks marks("test: marks", grid.nx * grid.nz);
-  for (const auto& [i, k] : columns) marks.on_host(static_cast<std::size_t>(i + grid.nx * k)) = 1;
+  const ColumnMarks marks("test: marks", grid, 1);
+  for (const auto& [i, k] : columns) marks.on_host(0, i + grid.nx * k) = 1;
+  marks.on_host(0, grid.nx * grid.nz) = top;
   Kokkos::deep_copy(marks.on_device, marks.on_host);
-  return ColumnMap::marked(grid, marks, top);
+  return ColumnMap::marked(grid, marks, 0);
 }
 
 std::set<Column> columns_of(const Grid& grid, const ColumnMap& map) {
@@ -77,12 +79,19 @@ TEST(ColumnMap, FindsWhereAFieldIsNotOne) {
   test::set_field(f, grid, [](int i, int j, int k) {
     return (i == 2 && j == 3 && k == 1) || (i == 5 && j == 0 && k == 3) ? 1 - 1e-15 : 1.0;
   });
-  const ColumnMarks room("test: room", grid.nx * grid.nz);
-  const ColumnMap map = ColumnMap::not_one(grid, f, room);
+  const ColumnMarks marks("test: marks", grid, 2);
+  const auto not_one = [&] {
+    marks.set_zero();
+    marks.mark_not_one(1, grid, f);
+    marks.fetch();
+    EXPECT_TRUE(ColumnMap::marked(grid, marks, 0).is_empty());
+    return ColumnMap::marked(grid, marks, 1);
+  };
+  const ColumnMap map = not_one();
   EXPECT_EQ(columns_of(grid, map), (std::set<Column>{{2, 1}, {5, 3}}));
   EXPECT_EQ(map.top(), 4);
   test::set_field(f, grid, [](int, int, int) { return 1.0; });
-  EXPECT_TRUE(ColumnMap::not_one(grid, f, room).is_empty());
+  EXPECT_TRUE(not_one().is_empty());
 }
 
 /// Adds a number to a cell, and returns it.
@@ -102,9 +111,16 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   Region in(grid), out(grid);
   in.set(inner), out.set(outer);
   Field f("f", grid);
-  const Real sum = sum_each_cell(
-      "test", grid, ByRegion{in.ref(), Add{f, 100}, ByRegion{out.ref(), Add{f, 10}, Add{f, 1}}});
-  const Real sum_inside = sum_each_cell("test", grid, in, Add{f, 1000});
+  const Tally tally("test", 2);
+  const auto sum_over = [&](const auto& cells, const auto& functor) {
+    sum_each_cell("test", tally, 1, cells, functor);
+    tally.fetch();
+    return tally.get(1);
+  };
+  const Real sum =
+      sum_over(owned_cells(grid),
+               ByRegion{in.ref(), Add{f, 100}, ByRegion{out.ref(), Add{f, 10}, Add{f, 1}}});
+  const Real sum_inside = sum_over(in, Add{f, 1000});
   const auto got = test::to_host(f);
   Real expected_sum = 0, expected_inside = 0;
   test::for_owned_cells(grid, [&](int i, int j, int k) {
@@ -118,7 +134,7 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   EXPECT_EQ(sum, expected_sum);
   EXPECT_EQ(sum_inside, expected_inside);
   in.set({});
-  EXPECT_EQ(sum_each_cell("test", grid, in, Add{f, 1000}), 0);
+  EXPECT_EQ(sum_over(in, Add{f, 1000}), 0);
   EXPECT_FALSE(in.has_ghosts());
 }
 

@@ -1,0 +1,166 @@
+// Conjugate gradients for the pressure equation. Inner products are sums over cells weighted with
+// their height (dx dz is the same everywhere), in which the operator is self-adjoint.
+#pragma once
+
+#include "kernels/fluid/pressure.hpp"
+#include "kernels/math/late_real.hpp"
+
+namespace barchan {
+
+/// Numbers that one kernel leaves for the next ones. Means are over the height of all columns.
+enum GradientNumber : int {
+  kNormOfB,  // <b, b>; then <b, 1> and nothing
+  kSumOfB,
+  kSumOfP = 3,  // <p, 1> near the grains before the relaxation, and after it
+  kSumOfRelaxed,
+  kRR,         // <r, r>
+  kRZ,         // <r, z>
+  kCurvature,  // <d, A d>
+  kSumOfD,     // <d, 1>
+  kRZBefore,   // <r, z> one iteration before
+  kMeanOfB,
+  kBeta,     // the next d is z + beta d,
+  kA,        // the next p is p + a d - surplus
+  kSurplus,  // of the mean of p
+  kGradientNumbers
+};
+struct FindMeanOfB {
+  Real* number;
+  Real height;
+  KOKKOS_FUNCTION void operator()(int) const { number[kMeanOfB] = number[kSumOfB] / height; }
+};
+/// What the relaxation added to the mean of p, if no direction was taken yet.
+struct FindSurplus {
+  Real* number;
+  Real height;
+  KOKKOS_FUNCTION void operator()(int) const {
+    number[kSurplus] = -(number[kSumOfP] / height) + number[kSumOfRelaxed] / height;
+  }
+};
+struct FindBeta {
+  Real* number;
+  KOKKOS_FUNCTION void operator()(int) const { number[kBeta] = number[kRZ] / number[kRZBefore]; }
+};
+struct FindStep {
+  Real* number;
+  Real height;
+  bool is_first;  // later NextDirection has taken off what there was
+  KOKKOS_FUNCTION void operator()(int) const {
+    number[kA] = number[kRZ] / number[kCurvature];
+    const Real before = is_first ? number[kSurplus] : 0;
+    number[kSurplus] = before + number[kA] * (number[kSumOfD] / height);
+    number[kRZBefore] = number[kRZ];
+  }
+};
+
+/// Adds up <b, b> and <b, 1>.
+struct NormAndMean {
+  GridRef grid;
+  ConstFieldRef b;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Real value = b(i, j, k), weighted = value * grid.dy(j);
+    return {value * weighted, weighted, 0};
+  }
+};
+/// The same of b, before it becomes b - E p; a copy of it.
+struct SubtractObstruction {
+  NormAndMean of_b;
+  ConstFaceRef c;
+  ConstFieldRef p;
+  FieldRef b, copy;
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(int i, int j, int k) const {
+    const Vec3 sums = of_b(i, j, k);
+    const Real before = b(i, j, k);
+    copy(i, j, k) = before;
+    b(i, j, k) = before - obstruction(of_b.grid, c, p, i, j, k);
+    return sums;
+  }
+};
+/// r = b - A p; adds up <r, r>.
+struct Residual {
+  GridRef grid;
+  ConstFaceRef c;
+  ConstFieldRef p, b;
+  FieldRef r;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real value = b(i, j, k) - pressure_operator(grid, c, p, i, j, k);
+    r(i, j, k) = value;
+    return value * value * grid.dy(j);
+  }
+};
+struct SetZero {
+  FieldRef f;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { f(i, j, k) = 0; }
+};
+/// q = A d; adds up <d, q>.
+struct ApplyOperator {
+  GridRef grid;
+  ConstFaceRef c;
+  ConstFieldRef d;
+  FieldRef q;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real value = pressure_operator(grid, c, d, i, j, k);
+    q(i, j, k) = value;
+    return value * d(i, j, k) * grid.dy(j);
+  }
+};
+/// r -= a q; adds up <r, r>.
+struct AdvanceResidual {
+  GridRef grid;
+  ConstFieldRef q;
+  FieldRef r;
+  LateReal a;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    const Real value = r(i, j, k) - a * q(i, j, k);
+    r(i, j, k) = value;
+    return value * value * grid.dy(j);
+  }
+};
+/// p += a d - surplus.
+struct AdvancePressure {
+  ConstFieldRef d;
+  FieldRef p;
+  LateReal a, surplus;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    p(i, j, k) += a * d(i, j, k) - surplus;
+  }
+};
+/// The same, and then d = z + b d, the next direction; adds up d.
+struct NextDirection {
+  GridRef grid;
+  AdvancePressure advance;
+  ConstFieldRef z;
+  LateReal b;
+  FieldRef d;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    advance(i, j, k);
+    const Real value = z(i, j, k) + b * d(i, j, k);
+    d(i, j, k) = value;
+    return value * grid.dy(j);
+  }
+};
+/// d = a z + b d: a first guess, linear in time through two pressures.
+struct Combine {
+  Real a;
+  ConstFieldRef z;
+  Real b;
+  FieldRef d;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    d(i, j, k) = a * z(i, j, k) + b * d(i, j, k);
+  }
+};
+/// Adds up <a, b>.
+struct InnerProduct {
+  GridRef grid;
+  ConstFieldRef a, b;
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    return a(i, j, k) * b(i, j, k) * grid.dy(j);
+  }
+};
+struct Subtract {
+  FieldRef a;
+  LateReal constant;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
+};
+
+}  // namespace barchan

@@ -1,0 +1,32 @@
+// A number that an earlier kernel computes.
+#pragma once
+
+#include "kernels/math/on_host.hpp"
+#include "kernels/math/vec3.hpp"
+
+namespace barchan {
+
+/// Its value where kernels run on the host, for it is there already; on a device the place where it
+/// will be.
+class LateReal {
+ public:
+  LateReal(Real value) : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one
+  explicit LateReal(const Real* at) {
+    if constexpr (kOnHost) {
+      value_ = *at;
+    } else {
+      at_ = at;
+    }
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): it is a number
+  KOKKOS_FORCEINLINE_FUNCTION operator Real() const {
+    if constexpr (kOnHost) return value_;
+    return at_ == nullptr ? value_ : *at_;
+  }
+
+ private:
+  Real value_ = 0;
+  const Real* at_ = nullptr;
+};
+
+}  // namespace barchan
