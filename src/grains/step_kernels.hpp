@@ -3,6 +3,7 @@
 
 #include <Kokkos_Graph.hpp>
 #include <optional>
+#include <string>
 
 #include "src/parallel/launch.hpp"
 
@@ -40,7 +41,7 @@ class StepKernels {
   void for_each(const char* label, int n, const Functor& functor) {
     if constexpr (!kOnHost) {
       if (last_) {
-        last_ = last_->then_parallel_for(label, items(n), functor);
+        last_ = last_->then_parallel_for(std::string(label), items(n), functor);
         return;
       }
     }
@@ -48,10 +49,10 @@ class StepKernels {
   }
   /// Into a number on the device.
   template <class Functor, class Result>
-  void reduce(const char* label, int n, const Functor& functor, const Result& result) {
+  void reduce(const char* label, int n, const Functor& functor, Result result) {
     if constexpr (!kOnHost) {
       if (last_) {
-        last_ = last_->then_parallel_reduce(label, items(n), functor, result);
+        last_ = last_->then_parallel_reduce(std::string(label), items(n), functor, result);
         return;
       }
     }

@@ -1,11 +1,12 @@
 #include "src/parallel/tally.hpp"
 
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
 Tally::Tally(const char* label, std::size_t n)
-    : on_device_(label, n), on_host_(Kokkos::create_mirror_view(on_device_)) {}
+    : on_device_(label, n), on_host_(mirror(on_device_)) {}
 
 void Tally::combine(MPI_Comm ranks, int slot, int n, MPI_Op operation) const {
   if (rank_count(ranks) == 1) return;

@@ -37,7 +37,7 @@ void for_owned_cells(const Grid& grid, const Each& each) {
 /// Sets the owned cells to value(i, j, k); ghosts become zero.
 template <class Value>
 void set_field(const Field& f, const Grid& grid, const Value& value) {
-  decltype(HostField::values) host("host", f.storage.extent(0), f.storage.extent(1),
+  decltype(HostField::values) host("host: values", f.storage.extent(0), f.storage.extent(1),
                                    f.storage.extent(2));
   for_owned_cells(grid, [&](int i, int j, int k) { host(i + 1, j + 1, k + 1) = value(i, j, k); });
   Kokkos::deep_copy(f.storage, host);
@@ -46,7 +46,7 @@ void set_field(const Field& f, const Grid& grid, const Value& value) {
 /// value(i, j, k) in all cells, ghosts included.
 template <class Value>
 HostField host_field(const GridRef& grid, const Value& value) {
-  HostField f{decltype(HostField::values)("f", grid.nx + 2, grid.ny + 2, grid.nz + 2)};
+  HostField f{decltype(HostField::values)("host: values", grid.nx + 2, grid.ny + 2, grid.nz + 2)};
   for (int k = -1; k <= grid.nz; ++k)
     for (int j = -1; j <= grid.ny; ++j)
       for (int i = -1; i <= grid.nx; ++i) f.values(i + 1, j + 1, k + 1) = value(i, j, k);
