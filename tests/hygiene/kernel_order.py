@@ -62,9 +62,19 @@ def in_all_orders(work, name, command):
     return runs
 
 
+def probe():
+    """A program that depends on the order must say something else in each."""
+    words = [ROOT / "build/rehearsal/sanitizer_probe", "depends_on_order"]
+    said = {subprocess.run(words, env={**faults.ENVIRONMENT, "BARCHAN_ORDER": order}, capture_output=True, text=True,
+                           check=True).stdout for order in ORDERS}
+    if len(said) != len(ORDERS):
+        faults.fail(f"orders make no difference where they must: {said}")
+
+
 def main(work):
     if not pathlib.Path(os.environ["BARCHAN_PROGRAM"]).exists():
         faults.fail("no program of the preset rehearsal: BARCHAN_PRESET=rehearsal ./barchan build")
+    probe()
     case = work / "dry.toml"
     case.write_text(DRY)
     dry = in_all_orders(work, "dry", lambda folder: [os.environ["BARCHAN_PROGRAM"], "run", str(case), "--quiet",

@@ -55,6 +55,17 @@ void memory_again() {
   }
 }
 
+/// Nothing to report, but another number in another order: kernel_order.py must see it.
+void depends_on_order() {
+  const Numbers a("numbers", n);
+  Kokkos::parallel_for(
+      "each from the last", n, KOKKOS_LAMBDA(int i) { a(i) = i == 0 ? 0 : a(i - 1) + 1; });
+  double sum = 0;
+  Kokkos::parallel_reduce(
+      "sum", n, KOKKOS_LAMBDA(int i, double& s) { s += a(i); }, sum);
+  std::printf("%g\n", sum);
+}
+
 void read() {
   const Numbers a = filled();
   std::printf("%g\n", a(5));
@@ -103,6 +114,7 @@ void send() {
 const std::map<std::string, std::function<void()>> modes = {
     {"with_copies", with_copies},
     {"memory_again", memory_again},
+    {"depends_on_order", depends_on_order},
     {"read", read},
     {"write", write},
     {"read_a_part", read_a_part},
