@@ -111,8 +111,8 @@ class FluidSolver {
   /// Sums and maxima of a step over all cells, two a slot along x and z, three that of a vector.
   enum FlowNumber : int {
     kContinuity,
-    kCourant,            // and, after it, the flow rate of the new velocity [m^2/s]
-    kNewRate,            //
+    kCourant,            // with the next ones a LargestAndSums
+    kNewRate,            // flow rate of the new velocity [m^2/s]
     kPredictedRate = 4,  // of u* [m^2/s]
     kMobility = 6,       // what the mobility lacks to one, or all of it where faces are closed [m]
     kFlowNumbers = 9
@@ -133,7 +133,7 @@ class FluidSolver {
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
   std::optional<FaceVector> open_;       // where faces are closed
   Tally numbers_{"fluid: numbers", kFlowNumbers};
-  DrivenFlow flow_;                      // its rate is that with the drive after drive()
+  DrivenFlow flow_;  // its rate is that with the drive after drive()
   FluidStepReport report_;
 };
 
