@@ -37,6 +37,7 @@ using Phases = std::map<std::string, double>;
 class PhaseTimer {
  public:
   PhaseTimer(Phases& phases, const char* name) : seconds_(phases[name]), region_(name) {}
+
  private:
   ScopedSeconds seconds_;
   Kokkos::Profiling::ScopedRegion region_;

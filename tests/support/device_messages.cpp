@@ -1,6 +1,6 @@
-// Linked into every program of the preset rehearsal: messages of MPI come from the host's memory and go
-// there, for not every MPI library reaches a device. One that does not ends as a host's access would
-// (device_memory.cpp).
+// Linked into every program of the preset rehearsal: messages of MPI come from the host's memory
+// and go there, for not every MPI library reaches a device. One that does not ends as a host's
+// access would (device_memory.cpp).
 #include <mpi.h>
 #include <sanitizer/asan_interface.h>
 
@@ -14,8 +14,8 @@ void check(const char* call, const void* numbers, int n, MPI_Datatype type) {
   int bytes = 0;
   PMPI_Type_size(type, &bytes);
   void* const begin = const_cast<void*>(numbers);
-  if (__asan_region_is_poisoned(begin, static_cast<std::size_t>(bytes) *
-                                           static_cast<std::size_t>(n)) == nullptr)
+  if (__asan_region_is_poisoned(
+          begin, static_cast<std::size_t>(bytes) * static_cast<std::size_t>(n)) == nullptr)
     return;
   std::fprintf(stderr, "%s of an array of the device\n", call);
   __asan_report_error(__builtin_return_address(0), __builtin_frame_address(0),
