@@ -90,7 +90,7 @@ CORE = measured_core()
 # launches two more kernels and waits for the largest displacement; a message is packed, awaited and unpacked;
 # a transpose launches a kernel for each rank that shares the axis.
 H200 = Machine("H200", memory=1.2e11, grain_step=(9e-6, 2.41e-10), rebuild=(3.8e-4, 4.2e-10),
-               exchange=3e-10, flow=(1.9e-4, 1.1e-10), coupled=(1.6e-3, 6.8e-10), among_ranks=1.6e-5,
+               exchange=3e-10, flow=(1.9e-4, 1.1e-10), coupled=(8e-4, 6.8e-10), among_ranks=1.6e-5,
                message=6e-6, block=4e-6)
 
 

@@ -68,6 +68,7 @@ struct GrainTotals {
     return *this;
   }
 };
+/// Adds them up over the grains.
 struct AddTotals {
   ExchangeOfGrain of_grain;
   KOKKOS_FUNCTION void operator()(int g, GrainTotals& sum) const {

@@ -19,7 +19,7 @@ struct WallRules {
   Real top_value = 0;  // of the field on the upper wall, for GhostRule::opposite
 };
 
-/// A field with its walls. In the column (i, k):
+/// A field and the rules of its walls.
 struct FieldWithWalls {
   FieldRef f;
   int ny = 0;

@@ -24,6 +24,7 @@ enum GradientNumber : int {
   kSurplus,  // of the mean of p
   kGradientNumbers
 };
+/// From the sum of b.
 struct FindMeanOfB {
   Real* number;
   Real height;
@@ -37,10 +38,12 @@ struct FindSurplus {
     number[kSurplus] = -(number[kSumOfP] / height) + number[kSumOfRelaxed] / height;
   }
 };
+/// Before the next direction.
 struct FindBeta {
   Real* number;
   KOKKOS_FUNCTION void operator()(int) const { number[kBeta] = number[kRZ] / number[kRZBefore]; }
 };
+/// After the direction d and A d.
 struct FindStep {
   Real* number;
   Real height;

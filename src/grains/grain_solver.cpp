@@ -189,9 +189,10 @@ void GrainSolver::update_ghosts(GrainState& grains, int s) {
   }
 }
 
-/// A graph of all grain steps, if the list has lived for a fluid step already: it may well outlive
-/// another one, and making a graph takes as long as launching its kernels.
-bool GrainSolver::has_graph(const GrainState& grains, int n, Real dt) {
+/// Makes a graph of all grain steps, or keeps the last one, if the list has lived for a fluid step
+/// already: it may well outlive another one, and making a graph takes as long as launching its
+/// kernels.
+bool GrainSolver::prepare_graph(const GrainState& grains, int n, Real dt) {
   const GraphOf now{list_.rebuilds(), n, dt};
   const bool list_lives = list_.rebuilds() == rebuilds_before_;
   rebuilds_before_ = list_.rebuilds();
@@ -209,7 +210,7 @@ bool GrainSolver::has_graph(const GrainState& grains, int n, Real dt) {
 /// Returns the first one that the list no longer covered, after a new list for it.
 int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
   int end = std::min(s + ahead_, n);
-  if (s == 0 && has_graph(grains, n, dt)) {
+  if (s == 0 && prepare_graph(grains, n, dt)) {
     end = n;
     kernels_.launch_graph("grains: graph of grain steps");
   } else {

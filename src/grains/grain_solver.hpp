@@ -75,7 +75,7 @@ class GrainSolver {
   void with_laws(const Launch& launch) const;
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
-  bool has_graph(const GrainState& grains, int n, Real dt);
+  bool prepare_graph(const GrainState& grains, int n, Real dt);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
   NeighborList list_;
