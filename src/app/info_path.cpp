@@ -108,8 +108,8 @@ std::string describe_case(const fs::path& path) {
                                  printable(c.title, 200), c.size[0], c.size[1], c.size[2]);
   if (c.fluid) {
     const auto& [nx, ny, nz] = c.fluid->cells;
-    told += fmt::format("flow     {} x {} x {} cells, mean velocity {:g} m/s\n", nx, ny, nz,
-                        c.fluid->mean_velocity);
+    told += fmt::format("flow     {} x {} x {} cells, mean velocity {} m/s\n", nx, ny, nz,
+                        toml_text(c.fluid->mean_velocity));
   }
   if (c.grains) {
     double count = 0;

@@ -15,10 +15,12 @@ enum class WallFlow { no_slip, free_slip };
 enum class CoulombLimit { total, elastic };  // normal force that limits friction
 enum class RollingModel { none, epsd2, theta_m, cdt };
 enum class ContactModel { hertz_mindlin, linear };
-enum class GrainBoundaryX { exit, periodic, wall };
+enum class GrainBoundaryX { exit, periodic, wall, follow };
 enum class GrainBoundaryZ { periodic, wall };
 enum class GrainFloor { smooth, glued };
 enum class PourShape { cone, bed };
+enum class HeapShape { cone, ridge, bed };
+enum class FeedRate { given, as_lost };
 enum class DragLaw {
   gidaspow,
   di_felice,
@@ -43,6 +45,14 @@ struct Length {
   bool operator==(const Length&) const = default;
 };
 
+/// A velocity in the plane of the bed [m/s]. In a case it is a number, along x, or [x, z].
+struct PlaneVelocity {
+  double x = 0, z = 0;
+  // NOLINTNEXTLINE(google-explicit-constructor): as in a case
+  constexpr PlaneVelocity(double along_x = 0, double along_z = 0) : x(along_x), z(along_z) {}
+  bool operator==(const PlaneVelocity&) const = default;
+};
+
 /// [time]
 struct TimeConfig {
   double end = 0;               // [s], required
@@ -52,6 +62,16 @@ struct TimeConfig {
   bool operator==(const TimeConfig&) const = default;
 };
 
+/// [[fluid.schedule]]: the bulk velocity from a time on.
+struct FlowTarget {
+  double time = 0;            // [s], required
+  PlaneVelocity velocity{};   // [m/s], required
+  double ramp = 0;            // [s] over which it is reached from the one before
+  PlaneVelocity amplitude{};  // [m/s] of an oscillation about it, a sine from its time on
+  double period = 0;          // [s] of the oscillation
+  bool operator==(const FlowTarget&) const = default;
+};
+
 /// [fluid]
 struct FluidConfig {
   std::array<int, 3> cells{};                    // nx, ny, nz, required
@@ -59,9 +79,10 @@ struct FluidConfig {
   Length uniform_height{};                       // [m] up to which rows are as high as the first
   double density = 1000;                         // [kg/m^3]
   double kinematic_viscosity = 1e-6;             // [m^2/s]
-  double mean_velocity = 0;                      // [m/s], held by a body force
+  PlaneVelocity mean_velocity{};                 // [m/s], held by a body force
   std::optional<double> pressure_gradient = {};  // [Pa/m], instead of mean_velocity
   double ramp_time = 0;  // [s] over which mean_velocity is brought up from its start
+  std::vector<FlowTarget> schedule = {};  // in order of time, instead of mean_velocity
   Turbulence turbulence = Turbulence::wale;
   double wale_constant = 0.325;
   WallFlow bottom = WallFlow::no_slip;
@@ -94,6 +115,34 @@ struct AmbientConfig {
   bool operator==(const AmbientConfig&) const = default;
 };
 
+/// [[grains.kind]]: grains of a material of their own.
+struct KindConfig {
+  std::string name;              // required
+  double density = 2500;         // [kg/m^3], defaults to that of [grains]
+  Material material;             // keys directly in [[grains.kind]], default to those of [grains]
+  std::vector<SizeClass> sizes;  // for `pour`
+  bool operator==(const KindConfig&) const = default;
+};
+
+/// [[grains.pair]]: contacts of two kinds with each other, instead of the mixing rules.
+struct PairConfig {
+  std::array<std::string, 2> kinds{};  // names, required
+  std::optional<double> restitution = {}, sliding_friction = {}, rolling_friction = {};
+  bool operator==(const PairConfig&) const = default;
+};
+
+/// [grains.feed]: grains that come in at the inlet.
+struct FeedConfig {
+  FeedRate amount = FeedRate::given;  // or as many as have left
+  double rate = 0;                    // [1/s], of amount = "given", then required
+  double start = 0;                   // [s]
+  double x = 0;                       // [m] where they come in
+  std::array<double, 2> across{};     // z from, z to [m]; both 0: over the whole width
+  double height = 0;                  // [m] of the lowest of them above the floor
+  std::uint64_t seed = 1;
+  bool operator==(const FeedConfig&) const = default;
+};
+
 /// [grains]
 struct GrainConfig {
   double density = 2500;  // [kg/m^3]
@@ -114,6 +163,9 @@ struct GrainConfig {
   Length skin{4e-5};                           // [m], Verlet skin
   double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run
   std::optional<AmbientConfig> ambient = {};
+  std::vector<KindConfig> kinds = {};  // none: all grains are of one kind
+  std::vector<PairConfig> pairs = {};
+  std::optional<FeedConfig> feed = {};
   bool operator==(const GrainConfig&) const = default;
 };
 
@@ -144,6 +196,27 @@ struct PourConfig {
   bool operator==(const PourConfig&) const = default;
 };
 
+/// [[initial.heap]]: one of several heaps that are poured, instead of `pour`.
+struct HeapConfig {
+  std::string name;                   // in tables and pictures
+  HeapShape shape = HeapShape::cone;  // or a ridge across the channel, or a bed over the floor
+  std::array<double, 2> centre{};     // x, z [m]; of a ridge x alone counts
+  double radius = 0;                  // of a cone's foot, half the width of a ridge's [m]
+  std::string kind;                   // a name of [[grains.kind]]; empty: all of them
+  std::vector<SizeClass> sizes;       // empty: grains.sizes, or those of its kind
+  double drop_height = 0;             // lowest grain above what lies there [m]
+  std::uint64_t seed = 1;
+  bool operator==(const HeapConfig&) const = default;
+};
+
+/// [[initial.crater]]: a hollow, a paraboloid without grains.
+struct CraterConfig {
+  std::array<double, 2> centre{};  // x, z [m], required
+  double radius = 0;               // of its rim [m], required
+  double depth = 0;                // [m], required
+  bool operator==(const CraterConfig&) const = default;
+};
+
 /// Flows to start from that are not in a file.
 inline constexpr std::array kFlowWords{"still", "uniform", "turbulent"};
 
@@ -152,6 +225,8 @@ struct InitialConfig {
   std::filesystem::path fluid = "still";  // or another of flow_words, or an absolute path
   std::filesystem::path grains = {};      // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
+  std::vector<HeapConfig> heaps = {};
+  std::vector<CraterConfig> craters = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
   int realisation = 1;     // of an ensemble: its random numbers are those of seed + realisation - 1
   bool operator==(const InitialConfig&) const = default;

@@ -34,7 +34,7 @@ FluidNumbers derive_fluid(const Config& config) {
     n.u_star = std::sqrt(std::abs(n.pressure_gradient) * n.delta / fluid.density);
     n.bulk_velocity = bulk_velocity_of(n.u_star, n.delta, nu);
   } else {
-    n.bulk_velocity = fluid.mean_velocity;
+    n.bulk_velocity = std::hypot(fluid.mean_velocity.x, fluid.mean_velocity.z);
     n.u_star = friction_velocity(n.bulk_velocity, n.delta, nu);
     if (n.delta > 0) n.pressure_gradient = fluid.density * n.u_star * n.u_star / n.delta;
   }

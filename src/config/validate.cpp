@@ -79,7 +79,7 @@ bool check_rows(const Config& c, Findings& found) {
 
 void check_fluid(const Config& c, Findings& found) {
   const FluidConfig& fluid = *c.fluid;
-  const bool held = fluid.mean_velocity > 0;
+  const bool held = fluid.mean_velocity != PlaneVelocity{};
   const bool driven = held || fluid.pressure_gradient.value_or(0) != 0;
   found.error_if(fluid.pressure_gradient && held,
                  {"fluid.pressure_gradient", "fluid.mean_velocity"},

@@ -69,6 +69,15 @@ Mismatch convert(const Node& node, Length& value) {
   return "a number of metres, or of mean grain diameters as in \"3 d\"";
 }
 
+Mismatch convert(const Node& node, PlaneVelocity& value) {
+  std::array<double, 2> both{};
+  if (!convert(node, both[0]) || !convert(node, both)) {
+    value = {both[0], both[1]};
+    return {};
+  }
+  return "a number, along x, or [along x, along z]";
+}
+
 Mismatch convert(const Node& node, bool& value) { return take(node, value, "true or false"); }
 
 Mismatch convert(const Node& node, std::string& value) { return take(node, value, "a string"); }
@@ -154,6 +163,10 @@ std::string toml_text(double value) {
 
 std::string toml_text(const Length& length) {
   return length.in_diameters ? fmt::format("\"{} d\"", length.value) : toml_text(length.value);
+}
+
+std::string toml_text(const PlaneVelocity& velocity) {
+  return velocity.z == 0 ? toml_text(velocity.x) : toml_text(std::array{velocity.x, velocity.z});
 }
 
 std::string toml_text(const std::vector<SizeClass>& sizes) {

@@ -30,10 +30,14 @@ constexpr auto names_of(RollingModel) {
   return std::array{"none"sv, "epsd2"sv, "theta_m"sv, "cdt"sv};
 }
 constexpr auto names_of(ContactModel) { return std::array{"hertz_mindlin"sv, "linear"sv}; }
-constexpr auto names_of(GrainBoundaryX) { return std::array{"exit"sv, "periodic"sv, "wall"sv}; }
+constexpr auto names_of(GrainBoundaryX) {
+  return std::array{"exit"sv, "periodic"sv, "wall"sv, "follow"sv};
+}
 constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"sv}; }
 constexpr auto names_of(GrainFloor) { return std::array{"smooth"sv, "glued"sv}; }
 constexpr auto names_of(PourShape) { return std::array{"cone"sv, "bed"sv}; }
+constexpr auto names_of(HeapShape) { return std::array{"cone"sv, "ridge"sv, "bed"sv}; }
+constexpr auto names_of(FeedRate) { return std::array{"given"sv, "as_lost"sv}; }
 constexpr auto names_of(DragLaw) {
   return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
                     "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
@@ -49,9 +53,11 @@ inline constexpr auto kChoiceNames = names_of(Choice{});
 
 // A value added at the end of an enum without its name here fails these.
 static_assert(kChoiceNames<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
-static_assert(kChoiceNames<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::wall) + 1);
+static_assert(kChoiceNames<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::follow) + 1);
 static_assert(kChoiceNames<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
 static_assert(kChoiceNames<PourShape>.size() == std::size_t(PourShape::bed) + 1);
+static_assert(kChoiceNames<HeapShape>.size() == std::size_t(HeapShape::bed) + 1);
+static_assert(kChoiceNames<FeedRate>.size() == std::size_t(FeedRate::as_lost) + 1);
 static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
 static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
 static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
@@ -104,6 +110,7 @@ using Mismatch = std::optional<std::string>;
 /// From TOML; after a mismatch the value is of no use.
 Mismatch convert(const Node& node, double& value);
 Mismatch convert(const Node& node, Length& value);
+Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
 Mismatch convert(const Node& node, std::filesystem::path& value);
@@ -149,6 +156,7 @@ std::string toml_text(std::string_view text);
 /// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
 std::string toml_text(double value);
 std::string toml_text(const Length& value);
+std::string toml_text(const PlaneVelocity& value);
 std::string toml_text(const std::vector<SizeClass>& value);
 std::string toml_text(const ForceSwitches& value);
 /// The names that coupling.forces may hold.
@@ -195,6 +203,8 @@ Mismatch check(const T& value, const Range& range) {
     return check(value.diameter, range);
   } else if constexpr (std::is_same_v<T, Length>) {
     return check(value.value, range);
+  } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
+    return check(std::array{value.x, value.z}, range);
   } else if constexpr (requires { value.data(); }) {
     for (const auto& element : value) {
       if (const Mismatch mismatch = check(element, range)) return mismatch;
@@ -216,6 +226,8 @@ std::string type_text() {
     return "number";
   } else if constexpr (std::is_same_v<T, Length>) {
     return "number or \"N d\"";
+  } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
+    return "number or [x, z]";
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too
     return "text";
   } else if constexpr (std::is_same_v<T, ForceSwitches>) {

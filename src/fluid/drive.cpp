@@ -6,11 +6,11 @@
 namespace barchan {
 
 Drive::Drive(const FluidConfig& config)
-    : velocity_x_(config.mean_velocity), ramp_time_(config.ramp_time) {
+    : velocity_x_(config.mean_velocity.x), ramp_time_(config.ramp_time) {
   if (config.pressure_gradient) {
     kind_ = Kind::gradient;
     force_x_ = *config.pressure_gradient / config.density;
-  } else if (config.mean_velocity != 0) {
+  } else if (config.mean_velocity != PlaneVelocity{}) {
     kind_ = Kind::velocity;
   }
 }

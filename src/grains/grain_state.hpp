@@ -58,6 +58,7 @@ struct GrainState {
   Kokkos::View<GrainKinematics*> kin;                    // position, velocity, spin, radius, mass
   Kokkos::View<std::int64_t*> id;                        // never reused
   Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
+  Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: there is one
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                   // constant over one fluid step

@@ -15,6 +15,8 @@ struct InitialGrains {
   std::vector<Vec3> x;           // centre [m]
   std::vector<Vec3> u;           // velocity [m/s]
   std::vector<Vec3> omega;       // angular velocity [rad/s]
+  // Of several kinds, or heaps, the index of each grain's; else empty.
+  std::vector<std::uint8_t> kind = {}, heap = {};
 
   std::size_t size() const { return id.size(); }
   void add(std::int64_t new_id, double d, const Vec3& centre, const Vec3& velocity = {},

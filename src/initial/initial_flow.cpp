@@ -198,7 +198,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
 }
 
 void set_uniform_flow(const Config& config, FluidState& fluid) {
-  Kokkos::deep_copy(fluid.u.x.storage, config.fluid.value().mean_velocity);
+  Kokkos::deep_copy(fluid.u.x.storage, config.fluid.value().mean_velocity.x);
 }
 
 }  // namespace barchan
