@@ -32,11 +32,13 @@ struct GrainKineticEnergy {
   }
 };
 
-/// Sum of V_p u_x [m^4/s].
+/// Sum of V_p u along x or z [m^4/s].
 struct GrainVolumeFlow {
   Kokkos::View<const GrainKinematics*> grains;
+  bool along_x;
   KOKKOS_FUNCTION void operator()(int g, Real& sum) const {
-    sum += sphere_volume(grains(g).r) * grains(g).u.x;
+    const Vec3& u = grains(g).u;
+    sum += sphere_volume(grains(g).r) * (along_x ? u.x : u.z);
   }
 };
 

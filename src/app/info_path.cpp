@@ -96,6 +96,22 @@ std::string describe_csv(const fs::path& path) {
                      printable(h, 1000));
 }
 
+/// What drives a flow, in words.
+std::string driven_by(const FluidConfig& fluid) {
+  if (fluid.pressure_gradient) return fmt::format("{:g} Pa/m along x", *fluid.pressure_gradient);
+  if (fluid.schedule.empty())
+    return fmt::format("mean velocity {} m/s", toml_text(fluid.mean_velocity));
+  std::string text = "mean velocity by a schedule:";
+  for (const FlowTarget& entry : fluid.schedule) {
+    text += fmt::format("\n         {:g} s  {} m/s", entry.time, toml_text(entry.velocity));
+    if (entry.ramp > 0) text += fmt::format(", reached over {:g} s", entry.ramp);
+    if (entry.period > 0)
+      text += fmt::format(", and {} m/s sin(2 pi (t - {:g} s) / {:g} s)",
+                          toml_text(entry.amplitude), entry.time, entry.period);
+  }
+  return text;
+}
+
 std::string describe_case(const fs::path& path) {
   const std::string text = read_text(path);
   if (("\n" + text).find("\n[study]") != std::string::npos) {
@@ -108,8 +124,7 @@ std::string describe_case(const fs::path& path) {
                                  printable(c.title, 200), c.size[0], c.size[1], c.size[2]);
   if (c.fluid) {
     const auto& [nx, ny, nz] = c.fluid->cells;
-    told += fmt::format("flow     {} x {} x {} cells, mean velocity {} m/s\n", nx, ny, nz,
-                        toml_text(c.fluid->mean_velocity));
+    told += fmt::format("flow     {} x {} x {} cells, {}\n", nx, ny, nz, driven_by(*c.fluid));
   }
   if (c.grains) {
     double count = 0;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "src/config/flow_schedule.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {
@@ -27,6 +28,7 @@ FluidNumbers derive_fluid(const Config& config) {
   const auto faces = row_faces(row_spacing(config));
   n.dy_first = faces[1];
   n.dy_last = faces[faces.size() - 1] - faces[faces.size() - 2];
+  const std::vector<FlowTarget> schedule = flow_schedule(fluid);
   const int walls = (fluid.bottom == WallFlow::no_slip) + (fluid.top == WallFlow::no_slip);
   n.delta = walls == 0 ? 0 : config.size[1] / walls;
   if (fluid.pressure_gradient) {
@@ -34,7 +36,9 @@ FluidNumbers derive_fluid(const Config& config) {
     n.u_star = std::sqrt(std::abs(n.pressure_gradient) * n.delta / fluid.density);
     n.bulk_velocity = bulk_velocity_of(n.u_star, n.delta, nu);
   } else {
-    n.bulk_velocity = std::hypot(fluid.mean_velocity.x, fluid.mean_velocity.z);
+    n.bulk_velocity =
+        largest(schedule, [](const PlaneVelocity& u) { return std::hypot(u.x, u.z); });
+    n.varies = !fluid.schedule.empty();
     n.u_star = friction_velocity(n.bulk_velocity, n.delta, nu);
     if (n.delta > 0) n.pressure_gradient = fluid.density * n.u_star * n.u_star / n.delta;
   }
@@ -45,7 +49,12 @@ FluidNumbers derive_fluid(const Config& config) {
     n.dx_plus = n.dx * n.u_star / nu;
     n.dz_plus = n.dz * n.u_star / nu;
   }
-  n.cfl = 1.15 * n.bulk_velocity * config.time.fluid_step / n.dx;
+  const double cells_per_second = fluid.pressure_gradient
+                                      ? n.bulk_velocity / n.dx
+                                      : largest(schedule, [&](const PlaneVelocity& u) {
+                                          return std::abs(u.x) / n.dx + std::abs(u.z) / n.dz;
+                                        });
+  n.cfl = 1.15 * cells_per_second * config.time.fluid_step;
   n.viscous_number = 4 * nu * config.time.fluid_step *
                      (1 / (n.dx * n.dx) + 1 / (n.dy_first * n.dy_first) + 1 / (n.dz * n.dz));
   return n;
@@ -202,7 +211,8 @@ void add_fluid(std::string& text, const FluidNumbers& n) {
   line(text, "cells", "{}", n.cells);
   line(text, "cell size", "dx {:.4g}, dy {:.4g} to {:.4g}, dz {:.4g} mm (rows grow by {:.4f})",
        1e3 * n.dx, 1e3 * n.dy_first, 1e3 * n.dy_last, 1e3 * n.dz, n.stretching);
-  line(text, "bulk velocity U", "{:.4g} m/s", n.bulk_velocity);
+  line(text, "bulk velocity U", "{:.4g} m/s{}", n.bulk_velocity,
+       n.varies ? ", the largest; what follows is of it" : "");
   if (n.u_star > 0) {
     line(text, "Re = 2 delta U / nu", "{:.0f}", n.reynolds);
     line(text, "friction velocity u*", "{:.4g} m/s expected (Dean's law; Re_tau {:.0f})", n.u_star,

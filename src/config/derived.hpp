@@ -48,15 +48,16 @@ struct FluidNumbers {
   std::int64_t cells = 0;
   double dx = 0, dz = 0, dy_first = 0, dy_last = 0;  // [m]
   double stretching = 1;                             // ratio of neighbouring rows
-  double bulk_velocity = 0;                          // [m/s]; of a pressure gradient: expected
-  double delta = 0;         // [m], from a wall to the free surface or the middle; 0: no wall
-  double reynolds = 0;      // 2 delta U / nu
-  double u_star = 0;        // [m/s] expected
-  double reynolds_tau = 0;  // u* delta / nu
-  double y1_plus = 0;       // height of the first cell centre in nu / u*
+  double bulk_velocity = 0;  // [m/s], the largest; of a pressure gradient: expected
+  bool varies = false;       // has a schedule
+  double delta = 0;          // [m], from a wall to the free surface or the middle; 0: no wall
+  double reynolds = 0;       // 2 delta U / nu
+  double u_star = 0;         // [m/s] expected
+  double reynolds_tau = 0;   // u* delta / nu
+  double y1_plus = 0;        // height of the first cell centre in nu / u*
   double dx_plus = 0, dz_plus = 0;
   double pressure_gradient = 0;  // [Pa/m], rho u*^2 / delta or the one given
-  double cfl = 0;                // 1.15 U dt / dx, the mean flow at the centreline
+  double cfl = 0;                // 1.15 dt (|U|/dx + |W|/dz), the mean flow at the centreline
   double viscous_number = 0;     // 4 nu dt (1/dx^2 + 1/dy^2 + 1/dz^2), first row
 };
 

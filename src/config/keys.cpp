@@ -47,8 +47,8 @@ void add_fluid(Sections& all) {
   key("density", &F::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",
       "its viscosity over its density");
-  key("mean_velocity", &F::mean_velocity, between(0, 1e6), "m/s",
-      "bulk velocity along x, held by a body force");
+  key("mean_velocity", &F::mean_velocity, between(-1e6, 1e6), "m/s",
+      "bulk velocity along x, or [along x, along z], held by a body force");
   key("pressure_gradient", &F::pressure_gradient, between(-1e12, 1e12), "Pa/m",
       "driving force along x per volume, instead of `mean_velocity`");
   key("ramp_time", &F::ramp_time, at_least(0), "s",
@@ -59,6 +59,22 @@ void add_fluid(Sections& all) {
   key("top", &F::top, "what the top is to the flow");
   key("top_velocity", &F::top_velocity, between(-1e6, 1e6), "m/s",
       "velocity along x of a no-slip top: a lid that drags the flow");
+}
+
+void add_schedule(Sections& all) {
+  Section& section = all.emplace_back(Section{
+      "fluid.schedule",
+      "Bulk velocities in order of time, instead of `mean_velocity`; the first from `time` 0 on"});
+  auto key = repeated_keys(section, [](auto& c) { return c.fluid ? &c.fluid->schedule : nullptr; });
+  using T = FlowTarget;
+  key("time", &T::time, between(0, 1e12), "s", "from when on it is wanted", required);
+  key("velocity", &T::velocity, between(-1e6, 1e6), "m/s",
+      "bulk velocity along x, or [along x, along z], held by a body force", required);
+  key("ramp", &T::ramp, between(0, 1e12), "s",
+      "time over which it is reached, linearly, from what it was (first entry: from the start)");
+  key("amplitude", &T::amplitude, between(-1e6, 1e6), "m/s",
+      "of a sine that is added from `time` on, number or [along x, along z]");
+  key("period", &T::period, between(0, 1e12), "s", "of the sine; an `amplitude` requires it");
 }
 
 /// In [grains] and again in [grains.wall].
@@ -150,7 +166,7 @@ void add_initial(Sections& all) {
   Keys key(add(all, "initial", "The state at t = 0"), [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid,
-      "\"still\", \"uniform\" (at `mean_velocity` everywhere), \"turbulent\" (a log law with "
+      "\"still\", \"uniform\" (at the bulk velocity everywhere), \"turbulent\" (a log law with "
       "perturbations), a restart file `.h5`, or the end of a case `.toml`; from other cells of the "
       "same box it is interpolated");
   key("grains", &I::grains,
@@ -220,9 +236,9 @@ void add_solver(Sections& all) {
 const Sections& sections() {
   static const Sections all = [] {
     Sections made;
-    for (auto* add : {add_case, add_time, add_domain, add_fluid, add_grains, add_wall, add_ambient,
-                      add_coupling, add_initial, add_pour, add_output, add_restart, add_statistics,
-                      add_solver}) {
+    for (auto* add : {add_case, add_time, add_domain, add_fluid, add_schedule, add_grains, add_wall,
+                      add_ambient, add_coupling, add_initial, add_pour, add_output, add_restart,
+                      add_statistics, add_solver}) {
       add(made);
     }
     return made;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "src/config/derived.hpp"
+#include "src/config/flow_checks.hpp"
+#include "src/config/flow_schedule.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/no_effect.hpp"
@@ -80,10 +82,11 @@ bool check_rows(const Config& c, Findings& found) {
 void check_fluid(const Config& c, Findings& found) {
   const FluidConfig& fluid = *c.fluid;
   const bool held = fluid.mean_velocity != PlaneVelocity{};
-  const bool driven = held || fluid.pressure_gradient.value_or(0) != 0;
+  const bool driven = !flow_schedule(fluid).empty() || fluid.pressure_gradient.value_or(0) != 0;
   found.error_if(fluid.pressure_gradient && held,
                  {"fluid.pressure_gradient", "fluid.mean_velocity"},
                  "contradicts mean_velocity: give one of the two");
+  check_schedule(c, found);
   found.error_if(fluid.top_velocity != 0 && fluid.top != WallFlow::no_slip,
                  {"fluid.top_velocity", "fluid.top"}, "must come with top = \"no_slip\"");
   if (!found.error_if(fluid.ramp_time > 0 && !held, {"fluid.ramp_time", "fluid.mean_velocity"},
@@ -93,11 +96,7 @@ void check_fluid(const Config& c, Findings& found) {
   found.error_if(c.coupling.forces.wall_drag && fluid.bottom != WallFlow::no_slip,
                  {"coupling.forces", "fluid.bottom"},
                  "must not hold \"wall_drag\" over a free-slip bottom, which is no wall to drag");
-  found.error_if(c.initial.fluid == "turbulent" && !driven,
-                 {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient"},
-                 "must come with a mean_velocity or pressure_gradient, which sets its log law");
-  found.error_if(c.initial.fluid == "uniform" && !held, {"initial.fluid", "fluid.mean_velocity"},
-                 "must come with a mean_velocity, which it starts at");
+  check_flow_at_start(c, found);
   found.error_if(c.initial.fluid == "turbulent" && fluid.kinematic_viscosity == 0,
                  {"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");
   found.error_if(fluid.uniform_height > 0 && fluid.first_cell_height == 0,

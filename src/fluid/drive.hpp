@@ -20,17 +20,8 @@ struct DrivenFlow {
 /// sum(alpha u V)/sum(alpha V) before the projection.
 class Drive {
  public:
-  /// A bulk velocity [m/s] at a time [s].
-  struct Target {
-    Real t;
-    Vec2 velocity;
-  };
-
-  /// Of a case: a bulk velocity along x, held or reached over fluid.ramp_time; a given pressure
-  /// gradient; or none.
+  /// Of a case: bulk velocities (flow_schedule.hpp), a given pressure gradient along x, or none.
   explicit Drive(const FluidConfig& config);
-  /// Bulk velocities at ascending times, linear between them and constant beyond.
-  explicit Drive(std::vector<Target> schedule);
 
   /// Whether it ever acts along z. If not, nothing is computed for it.
   bool along_z() const { return along_z_; }
@@ -40,10 +31,8 @@ class Drive {
   Vec2 force(const FluidState& fluid, const DrivenFlow& flow, Real dt) const;
 
  private:
-  enum class Kind { none, gradient, velocity, schedule } kind_ = Kind::none;
-  Real force_x_ = 0;  // of a given gradient [m/s^2]
-  Real velocity_x_ = 0, ramp_time_ = 0;
-  std::vector<Target> schedule_;
+  Real gradient_x_ = 0;  // the force of a given gradient [m/s^2]
+  std::vector<FlowTarget> schedule_;
   bool along_z_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernels/fluid/flow_sums.hpp"
+#include "src/config/flow_schedule.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -23,13 +24,17 @@ Real bulk_velocity_across(const FluidState& fluid) {
 
 Real friction_velocity(const FluidState& fluid, const FluidConfig& config) {
   const Grid& grid = fluid.grid;
+  const bool driven_across = goes_across(flow_schedule(config));
   int walls = 0;
   Real slope = 0;  // sum over the walls of the mean [1/s]
+  const auto mean = [&](const Field& u, int row, Real u_wall) {
+    const WallShear shear{.grid = grid, .u = u, .row = row, .u_wall = u_wall};
+    return sum_each_cell("fluid: wall shear", grid, shear) / (Real(grid.nx_all) * grid.nz_all);
+  };
   const auto add = [&](WallFlow wall, int row, Real u_wall) {
     if (wall != WallFlow::no_slip) return;
-    const WallShear shear{.grid = grid, .u = fluid.u.x, .row = row, .u_wall = u_wall};
-    slope += std::abs(sum_each_cell("fluid: wall shear", grid, shear)) /
-             (Real(grid.nx_all) * grid.nz_all);
+    const Real along = mean(fluid.u.x, row, u_wall);
+    slope += std::hypot(along, driven_across ? mean(fluid.u.z, row, 0) : 0);
     ++walls;
   };
   add(config.bottom, 0, 0);

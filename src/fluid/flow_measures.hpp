@@ -11,7 +11,8 @@ Real bulk_velocity(const FluidState& fluid);
 /// The same along z.
 Real bulk_velocity_across(const FluidState& fluid);
 
-/// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none.
+/// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none. Of a flow that is
+/// never driven along z, dU/dy is that along x.
 Real friction_velocity(const FluidState& fluid, const FluidConfig& config);
 /// sum(rho alpha |u|^2 V) / 2 [J].
 Real kinetic_energy(const FluidState& fluid, Real density);

@@ -77,7 +77,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   update_eddy_viscosity(fluid);  // nu_t
   predict(fluid, exchange, dt);  // u*
   update_mobility(fluid);        // c of the pressure equation
-  drive(fluid, dt);              // f that gives the wanted bulk velocity
+  push(fluid, dt);               // f that gives the wanted bulk velocity
   solve_pressure(fluid, dt);     // p
   correct(fluid, dt);            // u, du/dt
   fluid.has_history = true;
@@ -152,8 +152,9 @@ void FluidSolver::find_driven_flow(const FluidState& fluid) {
 }
 
 /// Along x the force is added where the pressure is; across, it is added to u* here.
-void FluidSolver::drive(FluidState& fluid, Real dt) {
+void FluidSolver::push(FluidState& fluid, Real dt) {
   find_driven_flow(fluid);
+  report_.wanted = drive_.target(fluid.time, fluid.bulk_at_start);
   fluid.drive = report_.drive = drive_.force(fluid, flow_, dt);
   flow_.rate.x += fluid.drive.x * dt * flow_.response.x;
   flow_.rate.z += fluid.drive.z * dt * flow_.response.z;

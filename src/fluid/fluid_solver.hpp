@@ -24,6 +24,7 @@ struct FluidStepReport {
   // gave back by leaving: a periodic box of incompressible fluid has nowhere to take it from.
   Real continuity_residual = 0;
   Real courant = 0;           // max dt (|u|/dx + |v|/dy + |w|/dz) [-]
+  Vec2 wanted;                // bulk velocity wanted of the step [m/s]
   Vec2 drive;                 // body force per unit mass [m/s^2]
   Vec2 bulk_velocity;         // sum(alpha u V) / sum(alpha V) after the step [m/s]
   Real seconds_pressure = 0;  // wall time in the pressure equation
@@ -44,8 +45,7 @@ class FluidSolver {
   FluidSolver(const Config& config, const Grid& grid);
   FluidSolver(const Config& config, const Grid& grid, Fraction fraction);
 
-  /// Another drive than that of the case.
-  void set_drive(Drive drive) { drive_ = std::move(drive); }
+  const Drive& drive() const { return drive_; }
   /// Closes faces for good: `open` is 1 in the owned cells where water may pass, 0 where it may not
   /// (closed_faces.hpp). The fraction must be variable, and the flow through these faces zero.
   void close_faces(const FaceVector& open);
@@ -95,7 +95,7 @@ class FluidSolver {
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
   void update_mobility(const FluidState& fluid);
   void find_driven_flow(const FluidState& fluid);
-  void drive(FluidState& fluid, Real dt);
+  void push(FluidState& fluid, Real dt);
   void solve_pressure(FluidState& fluid, Real dt);
   void correct(FluidState& fluid, Real dt);
   template <Fraction fraction>
@@ -133,7 +133,7 @@ class FluidSolver {
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
   std::optional<FaceVector> open_;       // where faces are closed
   Tally numbers_{"fluid: numbers", kFlowNumbers};
-  DrivenFlow flow_;  // its rate is that with the drive after drive()
+  DrivenFlow flow_;  // its rate is that with the drive after push()
   FluidStepReport report_;
 };
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "src/config/derived.hpp"
+#include "src/config/flow_schedule.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
@@ -51,9 +53,7 @@ struct Profile {
   }
 };
 
-/// size: of the whole domain [m].
-std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size,
-                             const Profile& profile, std::uint64_t seed) {
+std::vector<Mode> draw_modes(const Grid& grid, const Profile& profile, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   // Drawn by hand: the standard distributions differ between libraries.
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
@@ -65,7 +65,7 @@ std::vector<Mode> draw_modes(const Grid& grid, const std::array<double, 3>& size
   const auto most = [](double length, double wave, int cells) {
     return std::max(1, std::min(static_cast<int>(length / wave), cells / 4));
   };
-  const double lx = size[0], lz = size[2];
+  const double lx = grid.lx, lz = grid.lz;
   const int max_x = most(lx, scale, grid.nx_all), max_z = most(lz, 0.5 * scale, grid.nz_all);
   std::vector<Mode> modes;
   for (int m = 0; m < kNVortexModes + kNWaveModes; ++m) {
@@ -133,8 +133,35 @@ double reichardt_profile(double y_plus) {
   return std::log(1 + 0.41 * y_plus) / 0.41 + 7.8 * buffer;
 }
 
-/// Mean velocity of every row [m/s], with the bulk velocity exact on the grid.
-HostRow mean_profile(const FluidNumbers& numbers, const Profile& profile, const HostGrid& rows,
+/// The mean flow at t = 0.
+struct MeanFlow {
+  PlaneVelocity bulk;                                                  // [m/s]
+  double speed = 0;                                                    // |bulk| [m/s]
+  double u_star = 0;                                                   // [m/s] expected
+  bool across() const { return std::abs(bulk.z) > std::abs(bulk.x); }  // more than along x
+};
+
+MeanFlow mean_flow(const FluidConfig& fluid, const FluidNumbers& numbers) {
+  const std::vector<FlowTarget> schedule = flow_schedule(fluid);
+  if (schedule.empty()) return {numbers.bulk_velocity, numbers.bulk_velocity, numbers.u_star};
+  const PlaneVelocity bulk = velocity_at_start(schedule);
+  const double speed = std::hypot(bulk.x, bulk.z);
+  return {bulk, speed, friction_velocity(speed, numbers.delta, fluid.kinematic_viscosity)};
+}
+
+/// With x and z exchanged.
+template <class AnyGrid>
+AnyGrid turned(AnyGrid grid) {
+  std::swap(grid.nx, grid.nz);
+  std::swap(grid.nx_all, grid.nz_all);
+  std::swap(grid.dx, grid.dz);
+  std::swap(grid.i_begin, grid.k_begin);
+  std::swap(grid.lx, grid.lz);
+  return grid;
+}
+
+/// Mean speed of every row [m/s], with the bulk velocity exact on the grid.
+HostRow mean_profile(const MeanFlow& start, const Profile& profile, const HostGrid& rows,
                      double viscosity) {
   const HostRow mean("host: mean profile", rows.ny);
   double flow = 0;
@@ -142,10 +169,10 @@ HostRow mean_profile(const FluidNumbers& numbers, const Profile& profile, const 
     const double y = rows.y_centre(j);
     double distance = profile.bottom ? y : profile.height - y;
     if (profile.bottom && profile.top) distance = std::min(y, profile.height - y);
-    mean(j) = profile.delta > 0 ? reichardt_profile(distance * numbers.u_star / viscosity) : 1;
+    mean(j) = profile.delta > 0 ? reichardt_profile(distance * start.u_star / viscosity) : 1;
     flow += mean(j) * rows.dy(j);
   }
-  const double scale = numbers.bulk_velocity * profile.height / flow;
+  const double scale = start.speed * profile.height / flow;
   for (int j = 0; j < rows.ny; ++j) mean(j) *= scale;
   return mean;
 }
@@ -172,33 +199,44 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
   const Grid& grid = fluid.grid;
   const FluidConfig& setup = config.fluid.value();
   const FluidNumbers numbers = *derive(config, {}).fluid;
+  const MeanFlow start = mean_flow(setup, numbers);
   const Profile profile{.height = grid.ly,
                         .delta = numbers.delta,
                         .bottom = setup.bottom == WallFlow::no_slip,
                         .top = setup.top == WallFlow::no_slip};
-  const HostGrid rows = grid.on_host();
+  // The perturbations are made along x. Of a flow across, x and z are exchanged.
+  const bool across = start.across();
+  const Grid drawn = across ? turned(grid) : grid;
+  const HostGrid rows = drawn.on_host();
   const auto seed =
       config.initial.seed + static_cast<std::uint64_t>(config.initial.realisation - 1);
-  const std::vector<Mode> modes = draw_modes(grid, config.size, profile, seed);
-  const auto psi = [&](std::size_t c) { return potential(c, grid, rows, profile, modes); };
+  const std::vector<Mode> modes = draw_modes(drawn, profile, seed);
+  const auto psi = [&](std::size_t c) { return potential(c, drawn, rows, profile, modes); };
   const Curl curl{rows, psi(0), psi(1), psi(2)};
   double sum = 0;
-  for_each_owned(grid, [&](int i, int j, int k) {
+  for_each_owned(drawn, [&](int i, int j, int k) {
     const double u = curl.u(i, j, k), v = curl.v(i, j, k), w = curl.w(i, j, k);
     sum += (u * u + v * v + w * w) * rows.dy(j);
   });
   const double rms = std::sqrt(sum_over(ranks_of(grid), sum) / grid.height_of_all_columns());
-  const double scale = rms > 0 ? kPerturbationRms * numbers.bulk_velocity / rms : 0;
-  const HostRow mean = mean_profile(numbers, profile, rows, setup.kinematic_viscosity);
-  set_owned(fluid.u.x, grid,
-            [&](int i, int j, int k) { return mean(j) + scale * curl.u(i, j, k); });
-  set_owned(fluid.u.y, grid,
-            [&](int i, int j, int k) { return j > 0 ? scale * curl.v(i, j, k) : 0; });
-  set_owned(fluid.u.z, grid, [&](int i, int j, int k) { return scale * curl.w(i, j, k); });
+  const double scale = rms > 0 ? kPerturbationRms * start.speed / rms : 0;
+  const HostRow mean = mean_profile(start, profile, rows, setup.kinematic_viscosity);
+  const double cosine = start.bulk.x / start.speed, sine = start.bulk.z / start.speed;
+  set_owned(fluid.u.x, grid, [&](int i, int j, int k) {
+    return cosine * mean(j) + scale * (across ? curl.w(k, j, i) : curl.u(i, j, k));
+  });
+  set_owned(fluid.u.y, grid, [&](int i, int j, int k) {
+    return j > 0 ? scale * (across ? curl.v(k, j, i) : curl.v(i, j, k)) : 0;
+  });
+  set_owned(fluid.u.z, grid, [&](int i, int j, int k) {
+    return sine * mean(j) + scale * (across ? curl.u(k, j, i) : curl.w(i, j, k));
+  });
 }
 
 void set_uniform_flow(const Config& config, FluidState& fluid) {
-  Kokkos::deep_copy(fluid.u.x.storage, config.fluid.value().mean_velocity.x);
+  const PlaneVelocity bulk = velocity_at_start(flow_schedule(config.fluid.value()));
+  Kokkos::deep_copy(fluid.u.x.storage, bulk.x);
+  Kokkos::deep_copy(fluid.u.z.storage, bulk.z);
 }
 
 }  // namespace barchan

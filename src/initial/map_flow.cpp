@@ -1,5 +1,7 @@
 #include "src/initial/map_flow.hpp"
 
+#include <cmath>
+
 #include "kernels/fluid/flow_between_meshes.hpp"
 #include "src/fluid/fluid_solver.hpp"
 
@@ -25,10 +27,12 @@ void map_flow(const Config& config, FluidState& from, FluidState& to) {
   Kokkos::deep_copy(to.alpha_f_previous.storage, to.alpha_f.storage);
   to.drive = from.drive;
   FluidSolver(config, to.grid).remove_divergence(to);
-  const Real bulk = bulk_velocity(to);
+  const Real along = bulk_velocity(to), across = bulk_velocity_across(to);
+  const bool more_across = std::abs(across) > std::abs(along);
+  const Real bulk = more_across ? across : along;
   if (bulk != 0) {
-    for_each_cell("fluid: bulk velocity", to.grid,
-                  ScaleFaces{.factor = bulk_velocity(from) / bulk, .v = to.u});
+    const Real wanted = more_across ? bulk_velocity_across(from) : bulk_velocity(from);
+    for_each_cell("fluid: bulk velocity", to.grid, ScaleFaces{.factor = wanted / bulk, .v = to.u});
   }
 }
 

@@ -24,6 +24,9 @@ struct HistoryRecord {
   double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
   double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
   double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
+  double bulk_velocity_z = 0, wanted_velocity_x = 0, wanted_velocity_z = 0;  // [m/s]
+  double pressure_gradient_z = 0;                                            // [Pa/m]
+  double grain_flux_z = 0, stress_on_grains_z = 0;                           // [m^2/s], [Pa]
 };
 
 inline constexpr std::array kHistoryColumns = [] {
@@ -51,6 +54,15 @@ inline constexpr std::array kHistoryColumns = [] {
        "force of the flow along x on all grains, over the floor's area; mean of the interval"},
       {"grain_step_over_stable", "-", &H::grain_step_over_stable,
        "grain step over the longest [stable one](choosing.md#grain-step), at this time", 4},
+      {"bulk_velocity_z", "m/s", &H::bulk_velocity_z,
+       "sum(alpha_f w V)/sum(alpha_f V); 0 of a flow that is never driven along z"},
+      {"wanted_velocity_x", "m/s", &H::wanted_velocity_x,
+       "bulk velocity along x that the last step was driven to"},
+      {"wanted_velocity_z", "m/s", &H::wanted_velocity_z, "the same along z"},
+      {"pressure_gradient_z", "Pa/m", &H::pressure_gradient_z, "driving gradient along z"},
+      {"grain_flux_z", "m2/s", &H::grain_flux_z,
+       "as `grain_flux`, along z; 0 of a flow that is never driven along z"},
+      {"stress_on_grains_z", "Pa", &H::stress_on_grains_z, "as `stress_on_grains`, along z"},
   });
 }();
 inline constexpr CsvTable<HistoryRecord> kHistoryTable{"history.csv", kHistoryColumns};

@@ -25,11 +25,11 @@ double kinetic_energy(const GrainState& grains) {
   return sum_over(grains.ranks, energy);
 }
 
-/// Sum of V_p u_x [m^4/s].
-double volume_flow(const GrainState& grains) {
+/// Sum of V_p u along x or z [m^4/s].
+double volume_flow(const GrainState& grains, bool along_x) {
   double flow = 0;
-  Kokkos::parallel_reduce("history: flow of the grains", grains.n, GrainVolumeFlow{grains.kin},
-                          flow);
+  Kokkos::parallel_reduce("history: flow of the grains", grains.n,
+                          GrainVolumeFlow{grains.kin, along_x}, flow);
   return sum_over(grains.ranks, flow);
 }
 
@@ -90,13 +90,18 @@ void ResultsWriter::write_history() {
   HistoryRecord row;
   row.t = run_.clock.time();
   row.step = run_.clock.step;
+  const FluidSolver* flow = run_.coupled_step.fluid_solver();
+  const bool across = flow != nullptr && flow->drive().along_z();
   if (run_.state.fluid) {
     const FluidState& fluid = *run_.state.fluid;
-    const FluidSolver& solver = *run_.coupled_step.fluid_solver();
-    row.u_star = solver.friction_velocity(fluid);
+    row.u_star = flow->friction_velocity(fluid);
     row.bulk_velocity = bulk_velocity(fluid);
+    if (across) row.bulk_velocity_z = bulk_velocity_across(fluid);
+    const FluidStepReport& step = run_.coupled_step.fluid_report();
+    row.wanted_velocity_x = step.wanted.x, row.wanted_velocity_z = step.wanted.z;
     row.pressure_gradient = fluid.drive.x * run_.config.fluid->density;
-    row.fluid_kinetic_energy = solver.kinetic_energy(fluid);
+    row.pressure_gradient_z = fluid.drive.z * run_.config.fluid->density;
+    row.fluid_kinetic_energy = flow->kinetic_energy(fluid);
     row.cfl = interval.courant;
     row.continuity_residual = interval.continuity_residual;
     row.pressure_iterations = interval.mean_iterations();
@@ -112,8 +117,12 @@ void ResultsWriter::write_history() {
     row.grain_step_over_stable = check_grain_step();
     const double area = run_.config.size[0] * run_.config.size[2];
     const double seconds = static_cast<double>(interval.steps) * run_.clock.fluid_step;
-    row.grain_flux = volume_flow(grains) / area;
-    if (interval.steps > 0) row.stress_on_grains = interval.impulse_on_grains / (seconds * area);
+    row.grain_flux = volume_flow(grains, true) / area;
+    if (across) row.grain_flux_z = volume_flow(grains, false) / area;
+    if (interval.steps > 0) {
+      row.stress_on_grains = interval.impulse_on_grains.x / (seconds * area);
+      row.stress_on_grains_z = interval.impulse_on_grains.z / (seconds * area);
+    }
   }
   if (rank_of(run_.ranks) == 0) append_record(folder_, row);
   accounts_.interval = {};

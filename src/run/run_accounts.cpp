@@ -64,7 +64,7 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
 
 }  // namespace
 
-void FluidStepSums::add(const FluidStepReport& report, double fluid_step, double impulse) {
+void FluidStepSums::add(const FluidStepReport& report, double fluid_step, const Vec3& impulse) {
   ++steps;
   iterations += report.pressure_iterations;
   max_iterations = std::max<std::int64_t>(max_iterations, report.pressure_iterations);
@@ -79,21 +79,22 @@ void RunAccounts::begin() {
 }
 
 void RunAccounts::save(CheckpointWriter& file) const {
-  const std::array<double, 5> numbers{
+  const std::array<double, 6> numbers{
       static_cast<double>(interval.steps), static_cast<double>(interval.iterations),
-      interval.continuity_residual, interval.courant, interval.impulse_on_grains};
+      interval.continuity_residual,        interval.courant,
+      interval.impulse_on_grains.x,        interval.impulse_on_grains.z};
   file.array("since_history_row", std::span<const double>(numbers));
 }
 
 void RunAccounts::load(const CheckpointReader& file) {
   if (!file.has("since_history_row")) return;
   auto numbers = file.array<double>("since_history_row", file.extents("since_history_row"));
-  numbers.resize(5);  // earlier versions have four
+  numbers.resize(6);  // earlier versions have four or five
   interval = {.steps = static_cast<std::int64_t>(numbers[0]),
               .iterations = static_cast<std::int64_t>(numbers[1]),
               .continuity_residual = numbers[2],
               .courant = numbers[3],
-              .impulse_on_grains = numbers[4]};
+              .impulse_on_grains = {numbers[4], 0, numbers[5]}};
 }
 
 Progress RunAccounts::progress(const RunState& run, const std::optional<DuneRecord>& dune) const {

@@ -13,9 +13,9 @@ namespace barchan {
 struct FluidStepSums {
   std::int64_t steps = 0, iterations = 0, max_iterations = 0;
   double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
-  double impulse_on_grains = 0;                 // of the flow along x [N s]
+  Vec3 impulse_on_grains;                       // of the flow [N s]
 
-  void add(const FluidStepReport& report, double fluid_step, double impulse);
+  void add(const FluidStepReport& report, double fluid_step, const Vec3& impulse);
   double mean_iterations() const {
     return static_cast<double>(iterations) / std::max<double>(1, static_cast<double>(steps));
   }

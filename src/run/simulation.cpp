@@ -89,7 +89,7 @@ void Simulation::one_step() {
   if (!run_.state.fluid) return;
   for (FluidStepSums* sums : {&accounts_.interval, &accounts_.all})
     sums->add(run_.coupled_step.fluid_report(), run_.clock.fluid_step,
-              run_.coupled_step.impulse_on_grains().x);
+              run_.coupled_step.impulse_on_grains());
 }
 
 /// Empty to go on. Clocks and signals may differ between ranks; all get the same answer.

@@ -2,8 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "src/initial/initial_flow.hpp"
 #include "tests/support/flow_run.hpp"
 #include "tests/support/measured.hpp"
 
@@ -11,7 +17,6 @@ namespace barchan {
 namespace {
 
 using namespace test;
-using Schedule = std::vector<Drive::Target>;
 
 Config laminar(std::array<int, 3> cells, std::array<double, 3> size, double viscosity) {
   Config config = flow_config(cells, size, 0);
@@ -31,27 +36,130 @@ TEST(Drive, TargetsOfACaseAndOfASchedule) {
   fluid.ramp_time = 2;
   EXPECT_DOUBLE_EQ(Drive(fluid).target(0.5, {0.1, 0}).x, 0.15);
   EXPECT_DOUBLE_EQ(Drive(fluid).target(5, {0.1, 0}).x, 0.3);
-  const Drive turns(Schedule{{1, {0.2, 0}}, {3, {0.4, 0.1}}});
+  EXPECT_FALSE(Drive(fluid).along_z());
+  fluid.mean_velocity = 0;
+  fluid.schedule = {{.velocity = 0.2}, {.time = 1, .velocity = {0.4, 0.1}, .ramp = 2}};
+  const Drive turns(fluid);
   EXPECT_TRUE(turns.along_z());
   EXPECT_DOUBLE_EQ(turns.target(0, {}).x, 0.2);
   EXPECT_DOUBLE_EQ(turns.target(1.5, {}).x, 0.25);
   EXPECT_DOUBLE_EQ(turns.target(1.5, {}).z, 0.025);
   EXPECT_DOUBLE_EQ(turns.target(9, {}).z, 0.1);
-  EXPECT_FALSE(Drive(Schedule{{0, {0.2, 0}}}).along_z());
 }
 
-TEST(DrivenFlow, FollowsASchedule) {
-  const Config config = laminar({4, 6, 6}, {0.01, 0.02, 0.015}, 1e-5);
-  const Drive schedule(Schedule{{0, {0, 0}}, {0.004, {0.1, 0.05}}, {0.008, {0.1, -0.02}}});
-  FlowRun run(config);
-  run.solver.set_drive(schedule);
+/// Steps a flow at rest over 0.02 s. Returns how far the bulk velocity ever was from the wanted
+/// one [m/s], the larger one of both directions.
+double largest_miss(FlowRun run) {
   run.start_uniform(0);
-  for (int s = 0; s < 12; ++s) {
-    const Vec2 wanted = schedule.target(run.fluid.time, {});
+  double most = 0;
+  for (int s = 0; s < 20; ++s) {
+    const Vec2 wanted = run.solver.drive().target(run.fluid.time, {});
     run.advance(1e-3);
-    EXPECT_NEAR(run.report.bulk_velocity.x, wanted.x, 1e-14);
-    EXPECT_NEAR(run.report.bulk_velocity.z, wanted.z, 1e-14);
-    EXPECT_NEAR(bulk_velocity_across(run.fluid), wanted.z, 1e-14);
+    most = std::max({most, std::abs(bulk_velocity(run.fluid) - wanted.x),
+                     std::abs(bulk_velocity_across(run.fluid) - wanted.z),
+                     std::abs(run.report.bulk_velocity.x - wanted.x),
+                     std::abs(run.report.bulk_velocity.z - wanted.z)});
+    EXPECT_EQ(run.report.wanted.x, wanted.x);
+    EXPECT_EQ(run.report.wanted.z, wanted.z);
+  }
+  EXPECT_GT(std::max(std::abs(bulk_velocity(run.fluid)), std::abs(bulk_velocity_across(run.fluid))),
+            0.04);
+  return most;
+}
+
+TEST(DrivenFlow, FollowsAReversalATurnAndAnOscillation) {
+  Config config = laminar({4, 6, 6}, {0.01, 0.02, 0.015}, 1e-5);
+  const double start = 0.004, ramp = 0.008;
+  const std::pair<const char*, std::vector<FlowTarget>> schedules[] = {
+      {"reversal", {{.velocity = 0.1}, {start, -0.1, ramp}}},
+      {"turn", {{.velocity = {0.1, 0}}, {start, {0, 0.1}, ramp}}},
+      {"oscillation", {{.velocity = 0.1, .amplitude = {0.05, 0.1}, .period = 0.016}}}};
+  for (const auto& [name, schedule] : schedules) {
+    config.fluid->schedule = schedule;
+    expect_below(fmt::format("{}, bulk velocity from the wanted one [m/s]", name),
+                 largest_miss(FlowRun(config)), 1e-14);
+  }
+}
+
+// Water between a floor and a plane of symmetry at height H that swings with the bulk velocity
+// A sin(w t). In complex numbers, with k = sqrt(i w / nu),
+//   u(y) / A = (1 - cosh(k (H - y)) / cosh(k H)) / (1 - tanh(k H) / (k H)),
+// which near the floor is Stokes' second problem. It swings along x and, by half, against that
+// along z.
+TEST(DrivenFlow, SwingsAsStokesLayerDoes) {
+  using std::numbers::pi;
+  const double height = 0.01, nu = 1e-5, amplitude = 0.1, period = 2;
+  Config config = laminar({3, 40, 3}, {0.01, height, 0.01}, nu);
+  config.fluid->schedule = {
+      {.velocity = 0, .amplitude = {amplitude, -amplitude / 2}, .period = period}};
+  FlowRun run(config);
+  using Complex = std::complex<double>;
+  const Complex k = std::sqrt(Complex(0, 2 * pi / period / nu));
+  const Complex bulk = 1.0 - std::tanh(k * height) / (k * height);
+  const auto exact = [&](int j, double t) {
+    const Complex shape =
+        (1.0 - std::cosh(k * (height - run.h.y(j))) / std::cosh(k * height)) / bulk;
+    return amplitude * std::imag(shape * std::exp(Complex(0, 2 * pi * t / period)));
+  };
+  const int steps = 4000;
+  const double dt = period / steps;
+  // At the end of a step it has what is wanted at its start.
+  set_field(run.fluid.u.z, run.grid, [&](int, int j, int) { return -exact(j, -dt) / 2; });
+  run.start([&](int, int j, int) { return exact(j, -dt); });
+  double error = 0;
+  for (int s = 0; s < steps; ++s) {
+    const double t = run.fluid.time;
+    run.advance(dt);
+    if (s % 250 != 0) continue;
+    const auto u = to_host(run.fluid.u.x), w = to_host(run.fluid.u.z);
+    for (int j = 0; j < run.grid.ny; ++j) {
+      error = std::max(
+          {error, std::abs(u(1, j, 2) - exact(j, t)), std::abs(w(2, j, 1) + exact(j, t) / 2)});
+    }
+  }
+  expect_below("oscillating flow, error over the amplitude", error / amplitude, 2e-3);
+}
+
+/// A square box of turbulent water that was driven along x, or the same along z.
+FlowRun turbulent_run(const PlaneVelocity& velocity) {
+  Config config = flow_config({16, 12, 16}, {0.03, 0.02, 0.03}, 8e-4);
+  config.fluid->mean_velocity = velocity;
+  FlowRun run(config);
+  set_turbulent_flow(config, run.fluid);
+  run.solver.fill_ghosts(run.fluid);
+  for (int s = 0; s < 40; ++s) run.advance(5e-4);
+  return run;
+}
+
+TEST(DrivenFlow, TurbulenceAlongZIsThatAlongXWithXAndZExchanged) {
+  const FlowRun along = turbulent_run({0.28, 0}), across = turbulent_run({0, 0.28});
+  const auto u = to_host(along.fluid.u.x), v = to_host(along.fluid.u.y),
+             w = to_host(along.fluid.u.z);
+  const auto z_u = to_host(across.fluid.u.x), z_v = to_host(across.fluid.u.y),
+             z_w = to_host(across.fluid.u.z);
+  double largest = 0, swirl = 0;
+  for_owned_cells(along.grid, [&](int i, int j, int k) {
+    largest = std::max({largest, std::abs(u(i, j, k) - z_w(k, j, i)),
+                        std::abs(v(i, j, k) - z_v(k, j, i)), std::abs(w(i, j, k) - z_u(k, j, i))});
+    swirl = std::max(swirl, std::abs(w(i, j, k)));
+  });
+  EXPECT_GT(swirl, 0.02) << "it is turbulent";
+  expect_below("turbulence along z, largest difference [m/s]", largest, 1e-12);
+  const double u_star = along.solver.friction_velocity(along.fluid);
+  EXPECT_GT(u_star, 0.01);
+  EXPECT_NEAR(across.solver.friction_velocity(across.fluid), u_star, 1e-12);
+  EXPECT_EQ(across.report.bulk_velocity.x, 0);
+}
+
+TEST(DrivenFlow, TurbulenceStartsAlongTheVelocity) {
+  Config config = flow_config({16, 12, 16}, {0.03, 0.02, 0.03}, 8e-4);
+  for (const PlaneVelocity& velocity :
+       {PlaneVelocity{0.28, 0}, PlaneVelocity{-0.2, 0.1}, PlaneVelocity{0.1, -0.2}}) {
+    config.fluid->mean_velocity = velocity;
+    FluidState fluid = make_fluid_state(make_grid(config));
+    set_turbulent_flow(config, fluid);
+    EXPECT_NEAR(bulk_velocity(fluid), velocity.x, 1e-14);
+    EXPECT_NEAR(bulk_velocity_across(fluid), velocity.z, 1e-14);
   }
 }
 
@@ -65,8 +173,9 @@ TEST(DrivenFlow, AlongZIsAlongXTurned) {
     const std::array<int, 3> cells = turned ? std::array{6, 8, 10} : std::array{10, 8, 6};
     const std::array<double, 3> size =
         turned ? std::array{0.012, 0.02, 0.03} : std::array{0.03, 0.02, 0.012};
-    FlowRun run(laminar(cells, size, 1e-5), Fraction::variable);
-    run.solver.set_drive(Drive(Schedule{{0, turned ? Vec2{0.02, 0.1} : Vec2{0.1, 0.02}}}));
+    Config config = laminar(cells, size, 1e-5);
+    config.fluid->mean_velocity = turned ? PlaneVelocity{0.02, 0.1} : PlaneVelocity{0.1, 0.02};
+    FlowRun run(config, Fraction::variable);
     for (const Field& f : {run.fluid.alpha_f, run.fluid.alpha_f_previous}) {
       set_field(f, run.grid,
                 [&](int i, int j, int k) { return turned ? alpha(k, j, i) : alpha(i, j, k); });

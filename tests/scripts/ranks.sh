@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A flow over several ranks: the same results, restarts on another number of ranks, a polite stop, the death
+# A flow over several ranks: the same results, also of one that turns, restarts on another number of ranks, a polite stop, the death
 # of a rank, one that hangs, one that fails alone, and a case that one rank lacks.
 # shellcheck disable=SC2086  # $ranks: one word a rank
 set -euo pipefail
@@ -39,6 +39,18 @@ run 2 flow.toml --out parts --set time.end=0.01
 run 3 flow.toml --out parts --set time.end=0.02 --restart parts/restart_0000000010.h5
 run 1 flow.toml --out parts --restart parts/restart_0000000020.h5
 "$support/compare_runs.py" flow one parts || fail "2, then 3, then 1 ranks and one differ"
+
+# A start more along z than along x, and pieces that end within the ramp.
+turning=(--set fluid.mean_velocity=0 --set "fluid.schedule=[{time = 0, velocity = [0.1, 0.2]}, {time = 0.005,
+  velocity = [0.2, -0.1], ramp = 0.02, amplitude = [0.02, 0.05], period = 0.012}]")
+turning=("${turning[@]//$'\n'/}")
+run 1 flow.toml --out turn "${turning[@]}"
+run 6 flow.toml --out turn_six "${turning[@]}"
+"$support/compare_runs.py" flow turn turn_six || fail "six ranks and one differ in a flow that turns"
+run 2 flow.toml --out turn_parts --set time.end=0.01 "${turning[@]}"
+run 3 flow.toml --out turn_parts --set time.end=0.02 --restart turn_parts/restart_0000000010.h5 "${turning[@]}"
+run 1 flow.toml --out turn_parts --restart turn_parts/restart_0000000020.h5 "${turning[@]}"
+"$support/compare_runs.py" flow turn turn_parts || fail "2, then 3, then 1 ranks and one differ in a flow that turns"
 
 status=0  # a case that only one node has
 mpirun "${options[@]}" -np 1 "$BARCHAN_PROGRAM" run flow.toml --quiet --out node \

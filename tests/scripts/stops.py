@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A run that is asked to stop (SIGTERM, SIGINT, SIGHUP, several signals at once, the wall-clock limit) writes a restart
-file, ends with exit code 3 and says how to go on; going on gives the bits of the run that nobody stopped. A run whose
-output nobody reads ends as any other."""
+file, ends with exit code 3 and says how to go on; going on gives the bits of the run that nobody stopped, also in the
+middle of a ramp of the flow. A run whose output nobody reads ends as any other."""
 import signal
 import subprocess
 
@@ -58,7 +58,19 @@ def runs_without_readers(work):
         faults.same_run(work / "whole", folder)
 
 
+def goes_on_within_a_ramp(work):
+    """The flow turns from x to z, and swings meanwhile; the run ends in the middle and goes on."""
+    turning = {**faults.OFTEN, "fluid.mean_velocity": 0, "fluid.schedule":
+               "[{time = 0, velocity = 0.2}, {time = 0.005, velocity = [0, 0.2], ramp = 0.03, "
+               "amplitude = [0.05, 0.02], period = 0.02}]"}
+    faults.expect(faults.run(work / "turned", turning), 0)
+    faults.expect(faults.run(work / "halves", {**turning, "time.end": 0.02}), 0)
+    faults.expect(faults.run(work / "halves", turning, faults.last_restart(work / "halves")), 0)
+    faults.same_run(work / "turned", work / "halves")
+
+
 def main(work):
+    goes_on_within_a_ramp(work)
     faults.expect(faults.run(work / "whole", LONG), 0)
     for which in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         stop(work / which.name, [which])

@@ -20,6 +20,12 @@ HISTORY = {
     "grain_flux": ("m2 s-1", "volume flux of all grains over the floor's area"),
     "stress_on_grains": ("Pa", "force of the flow on the grains over the floor's area"),
     "grain_step_over_stable": ("1", "grain step over the longest stable one"),
+    "bulk_velocity_z": ("m s-1", "bulk velocity of the water along z"),
+    "wanted_velocity_x": ("m s-1", "wanted bulk velocity along x"),
+    "wanted_velocity_z": ("m s-1", "wanted bulk velocity along z"),
+    "pressure_gradient_z": ("Pa m-1", "driving pressure gradient along z"),
+    "grain_flux_z": ("m2 s-1", "volume flux of all grains along z over the floor's area"),
+    "stress_on_grains_z": ("Pa", "force of the flow along z on the grains over the floor's area"),
 }
 DUNES = {
     "t": ("s", "time"),

@@ -5,12 +5,15 @@ tables and grains.h5, as far as they are there. All text from the run is escaped
 """
 
 import json
+import math
 import os
 import re
 import shlex
 from datetime import datetime
 from html import escape
 from pathlib import Path
+
+import numpy as np
 
 from barchan.errors import BarchanError, MissingData
 from barchan.report import curves as curve_figures
@@ -146,10 +149,18 @@ def derived(run):
     return table(dict(rows or from_config(run.config)).items()) + said
 
 
+def largest_speed(fluid):
+    """Largest bulk velocity [m/s] that a section [fluid] asks for."""
+    entries = fluid.get("schedule") or [{"velocity": fluid.get("mean_velocity", 0)}]
+    return max(sum(math.hypot(*np.atleast_1d(entry.get(part, 0))) for part in ("velocity", "amplitude"))
+               for entry in entries)
+
+
 def from_config(config):
     fluid, grains = config.get("fluid", {}), config.get("grains", {})
     size = config.get("domain", {}).get("size", [])
-    cells, speed, nu = fluid.get("cells"), fluid.get("mean_velocity"), fluid.get("kinematic_viscosity", 1e-6)
+    cells, nu = fluid.get("cells"), fluid.get("kinematic_viscosity", 1e-6)
+    speed = largest_speed(fluid)
     return [
         ("domain", " × ".join(f"{1e3 * length:g}" for length in size) + " mm" if size else None),
         ("cells", " × ".join(map(str, cells)) if cells else None),

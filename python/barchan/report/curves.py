@@ -28,8 +28,8 @@ MORPHOLOGY = (
 )
 HISTORY = (
     ("wall friction velocity u*", "mm/s", 1e3, "linear", {"u_star": ""}),
-    ("bulk velocity", "m/s", 1.0, "linear", {"bulk_velocity": ""}),
-    ("driving gradient", "Pa/m", 1.0, "linear", {"pressure_gradient": ""}),
+    ("bulk velocity", "m/s", 1.0, "linear", {"bulk_velocity": "", "bulk_velocity_z": "along z"}),
+    ("driving gradient", "Pa/m", 1.0, "linear", {"pressure_gradient": "", "pressure_gradient_z": "along z"}),
     ("kinetic energy", "J", 1.0, "log", {"fluid_kinetic_energy": "water",
                                          "grain_kinetic_energy": "grains"}),
     ("CFL number", "", 1.0, "linear", {"cfl": ""}),

@@ -1,0 +1,86 @@
+#include "src/config/flow_checks.hpp"
+
+#include <cmath>
+
+#include "src/config/flow_schedule.hpp"
+
+namespace barchan {
+namespace {
+
+/// Fluid steps of a sine's period, at least.
+constexpr double kStepsOfPeriod = 10;
+
+/// An entry alone; `number` counts from 1.
+void check_entry(const FlowTarget& entry, std::size_t number, const Config& c, Findings& found) {
+  const bool swings = entry.amplitude != PlaneVelocity{};
+  found.error_if(swings && entry.period == 0, {"fluid.schedule", "fluid.schedule.period"},
+                 "must have a period above 0 in entry {}, which has an amplitude", number);
+  found.error_if(!swings && entry.period > 0, {"fluid.schedule", "fluid.schedule.amplitude"},
+                 "must have no period in entry {}, which has no amplitude", number);
+  const double shortest = kStepsOfPeriod * c.time.fluid_step;
+  found.error_if(entry.period > 0 && entry.period < shortest * (1 - 1e-9),
+                 {"fluid.schedule", "fluid.schedule.period", "time.fluid_step"},
+                 "must have a period of at least {:.3g} s, {} fluid steps, in entry {}", shortest,
+                 kStepsOfPeriod, number);
+  found.warning_if(entry.time >= c.time.end, {"fluid.schedule", "time.end"},
+                   "has entry {} at {:.6g} s, after the end of the run", number, entry.time);
+}
+
+/// An entry with the one before it.
+void check_order(const FlowTarget& before, const FlowTarget& entry, std::size_t number,
+                 Findings& found) {
+  if (found.error_if(entry.time <= before.time, {"fluid.schedule", "fluid.schedule.time"},
+                     "must be in order of time: entry {} is at {:.6g} s, the one before at "
+                     "{:.6g} s",
+                     number, entry.time, before.time))
+    return;
+  const double until = before.time + before.ramp;
+  found.error_if(until > entry.time * (1 + 1e-9),
+                 {"fluid.schedule", "fluid.schedule.ramp", "fluid.schedule.time"},
+                 "must end the ramp of entry {} at the time of the next, {:.6g} s; it lasts until "
+                 "{:.6g} s",
+                 number - 1, entry.time, until);
+  found.warning_if(entry.ramp == 0 && entry.velocity != before.velocity,
+                   {"fluid.schedule", "fluid.schedule.ramp"},
+                   "changes the flow in one step in entry {}: the pressure that does it pushes "
+                   "grains as well; give it a ramp",
+                   number);
+}
+
+}  // namespace
+
+void check_schedule(const Config& c, Findings& found) {
+  const FluidConfig& fluid = *c.fluid;
+  const std::vector<FlowTarget>& schedule = fluid.schedule;
+  if (schedule.empty()) return;
+  found.error_if(fluid.mean_velocity != PlaneVelocity{}, {"fluid.schedule", "fluid.mean_velocity"},
+                 "contradicts mean_velocity: give one of the two");
+  found.error_if(fluid.pressure_gradient.has_value(), {"fluid.schedule", "fluid.pressure_gradient"},
+                 "contradicts pressure_gradient: give one of the two");
+  found.error_if(schedule.front().time != 0, {"fluid.schedule", "fluid.schedule.time"},
+                 "must begin with an entry of time 0; the first is at {:.6g} s",
+                 schedule.front().time);
+  for (std::size_t n = 0; n < schedule.size(); ++n) {
+    check_entry(schedule[n], n + 1, c, found);
+    if (n > 0) check_order(schedule[n - 1], schedule[n], n + 1, found);
+  }
+}
+
+void check_flow_at_start(const Config& c, Findings& found) {
+  const FluidConfig& fluid = *c.fluid;
+  const std::vector<FlowTarget> schedule = flow_schedule(fluid);
+  const bool held = velocity_at_start(schedule) != PlaneVelocity{};
+  const bool pushed = fluid.pressure_gradient.value_or(0) != 0;
+  found.error_if(c.initial.fluid == "turbulent" && !held && !pushed,
+                 {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient",
+                  "fluid.schedule", "fluid.schedule.velocity"},
+                 "must come with a mean_velocity or pressure_gradient, which sets its log law{}",
+                 schedule.empty() ? "" : "; the schedule begins at rest");
+  found.error_if(
+      c.initial.fluid == "uniform" && !held,
+      {"initial.fluid", "fluid.mean_velocity", "fluid.schedule", "fluid.schedule.velocity"},
+      "must come with a mean_velocity, which it starts at{}",
+      schedule.empty() ? "" : "; the schedule begins at rest");
+}
+
+}  // namespace barchan
