@@ -10,6 +10,7 @@
 #include "src/app/machine_load.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/kinds.hpp"
 #include "src/grains/grain_skins.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -55,9 +56,16 @@ double output_seconds(const Config& config, double n_grains, const PartSeconds& 
 /// The fastest grains, about [m/s]: slower than the flow, else as they fall.
 double fastest_of(const Config& config, const GrainNumbers& grains) {
   if (config.fluid) return std::max(0.4 * derive(config, {}).fluid->bulk_velocity, 1e-3);
-  if (grains.fall_velocity > 0) return grains.fall_velocity;
+  double falls = 0;
+  for (const KindNumbers& kind : grains.kinds) falls = std::max(falls, kind.fall_velocity);
+  if (falls > 0) return falls;
   const auto& g = config.grains->gravity;
   return std::sqrt(std::hypot(g[0], g[1], g[2]) * config.size[1]);
+}
+
+bool loses_no_energy(const GrainConfig& grains) {
+  return std::ranges::any_of(all_kinds(grains),
+                             [](const KindConfig& kind) { return kind.material.restitution == 1; });
 }
 
 /// Grains for the pilot: those that are there, or what those that are poured will settle to.
@@ -66,8 +74,8 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   if (planned.grains) return *planned.grains;
   const Config& pours = planned.poured_in;
   // What loses no energy does not settle.
-  if (config.grains->material.restitution == 1) return checked_grains(pours, {});
-  return packed_grains(*pours.initial.pour, pours.grains->sizes, pours.size);
+  if (loses_no_energy(*config.grains)) return checked_grains(pours, {});
+  return packed_grains(*pours.initial.pour, poured_sizes(*pours.grains), pours.size);
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {

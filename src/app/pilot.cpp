@@ -24,6 +24,12 @@ struct Slice {
   double cells_per_cell = 1, grains_per_grain = 1;  // of the case, for each in the slice
 };
 
+/// A grain of another list, at rest and at x.
+void add_at_rest(InitialGrains& to, const InitialGrains& from, std::size_t g, const Vec3& x) {
+  to.add(from.id[g], from.diameter[g], x);
+  if (!from.kind.empty()) to.kind.push_back(from.kind[g]);
+}
+
 /// `grains` in order of x from the first on, as many as are timed, moved to x = 0.
 InitialGrains first_grains(const InitialGrains& grains, double length) {
   std::vector<std::size_t> order(grains.size());
@@ -34,7 +40,7 @@ InitialGrains first_grains(const InitialGrains& grains, double length) {
   const double start = grains.x[order.front()].x;
   for (const std::size_t g : order) {
     const Vec3 x = grains.x[g] - Vec3{start, 0, 0};
-    if (x.x <= length) first.add(grains.id[g], grains.diameter[g], x);
+    if (x.x <= length) add_at_rest(first, grains, g, x);
   }
   return first;
 }
@@ -60,6 +66,7 @@ Slice slice_of(const Config& config, const InitialGrains& grains) {
 /// So heavy that nothing moves them: they touch as they do in the heap for as long as is timed.
 void hold_grains(GrainConfig& grains) {
   grains.density *= 1e9;
+  for (KindConfig& kind : grains.kinds) kind.density *= 1e9;
   grains.gravity = {};
   grains.max_overlap = 1;
 }
@@ -70,7 +77,7 @@ InitialGrains inside(const InitialGrains& grains, const std::array<double, 3>& s
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3& x = grains.x[g];
     const bool in = x.x >= 0 && x.x <= size[0] && x.z >= 0 && x.z <= size[2] && x.y <= size[1];
-    if (in) kept.add(grains.id[g], grains.diameter[g], x);
+    if (in) add_at_rest(kept, grains, g, x);
   }
   return kept;
 }
@@ -83,7 +90,7 @@ RunState start(const Config& config, const InitialGrains& grains) {
     state.fluid = make_fluid_state(make_grid(config, pencils.get()));
     set_uniform_flow(config, *state.fluid);
   }
-  if (config.grains) state.grains = make_grain_state(grains, config.grains->density, ranks);
+  if (config.grains) state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
   return {config, std::move(pencils), std::move(state)};
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "src/base/errors.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
 #include "src/initial/initial_state.hpp"
 
@@ -18,10 +19,11 @@ namespace {
 fs::path folder_beside(const fs::path& folder) { return fs::absolute(folder).parent_path(); }
 
 std::vector<SizeClass> sizes_of(const InitialGrains& grains) {
-  std::map<double, std::int64_t> count;
-  for (const double diameter : grains.diameter) ++count[diameter];
+  std::map<std::pair<double, int>, std::int64_t> count;
+  for (std::size_t g = 0; g < grains.size(); ++g) ++count[{grains.diameter[g], grains.kind_of(g)}];
   std::vector<SizeClass> sizes;
-  for (const auto& [diameter, n] : count) sizes.push_back({diameter, n});
+  for (const auto& [of, n] : count)
+    sizes.push_back({.diameter = of.first, .count = n, .kind = of.second});
   return sizes;
 }
 
@@ -73,7 +75,7 @@ PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   if (!config.grains) return {};
   if (config.initial.pour) {
     PlannedGrains planned;
-    planned.sizes = config.grains->sizes;
+    planned.sizes = poured_sizes(*config.grains);
     planned.poured_in = config;
     planned.source = config.file;
     return planned;
@@ -84,6 +86,8 @@ PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
       start_case(*the_case.grain_start, folder_beside(folder), config.initial.realisation);
   if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
   PlannedGrains planned = planned_grains(start.realised, start.folder);
+  planned.sizes =
+      with_kinds_of(*config.grains, *start.realised.config.grains, std::move(planned.sizes));
   check_sizes(planned.sizes, config, source);
   return planned;
 }

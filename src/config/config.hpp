@@ -104,6 +104,7 @@ struct Material {
 struct SizeClass {
   double diameter = 0;  // [m]
   std::int64_t count = 0;
+  int kind = 0;  // entry of [[grains.kind]] that they are of
   bool operator==(const SizeClass&) const = default;
 };
 
@@ -118,8 +119,8 @@ struct AmbientConfig {
 /// [[grains.kind]]: grains of a material of their own.
 struct KindConfig {
   std::string name;              // required
-  double density = 2500;         // [kg/m^3], defaults to that of [grains]
-  Material material;             // keys directly in [[grains.kind]], default to those of [grains]
+  double density = 2500;         // [kg/m^3]; this and what follows default to that of [grains]
+  Material material;             // keys directly in [[grains.kind]]
   std::vector<SizeClass> sizes;  // for `pour`
   bool operator==(const KindConfig&) const = default;
 };

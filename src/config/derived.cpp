@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "src/config/flow_schedule.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {
@@ -66,9 +69,36 @@ double soulsby_threshold(double diameter, double submerged, double gravity, doub
   return 0.30 / (1 + 1.2 * size) + 0.055 * (1 - std::exp(-0.020 * size));
 }
 
+/// `sizes`: of the grains of this kind.
+KindNumbers derive_kind(const Config& config, const KindConfig& kind,
+                        const std::vector<SizeClass>& sizes,
+                        const std::optional<FluidNumbers>& flow) {
+  const GrainConfig& grains = *config.grains;
+  KindNumbers n{.name = kind.name,
+                .density = kind.density,
+                .youngs_modulus = kind.material.youngs_modulus,
+                .d_min = std::ranges::min(sizes, {}, &SizeClass::diameter).diameter,
+                .d_mean = mean_diameter(sizes)};
+  n.rayleigh_min = rayleigh_time(n.d_min, kind.density, kind.material);
+  n.rayleigh_mean = rayleigh_time(n.d_mean, kind.density, kind.material);
+  const AmbientConfig liquid =
+      config.fluid ? AmbientConfig{config.fluid->density, config.fluid->kinematic_viscosity}
+                   : grains.ambient.value_or(AmbientConfig{0, 0});
+  const double nu = liquid.kinematic_viscosity;
+  const double gravity = std::hypot(grains.gravity[0], grains.gravity[1], grains.gravity[2]);
+  if (nu > 0 && kind.density > liquid.density) {
+    const double ratio = kind.density / liquid.density, submerged = ratio - 1;
+    n.fall_velocity = settling_velocity(n.d_mean, ratio, nu, gravity);
+    if (flow && flow->u_star > 0 && gravity > 0) {
+      n.shields = flow->u_star * flow->u_star / (submerged * gravity * n.d_mean);
+      n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);
+    }
+  }
+  return n;
+}
+
 GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& sizes,
                            const std::optional<FluidNumbers>& flow) {
-  const GrainConfig& grains = *config.grains;
   GrainNumbers n;
   n.d_min = n.d_max = sizes.front().diameter;
   for (const SizeClass& size : sizes) {
@@ -79,23 +109,19 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
     n.solid_volume += count * std::numbers::pi / 6 * std::pow(size.diameter, 3);
   }
   n.d_mean = mean_diameter(sizes);
-  n.rayleigh_min = rayleigh_time(n.d_min, grains.density, grains.material);
-  n.rayleigh_mean = rayleigh_time(n.d_mean, grains.density, grains.material);
-  n.fraction_min = true_grain_step(config.time) / n.rayleigh_min;
-  n.fraction_mean = true_grain_step(config.time) / n.rayleigh_mean;
-  const AmbientConfig liquid =
-      config.fluid ? AmbientConfig{config.fluid->density, config.fluid->kinematic_viscosity}
-                   : grains.ambient.value_or(AmbientConfig{0, 0});
-  const double nu = liquid.kinematic_viscosity;
-  const double gravity = std::hypot(grains.gravity[0], grains.gravity[1], grains.gravity[2]);
-  if (nu > 0 && grains.density > liquid.density) {
-    const double ratio = grains.density / liquid.density, submerged = ratio - 1;
-    n.fall_velocity = settling_velocity(n.d_mean, ratio, nu, gravity);
-    if (flow && flow->u_star > 0 && gravity > 0) {
-      n.shields = flow->u_star * flow->u_star / (submerged * gravity * n.d_mean);
-      n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);
-    }
+  const std::vector<KindConfig> kinds = all_kinds(*config.grains);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    std::vector<SizeClass> of_kind;
+    std::ranges::copy_if(sizes, std::back_inserter(of_kind),
+                         [&](const SizeClass& size) { return std::cmp_equal(size.kind, k); });
+    if (!of_kind.empty()) n.kinds.push_back(derive_kind(config, kinds[k], of_kind, flow));
   }
+  n.fastest_contacts = std::ranges::min(n.kinds, {}, &KindNumbers::rayleigh_min);
+  n.fraction_min = true_grain_step(config.time) / n.fastest_contacts.rayleigh_min;
+  n.fraction_mean = true_grain_step(config.time) / n.fastest_contacts.rayleigh_mean;
+  n.easiest = std::ranges::max(n.kinds, {}, [](const KindNumbers& kind) {
+    return kind.shields_threshold > 0 ? kind.shields / kind.shields_threshold : 0;
+  });
   return n;
 }
 
@@ -237,21 +263,27 @@ void add_cells_against_grains(std::string& text, const GrainNumbers& n, bool by_
   }
 }
 
+/// Of several kinds each line names its own.
+void add_kind(std::string& text, const KindNumbers& n) {
+  const std::string of = n.name.empty() ? "" : n.name + ": ";
+  if (!of.empty()) line(text, "density", "{}{:.6g} kg/m3", of, n.density);
+  if (n.fall_velocity > 0)
+    line(text, "fall velocity", "{}{:.4g} m/s (mean grain alone)", of, n.fall_velocity);
+  if (n.shields > 0) {
+    line(text, "Shields number",
+         "{}{:.4f}; flat beds move from about {:.4f} on (Soulsby-Whitehouse; here: "
+         "docs/threshold.md)",
+         of, n.shields, n.shields_threshold);
+  }
+}
+
 void add_grains(std::string& text, const GrainNumbers& n, bool by_row) {
   line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
        1e3 * n.d_max, 1e3 * n.d_mean);
   line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
   line(text, "grain step / Rayleigh", "{:.1f} % (smallest), {:.1f} % (mean grain)",
        100 * n.fraction_min, 100 * n.fraction_mean);
-  if (n.fall_velocity > 0) {
-    line(text, "fall velocity", "{:.4g} m/s (mean grain alone)", n.fall_velocity);
-  }
-  if (n.shields > 0) {
-    line(
-        text, "Shields number",
-        "{:.4f}; flat beds move from about {:.4f} on (Soulsby-Whitehouse; here: docs/threshold.md)",
-        n.shields, n.shields_threshold);
-  }
+  for (const KindNumbers& kind : n.kinds) add_kind(text, kind);
   if (n.cell_ratio > 0) add_cells_against_grains(text, n, by_row);
 }
 

@@ -61,15 +61,26 @@ struct FluidNumbers {
   double viscous_number = 0;     // 4 nu dt (1/dx^2 + 1/dy^2 + 1/dz^2), first row
 };
 
+/// Of the grains of one kind.
+struct KindNumbers {
+  std::string name;                            // empty: there is one
+  double density = 0;                          // [kg/m^3]
+  double youngs_modulus = 0;                   // [Pa]
+  double d_min = 0, d_mean = 0;                // [m]; mean by number
+  double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
+  double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
+  double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
+  double shields_threshold = 0;                // Soulsby & Whitehouse
+};
+
 struct GrainNumbers {
   std::int64_t count = 0;
   double d_min = 0, d_mean = 0, d_max = 0;     // [m]; mean by number
   double solid_volume = 0;                     // [m^3]
-  double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
-  double fraction_min = 0, fraction_mean = 0;  // grain step over these
-  double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
-  double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
-  double shields_threshold = 0;                // Soulsby & Whitehouse
+  std::vector<KindNumbers> kinds;              // those that there are grains of
+  KindNumbers fastest_contacts;                // that of the shortest Rayleigh time
+  double fraction_min = 0, fraction_mean = 0;  // grain step over its Rayleigh times
+  KindNumbers easiest;                         // that is farthest above its threshold of motion
   double cell_ratio = 0;    // smallest cell length over the mean diameter; 0 without cells
   double floor_ratio = 0;   // height of the lowest row over it
   double column_ratio = 0;  // length of a cell along x over it

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "src/config/derived.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 
 namespace barchan {
@@ -23,23 +25,27 @@ std::string softer_grains(double youngs_modulus, double factor) {
 }
 
 void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
+  const KindNumbers& kind = n.fastest_contacts;
+  const std::string of = kind.name.empty() ? "" : fmt::format(" of \"{}\"", kind.name);
   const std::string text =
-      fmt::format("{:.1f} % of the Rayleigh time {:.3g} s of the smallest grain (d = {:.4g} m)",
-                  100 * n.fraction_min, n.rayleigh_min, n.d_min);
+      fmt::format("{:.1f} % of the Rayleigh time {:.3g} s of the smallest grain{} (d = {:.4g} m)",
+                  100 * n.fraction_min, kind.rayleigh_min, of, kind.d_min);
   found.limit(n.fraction_min, 0.2, 0.3,
               {"time.grain_step", "time.fluid_step", "grains.sizes", "grains.density",
                "grains.youngs_modulus", "grains.poisson_ratio"},
               fmt::format("must be at most {:.3g} s (30 %); the step taken, {:.3g} s, is {}{}",
-                          0.3 * n.rayleigh_min, true_grain_step(c.time), text,
-                          softer_grains(c.grains->material.youngs_modulus, n.fraction_min / 0.3)),
+                          0.3 * kind.rayleigh_min, true_grain_step(c.time), text,
+                          softer_grains(kind.youngs_modulus, n.fraction_min / 0.3)),
               fmt::format("is {}; above 20 % contacts are less accurate", text));
 }
 
-/// Linear springs: the step against the duration of a contact of two of the smallest grains,
+/// Linear springs: the step against the duration of a contact of two of the lightest grains,
 /// pi sqrt(m / (2 k)).
 void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) {
   if (c.grains->linear_stiffness == 0) return;
-  const double mass = c.grains->density * std::numbers::pi / 6 * std::pow(n.d_min, 3);
+  double mass = std::numeric_limits<double>::infinity();
+  for (const KindNumbers& kind : n.kinds)
+    mass = std::min(mass, kind.density * std::numbers::pi / 6 * std::pow(kind.d_min, 3));
   const double contact = std::numbers::pi * std::sqrt(mass / (2 * c.grains->linear_stiffness));
   const double fraction = true_grain_step(c.time) / contact;
   found.limit(
@@ -94,16 +100,21 @@ void check_motion(const Config& c, const Derived& derived, Findings& found) {
   const GrainConfig& grains = *c.grains;
   if (grains.frozen) return;
   const double around = c.fluid ? c.fluid->density : grains.ambient ? grains.ambient->density : 0;
-  found.warning_if(grains.density <= around, {"grains.density", "fluid.density"},
-                   "is not above that of the fluid, {:.6g} kg/m3: the grains float", around);
   const GrainNumbers& n = *derived.grains;
+  for (const KindNumbers& kind : n.kinds) {
+    const std::string who =
+        kind.name.empty() ? "the grains" : fmt::format("those of \"{}\"", kind.name);
+    found.warning_if(kind.density <= around, {"grains.density", "fluid.density"},
+                     "is not above that of the fluid, {:.6g} kg/m3: {} float", around, who);
+  }
   // In a laminar flow a bed is as a rule so deep that u* of the whole height says little.
   const bool turbulent = derived.fluid && derived.fluid->reynolds > 2000;
   found.warning_if(
-      turbulent && n.shields < n.shields_threshold, {"fluid.mean_velocity", "grains.sizes"},
+      turbulent && n.easiest.shields < n.easiest.shields_threshold,
+      {"fluid.mean_velocity", "grains.sizes"},
       "gives a Shields number of {:.3f}, below the {:.3f} at which sand begins to move: "
       "expect no bed load",
-      n.shields, n.shields_threshold);
+      n.easiest.shields, n.easiest.shields_threshold);
 }
 
 void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Findings& found) {
@@ -120,7 +131,8 @@ void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Fin
 
 void check_pour(const Config& c, Findings& found) {
   const PourConfig& pour = *c.initial.pour;
-  found.error_if(c.grains->sizes.empty(), {"grains.sizes", "initial.grains"},
+  const std::vector<SizeClass> sizes = poured_sizes(*c.grains);
+  found.error_if(sizes.empty(), {"grains.sizes", "initial.grains"},
                  "must say which grains to pour: sizes = [[2e-4, 3000]] are 3,000 of 0.2 mm");
   found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
                  "contradicts pour: grains could not settle");
@@ -134,8 +146,8 @@ void check_pour(const Config& c, Findings& found) {
   }
   if (cone) check_cone(pour, c.size, found);
   double count = 0;
-  for (const SizeClass& size : c.grains->sizes) count += static_cast<double>(size.count);
-  const double spacing = poured_spacing(c.grains->sizes);
+  for (const SizeClass& size : sizes) count += static_cast<double>(size.count);
+  const double spacing = poured_spacing(sizes);
   if (spacing >= c.size[1]) return;  // told by check_grain_sizes
   const double top = pour.drop_height + poured_height(pour, c.size, count, spacing);
   found.error_if(top > c.size[1],
@@ -159,7 +171,11 @@ void check_floor(const GrainConfig& grains, const std::array<double, 3>& size, F
 
 void check_grains(const Config& c, Findings& found) {
   const GrainConfig& grains = *c.grains;
-  const bool rolls = grains.material.rolling_friction > 0 || grains.wall.rolling_friction > 0;
+  bool rolls = grains.wall.rolling_friction > 0;
+  for (const KindConfig& kind : all_kinds(grains))
+    rolls = rolls || kind.material.rolling_friction > 0;
+  for (const PairConfig& pair : grains.pairs)
+    rolls = rolls || pair.rolling_friction.value_or(0) > 0;
   found.error_if(rolls && grains.rolling_model == RollingModel::none,
                  {"grains.rolling_model", "grains.rolling_friction"},
                  "contradicts a rolling_friction above 0");
@@ -171,6 +187,7 @@ void check_grains(const Config& c, Findings& found) {
                  {"grains.linear_stiffness", "grains.contact_model"},
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
+  check_kinds(grains, found);
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   if (c.initial.pour) check_pour(c, found);

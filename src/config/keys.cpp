@@ -1,12 +1,13 @@
 #include "src/config/keys.hpp"
 
 #include "src/config/key_builder.hpp"
+#include "src/config/material_keys.hpp"
 
 namespace barchan {
 namespace {
 
 Section& add(Sections& all, const char* name, const char* meaning) {
-  return all.emplace_back(Section{name, meaning});
+  return all.emplace_back(Section{.name = name, .meaning = meaning});
 }
 
 void add_case(Sections& all) {
@@ -77,20 +78,6 @@ void add_schedule(Sections& all) {
   key("period", &T::period, between(0, 1e12), "s", "of the sine; an `amplitude` requires it");
 }
 
-/// In [grains] and again in [grains.wall].
-template <class Get>
-void add_material(Section& section, Get get) {
-  Keys key(section, get);
-  using M = Material;
-  key("youngs_modulus", &M::youngs_modulus, between(1e-3, 1e30), "Pa", "Young's modulus");
-  key("poisson_ratio", &M::poisson_ratio, between(0, 0.5), "", "Poisson's ratio");
-  key("restitution", &M::restitution, above(0).at_most(1), "", "coefficient of restitution");
-  key("sliding_friction", &M::sliding_friction, between(0, 1e6), "",
-      "coefficient of sliding friction");
-  key("rolling_friction", &M::rolling_friction, between(0, 1e6), "",
-      "coefficient of rolling friction");
-}
-
 void add_grains(Sections& all) {
   Keys key(add(all, "grains", "The grains; without the section water flows alone"),
            [](auto& c) { return &c.grains; });
@@ -121,16 +108,6 @@ void add_grains(Sections& all) {
       "of it, a fast one more");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");
-}
-
-void add_wall(Sections& all) {
-  Section& section = all.emplace_back(
-      Section{.name = "grains.wall",
-              .meaning = "Material of the walls; what is not given is as in `[grains]`",
-              .prepare = [](Config& c, bool) {
-                if (c.grains) c.grains->wall = c.grains->material;
-              }});
-  add_material(section, [](auto& c) { return c.grains ? &c.grains->wall : nullptr; });
 }
 
 void add_ambient(Sections& all) {
@@ -179,7 +156,8 @@ void add_initial(Sections& all) {
 void add_pour(Sections& all) {
   all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
   Keys key(add(all, "initial.grains.pour",
-               "A loose cone or bed of the grains of `grains.sizes`, which settles"),
+               "A loose cone or bed of the grains of `sizes`, of all kinds in random order, which "
+               "settles"),
            [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
   key("shape", &P::shape, "a cone, or a bed of equal depth over the whole floor");
@@ -237,8 +215,8 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add : {add_case, add_time, add_domain, add_fluid, add_schedule, add_grains, add_wall,
-                      add_ambient, add_coupling, add_initial, add_pour, add_output, add_restart,
-                      add_statistics, add_solver}) {
+                      add_kinds, add_pairs, add_ambient, add_coupling, add_initial, add_pour,
+                      add_output, add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

@@ -33,6 +33,8 @@ struct Section {
   std::string name;  // dotted
   std::string meaning = {};
   bool required = false;  // with a required key and no meaning in its absence
+  /// Of a section whose keys default to those of another one: its name.
+  std::string like = {};
   /// Called before the keys are read: gives the section, if the file has it, its defaults.
   std::function<void(Config&, bool in_file)> prepare = {};
   std::vector<Key> keys = {};

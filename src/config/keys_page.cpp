@@ -19,17 +19,18 @@ std::string domain_of(const Key& key) {
 }
 
 /// "required", "none", "as in `[grains]`" or the value in backticks.
-std::string default_of(const Key& key, const Config& defaults) {
+std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
-  if (key.section == "grains.wall") return "as in `[grains]`";
+  if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
   const std::string value = key.text(defaults).value_or("");
   const bool none = value.empty() || value == "\"\"" || value == "[]";
   return none ? "none" : "`" + value + "`";
 }
 
-std::string row(const Key& key, const Config& defaults) {
+std::string row(const Section& section, const Key& key, const Config& defaults) {
   return fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, domain_of(key), key.unit,
-                     default_of(key, defaults), key.meaning, key.fixed_by_restart ? " (R)" : "");
+                     default_of(section, key, defaults), key.meaning,
+                     key.fixed_by_restart ? " (R)" : "");
 }
 
 /// With every section there, and an entry in those that may be written many times.
@@ -60,14 +61,16 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 }
 
 /// Two paragraphs beside the name: meaning, then what may stand there.
-std::string entry(const Key& key, const Config& defaults, std::size_t width) {
+std::string entry(const Section& section, const Key& key, const Config& defaults,
+                  std::size_t width) {
   const std::size_t indent = width + 4;
   const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
-  std::string text = fmt::format("  {:<{}}  {}", key.name, width, wrapped(key.meaning, indent)) +
-                     std::string(indent, ' ') +
-                     wrapped(fmt::format("{}{}; {}{}", domain_of(key), unit,
-                                         key.required ? "" : "default ", default_of(key, defaults)),
-                             indent);
+  std::string text =
+      fmt::format("  {:<{}}  {}", key.name, width, wrapped(key.meaning, indent)) +
+      std::string(indent, ' ') +
+      wrapped(fmt::format("{}{}; {}{}", domain_of(key), unit, key.required ? "" : "default ",
+                          default_of(section, key, defaults)),
+              indent);
   if (key.fixed_by_restart)
     text += std::string(indent, ' ') + "the same after a restart as before it\n";
   std::erase(text, '`');
@@ -104,7 +107,7 @@ std::string keys_page(const Sections& table) {
     page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
                         section.required ? " (required)" : "");
     page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Key& key : section.keys) page += row(key, defaults);
+    for (const Key& key : section.keys) page += row(section, key, defaults);
   }
   return page;
 }
@@ -119,7 +122,7 @@ std::string keys_text(std::string_view name, const Sections& table) {
     for (const Key& key : section.keys) width = std::max(width, key.name.size());
     const bool whole = section.name == name || section.name.ends_with(inner);
     for (const Key& key : section.keys) {
-      if (whole || key.dotted() == name) text += entry(key, defaults, width);
+      if (whole || key.dotted() == name) text += entry(section, key, defaults, width);
     }
     if (text.empty()) continue;
     std::string head = wrapped(section.meaning + (section.required ? " (required)." : "."), 0);

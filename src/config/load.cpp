@@ -8,6 +8,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/no_effect.hpp"
 #include "src/config/reading.hpp"
 #include "src/config/validate.hpp"
@@ -167,11 +168,13 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
           "has other random numbers, and this case starts from none: its realisations "
           "would all be the same");
     }
-    if (config.grains) sizes = config.grains->sizes;
-    if (sizes.empty()) sizes = grains.result.sizes;
+    if (config.grains) sizes = poured_sizes(*config.grains);
+    std::vector<SizeClass> of_start = grains.result.sizes;
+    if (config.grains && grains.result.config.grains)
+      of_start = with_kinds_of(*config.grains, *grains.result.config.grains, std::move(of_start));
+    if (sizes.empty()) sizes = of_start;
     const bool pours = config.grains && initial.pour;
-    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.result.sizes,
-                    from_starts.empty());
+    resolve_lengths(reading, config, pours ? sizes : of_start, from_starts.empty());
     report(validate(config, sizes), reading);
     if (initial.fluid.extension() == ".toml")
       loaded.result.flow_start = std::make_shared<const Case>(std::move(flow.result));

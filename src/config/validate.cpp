@@ -8,6 +8,7 @@
 #include "src/config/flow_checks.hpp"
 #include "src/config/flow_schedule.hpp"
 #include "src/config/grain_checks.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/no_effect.hpp"
 
@@ -163,6 +164,10 @@ std::vector<Finding> check_start(const Config& c, const Config& start, bool flow
   const std::string key = flow ? "initial.fluid" : "initial.grains";
   found.error_if(flow && !start.fluid, {key}, "must be a case with [fluid]");
   found.error_if(!flow && !start.grains, {key}, "must be a case with [grains]");
+  if (!flow && c.grains && start.grains) {
+    const std::string problem = unknown_kinds(*c.grains, names_of_kinds(*start.grains));
+    found.error_if(!problem.empty(), {key, "grains.kind"}, "must {}", problem);
+  }
   if (!flow || !c.fluid || !start.fluid) return found.all;
   found.error_if(start.size != c.size, {key, "domain.size"},
                  "must have the same domain; its size is [{}] m", fmt::join(start.size, ", "));

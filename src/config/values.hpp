@@ -141,11 +141,13 @@ requires std::is_enum_v<Choice> Mismatch convert(const Node& node, Choice& value
 
 template <class T, std::size_t N>
 Mismatch convert(const Node& node, std::array<T, N>& value) {
+  const std::string words =
+      fmt::format("an array of {} {}s", N, std::is_arithmetic_v<T> ? "number" : "string");
   const auto* elements = std::get_if<NodeArray>(&node.value);
-  if (elements == nullptr || elements->size() != N) return fmt::format("an array of {} numbers", N);
+  if (elements == nullptr || elements->size() != N) return words;
   for (std::size_t n = 0; n < N; ++n) {
     if (const Mismatch mismatch = convert((*elements)[n], value[n])) {
-      return fmt::format("an array of {} numbers, each {}", N, *mismatch);
+      return fmt::format("{}, each {}", words, *mismatch);
     }
   }
   return {};

@@ -1,6 +1,9 @@
 #include "src/grains/grain_kinds.hpp"
 
+#include <cmath>
 #include <stdexcept>
+
+#include "src/config/kinds.hpp"
 
 namespace barchan {
 
@@ -37,7 +40,41 @@ LawTables filled(const GrainConfig& config, const GrainKinds& kinds, const Fill&
   return tables;
 }
 
+static_assert(kMostKinds == kMaxKinds);
+
+/// Restitution and friction of two materials that nothing is said of; elastic constants are those
+/// of each side.
+Material mixed(const Material& a, const Material& b) {
+  Material m;
+  for (auto Material::*member :
+       {&Material::restitution, &Material::sliding_friction, &Material::rolling_friction})
+    m.*member = std::sqrt(a.*member * b.*member);
+  return m;
+}
+
 }  // namespace
+
+GrainKinds kinds_of(const GrainConfig& config) {
+  GrainKinds kinds;
+  for (const KindConfig& kind : all_kinds(config)) kinds.material.push_back(kind.material);
+  for (int b = 0; b < kinds.count(); ++b)
+    for (int a = 0; a < b; ++a)
+      kinds.unlike[{a, b}] = mixed(kinds.contact(a, a), kinds.contact(b, b));
+  for (const PairConfig& pair : config.pairs) {
+    const int a = kind_of_name(config, pair.kinds[0]), b = kind_of_name(config, pair.kinds[1]);
+    Material& m = kinds.unlike.at(std::minmax(a, b));
+    m.restitution = pair.restitution.value_or(m.restitution);
+    m.sliding_friction = pair.sliding_friction.value_or(m.sliding_friction);
+    m.rolling_friction = pair.rolling_friction.value_or(m.rolling_friction);
+  }
+  return kinds;
+}
+
+std::vector<Real> densities_of(const GrainConfig& config) {
+  std::vector<Real> densities;
+  for (const KindConfig& kind : all_kinds(config)) densities.push_back(kind.density);
+  return densities;
+}
 
 LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds) {
   return filled(config, kinds, [&]<class Stiffness>(LawTable<Stiffness, true>& table) {

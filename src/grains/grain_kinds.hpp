@@ -26,6 +26,12 @@ struct GrainKinds {
   }
 };
 
+/// Those of a case. What [[grains.pair]] leaves out of a contact of unlike kinds is the geometric
+/// mean of both, as in LAMMPS (pair_style granular).
+GrainKinds kinds_of(const GrainConfig& config);
+/// Their densities [kg/m^3].
+std::vector<Real> densities_of(const GrainConfig& config);
+
 using LawTables = std::variant<LawTable<HertzMindlin, true>, LawTable<LinearSpring, true>>;
 
 /// Laws of the contacts of all kinds with each other.

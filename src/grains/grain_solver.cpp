@@ -9,6 +9,7 @@
 #include "kernels/grains/grain_step.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/stable_step.hpp"
+#include "src/config/kinds.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
@@ -55,7 +56,7 @@ void add_wall(WallShapes& walls, const Plane& plane, int history) {
 }
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains)
-    : GrainSolver(config, grains, {.material = {config.grains->material}, .unlike = {}}) {}
+    : GrainSolver(config, grains, kinds_of(*config.grains)) {}
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds)
     : list_(config, grains.r_max, grains.ranks),
@@ -67,6 +68,10 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKi
   add_walls(config, grains.r_max);
   using WallHistory = decltype(grains.wall_xi_t);
   const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
+  if (many_kinds_) {
+    if (grains.kind.size() == 0) grains.kind = Kokkos::View<std::uint8_t*>("kind", n);
+    grains.kind_names = names_of_kinds(*config.grains);
+  }
   const auto n_histories = static_cast<std::size_t>(walls_.n_histories);
   grains.wall_xi_t = WallHistory("wall xi_t", n, n_histories);
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);

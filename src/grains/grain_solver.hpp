@@ -29,7 +29,7 @@ class GrainSolver {
   /// Sets up laws, walls and their history. Then call start() or, for entries read from a restart,
   /// list().restore().
   GrainSolver(const Config& config, GrainState& grains);
-  /// Of several kinds, that GrainState::kind holds; the material of the case is then not used.
+  /// Of kinds that are not those of the case. GrainState::kind holds them where they are several.
   GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds);
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }

@@ -67,6 +67,11 @@ GrainState make_grain_entries(int n, MPI_Comm ranks) {
 }
 
 GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm ranks) {
+  return make_grain_state(initial, std::span(&density, 1), ranks);
+}
+
+GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> density,
+                            MPI_Comm ranks) {
   const int n_all = static_cast<int>(initial.size());
   const BlockPartition shares{.n = n_all, .parts = rank_count(ranks)};
   const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
@@ -75,15 +80,20 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
 
   const auto kin = mirror(s.kin);
   const auto id = mirror(s.id);
+  const bool has_kinds = !initial.kind.empty();
+  if (has_kinds) s.kind = Kokkos::View<std::uint8_t*>("kind", s.id.extent(0));
+  const auto kind = mirror(s.kind);
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
+    const auto k = static_cast<std::size_t>(initial.kind_of(q));
     kin(g) = GrainKinematics{.x = initial.x[q],
                              .r = r,
                              .u = initial.u[q],
-                             .m = density * sphere_volume(r),
+                             .m = density[k] * sphere_volume(r),
                              .omega = initial.omega[q]};
     id(g) = initial.id[q];
+    if (has_kinds) kind(g) = initial.kind[q];
   }
   s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
   Real d3 = 0, d2 = 0;
@@ -96,6 +106,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   s.sauter_diameter = n_all > 0 ? d3 / d2 : 1;
   Kokkos::deep_copy(s.kin, kin);
   Kokkos::deep_copy(s.id, id);
+  Kokkos::deep_copy(s.kind, kind);
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +59,7 @@ struct GrainState {
   Kokkos::View<GrainKinematics*> kin;                    // position, velocity, spin, radius, mass
   Kokkos::View<std::int64_t*> id;                        // never reused
   Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
+  std::vector<std::string> kind_names;                   // by index, or empty
   Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: there is one
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
@@ -76,8 +78,12 @@ struct GrainState {
 
 /// Entries for n grains of this rank, to be filled.
 GrainState make_grain_entries(int n, MPI_Comm ranks);
-/// Grains without contact history and fluid. density [kg/m^3]. Each rank takes an equal share of
-/// the entries; the first neighbour list then gives them to the ranks that own their columns.
+/// Grains without contact history and fluid, of these densities by kind [kg/m^3]. Each rank takes
+/// an equal share of the entries; the first neighbour list then gives them to the ranks that own
+/// their columns.
+GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> density,
+                            MPI_Comm ranks = MPI_COMM_SELF);
+/// The same of one density.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kernels/math/vec3.hpp"
@@ -17,8 +18,10 @@ struct InitialGrains {
   std::vector<Vec3> omega;       // angular velocity [rad/s]
   // Of several kinds, or heaps, the index of each grain's; else empty.
   std::vector<std::uint8_t> kind = {}, heap = {};
+  std::vector<std::string> kind_names = {};  // of a file that has kinds
 
   std::size_t size() const { return id.size(); }
+  int kind_of(std::size_t g) const { return kind.empty() ? 0 : kind[g]; }
   void add(std::int64_t new_id, double d, const Vec3& centre, const Vec3& velocity = {},
            const Vec3& spin = {}) {
     id.push_back(new_id);

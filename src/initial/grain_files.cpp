@@ -9,6 +9,9 @@
 #include <unordered_set>
 
 #include "src/base/atomic_file.hpp"
+#include "src/base/words.hpp"
+#include "src/config/kinds.hpp"
+#include "src/config/load.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/initial/grain_table.hpp"
 #include "src/io/checkpoint.hpp"
@@ -49,6 +52,12 @@ void check_grains(const InitialGrains& grains, const std::filesystem::path& file
   }
 }
 
+std::uint8_t as_kind(std::int64_t kind, const std::filesystem::path& file) {
+  if (kind >= 0 && kind < kMostKinds) return static_cast<std::uint8_t>(kind);
+  throw std::runtime_error(fmt::format("{}: it holds a kind of grains {}, of at most {}",
+                                       file.string(), kind, kMostKinds - 1));
+}
+
 InitialGrains read_last_frame(const Hdf5File& file) {
   const auto frames = list_frames(file);
   if (frames.empty()) {
@@ -63,6 +72,10 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   grains.x = to_vectors(file.read<double>(group + "x", {n, 3}));
   grains.u = to_vectors(file.read<double>(group + "u", {n, 3}));
   grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
+  if (!file.exists(group + "kind")) return grains;
+  for (const int kind : file.read<int>(group + "kind", {n}))
+    grains.kind.push_back(as_kind(kind, file.path()));
+  grains.kind_names = lines_of(file.attribute<std::string>(group + "kind", "names"));
   return grains;
 }
 
@@ -78,6 +91,11 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     std::memcpy(static_cast<void*>(&kin), numbers.data() + g * width, sizeof(kin));
     grains.add(id[g], 2.0 * kin.r, kin.x, kin.u, kin.omega);
   }
+  if (!file.has("grains/kind")) return grains;
+  for (const std::int64_t kind : file.array<std::int64_t>("grains/kind", {n}))
+    grains.kind.push_back(as_kind(kind, path));
+  const Config written = config_as_written(file.provenance().config, path);
+  if (written.grains) grains.kind_names = names_of_kinds(*written.grains);
   return grains;
 }
 

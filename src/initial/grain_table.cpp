@@ -19,9 +19,9 @@ namespace barchan {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kColumns{"id", "diameter", "x",  "y",  "z", "vx",
-                                                    "vy", "vz",       "wx", "wy", "wz"};
-constexpr std::size_t kNRequired = 5;
+constexpr std::array<std::string_view, 12> kColumns{"id", "diameter", "x",  "y",  "z",  "vx",
+                                                    "vy", "vz",       "wx", "wy", "wz", "kind"};
+constexpr std::size_t kNRequired = 5, kKind = 11;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -110,7 +110,8 @@ class CsvReader {
   }
 
   void read_header() {
-    constexpr const char* needed = "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz";
+    constexpr const char* needed =
+        "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz,kind";
     if (const std::string marks = other_separator(); !marks.empty()) {
       fail("values are separated by {}; write commas, and decimals with a point", marks);
     }
@@ -158,6 +159,8 @@ class CsvReader {
       const auto column = order_[f];
       if (column == 0) {
         id = number<std::int64_t>(fields_[f], column);
+      } else if (column == kKind) {
+        add_kind(fields_[f]);
       } else {
         value[column] = number<double>(fields_[f], column);
       }
@@ -172,6 +175,17 @@ class CsvReader {
     if (!is_new) fail("id {} was used before, in line {}", id, earlier->second);
     grains_.add(id, value[1], {value[2], value[3], value[4]}, {value[5], value[6], value[7]},
                 {value[8], value[9], value[10]});
+  }
+
+  /// Names of kinds count in the order in which they appear.
+  void add_kind(std::string_view name) {
+    if (name.empty()) fail("kind is empty: it must be a name of [[grains.kind]]");
+    auto& names = grains_.kind_names;
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    if (at > std::numeric_limits<std::uint8_t>::max())
+      fail("kind = \"{}\": there are too many kinds", printable(name, 60));
+    if (std::cmp_equal(at, names.size())) names.emplace_back(name);
+    grains_.kind.push_back(static_cast<std::uint8_t>(at));
   }
 
   template <class T>

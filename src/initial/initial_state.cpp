@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "src/base/errors.hpp"
 #include "src/config/grain_checks.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/load.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/grains/grain_kinds.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/initial/map_flow.hpp"
@@ -78,6 +82,35 @@ void wrap(InitialGrains& grains, const Config& config) {
   }
 }
 
+/// Kinds of a file, which has them in an order of its own, as those of the case.
+void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source) {
+  std::vector<std::string> theirs = grains.kind_names;
+  if (grains.kind.empty()) theirs = {""};
+  if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
+    throw InputError(fmt::format("{}: it must {}", source, problem));
+  for (std::uint8_t& kind : grains.kind) {
+    if (!theirs.empty() && kind < theirs.size())
+      kind = static_cast<std::uint8_t>(kind_of_name(config, theirs[kind]));
+    if (std::cmp_greater_equal(kind, all_kinds(config).size()))
+      throw InputError(fmt::format("{}: it holds grains of more kinds than the case", source));
+  }
+}
+
+/// The smallest and the largest grain of each kind.
+std::vector<SizeClass> extreme_sizes(const InitialGrains& grains) {
+  std::map<int, std::pair<double, double>> of_kind;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const double d = grains.diameter[g];
+    auto& [least, most] = of_kind.try_emplace(grains.kind_of(g), d, d).first->second;
+    least = std::min(least, d), most = std::max(most, d);
+  }
+  std::vector<SizeClass> sizes;
+  for (const auto& [kind, extremes] : of_kind)
+    for (const double d : {extremes.first, extremes.second})
+      sizes.push_back({.diameter = d, .count = 1, .kind = kind});
+  return sizes;
+}
+
 /// Refuses grains that the domain does not hold.
 void check_inside(const InitialGrains& grains, const Config& config, const std::string& source) {
   const auto [lx, ly, lz] = config.size;
@@ -124,11 +157,11 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   PourConfig pour = config.initial.pour.value_or(PourConfig{});
   pour.seed += static_cast<std::uint64_t>(config.initial.realisation - 1);
   InitialGrains grains =
-      poured ? pour_grains(pour, config.grains->sizes, config.size) : read_grains(file);
+      poured ? pour_grains(pour, poured_sizes(*config.grains), config.size) : read_grains(file);
   const std::string source = poured ? "initial.grains.pour" : file.string();
   if (grains.size() == 0) throw InputError(source + " holds no grains");
-  const auto [least, most] = std::minmax_element(grains.diameter.begin(), grains.diameter.end());
-  check_sizes({{*least, 1}, {*most, 1}}, config, source);
+  if (!poured) take_kinds(grains, *config.grains, source);
+  check_sizes(extreme_sizes(grains), config, source);
   wrap(grains, config);
   check_inside(grains, config, source);
   check_apart(grains, source);
@@ -142,7 +175,7 @@ SystemState make_initial_state(const Config& config, const InitialFiles& files, 
   if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
   if (config.grains) {
     const InitialGrains grains = checked_grains(config, files.grains);
-    state.grains = make_grain_state(grains, config.grains->density, ranks);
+    state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
   }
   return state;
 }

@@ -76,13 +76,13 @@ std::vector<Site> sites_below(double top, const Heap& heap, double spacing) {
   return sites;
 }
 
-std::vector<double> shuffled_diameters(const std::vector<SizeClass>& sizes,
-                                       std::mt19937_64& generator) {
-  std::vector<double> d;
+/// A size and kind for each grain, in random order.
+std::vector<SizeClass> shuffled(const std::vector<SizeClass>& sizes, std::mt19937_64& generator) {
+  std::vector<SizeClass> grains;
   for (const SizeClass& size : sizes)
-    d.insert(d.end(), static_cast<std::size_t>(size.count), size.diameter);
-  shuffle(d, generator);
-  return d;
+    grains.insert(grains.end(), static_cast<std::size_t>(size.count), size);
+  shuffle(grains, generator);
+  return grains;
 }
 
 }  // namespace
@@ -90,8 +90,8 @@ std::vector<double> shuffled_diameters(const std::vector<SizeClass>& sizes,
 InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
                           const std::array<double, 3>& domain) {
   std::mt19937_64 generator(pour.seed);
-  const std::vector<double> diameter = shuffled_diameters(sizes, generator);
-  const std::size_t n = diameter.size();
+  const std::vector<SizeClass> poured = shuffled(sizes, generator);
+  const std::size_t n = poured.size();
   const double spacing = poured_spacing(sizes);
   const Heap heap(pour, domain);
   std::vector<Site> sites;
@@ -116,9 +116,11 @@ InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& 
   for (std::size_t g = 0; g < n; ++g) {
     const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
     const Vec3 x = heap.centre + sites[g].x;
-    grains.add(static_cast<std::int64_t>(g) + 1, diameter[g],
+    grains.add(static_cast<std::int64_t>(g) + 1, poured[g].diameter,
                {x.x + jitter(), x.y + jitter(), x.z + jitter()});
+    grains.kind.push_back(static_cast<std::uint8_t>(poured[g].kind));
   }
+  if (std::ranges::none_of(sizes, &SizeClass::kind)) grains.kind.clear();
   return grains;
 }
 

@@ -78,8 +78,8 @@ TEST(Derived, GrainsOfThePapersCase) {
   EXPECT_NEAR(n.solid_volume, 4.278e-7, 1e-10);
   EXPECT_NEAR(n.fraction_min, 0.2647075, 1e-6);
   EXPECT_NEAR(n.fraction_mean, 0.1985306, 1e-5);
-  EXPECT_NEAR(n.shields_threshold, 0.0487, 1e-4);
-  EXPECT_NEAR(n.shields, 0.0870, 0.003);  // 0.0870 for u* = 0.016
+  EXPECT_NEAR(n.easiest.shields_threshold, 0.0487, 1e-4);
+  EXPECT_NEAR(n.easiest.shields, 0.0870, 0.003);  // 0.0870 for u* = 0.016
   EXPECT_NEAR(n.cell_ratio, 1.3125, 1e-4);
   EXPECT_NEAR(n.floor_ratio, 1.3125, 1e-4);
   EXPECT_EQ(n.top, 0);

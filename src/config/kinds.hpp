@@ -1,0 +1,37 @@
+// Kinds of grains in a case.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/config/config.hpp"
+#include "src/config/findings.hpp"
+
+namespace barchan {
+
+/// As many kinds as a case may have.
+inline constexpr int kMostKinds = 4;
+
+/// The kinds of a case; of a case without [[grains.kind]] that of [grains], without a name.
+std::vector<KindConfig> all_kinds(const GrainConfig& grains);
+
+/// Sizes of the grains to pour: those of all kinds, each with its kind.
+std::vector<SizeClass> poured_sizes(const GrainConfig& grains);
+
+/// Entry of a kind among all_kinds, by its name; -1: there is none.
+int kind_of_name(const GrainConfig& grains, std::string_view name);
+
+/// What is wrong with grains that come with kinds of these names, in words that follow "must";
+/// empty if the case has them all.
+std::string unknown_kinds(const GrainConfig& grains, const std::vector<std::string>& names);
+std::vector<std::string> names_of_kinds(const GrainConfig& grains);
+
+/// Sizes of another case with its kinds as entries of this one, by name; 0 where there is none.
+std::vector<SizeClass> with_kinds_of(const GrainConfig& grains, const GrainConfig& other,
+                                     std::vector<SizeClass> sizes);
+
+/// [[grains.kind]] and [[grains.pair]] against each other and against the rest of [grains].
+void check_kinds(const GrainConfig& grains, Findings& found);
+
+}  // namespace barchan
