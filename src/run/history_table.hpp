@@ -23,6 +23,7 @@ struct HistoryRecord {
   double max_overlap = 0;             // over the mean diameter of the pair
   double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
   double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
+  std::int64_t n_fed = 0;             // grains that have come in
   double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
 };
 
@@ -51,6 +52,7 @@ inline constexpr std::array kHistoryColumns = [] {
        "force of the flow along x on all grains, over the floor's area; mean of the interval"},
       {"grain_step_over_stable", "-", &H::grain_step_over_stable,
        "grain step over the longest [stable one](choosing.md#grain-step), at this time", 4},
+      {"n_fed", "-", &H::n_fed, "grains that `[grains.feed]` has brought in so far"},
   });
 }();
 inline constexpr CsvTable<HistoryRecord> kHistoryTable{"history.csv", kHistoryColumns};
