@@ -143,6 +143,17 @@ bool exchanges_by_row(const CouplingConfig& coupling) {
   return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
 }
 
+bool is_periodic_x(const Config& config) {
+  if (!config.grains) return false;
+  const GrainBoundaryX ends = config.grains->boundary_x;
+  return ends == GrainBoundaryX::periodic || ends == GrainBoundaryX::follow;
+}
+
+double half_seam_strip(const Config& config) {
+  const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
+  return follows ? config.size[0] / config.fluid->cells[0] : 0;
+}
+
 std::int64_t fluid_steps(const TimeConfig& time) {
   return static_cast<std::int64_t>(std::min(9e18, ceil_tolerant(time.end / time.fluid_step)));
 }

@@ -14,6 +14,12 @@ namespace barchan {
 /// row.
 bool exchanges_by_row(const CouplingConfig& coupling);
 
+/// True if grains that go beyond one end in x come in at the other: without [grains] not.
+bool is_periodic_x(const Config& config);
+/// Half the width of the strip along x in which grains leave a window that follows its dune, one
+/// cell [m]; 0 without such a window. Needs [grains].
+double half_seam_strip(const Config& config);
+
 /// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
 std::int64_t fluid_steps(const TimeConfig& time);
 /// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.

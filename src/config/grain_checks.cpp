@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "src/config/derived.hpp"
+#include "src/config/feed_checks.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 
@@ -191,6 +192,8 @@ void check_grains(const Config& c, Findings& found) {
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   if (c.initial.pour) check_pour(c, found);
+  check_following(c, found);
+  check_feed(c, found);
   found.warning_if(!c.fluid && grains.frozen, {"grains.frozen"},
                    "and no [fluid]: nothing will move");
   if (!c.fluid) return;
@@ -234,9 +237,10 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
   const double reach = 3 * (n.d_max + c.grains->skin);
   found.error_if(
       (c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
-          (c.grains->boundary_x == GrainBoundaryX::periodic && c.size[0] < reach),
+          (is_periodic_x(c) && c.size[0] < reach),
       {"domain.size", "grains.sizes", "grains.skin"},
       "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
+  check_fed_sizes(c, n.d_max, found);
   check_motion(c, derived, found);
   if (!c.fluid) return found.all;
   check_cells(c, n, found);

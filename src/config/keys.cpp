@@ -96,7 +96,11 @@ void add_grains(Sections& all) {
   key("sizes", &G::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the grains to pour; else the initial file decides");
   key("frozen", &G::frozen, "grains hold still and the flow feels them");
-  key("boundary_x", &G::boundary_x, "what happens to grains at both ends in x", fixed_by_restart);
+  key("boundary_x", &G::boundary_x,
+      "what happens to grains at both ends in x; \"follow\": periodic, but half a box from the "
+      "largest "
+      "dune they leave",
+      fixed_by_restart);
   key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
   key("floor", &G::floor, "what the floor is to grains: smooth, or a close layer of glued spheres",
       fixed_by_restart);
@@ -118,6 +122,24 @@ void add_ambient(Sections& all) {
   key("density", &AmbientConfig::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, between(1e-15, 1e6), "m2/s",
       "its viscosity over its density");
+}
+
+void add_feed(Sections& all) {
+  Keys key(add(all, "grains.feed", "Grains that come in at rest; none without the section"),
+           [](auto& c) { return c.grains ? &c.grains->feed : nullptr; });
+  using F = FeedConfig;
+  key("amount", &F::amount,
+      "at the rate that is given, with the sizes of the grains at the start; or as many as leave, "
+      "with their sizes");
+  key("rate", &F::rate, between(0, 1e9), "1/s", "grains in a second; \"given\" requires it");
+  key("start", &F::start, at_least(0), "s", "time from which grains come in, and losses count");
+  key("x", &F::x, between(0, 1e6), "m",
+      "of their upstream edges; with `boundary_x` \"follow\" from where the ends of the window "
+      "meet, half a box from the dune");
+  key("across", &F::across, between(0, 1e6), "m",
+      "[from, to] of their centres along z; both 0: the whole width");
+  key("height", &F::height, between(0, 1e6), "m", "of their undersides above the floor");
+  key("seed", &F::seed, "of the places, and of the sizes at a given rate");
 }
 
 void add_coupling(Sections& all) {
@@ -215,8 +237,8 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add : {add_case, add_time, add_domain, add_fluid, add_schedule, add_grains, add_wall,
-                      add_kinds, add_pairs, add_ambient, add_coupling, add_initial, add_pour,
-                      add_output, add_restart, add_statistics, add_solver}) {
+                      add_kinds, add_pairs, add_ambient, add_feed, add_coupling, add_initial,
+                      add_pour, add_output, add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

@@ -35,14 +35,13 @@ CoupledStep::CoupledStep(const Config& config, SystemState& state)
   if (!state.grains) return;
   frozen_ = config.grains->frozen;
   grains_ = std::make_unique<GrainSolver>(config, *state.grains);
+  if (config.grains->feed) feed_.emplace(config);
   const auto& g = config.grains->gravity;
   still_.weight.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {
     add_fluid(*state.grains);
     add_exchange(*state.grains, config.coupling.forces);
-    fluid_side_ =
-        FluidSideGrains(state.fluid->grid, config.grains->boundary_x == GrainBoundaryX::periodic,
-                        config.coupling.forces);
+    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(config), config.coupling.forces);
     coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
   } else if (config.grains->ambient) {
@@ -127,7 +126,11 @@ void CoupledStep::close_step(SystemState& state) {
   const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
   if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
-  grains_->remove_left(grains);
+  if (feed_) {
+    feed_->advance(grains, grains_->list());
+  } else {
+    grains_->remove_left(grains);
+  }
 }
 
 Vec3 CoupledStep::impulse_on_grains() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernels/coupling/still_fluid.hpp"
@@ -11,6 +12,7 @@
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/coupling/system_state.hpp"
 #include "src/fluid/fluid_solver.hpp"
+#include "src/grains/grain_feed.hpp"
 #include "src/grains/grain_solver.hpp"
 
 namespace barchan {
@@ -38,7 +40,7 @@ class CoupledStep {
   void deposit(SystemState& state);
   /// WALE, u*, p, u.
   void advance_fluid(SystemState& state);
-  /// The conservation ledger; grains beyond the outlet leave.
+  /// The conservation ledger; grains beyond the outlet leave, others are fed.
   void close_step(SystemState& state);
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
@@ -65,6 +67,7 @@ class CoupledStep {
   GatherStillFluid still_;
   std::unique_ptr<FluidSolver> fluid_;
   std::unique_ptr<GrainSolver> grains_;
+  std::optional<GrainFeed> feed_;
   std::unique_ptr<Coupling> coupling_;
   FluidSideGrains fluid_side_;
   FluidStepReport fluid_report_;

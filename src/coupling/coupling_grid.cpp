@@ -33,7 +33,7 @@ CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, cons
                            Real r_max)
     : grid(of_flow),
       boundary(solver.boundary()),
-      box(grid.box(config.grains->boundary_x == GrainBoundaryX::periodic)),
+      box(grid.box(is_periodic_x(config))),
       stencil(make_deposit_stencil(config, grid, r_max)),
       by_row(exchanges_by_row(config.coupling)),
       crowded(by_row && may_be_crowded(grid, 2 * r_max)),

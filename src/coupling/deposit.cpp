@@ -23,6 +23,13 @@ struct OneBeyond {
   }
 };
 
+/// However many grains come in, they do not fit into more than the cell and a grain around it
+/// [m^3].
+Real largest_of_cell(const Grid& grid, Real r_max) {
+  const Real around = 4 * r_max;
+  return (grid.dx + around) * (grid.ly + around) * (grid.dz + around);
+}
+
 }  // namespace
 
 Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
@@ -32,8 +39,9 @@ Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingG
       fields_(fields),
       halo_(grid.grid, Deposits::kQuantities) {
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid.grid));
-  deposits_.volume =
-      fixed_point_for(static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max));
+  Real largest = static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max);
+  if (config.grains->feed) largest = std::max(largest, largest_of_cell(grid.grid, grains.r_max));
+  deposits_.volume = fixed_point_for(largest);
 }
 
 void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/parallel/decomposition.hpp"
 
@@ -23,7 +24,7 @@ void set_ends(const RankAxis& line, bool periodic, int n, Real& length, int& low
 }  // namespace
 
 DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
-  const bool periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  const bool periodic_x = is_periodic_x(config);
   const bool periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
   const VoidFraction kind = config.coupling.void_fraction;
   DepositStencil stencil = deposit_stencil_in(grid, PointModel::divided, periodic_x);

@@ -38,10 +38,11 @@ ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
 void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
   std::vector<std::int64_t> counts{grains.n, grains.n_left};
   sum_over(grains.ranks, counts);
-  if (counts[0] + counts[1] != grains.n_initial) {
-    throw std::runtime_error(
-        fmt::format("grains inside and left do not add up to those at the start: {} + {} is not {}",
-                    counts[0], counts[1], grains.n_initial));
+  const std::int64_t came = grains.n_initial + grains.feed.n_fed;
+  if (counts[0] + counts[1] != came) {
+    throw std::runtime_error(fmt::format(
+        "grains inside and left do not add up to those at the start and fed: {} + {} is not {}",
+        counts[0], counts[1], came));
   }
   add(step);
 }

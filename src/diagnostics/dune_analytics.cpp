@@ -26,11 +26,11 @@ double slope(const Samples& samples) {
 
 }  // namespace
 
-std::vector<DuneRecord> DuneTracker::update(double t, GrainCloud grains) {
+std::vector<DuneRecord> DuneTracker::update(double t, GrainCloud grains, std::int64_t n_fed) {
   const auto n_grains = static_cast<std::int64_t>(grains.size());
   std::vector<DuneRecord> records = find_dunes(grains, domain_, criteria_).records;
-  if (n_initial_ < 0) n_initial_ = n_grains;
-  n_lost_ = n_initial_ - n_grains;
+  if (n_initial_ < 0) n_initial_ = n_grains - n_fed;
+  n_lost_ = n_initial_ + n_fed - n_grains;
   forget(t);
 
   const std::vector<int> track_of_record = match(records);

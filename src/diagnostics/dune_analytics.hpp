@@ -22,8 +22,9 @@ class DuneTracker {
       : domain_(domain), criteria_(criteria) {}
 
   /// One record per dune, in order of label. Times must not go back further than a restart does:
-  /// samples at or after t are forgotten. The first call fixes the initial number of grains.
-  std::vector<DuneRecord> update(double t, GrainCloud grains);
+  /// samples at or after t are forgotten. The first call fixes the initial number of grains; n_fed
+  /// have come in since the run began.
+  std::vector<DuneRecord> update(double t, GrainCloud grains, std::int64_t n_fed = 0);
 
   /// Of each grain the label that its dune would get in an update now, and has if that was the last
   /// one; -1: in no dune.

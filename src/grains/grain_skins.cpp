@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/grains/grain_skins.hpp"
+#include "src/config/derived.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -24,7 +25,7 @@ constexpr Real kMaxSkin = 0.4;
 GrainSkins::GrainSkins(const Config& config, Real r_max)
     : least_(config.grains->skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_)) {
   Real narrowest = std::numeric_limits<Real>::infinity();  // of the periodic directions
-  if (config.grains->boundary_x == GrainBoundaryX::periodic) narrowest = config.size[0];
+  if (is_periodic_x(config)) narrowest = config.size[0];
   if (config.grains->boundary_z == GrainBoundaryZ::periodic)
     narrowest = std::min(narrowest, config.size[2]);
   narrowest *= 1 - 1e-9;  // whatever way columns are rounded

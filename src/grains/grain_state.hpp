@@ -12,6 +12,7 @@
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "src/config/config.hpp"
+#include "src/grains/feed_state.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
@@ -50,6 +51,9 @@ struct NamedForce {
   Kokkos::View<const Vec3*> values;
 };
 
+/// Of a grain in GrainState::heap that came from none: it was fed.
+inline constexpr std::uint8_t kNoHeap = 255;
+
 /// Grains [0, n) of this rank. Entries are in spatial order, which a list rebuild changes; `id`
 /// never changes. Arrays may have room for more entries. Behind the entries of `kin` and `id` stand
 /// ghosts, copies of grains of other ranks.
@@ -74,6 +78,9 @@ struct GrainState {
   Real sauter_diameter = 0;                              // sum d^3 / sum d^2 of the same [m]
   std::int64_t n_initial = 0;                            // grains at t = 0, of all ranks
   std::int64_t n_left = 0;                               // left through the outlet, on this rank
+  FeedState feed;                                        // grains that come in
+  // Of a window that follows its dune, where its ends meet [m]; not a number: not placed yet.
+  Real seam_x = Kokkos::Experimental::quiet_NaN_v<Real>;
 };
 
 /// Entries for n grains of this rank, to be filled.

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/grains/grain_sums.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/config/derived.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
@@ -37,9 +37,11 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
     : skins_(config, r_max),
       lx_(config.size[0]),
-      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit) {
+      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit ||
+              config.grains->boundary_x == GrainBoundaryX::follow),
+      half_strip_(half_seam_strip(config)) {
   const Real lz = config.size[2];
-  columns_.periodic_x = config.grains->boundary_x == GrainBoundaryX::periodic;
+  columns_.periodic_x = is_periodic_x(config);
   columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
   const Real cutoff = skins_.column_width();
   columns_.rings = skins_.rings();
@@ -56,7 +58,7 @@ NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
 
 void NeighborList::take_memory(const GrainState& grains) {
   scratch_.free_all();
-  const int n = grains.n + grains.n_ghosts;
+  const int n = grains.n + grains.n_ghosts + static_cast<int>(new_.size());
   take_scratch(scratch_, entry_, "entry in the contact history", n + 1);
   take_scratch(scratch_, grain_memory_, "room of a rebuild", n);
   take_scratch(scratch_, key_memory_, "keys of a rebuild", 2 * n);
@@ -96,9 +98,10 @@ void NeighborList::wrap(const GrainState& grains) const {
       ranks_ == nullptr);
 }
 
+/// New grains get entries in it, without contacts.
 void NeighborList::collect_history(const GrainState& grains) {
   const PairList& list = grains.list;
-  const int n = grains.n;
+  const int n = grains.n + static_cast<int>(new_.size());
   const GrainsWithHistory with_history{.list = list, .id = grains.id, .both = ranks_ != nullptr};
   take_scratch(scratch_, history_.first, "contact history: first", n + 1);
   Kokkos::deep_copy(history_.first, 0);
@@ -135,7 +138,7 @@ void NeighborList::sort(GrainState& grains, bool drop) {
   const auto entry = Kokkos::subview(entry_, entries);
   const auto kin = grains.kin;
   const SearchColumns columns = columns_;
-  const CountBeyondOutlet outlet{kin, lx_};
+  const CountBeyondOutlet outlet = this->outlet(grains);
   const bool drops = drop && exit_x_;
   int n_dropped = 0;
   Kokkos::parallel_reduce(
@@ -249,6 +252,7 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
   wrap(grains);
   take_memory(grains);
   if (rebuilds_ > 0) collect_history(grains);
+  if (!new_.empty()) append_new(grains);
   if (ranks_) redistribute(grains);
   sort(grains, drop);
   skins_.set(grains);
@@ -261,14 +265,6 @@ void NeighborList::find_ghosts_and_pairs(GrainState& grains) {
   if (ranks_) ranks_->ghosts.find(grains, columns_, ranks_->partition.owners());
   search(grains);
   ++rebuilds_;
-}
-
-void NeighborList::drop_left(GrainState& grains) {
-  if (!exit_x_) return;
-  int n_outside = 0;
-  Kokkos::parallel_reduce("grains: count beyond the outlet", grains.n,
-                          CountBeyondOutlet{grains.kin, lx_}, n_outside);
-  if (sum_over(grains.ranks, std::int64_t{n_outside}) > 0) rebuild(grains, true);
 }
 
 void NeighborList::restore(GrainState& grains) {

@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
+#include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/neighbor_search.hpp"
 #include "src/base/scratch_memory.hpp"
 #include "src/config/config.hpp"
@@ -14,6 +16,13 @@
 #include "src/grains/grain_state.hpp"
 
 namespace barchan {
+
+/// A grain that comes in: its number, body, and centre [m].
+struct NewGrain {
+  std::int64_t id = 0;
+  GrainBody body;
+  Vec3 x;
+};
 
 /// Half Verlet list with a skin around each grain (SetSkins): valid until a grain has moved its
 /// skin from where it was at the last rebuild. A rebuild sorts the grains in space, keeps the
@@ -31,6 +40,12 @@ class NeighborList {
   void rebuild(GrainState& grains, bool drop);
   /// Such a rebuild if there are any.
   void drop_left(GrainState& grains);
+  /// A rebuild with new grains: at rest, without contacts. Of all ranks the first one takes them.
+  void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
+  /// Who leaves now.
+  CountBeyondOutlet outlet(const GrainState& grains) const {
+    return {grains.kin, lx_, half_strip_, grains.seam_x};
+  }
   /// Searches again from x_reference in the present order: the list of the last rebuild, with its
   /// contact history. Where it had another skin (grains.skin changed): a new list. All ranks
   /// together, on as many as there were.
@@ -66,6 +81,7 @@ class NeighborList {
 
  private:
   void collect_history(const GrainState& grains);
+  void append_new(GrainState& grains);
   void redistribute(GrainState& grains);
   Windows find_windows(const GrainState& grains, int n);
   void reserve_pairs(PairList& list) const;
@@ -85,7 +101,9 @@ class NeighborList {
   PeriodicBox box_;
   GrainSkins skins_;
   Real lx_ = 0;
-  bool exit_x_ = false;
+  bool exit_x_ = false;        // grains leave along x,
+  Real half_strip_ = 0;        // in a strip of this half width [m]; 0: at both ends
+  std::vector<NewGrain> new_;  // of the rebuild that goes on
   std::int64_t rebuilds_ = 0;
   double seconds_ = 0;
   OccupiedColumns occupied_;

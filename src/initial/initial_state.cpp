@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "src/base/errors.hpp"
+#include "src/config/derived.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/load.hpp"
@@ -77,7 +78,7 @@ void wrap(InitialGrains& grains, const Config& config) {
     if (x > length && x <= 2 * length) x -= length;
   };
   for (Vec3& x : grains.x) {
-    if (config.grains->boundary_x == GrainBoundaryX::periodic) into(x.x, config.size[0]);
+    if (is_periodic_x(config)) into(x.x, config.size[0]);
     if (config.grains->boundary_z == GrainBoundaryZ::periodic) into(x.z, config.size[2]);
   }
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "src/grains/grain_arrays.hpp"
+#include "src/output/feed_state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
 #include "src/parallel/mirror.hpp"
@@ -213,6 +214,8 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
   file.scalar("grains/sauter_diameter", s.sauter_diameter);
   file.scalar("grains/n_initial", s.n_initial);
   file.scalar("grains/n_left", sum_over(s.ranks, s.n_left));
+  save_feed(file, s.feed);
+  if (std::isfinite(s.seam_x)) file.scalar("grains/seam_x", s.seam_x);
 }
 
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
@@ -223,6 +226,8 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
   s.sauter_diameter = file.real("grains/sauter_diameter");
   s.n_initial = file.integer("grains/n_initial");
   s.n_left = rank_of(ranks) == 0 ? file.integer("grains/n_left") : 0;
+  s.feed = load_feed(file);
+  if (file.has("grains/seam_x")) s.seam_x = file.real("grains/seam_x");
   if (!(s.r_min > 0 && s.r_min <= s.r_max && std::isfinite(s.r_max) && s.sauter_diameter > 0))
     file.fail("the radii of its grains make no sense");
   return s;

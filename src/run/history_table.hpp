@@ -23,6 +23,7 @@ struct HistoryRecord {
   double max_overlap = 0;             // over the mean diameter of the pair
   double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
   double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
+  std::int64_t n_fed = 0;             // grains that have come in
   double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
   double bulk_velocity_z = 0, wanted_velocity_x = 0, wanted_velocity_z = 0;  // [m/s]
   double pressure_gradient_z = 0;                                            // [Pa/m]
@@ -63,6 +64,7 @@ inline constexpr std::array kHistoryColumns = [] {
       {"grain_flux_z", "m2/s", &H::grain_flux_z,
        "as `grain_flux`, along z; 0 of a flow that is never driven along z"},
       {"stress_on_grains_z", "Pa", &H::stress_on_grains_z, "as `stress_on_grains`, along z"},
+      {"n_fed", "-", &H::n_fed, "grains that `[grains.feed]` has brought in so far"},
   });
 }();
 inline constexpr CsvTable<HistoryRecord> kHistoryTable{"history.csv", kHistoryColumns};

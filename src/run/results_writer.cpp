@@ -53,6 +53,7 @@ void ResultsWriter::write_due() {
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
     for (const DuneRecord& dune : diagnostics_.find_dunes()) append_record(folder_, dune);
+    diagnostics_.place_seam(*run_.state.grains);
   }
   if (diagnostics_.sample_due()) {
     const PhaseTimer timer(accounts_.phases, "analytics");
@@ -111,6 +112,7 @@ void ResultsWriter::write_history() {
     const ContactSummary contacts = run_.coupled_step.grain_solver()->contacts(grains);
     row.grain_kinetic_energy = kinetic_energy(grains);
     row.n_grains = run_.n_grains;
+    row.n_fed = grains.feed.n_fed;
     row.n_contacts = contacts.n_contacts;
     row.max_overlap = contacts.max_overlap;
     accounts_.max_overlap = std::max(accounts_.max_overlap, contacts.max_overlap);

@@ -120,6 +120,7 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   const double wall = seconds_since(start), for_rates = std::max(wall, 1e-9);
   const int ranks = rank_count(run.ranks);
   const std::int64_t grains_at_start = run.state.grains ? run.state.grains->n_initial : 0;
+  const FeedState feed = run.state.grains ? run.state.grains->feed : FeedState();
   nlohmann::ordered_json json;
   json["status"] = status;
   json["message"] = message;
@@ -149,7 +150,11 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["ledger"] = run.coupled_step.ledger().entries();
   json["grains_initial"] = grains_at_start;
   json["grains_inside"] = run.n_grains;
-  json["grains_left"] = grains_at_start - run.n_grains;
+  json["grains_left"] = grains_at_start + feed.n_fed - run.n_grains;
+  if (run.config.grains && run.config.grains->feed) {
+    json["grains_fed"] = feed.n_fed;
+    json["grains_waiting"] = n_waiting(feed);
+  }
   return json;
 }
 

@@ -1,5 +1,8 @@
 #include "src/run/run_diagnostics.hpp"
 
+#include <cmath>
+
+#include "src/config/derived.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/parallel/communicator.hpp"
@@ -14,7 +17,7 @@ DuneDomain dune_domain(const Config& config) {
   const bool grains = config.grains.has_value();
   return {.length_x = config.size[0],
           .length_z = config.size[2],
-          .periodic_x = grains && config.grains->boundary_x == GrainBoundaryX::periodic,
+          .periodic_x = is_periodic_x(config),
           .periodic_z = grains && config.grains->boundary_z == GrainBoundaryZ::periodic};
 }
 
@@ -32,7 +35,8 @@ std::vector<DuneRecord> RunDiagnostics::find_dunes() {
   const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   if (rank_of(run_.ranks) != 0) return {};
-  const std::vector<DuneRecord> dunes = tracker_.update(run_.clock.time(), grains);
+  const std::vector<DuneRecord> dunes =
+      tracker_.update(run_.clock.time(), grains, run_.state.grains->feed.n_fed);
   for (const DuneRecord& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
@@ -45,6 +49,15 @@ std::vector<int> RunDiagnostics::dune_labels() const {
   std::vector<int> labels;
   if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
   return from_rank_0(run_.ranks, labels, grains.n);
+}
+
+void RunDiagnostics::place_seam(GrainState& grains) const {
+  if (run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
+  const double lx = run_.config.size[0];
+  std::vector<double> seam;
+  if (largest_dune_) seam = {std::fmod(largest_dune_->cx + lx / 2, lx)};
+  seam = broadcast(seam, run_.ranks);
+  if (!seam.empty()) grains.seam_x = seam.front();
 }
 
 bool RunDiagnostics::sample_due() const {

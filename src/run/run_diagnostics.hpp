@@ -24,6 +24,10 @@ class RunDiagnostics {
   /// The largest of the dunes last found.
   const std::optional<DuneRecord>& largest_dune() const { return largest_dune_; }
 
+  /// In a window that follows its dune, puts the seam half a box away from the largest of them;
+  /// without one it stays where it is.
+  void place_seam(GrainState& grains) const;
+
   /// From statistics.start on, every statistics.interval.
   bool sample_due() const;
   /// Adds the state of now to the means.

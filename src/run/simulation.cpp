@@ -2,8 +2,12 @@
 
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "src/base/stop_request.hpp"
+#include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/reduce.hpp"
 #include "src/run/watchdog.hpp"
 
 namespace barchan {
@@ -32,7 +36,30 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
     accounts_.load(*restart_);
     restart_.reset();
   }
-  state_checks_.check_start(run_.state, run_.coupled_step, source_of(config, options, files));
+  const std::string source = source_of(config, options, files);
+  state_checks_.check_start(run_.state, run_.coupled_step, source);
+  if (!options.restart) follow_first_dune(source);
+}
+
+/// The first place of the seam, if the window follows its dune. Refuses a start without a dune, or
+/// with grains at the seam.
+void Simulation::follow_first_dune(const std::string& source) {
+  if (!run_.config.grains || run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
+  GrainState& grains = *run_.state.grains;
+  diagnostics_.find_dunes();
+  diagnostics_.place_seam(grains);
+  const double seam = grains.seam_x, half = half_seam_strip(run_.config);
+  if (!std::isfinite(seam))
+    throw InputError(source + ": holds no dune that grains.boundary_x = \"follow\" could follow");
+  int n_cut = 0;
+  Kokkos::parallel_reduce("grains: at the seam", grains.n,
+                          run_.coupled_step.neighbor_list()->outlet(grains), n_cut);
+  const std::int64_t n = sum_over(run_.ranks, n_cut);
+  if (n == 0) return;
+  throw InputError(fmt::format(
+      "{}: {} grains lie within {:.4g} m of x = {:.4g} m, half a box from the largest dune, where "
+      "grains leave with grains.boundary_x = \"follow\": take a longer domain.size",
+      source, n, half, seam));
 }
 
 void Simulation::open_folder() {

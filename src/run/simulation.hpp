@@ -33,6 +33,7 @@ class Simulation {
   const SystemState& state() const { return run_.state; }
 
  private:
+  void follow_first_dune(const std::string& source);
   Outcome loop();
   void one_step();
   std::string reason_to_stop() const;

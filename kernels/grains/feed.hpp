@@ -1,0 +1,60 @@
+// Grains that come in, and those that leave and come back.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/grains/grain_sums.hpp"
+
+namespace barchan {
+
+/// A place for a grain: its centre and radius [m].
+struct FeedPlace {
+  Vec3 x;
+  Real r = 0;
+  /// True if a grain there would overlap another one, of centre b [m] and radius r_b [m].
+  KOKKOS_FORCEINLINE_FUNCTION bool overlaps(const PeriodicBox& box, const Vec3& b, Real r_b) const {
+    const Vec3 s = box.nearest_image(x - b);
+    return dot(s, s) < (r + r_b) * (r + r_b);
+  }
+};
+
+/// Marks the places of which grain g takes a part.
+struct MarkTakenPlaces {
+  PeriodicBox box;
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<const FeedPlace*> places;
+  int n_places;
+  Kokkos::View<int*> taken;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    for (int p = 0; p < n_places; ++p) {
+      if (places(p).overlaps(box, grains(g).x, grains(g).r))
+        Kokkos::atomic_store(&taken(p), 1);  // by whatever grain, with the same result
+    }
+  }
+};
+
+/// A grain that leaves: number, radius [m], mass [kg], index of its kind.
+struct LeavingGrain {
+  Real id = 0, r = 0, m = 0, kind = 0;
+};
+
+/// Lists the grains that leave, in whatever order the threads come; `n` starts at zero.
+struct ListLeavingGrains {
+  CountBeyondOutlet outlet;
+  Kokkos::View<const std::int64_t*> id;
+  Kokkos::View<const std::uint8_t*> kind;  // empty: one
+  Kokkos::View<LeavingGrain*> leaving;
+  Kokkos::View<int> n;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    if (!outlet.is_beyond(g)) return;
+    const GrainKinematics& k = outlet.grains(g);
+    leaving(Kokkos::atomic_fetch_add(&n(), 1)) = {.id = static_cast<Real>(id(g)),
+                                                  .r = k.r,
+                                                  .m = k.m,
+                                                  .kind = kind.extent(0) > 0 ? kind(g) : Real(0)};
+  }
+};
+
+}  // namespace barchan

@@ -1,0 +1,184 @@
+#include "src/grains/grain_feed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "kernels/math/random.hpp"
+#include "src/grains/list_memory.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
+#include "src/parallel/reduce.hpp"
+
+namespace barchan {
+
+namespace {
+
+/// Places that are tried in a fluid step, one for each grain that waits.
+constexpr int kPlaces = 64;
+/// What random numbers are for.
+enum Purpose : std::uint8_t { kBody, kAcross };
+
+/// Rows of Reals of all ranks, one rank after the other, on each of them.
+template <class Row>
+std::vector<Row> of_all_ranks(MPI_Comm ranks, const std::vector<Row>& mine) {
+  const auto me = static_cast<std::ptrdiff_t>(rank_of(ranks));
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(rank_count(ranks)));
+  counts[static_cast<std::size_t>(me)] = static_cast<std::int64_t>(mine.size());
+  sum_over(ranks, counts);
+  const auto begin = std::accumulate(counts.begin(), counts.begin() + me, std::int64_t{0});
+  const auto n = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  std::vector<Row> all(static_cast<std::size_t>(n));
+  std::copy(mine.begin(), mine.end(), all.begin() + begin);
+  constexpr std::size_t width = sizeof(Row) / sizeof(Real);
+  all_reduce(ranks, std::span(reinterpret_cast<Real*>(all.data()), width * all.size()), MPI_SUM);
+  return all;
+}
+
+/// The bodies to choose from, and the first number that no grain has.
+void look_at_start(GrainState& grains) {
+  const auto kin = host_copy(grains.kin);
+  const auto id = host_copy(grains.id);
+  const auto kind = host_copy(grains.kind);
+  std::vector<GrainBody> bodies;
+  std::int64_t last = 0;
+  for (int g = 0; g < grains.n; ++g) {
+    bodies.push_back({.r = kin(g).r, .m = kin(g).m, .kind = kind.size() > 0 ? kind(g) : Real(0)});
+    last = std::max(last, id(g));
+  }
+  all_reduce(grains.ranks, std::span(&last, 1), MPI_MAX);
+  grains.feed.next_id = last + 1;
+  grains.feed.bodies = of_all_ranks(grains.ranks, bodies);
+  std::ranges::sort(grains.feed.bodies);
+}
+
+/// Those that are due and were not asked for; the sum of many parts of a grain may miss a whole one
+/// by its last digits.
+std::int64_t n_later(const FeedState& feed) {
+  return static_cast<std::int64_t>(feed.due * (1 + 1e-12)) - feed.n_asked;
+}
+
+}  // namespace
+
+GrainFeed::GrainFeed(const Config& config)
+    : config_(*config.grains->feed),
+      dt_(config.time.fluid_step),
+      lz_(config.size[2]),
+      walls_z_(config.grains->boundary_z == GrainBoundaryZ::wall),
+      from_seam_(config.grains->boundary_x == GrainBoundaryX::follow),
+      places_("feed: places", kPlaces),
+      taken_("feed: taken places", kPlaces),
+      n_leaving_("feed: grains that leave") {}
+
+void GrainFeed::advance(GrainState& grains, NeighborList& list) {
+  FeedState& feed = grains.feed;
+  if (feed.next_id == 0) look_at_start(grains);
+  ++feed.n_steps;
+  const bool has_begun = static_cast<Real>(feed.n_steps) * dt_ > config_.start;
+  if (has_begun && config_.amount == FeedRate::as_lost) note_leaving(grains, list);
+  list.drop_left(grains);
+  if (!has_begun) return;
+  if (config_.amount == FeedRate::given) ask_for_grains(feed);
+  if (!feed.waiting.empty()) come_in(grains, list);
+}
+
+/// What is about to leave waits to come back, in the order of the numbers.
+void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
+  const CountBeyondOutlet outlet = list.outlet(grains);
+  int n = 0;
+  Kokkos::parallel_reduce("feed: count those that leave", items(grains.n), outlet, n);
+  if (sum_over(grains.ranks, n) == 0) return;
+  reserve(leaving_, "feed: bodies of those that leave", n);
+  Kokkos::deep_copy(n_leaving_, 0);
+  Kokkos::parallel_for("feed: list those that leave", items(grains.n),
+                       ListLeavingGrains{.outlet = outlet,
+                                         .id = grains.id,
+                                         .kind = grains.kind,
+                                         .leaving = leaving_,
+                                         .n = n_leaving_});
+  const auto mine = host_copy(leaving_);
+  auto all = of_all_ranks(grains.ranks, std::vector(mine.data(), mine.data() + n));
+  std::ranges::sort(all, {}, &LeavingGrain::id);
+  for (const LeavingGrain& g : all) grains.feed.waiting.push_back({g.r, g.m, g.kind});
+}
+
+/// At a given rate: as many as are due, with bodies of grains at the start. Of the later ones it is
+/// enough to know how many.
+void GrainFeed::ask_for_grains(FeedState& feed) const {
+  feed.due += config_.rate * dt_;
+  while (feed.waiting.size() < kPlaces && n_later(feed) > 0) {
+    const auto count = static_cast<std::uint64_t>(feed.n_asked++);
+    const Real which = uniform_number(config_.seed, kBody, count);
+    const auto body = static_cast<std::size_t>(which * static_cast<Real>(feed.bodies.size()));
+    feed.waiting.push_back(feed.bodies[body]);
+  }
+}
+
+/// A place for each of the first grains that wait.
+std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const PeriodicBox& box) const {
+  FeedState& feed = grains.feed;
+  std::vector<FeedPlace> places;
+  for (const GrainBody& body : feed.waiting) {
+    if (places.size() == kPlaces) break;
+    auto [from, to] = config_.across;
+    if (from == to) to = from + lz_;
+    if (walls_z_) from = std::max(from, body.r), to = std::min(to, lz_ - body.r);
+    const auto count = static_cast<std::uint64_t>(feed.n_tries++);
+    const Real x = config_.x + body.r + (from_seam_ ? grains.seam_x : 0);
+    const Real z = from + (to - from) * uniform_number(config_.seed, kAcross, count);
+    places.push_back({.x = box.wrap({x, config_.height + body.r, z}), .r = body.r});
+  }
+  return places;
+}
+
+/// For each place by how many ranks' grains it is taken.
+std::vector<std::int64_t> GrainFeed::taken(const GrainState& grains,
+                                           const std::vector<FeedPlace>& places,
+                                           const PeriodicBox& box) const {
+  const auto there = mirror(places_);
+  std::ranges::copy(places, there.data());
+  Kokkos::deep_copy(places_, there);
+  Kokkos::deep_copy(taken_, 0);
+  Kokkos::parallel_for("feed: taken places", items(grains.n),
+                       MarkTakenPlaces{.box = box,
+                                       .grains = grains.kin,
+                                       .places = places_,
+                                       .n_places = static_cast<int>(places.size()),
+                                       .taken = taken_});
+  const auto here = host_copy(taken_);
+  std::vector<std::int64_t> all(here.data(), here.data() + places.size());
+  sum_over(grains.ranks, all);
+  return all;
+}
+
+/// Those whose place is free come in.
+void GrainFeed::come_in(GrainState& grains, NeighborList& list) const {
+  FeedState& feed = grains.feed;
+  const std::vector<FeedPlace> places = places_to_try(grains, list.box());
+  const std::vector<std::int64_t> is_taken = taken(grains, places, list.box());
+  std::vector<NewGrain> come;
+  std::vector<GrainBody> waiting;
+  for (std::size_t q = 0; q < feed.waiting.size(); ++q) {
+    const bool free = q < places.size() && is_taken[q] == 0 &&
+                      std::ranges::none_of(come, [&](const NewGrain& other) {
+                        return places[q].overlaps(list.box(), other.x, other.body.r);
+                      });
+    if (free) {
+      come.push_back({.id = feed.next_id++, .body = feed.waiting[q], .x = places[q].x});
+    } else {
+      waiting.push_back(feed.waiting[q]);
+    }
+  }
+  if (come.empty()) return;
+  feed.waiting = waiting;
+  feed.n_fed += static_cast<std::int64_t>(come.size());
+  list.bring_in(grains, come);
+}
+
+std::int64_t n_waiting(const FeedState& feed) {
+  return static_cast<std::int64_t>(feed.waiting.size()) + n_later(feed);
+}
+
+}  // namespace barchan

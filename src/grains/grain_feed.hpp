@@ -1,0 +1,44 @@
+// Grains that come in: [grains.feed].
+#pragma once
+
+#include <vector>
+
+#include "kernels/grains/feed.hpp"
+#include "src/grains/neighbor_list.hpp"
+
+namespace barchan {
+
+/// At the end of a fluid step grains come in at rest, at a given rate or as many as leave. Each is
+/// put at random across the stream where it overlaps no other, or waits for the next step. Nothing
+/// depends on the number of ranks. All ranks together.
+class GrainFeed {
+ public:
+  /// The case must have [grains.feed].
+  explicit GrainFeed(const Config& config);
+
+  /// At the end of a fluid step: grains leave, then others come in.
+  void advance(GrainState& grains, NeighborList& list);
+
+ private:
+  void note_leaving(GrainState& grains, const NeighborList& list);
+  void ask_for_grains(FeedState& feed) const;
+  std::vector<FeedPlace> places_to_try(GrainState& grains, const PeriodicBox& box) const;
+  std::vector<std::int64_t> taken(const GrainState& grains, const std::vector<FeedPlace>& places,
+                                  const PeriodicBox& box) const;
+  void come_in(GrainState& grains, NeighborList& list) const;
+
+  FeedConfig config_;
+  Real dt_ = 0;             // of a fluid step [s]
+  Real lz_ = 0;             // [m]
+  bool walls_z_ = false;    // of the grains
+  bool from_seam_ = false;  // x counts from the seam of a window that follows its dune
+  Kokkos::View<FeedPlace*> places_;
+  Kokkos::View<int*> taken_;
+  Kokkos::View<LeavingGrain*> leaving_;
+  Kokkos::View<int> n_leaving_;
+};
+
+/// Grains that should have come in by now and have no place yet.
+std::int64_t n_waiting(const FeedState& feed);
+
+}  // namespace barchan
