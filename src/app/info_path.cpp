@@ -14,6 +14,7 @@
 #include "src/config/load.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
+#include "src/diagnostics/heap_shares.hpp"
 #include "src/initial/grain_table.hpp"
 #include "src/run/history_table.hpp"
 
@@ -88,6 +89,7 @@ std::string describe_csv(const fs::path& path) {
     throw std::runtime_error(path.string() + " is empty: no header, no rows");
   std::string told = describe_table(kHistoryTable, rows);
   if (told.empty()) told = describe_table(kDuneTable, rows);
+  if (told.empty()) told = describe_table(kHeapTable, rows);
   if (told.empty()) told = describe_table(kStatisticsTable, rows);
   if (!told.empty()) return told;
   const std::string& h = rows.header;

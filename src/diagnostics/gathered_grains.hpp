@@ -47,9 +47,14 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
 /// All grains as the dune analytics take them. All ranks together; empty on ranks other than 0.
 inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
   const auto kin = host_copy(grains.kin);
+  const auto heap = host_copy(grains.heap);
   std::vector<GrainSample> mine;
-  for (int g = 0; g < grains.n; ++g)
-    mine.push_back({.x = kin(g).x, .d = 2 * kin(g).r, .u_x = kin(g).u.x});
+  for (int g = 0; g < grains.n; ++g) {
+    mine.push_back({.x = kin(g).x,
+                    .d = 2 * kin(g).r,
+                    .u_x = kin(g).u.x,
+                    .heap = heap.size() > 0 ? static_cast<double>(heap(g)) : -1.0});
+  }
   return on_rank_0(grains.ranks, mine);
 }
 

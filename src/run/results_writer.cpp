@@ -54,6 +54,7 @@ void ResultsWriter::write_due() {
     const PhaseTimer timer(accounts_.phases, "analytics");
     for (const DuneRecord& dune : diagnostics_.find_dunes()) append_record(folder_, dune);
     diagnostics_.place_seam(*run_.state.grains);
+    for (const HeapShare& share : diagnostics_.heap_shares()) append_record(folder_, share);
   }
   if (diagnostics_.sample_due()) {
     const PhaseTimer timer(accounts_.phases, "analytics");

@@ -34,12 +34,16 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 std::vector<DuneRecord> RunDiagnostics::find_dunes() {
   const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
+  heap_shares_.clear();
   if (rank_of(run_.ranks) != 0) return {};
   const std::vector<DuneRecord> dunes =
       tracker_.update(run_.clock.time(), grains, run_.state.grains->feed.n_fed);
   for (const DuneRecord& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
+  const bool of_heaps = !grains.empty() && grains.front().heap >= 0;
+  if (of_heaps)
+    heap_shares_ = barchan::heap_shares(run_.clock.time(), grains, tracker_.labels(grains));
   return dunes;
 }
 

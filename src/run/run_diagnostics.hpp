@@ -5,6 +5,7 @@
 #include "src/diagnostics/flow_average.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/force_map.hpp"
+#include "src/diagnostics/heap_shares.hpp"
 #include "src/output/output_files.hpp"
 #include "src/run/run_state.hpp"
 
@@ -18,6 +19,8 @@ class RunDiagnostics {
 
   /// The dunes now, in order of label, on rank 0; nothing on others.
   std::vector<DuneRecord> find_dunes();
+  /// Which heaps the grains of the dunes last found came from, on rank 0; nothing on others.
+  const std::vector<HeapShare>& heap_shares() const { return heap_shares_; }
   /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
   /// this step; -1: in none.
   std::vector<int> dune_labels() const;
@@ -42,6 +45,7 @@ class RunDiagnostics {
   const RunState& run_;
   DuneTracker tracker_;
   std::optional<DuneRecord> largest_dune_;
+  std::vector<HeapShare> heap_shares_;
   std::optional<FlowStatistics> statistics_;
   std::optional<FlowAverage> flow_average_;
   std::optional<ForceMap> force_map_;

@@ -11,6 +11,7 @@
 #include "src/base/errors.hpp"
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/dune_table.hpp"
+#include "src/diagnostics/heap_shares.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -22,15 +23,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultNames[] = {"config.toml",       "run.json",
-                                        kHistoryTable.file,  kDuneTable.file,
-                                        "fields.h5",         "fields.xdmf",
-                                        "grains.h5",         "grains.xdmf",
-                                        "tracks.h5",         "log.txt",
-                                        "statistics.csv",    "flow_average.h5",
-                                        "flow_average.xdmf", "force_map.csv",
-                                        "failure_grains.h5", "failure_grains.xdmf",
-                                        "failure_fields.h5", "failure_fields.xdmf"};
+constexpr const char* kResultNames[] = {
+    "config.toml",       "run.json",           kHistoryTable.file,
+    kDuneTable.file,     kHeapTable.file,      "encounters.csv",
+    "fields.h5",         "fields.xdmf",        "grains.h5",
+    "grains.xdmf",       "tracks.h5",          "log.txt",
+    "statistics.csv",    "flow_average.h5",    "flow_average.xdmf",
+    "force_map.csv",     "failure_grains.h5",  "failure_grains.xdmf",
+    "failure_fields.h5", "failure_fields.xdmf"};
 
 }  // namespace
 
@@ -57,6 +57,7 @@ bool is_result_name(const fs::path& name) {
 void check_tables(const fs::path& folder) {
   text_of_table(folder / kHistoryTable.file, kHistoryTable.header());
   text_of_table(folder / kDuneTable.file, kDuneTable.header());
+  text_of_table(folder / kHeapTable.file, kHeapTable.header());
 }
 
 std::string status_in(const fs::path& run_json) {
@@ -87,6 +88,8 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
     const double t = restart_time.value_or(0);
     cut_table(folder / kHistoryTable.file, kHistoryTable.header(), t);
     cut_table(folder / kDuneTable.file, kDuneTable.header(), t);
+    if (fs::exists(folder / kHeapTable.file))
+      cut_table(folder / kHeapTable.file, kHeapTable.header(), t);
   }
   synchronise(communicator);
   return folder;
@@ -98,6 +101,12 @@ void append_record(const fs::path& folder, const HistoryRecord& record) {
 
 void append_record(const fs::path& folder, const DuneRecord& record) {
   append_text(folder / kDuneTable.file, kDuneTable.line(record));
+}
+
+void append_record(const fs::path& folder, const HeapShare& record) {
+  const fs::path file = folder / kHeapTable.file;
+  if (!fs::exists(file)) cut_table(file, kHeapTable.header(), record.t);
+  append_text(file, kHeapTable.line(record));
 }
 
 void write_summary(const fs::path& folder, const nlohmann::ordered_json& summary) {

@@ -23,7 +23,8 @@ inline const DuneDomain channel{.length_x = 0.1, .length_z = 0.05};
 using Grains = std::vector<GrainSample>;
 
 inline Grains moved(Grains grains, double dx, double dz, const DuneDomain& domain = channel) {
-  for (auto& [x, diameter, u_x] : grains) {
+  for (GrainSample& grain : grains) {
+    Vec3& x = grain.x;
     x += Vec3{dx, 0, dz};
     if (domain.periodic_x) x.x -= std::floor(x.x / domain.length_x) * domain.length_x;
     if (domain.periodic_z) x.z -= std::floor(x.z / domain.length_z) * domain.length_z;

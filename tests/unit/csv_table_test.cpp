@@ -9,6 +9,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
+#include "src/diagnostics/heap_shares.hpp"
 #include "src/run/history_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -46,10 +47,9 @@ TEST(CsvTable, AColumnIsOneLine) {
 TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {
   const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/files.md");
   for (const std::string& columns :
-       {kHistoryTable.page(), kDuneTable.page(), kStatisticsTable.page()}) {
-    EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos)
-        << "docs/files.md must have:\n"
-        << columns;
+       {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(), kStatisticsTable.page()}) {
+    EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos) << "docs/files.md must have:\n"
+                                                                   << columns;
   }
 }
 

@@ -1,4 +1,5 @@
 // Dunes followed in time: labels, celerity, lost grains.
+#include "src/diagnostics/heap_shares.hpp"
 #include "tests/support/built_dunes.hpp"
 
 namespace barchan {
@@ -77,6 +78,35 @@ TEST(DuneTracker, GrainsBearTheLabelOfTheirDune) {
   const auto second = labels.begin() + static_cast<std::ptrdiff_t>(first.size());
   EXPECT_EQ(std::count(labels.begin(), second, 0), rows.at(0).n_grains);
   EXPECT_EQ(std::count(second, labels.end(), 1), rows.at(1).n_grains);
+}
+
+TEST(DuneTracker, TellsWhichHeapTheGrainsOfADuneCameFrom) {
+  Grains first = heap(0.02, 0.025, 4.0 * mm, 1.5 * mm);
+  Grains second = heap(0.07, 0.025, 6.0 * mm, 2.0 * mm);
+  Grains loose{{{0.045, 0.5 * d, 0.01}, d}};
+  for (GrainSample& grain : first) grain.heap = 0;
+  for (GrainSample& grain : second) grain.heap = 1;
+  loose[0].heap = 1;
+  first[0].heap = 1;  // one that was carried over
+  const Grains all = first + second + loose;
+  DuneTracker tracker(channel);
+  tracker.update(0.5, all);
+  const std::vector<HeapShare> shares = heap_shares(0.5, all, tracker.labels(all));
+  ASSERT_EQ(shares.size(), 4u);
+  const auto expect = [&](const HeapShare& share, int dune, int of_heap, std::size_t n) {
+    EXPECT_EQ(share.t, 0.5);
+    EXPECT_EQ(share.dune, dune);
+    EXPECT_EQ(share.heap, of_heap);
+    EXPECT_EQ(share.n_grains, static_cast<std::int64_t>(n));
+    const double volume = static_cast<double>(n) * std::numbers::pi / 6 * d * d * d;
+    EXPECT_NEAR(share.volume, volume, 1e-12 * volume);
+  };
+  expect(shares[0], -1, 1, 1);
+  expect(shares[1], 0, 1, second.size());  // 0 is the larger one
+  expect(shares[2], 1, 0, first.size() - 1);
+  expect(shares[3], 1, 1, 1);
+  EXPECT_TRUE(
+      heap_shares(0.5, heap(0.02, 0.025, 4.0 * mm, 1.5 * mm), tracker.labels(first)).empty());
 }
 
 TEST(DuneTracker, CountsLostGrains) {

@@ -12,6 +12,7 @@
 #include "src/base/stopwatch.hpp"
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/dune_table.hpp"
+#include "src/diagnostics/heap_shares.hpp"
 #include "src/run/history_table.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/file_size_limit.hpp"
@@ -104,6 +105,21 @@ TEST(RunFolder, ARestartCutsTheTables) {
   EXPECT_NE(text.find("\n1.666666667,"), std::string::npos);
   append_record(folder.path(), history_record(2.0));
   EXPECT_TRUE(read_text(table).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0\n"));
+}
+
+TEST(RunFolder, TheTableOfHeapsIsMadeByItsFirstLineAndCutAtARestart) {
+  const TemporaryFolder folder;
+  const auto file = folder / "heaps.csv";
+  const std::string header = "t,dune,heap,n_grains,volume\n";
+  prepare_folder(folder.path(), {});
+  EXPECT_FALSE(std::filesystem::exists(file));
+  append_record(folder.path(), HeapShare{.t = 1, .dune = -1, .heap = 2, .n_grains = 3});
+  append_record(folder.path(), HeapShare{.t = 2, .heap = 1, .n_grains = 9, .volume = 2.5e-9});
+  EXPECT_EQ(read_text(file), header + "1,-1,2,3,0\n2,0,1,9,2.5e-09\n");
+  prepare_folder(folder.path(), 1.0);
+  EXPECT_EQ(read_text(file), header + "1,-1,2,3,0\n");
+  prepare_folder(folder.path(), {});
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(RunFolder, CutTableHandlesMissingEmptyAndForeignFiles) {

@@ -55,15 +55,15 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
             "formation_time": formation_time(dune)}
 
 
-def formation_time(dune: dict[str, np.ndarray]) -> float:
-    """When both horns have become longer than a bin for good [s]; not a number before that. A median over the last
-    second follows half a second later."""
+def formation_time(dune: dict[str, np.ndarray], since: float = 0.0) -> float:
+    """How long after `since` both horns have become longer than a bin for good [s]; not a number before that, nor for
+    horns that are there from the first time on. A median over the last second follows half a second later."""
     grain = (6 / np.pi * dune["volume"] / dune["n_grains"])**(1 / 3)
     horns = np.min([dune[column] for column in horn_lengths.best_known(dune).values()], axis=0)
     short = np.nonzero(horns < BIN * grain)[0]
     first = short[-1] + 1 if len(short) else 0
     lag = 0.5 * horn_lengths.SECOND if horn_lengths.name("left") in dune else 0.0
-    return dune["t"][first] - lag if 0 < first < len(dune["t"]) else np.nan
+    return dune["t"][first] - lag - since if 0 < first < len(dune["t"]) else np.nan
 
 
 def fit(length: np.ndarray, values: np.ndarray, kind: str) -> Law | None:

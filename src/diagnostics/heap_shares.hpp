@@ -1,0 +1,37 @@
+// heaps.csv: which heap the grains of each dune came from.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "src/diagnostics/dune_map.hpp"
+#include "src/output/csv_table.hpp"
+
+namespace barchan {
+
+/// The grains of one heap in one dune.
+struct HeapShare {
+  double t = 0;           // [s]
+  std::int64_t dune = 0;  // label; -1: in none
+  std::int64_t heap = 0;
+  std::int64_t n_grains = 0;
+  double volume = 0;  // [m^3]
+};
+
+inline constexpr std::array kHeapColumns = [] {
+  using H = HeapShare;
+  return std::to_array<Column<H>>({
+      {"t", "s", &H::t, "time", 10},
+      {"dune", "-", &H::dune, "label as in `dune.csv`; -1: grains in no dune"},
+      {"heap", "-", &H::heap, "the heap they came from, as in `grains.h5`"},
+      {"n_grains", "-", &H::n_grains, "grains of this heap in this dune"},
+      {"volume", "m3", &H::volume, "sum of pi d^3/6 over them"},
+  });
+}();
+inline constexpr CsvTable<HeapShare> kHeapTable{"heaps.csv", kHeapColumns};
+
+/// One for each dune and heap that have grains in common, in order of dune, then heap. `labels`:
+/// the dune of each grain, -1: none. Empty where the grains are not of several heaps.
+std::vector<HeapShare> heap_shares(double t, GrainCloud grains, std::span<const int> labels);
+
+}  // namespace barchan
