@@ -1,42 +1,80 @@
-"""Laws over the size of dunes: celerity, width, height, horns, loss and formation time against length.
+"""Laws of an ensemble: what dunes are and do against their size and the flow, beside what is published.
 
 Every run is a point: its main dune over the second half of its time, or over another window. Definitions and the
 errors of the fits: docs/studies.md, "Laws". SI units.
 """
 
-from collections.abc import Iterator
+import json
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from barchan.dune import transport
+from barchan.dune.fits import Law, fit
 from barchan.dune.shape import BIN
+from barchan.errors import MissingData
 from barchan.io import horn_lengths
-from barchan.stats import in_window, student_t
+from barchan.io.study_folder import BY_NAME, Case
+from barchan.stats import in_window
 
-FEWEST = 3    # runs that make a law
-KINDS = {"celerity": "power", "W": "line", "H": "line", "horn": "line", "loss": "power", "formation_time": "power"}
+FLUXES = ("crest_flux", "migration_flux")
+OF_THE_FLOW = ("fluid.", "initial.fluid")  # keys that differ between cases of one size and several velocities
 
 
-@dataclass
-class Law:
-    """y = a L^n (power) or y = a + n L (line), and half the width of the 95 % interval of n."""
+@dataclass(frozen=True)
+class Relation:
+    """The column y of `measure` against x: a power y = a x^n, a line y = a + n x or a ratio y = n x.
 
+    among: runs that are alike in this column share an a. published: lowest and highest n of the source; None where we
+    know of none to compare with. The sources in full: docs/bibliography.md.
+    """
+
+    y: str
+    x: str
     kind: str
-    a: float
-    n: float
-    interval: float
-    runs: int
+    published: tuple[float, float] | None = None
+    source: str = ""
+    among: str = "mean_velocity"
 
-    def __call__(self, length: np.ndarray) -> np.ndarray:
-        return self.a * length**self.n if self.kind == "power" else self.a + self.n * length
+    @property
+    def formula(self) -> str:
+        return {"power": f"{self.y} ~ {self.x}^n", "line": f"{self.y} = a + n {self.x}",
+                "ratio": f"{self.y} = n {self.x}"}[self.kind]
+
+    def fit(self, table: dict[str, np.ndarray]) -> Law | None:
+        groups = table[self.among] if self.kind != "ratio" else None
+        return fit(table[self.x], table[self.y], self.kind, table["case"], groups)
+
+
+# c = Q/(L + L0) has the exponent -1/(1 + L0/L): -1 for large dunes, -1/2 for one as small as L0.
+RELATIONS = {
+    "celerity": Relation("celerity", "L", "power", (-1, -1), "Hersen 2005"),
+    "celerity_by_height": Relation("celerity", "H", "power", (-1, -0.5), "Andreotti et al. 2002"),
+    "celerity_by_flow": Relation("celerity_L", "u_star", "power", (3, 3), "Hersen 2005", among="size"),
+    "W": Relation("W", "L", "line", (1, 1), "Hersen et al. 2002"),
+    "H": Relation("H", "L", "line", (0.1, 0.1), "Hersen et al. 2002"),
+    "horn": Relation("horn", "L", "line"),
+    "loss": Relation("loss", "L", "power"),
+    "formation_time": Relation("formation_time", "L", "power"),
+    "flux": Relation("crest_flux", "migration_flux", "ratio", (1, 1), "Bagnold 1941"),
+}
 
 
 def measure(study: Any, start: float | None = None, end: float | None = None) -> dict[str, np.ndarray]:
-    """Columns of all runs of the study whose main dune has four times in the window."""
-    rows = [{"case": case.name, "realisation": number, **of_run(run, start, end)}
-            for case in study.cases for number, run in enumerate(case.runs, 1)
-            if run.dune_columns is not None and of_run(run, start, end)]
+    """Columns of all runs of the study whose main dune has four times in the window: the values of `of_run`, and
+    celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and migration_flux = phi c H [m2/s], not numbers where the
+    run lacks the files; mean_velocity [m/s], 0 where none is held; size, the same for cases that differ in the flow
+    alone."""
+    rows = []
+    for case in study.cases:
+        for number, run in enumerate(case.runs, 1):
+            values = of_run(run, start, end) if run.dune_columns is not None else {}
+            if values:
+                rows.append({"case": case.name, "realisation": number, **values,
+                             "celerity_L": values["celerity"] * values["L"], **of_flow(run, start, end),
+                             **over_crest(run, start, end), "size": size_of(case)})
     return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else {"case": 0})}
 
 
@@ -55,6 +93,26 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
             "formation_time": formation_time(dune)}
 
 
+def of_flow(run: Any, start: float | None, end: float | None) -> dict[str, float]:
+    history = run.history_columns
+    u_star = history["u_star"][in_window(history["t"], start, end)] if history else np.empty(0)
+    return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": run.mean_velocity or 0.0}
+
+
+def over_crest(run: Any, start: float | None, end: float | None) -> dict[str, float]:
+    """Flux over the crest and phi c H [m2/s]: docs/dune-measures.md, "Slopes and transport"."""
+    try:
+        known = transport.over_window(transport.measure(run)[0], FLUXES, start, end)
+    except MissingData:
+        known = {}
+    return {name: known.get(name, np.nan) for name in FLUXES}
+
+
+def size_of(case: Case) -> str:
+    return json.dumps({key: value for key, value in case.values.items()
+                       if key != BY_NAME and not key.startswith(OF_THE_FLOW)}, sort_keys=True)
+
+
 def formation_time(dune: dict[str, np.ndarray], since: float = 0.0) -> float:
     """How long after `since` both horns have become longer than a bin for good [s]; not a number before that, nor for
     horns that are there from the first time on. A median over the last second follows half a second later."""
@@ -66,29 +124,57 @@ def formation_time(dune: dict[str, np.ndarray], since: float = 0.0) -> float:
     return dune["t"][first] - lag - since if 0 < first < len(dune["t"]) else np.nan
 
 
-def fit(length: np.ndarray, values: np.ndarray, kind: str) -> Law | None:
-    """Least squares over all runs, of the logarithms for a power; None for fewer than three runs or one length."""
-    known = np.isfinite(values) & ((values > 0) | (kind == "line"))
-    x, y = length[known], values[known]
-    if len(x) < FEWEST or np.ptp(x) == 0:
-        return None
-    if kind == "power":
-        x, y = np.log(x), np.log(y)
-    from_mean = x - x.mean()
-    slope = from_mean @ y / (from_mean @ from_mean)
-    intercept = y.mean() - slope * x.mean()
-    residual = y - intercept - slope * x
-    error = np.sqrt(residual @ residual / (len(x) - 2) / (from_mean @ from_mean))
-    a = np.exp(intercept) if kind == "power" else intercept
-    return Law(kind, float(a), float(slope), float(student_t(0.975, len(x) - 2) * error), len(x))
+def need_two_cases(table: dict[str, np.ndarray]) -> None:
+    """MissingData where a law would have a single point."""
+    cases = list(dict.fromkeys(table["case"].tolist()))
+    if len(cases) < 2:
+        found = f'only "{cases[0]}" has one' if cases else "no case has one"
+        raise MissingData("needs two cases with dunes in dune.csv, of other sizes or in other flows, with four times "
+                          f"in the window: {found}")
 
 
-def sentences(laws: dict[str, Law | None]) -> Iterator[str]:
+def verdict(law: Law, relation: Relation) -> str:
+    """How n stands to what is published: within its 95 % interval, or how far out."""
+    if relation.published is None:
+        return ""
+    nearest = float(np.clip(law.n, *relation.published))
+    if law.holds(nearest):
+        return "within, but so is 0: too few runs, or too much alike" if law.holds(0.0) else "within"
+    off = abs(law.n - nearest) / law.error if law.error > 0 else np.inf
+    return f"{'above' if law.n > nearest else 'below'} by {off:.2g} standard errors"
+
+
+def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iterator[str]:
     for name, law in laws.items():
-        if law is None:
-            yield f"{name}: fewer than {FEWEST} runs to fit"
-        elif law.kind == "power":
-            yield f"{name} ~ L^n, n = {law.n:.3g} +- {law.interval:.2g} (95 %, {law.runs} runs)"
-        else:
-            yield (f"{name} = a + n L, a = {1e3 * law.a:.3g} mm, n = {law.n:.3g} +- {law.interval:.2g} "
-                   f"(95 %, {law.runs} runs)")
+        relation = RELATIONS[name]
+        yield f"{relation.formula}" + (without_fit(table, relation) if law is None else with_fit(law, relation))
+    yield from on_realisations(table["case"].tolist())
+
+
+def with_fit(law: Law, relation: Relation) -> str:
+    a = f", a = {1e3 * law.a:.3g} mm" if relation.kind == "line" and len(law.centres) == 1 else ""
+    runs = f"{law.runs} runs" if law.runs == law.known else f"{law.runs} of {law.known} runs, the others not positive"
+    said = (f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})")
+    if relation.published is None:
+        return said
+    low, high = relation.published
+    return (f"{said}; published {low:g}{f' to {high:g}' if high > low else ''} ({relation.source}): "
+            f"{verdict(law, relation)}")
+
+
+def without_fit(table: dict[str, np.ndarray], relation: Relation) -> str:
+    """Why there is no law."""
+    known = np.isfinite(table[relation.x]) & np.isfinite(table[relation.y])
+    if relation.among == "size" and len(set(table["mean_velocity"])) < 2:
+        return ": needs cases that differ in fluid.mean_velocity"
+    if not known.any():
+        return ": not known in any run" + (" (needs tracks.h5 or grains.h5)" if relation.y in FLUXES else "")
+    return f": too few runs to fit, or cases alike in {relation.x}"
+
+
+def on_realisations(names: Sequence[str]) -> Iterator[str]:
+    """Which cases are single runs, whose spread is not known."""
+    single = [name for name in dict.fromkeys(names) if names.count(name) == 1]
+    if single:
+        yield ("errors do not know the spread of " + ("any case" if len(single) == len(set(names)) else ", ".join(single))
+               + ": one realisation each; give the study [ensemble] realisations = 3 or more")

@@ -31,8 +31,7 @@ def of_frames(run: Any, start: float | None, end: float | None) -> dict[str, flo
     table, _ = transport.measure(run)
     shares = transport.measure_shares(run)
     chosen = window(table["t"], start, end)
-    values = {name: float(np.nanmean(column[chosen])) for name, column in table.items()
-              if name in OF_FRAMES and np.isfinite(column[chosen]).any()}
+    values = transport.over_window(table, OF_FRAMES, start, end)
     values["dispersion"] = transport.dispersion(table["slip_face_grains"][chosen])
     t, first, last = (shares or {}).get("t", np.empty(0)), table["t"][chosen][0], table["t"][chosen][-1]
     for kind, column in (shares or {}).items():

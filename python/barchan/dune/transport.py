@@ -14,7 +14,7 @@ from barchan.dune.tracks import tracks
 from barchan.errors import MissingData
 from barchan.io.frames import Grains
 from barchan.io.run_folder import RunFolder
-from barchan.stats import in_seconds, spans_seconds, spread
+from barchan.stats import in_seconds, spans_seconds, spread, window
 
 DEVIATIONS = 3.0  # an interval with so much more than independent grains would give is an avalanche
 
@@ -73,6 +73,13 @@ def migration(run: RunFolder, table: dict[str, np.ndarray]) -> dict[str, np.ndar
     with np.errstate(divide="ignore"):
         return {"celerity": celerity, "migration_flux": table["packing"] * celerity * table["crest_height"],
                 "turnover_time": table["L"] / celerity}
+
+
+def over_window(table: dict[str, np.ndarray], names: tuple[str, ...], start: float | None,
+                end: float | None) -> dict[str, float]:
+    """Means of the numbers in these columns over the window; without those that have none there."""
+    chosen = window(table["t"], start, end)
+    return {name: float(np.nanmean(table[name][chosen])) for name in names if np.isfinite(table[name][chosen]).any()}
 
 
 def measure_shares(run: RunFolder) -> dict[str, np.ndarray] | None:

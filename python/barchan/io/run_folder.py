@@ -124,6 +124,12 @@ class RunFolder:
         return None
 
     @cached_property
+    def mean_velocity(self) -> float | None:
+        """Magnitude of the mean velocity that is held, `[x, z]` or along x alone [m/s]; None where none is."""
+        velocity = self.config.get("fluid", {}).get("mean_velocity")
+        return None if velocity is None else float(np.linalg.norm(velocity))
+
+    @cached_property
     def title(self) -> str:
         return self.config.get("case", {}).get("title") or self.path.resolve().name
 
