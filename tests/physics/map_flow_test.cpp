@@ -95,6 +95,17 @@ TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {
   }
 }
 
+TEST(MapFlow, AFlowAcrossKeepsItsBulkVelocity) {
+  Config coarse = mesh({24, 16, 18}, 5e-4), fine = mesh({36, 30, 20}, 2e-4);
+  coarse.fluid->mean_velocity = fine.fluid->mean_velocity = {0, -0.28};
+  FlowRun from(coarse), to(fine);
+  set_turbulent_flow(coarse, from.fluid);
+  map_flow(fine, from.fluid, to.fluid);
+  EXPECT_NEAR(bulk_velocity_across(from.fluid), -0.28, 1e-14);
+  EXPECT_NEAR(bulk_velocity_across(to.fluid), -0.28, 1e-14);
+  EXPECT_NEAR(bulk_velocity(to.fluid), 0, 1e-14);
+}
+
 TEST(MapFlow, OnTheSameMeshNothingChanges) {
   FlowRun from(mesh({24, 16, 18}, 5e-4)), to(from.config);
   set_turbulent_flow(from.config, from.fluid);
