@@ -8,6 +8,7 @@
 
 #include "kernels/grains/grain_skins.hpp"
 #include "src/app/machine_load.hpp"
+#include "src/app/memory.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/kinds.hpp"
@@ -141,10 +142,16 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
         steps * parts.state_checks;
     // Rebuilds during a grain step: one at most.
     const double rebuilds =
-        std::min(rebuild_rate(config, sizes) * config.time.end, steps * derived.grain_substeps);
+        std::min(rebuild_rate(config, sizes) * config.time.end + fed_grains(config),
+                 steps * derived.grain_substeps);
     s.lists = rebuilds * parts.rebuild;
   }
-  const double n_grains = derived.grains ? static_cast<double>(derived.grains->count) : 0;
+  double n_grains = derived.grains ? static_cast<double>(derived.grains->count) : 0;
+  if (n_grains > 0) {  // half of those that come in are there on average
+    const double more = 1 + fed_grains(config) / 2 / n_grains;
+    n_grains *= more;
+    for (double* part : {&s.exchange, &s.grains, &s.lists}) *part *= more;
+  }
   s.output = output_seconds(config, n_grains, parts);
   return s;
 }

@@ -28,6 +28,12 @@ double bytes_per_cell() {
 
 }  // namespace
 
+double fed_grains(const Config& config) {
+  if (!config.grains || !config.grains->feed) return 0;
+  const FeedConfig& feed = *config.grains->feed;
+  return feed.rate * std::max(0.0, config.time.end - feed.start);
+}
+
 double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes) {
   double bytes = 0;
   if (config.fluid) {
@@ -35,6 +41,7 @@ double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes)
     bytes += bytes_per_cell() * nx * ny * nz;
   }
   if (config.grains) {
+    bytes += kBytesPerGrain * fed_grains(config);
     for (const SizeClass& size : sizes) bytes += kBytesPerGrain * static_cast<double>(size.count);
   }
   return bytes;

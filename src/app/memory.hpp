@@ -8,6 +8,10 @@
 
 namespace barchan {
 
+/// Grains that a feed of a given rate brings in until the end of the run; how many of them leave is
+/// not known beforehand.
+double fed_grains(const Config& config);
+
 /// About, of all ranks together [bytes]. `sizes`: of its grains.
 double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes);
 

@@ -65,6 +65,7 @@ Slice slice_of(const Config& config, const InitialGrains& grains) {
 
 /// So heavy that nothing moves them: they touch as they do in the heap for as long as is timed.
 void hold_grains(GrainConfig& grains) {
+  grains.feed.reset();
   grains.density *= 1e9;
   for (KindConfig& kind : grains.kinds) kind.density *= 1e9;
   grains.gravity = {};

@@ -126,7 +126,8 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
     if (from == to) to = from + lz_;
     if (walls_z_) from = std::max(from, body.r), to = std::min(to, lz_ - body.r);
     const auto count = static_cast<std::uint64_t>(feed.n_tries++);
-    const Real x = config_.x + body.r + (from_seam_ ? grains.seam_x : 0);
+    const Real inlet = from_seam_ && std::isfinite(grains.seam_x) ? grains.seam_x : 0;
+    const Real x = inlet + config_.x + body.r;
     const Real z = from + (to - from) * uniform_number(config_.seed, kAcross, count);
     places.push_back({.x = box.wrap({x, config_.height + body.r, z}), .r = body.r});
   }

@@ -26,7 +26,7 @@ void NeighborList::append_new(GrainState& grains) {
     const auto set = [entry = begin + q](const auto& array, const auto& value) {
       if (array.size() > 0) Kokkos::deep_copy(Kokkos::subview(array, entry), value);
     };
-    set(grains.kin, GrainKinematics{.x = x, .r = body.r, .m = body.m});
+    set(grains.kin, GrainKinematics{.x = x, .r = body.r, .u = {}, .m = body.m, .omega = {}});
     set(grains.id, id);
     set(grains.kind, static_cast<std::uint8_t>(body.kind));
     set(grains.heap, kNoHeap);

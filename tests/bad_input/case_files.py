@@ -63,6 +63,7 @@ VALUES = [
     Entry("a title of other letters", '[case] title = "Düne 沙丘 <b>&amp;\\"</b>" ;; ' + SHORT, code=0),
 ]
 
+FOLLOW = '[grains] boundary_x = "follow"'
 CONTRADICTIONS = [
     Entry("drag at a wall that does not drag", '[coupling] forces = ["drag", "wall_drag"] ;; [fluid] bottom = "free_slip"',
           "@forces | wall_drag | free-slip bottom"),
@@ -91,6 +92,21 @@ CONTRADICTIONS = [
           "@floor_diameter | at least 3 spheres long | fall between", problems=2),
     Entry("a floor that is not there", '[grains] floor = "rough"', '@floor = | "smooth"'),
     Entry("a glued floor", '[grains] floor = "glued" ;; [grains] floor_diameter = "1 d" ;; ' + SHORT, code=0),
+    Entry("a window that follows what is not measured", FOLLOW + " ;; [output] dune_interval = 0",
+          "@boundary_x | output.dune_interval above 0"),
+    Entry("a window of no flow", FOLLOW, "@boundary_x | without a [fluid]", base=DRY),
+    Entry("a seam in a bed", FOLLOW + ' ;; [initial.grains.pour] shape = "bed" ;; -[initial.grains.pour] centre ;; '
+          "-[initial.grains.pour] radius ;; [grains] sizes = [[2e-4, 3000]]",
+          "initial.grains.pour | grains lie within 0.0012 m | take a longer domain.size"),
+    Entry("a window around a few grains", FOLLOW + " ;; " + SIZES + "[[2e-4, 20]]", "initial.grains.pour | holds no dune"),
+    Entry("a feed at no rate", "[grains.feed] x = 1e-3", "@[grains.feed] | rate | must be above 0"),
+    Entry("a feed of what cannot leave", '[grains] boundary_x = "periodic" ;; [grains.feed] amount = "as_lost"',
+          '@amount | must be "given" where no grain leaves'),
+    Entry("a feed behind the box", "[grains.feed] rate = 10 ;; [grains.feed] x = 0.0119",
+          "@x = | room for the largest grain"),
+    Entry("a feed at the seam", FOLLOW + " ;; [grains.feed] rate = 10", "@[grains.feed] | must be at least a cell, 0.0012 m"),
+    Entry("a feed across nothing", "[grains.feed] rate = 10 ;; [grains.feed] across = [3e-3, 2e-3]", "@across | from below to"),
+    Entry("a feed in a window", FOLLOW + " ;; [grains.feed] rate = 1e4 ;; [grains.feed] x = 2e-3 ;; " + SHORT, code=0),
     Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),
     Entry("cells smaller than grains", "-[fluid] first_cell_height ;; [fluid] cells = [100, 50, 60] ;; " + FLUID_STEP +
           '1e-4 ;; [coupling] exchange = "smoothed"', "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),

@@ -30,9 +30,13 @@ constexpr StateArray state_arrays[] = {
     {"grains/wall_xi_t", false, 6},   {"grains/of_rank", true, 0},
     {"contacts/first", true, 0},      {"contacts/second", true, 0},
     {"contacts/xi_t", false, 3},      {"dunes", false, 0},
-    {"fluid/u_x", false, 0},          {"fluid/p", false, 0}};
-constexpr const char* state_numbers[] = {"grains/r_max", "grains/r_min", "fluid/time", "t"};
-constexpr const char* state_integers[] = {"step", "grains/n_initial", "grains/n_left"};
+    {"fluid/u_x", false, 0},          {"fluid/p", false, 0},
+    {"feed/bodies", false, 3},        {"feed/waiting", false, 3}};
+constexpr const char* state_numbers[] = {"grains/r_max",  "grains/r_min", "fluid/time", "t",
+                                         "grains/seam_x", "feed/due"};
+constexpr const char* state_integers[] = {"step",        "grains/n_initial", "grains/n_left",
+                                          "feed/n_fed",  "feed/next_id",     "feed/n_tries",
+                                          "feed/n_asked"};
 
 /// Every array below a group, as the type it says it has; `depth` against links in circles.
 void read_arrays(const Hdf5File& file, const std::string& group, int depth) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/grains/grain_feed.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/shared_grains.hpp"
@@ -162,6 +163,36 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
   if (is_first())
     std::printf("[ measured ] %d ranks: u %.1e; all moved by a bit: %.1e\n", n_ranks(), off[1],
                 chaos[1]);
+}
+
+/// The same grains come in at the same places, and those that left with the same sizes.
+TEST(GrainsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
+  for (const FeedRate amount : {FeedRate::given, FeedRate::as_lost}) {
+    Config c = box({0.004, 0.004, 0.005});
+    c.grains->boundary_x = GrainBoundaryX::exit;
+    c.grains->feed = FeedConfig{.amount = amount, .rate = 2e4, .x = 5e-5, .height = 1e-3};
+    c.time.fluid_step = 1e-4;
+    SharedGrains s(c, test::lattice_packing(2000, c.size, 0.8));
+    GrainFeed of_whole(c), of_shared(c);
+    for (int step = 0; step < 20; ++step) {
+      s.whole.advance(25, 4e-6);
+      s.shared.advance(25, 4e-6);
+      of_whole.advance(s.whole.state, s.whole.solver.list());
+      of_shared.advance(s.shared.state, s.shared.solver.list());
+    }
+    const FeedState &a = s.whole.state.feed, &b = s.shared.state.feed;
+    EXPECT_GT(a.n_fed, 20);
+    EXPECT_EQ(a.n_fed, b.n_fed);
+    EXPECT_EQ(a.n_tries, b.n_tries);
+    EXPECT_EQ(a.waiting, b.waiting);
+    EXPECT_EQ(a.bodies, b.bodies);
+    EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n), s.whole.state.n);
+    const auto off = s.off();  // infinite if the numbers are not the same
+    EXPECT_LT(off[0], 1e-6);
+    if (is_first())
+      std::printf("[ measured ] %d ranks: %lld fed, x %.1e\n", n_ranks(),
+                  static_cast<long long>(a.n_fed), off[0]);
+  }
 }
 
 /// Walls that any grain touches now, a bit each.

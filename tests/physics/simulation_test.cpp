@@ -38,7 +38,8 @@ std::string bits_of(const Hdf5File& file, const std::string& name) {
 void expect_same_state(const std::filesystem::path& a, const std::filesystem::path& b) {
   const Hdf5File first(a, Hdf5File::Mode::read), second(b, Hdf5File::Mode::read);
   int n = 0;
-  for (const std::string group : {"/", "/fluid/", "/grains/", "/contacts/", "/statistics/"}) {
+  for (const std::string group :
+       {"/", "/fluid/", "/grains/", "/contacts/", "/statistics/", "/feed/"}) {
     if (!first.exists(group)) continue;
     for (const std::string& child : first.children(group)) {
       const std::string name = group + child;
@@ -75,6 +76,79 @@ TEST(Simulation, RestartContinuesBitwise) {
     EXPECT_GT(text.size(), 500u) << table;
     EXPECT_EQ(text, read_text(scratch / "parts" / table)) << table;
   }
+}
+
+/// In a window that follows its dune, with grains that leave, come in and wait.
+Config fed_config() {
+  Config config = coupled_config();
+  config.fluid->mean_velocity = 0.5;
+  config.grains->boundary_x = GrainBoundaryX::follow;
+  config.grains->feed = FeedConfig{.rate = 2000, .x = 2e-3, .across = {2e-3, 3e-3}};
+  config.time.end = 400 * config.time.fluid_step;
+  config.output.dune_interval = 5 * config.time.fluid_step;
+  return config;
+}
+
+TEST(Simulation, RestartInTheMiddleOfAFeedContinuesBitwise) {
+  for (const FeedRate amount : {FeedRate::given, FeedRate::as_lost}) {
+    const TemporaryFolder scratch;
+    Config whole = fed_config();
+    whole.grains->feed->amount = amount;
+    Config half = whole;
+    half.time.end = whole.time.end / 2;
+    const auto at_once = run(whole, scratch / "whole");
+    const auto middle = run(half, scratch / "parts");
+    expect_same_state(at_once, run(whole, scratch / "parts", middle));
+    for (const char* table : {"history.csv", "dune.csv"})
+      EXPECT_EQ(read_text(scratch / "whole" / table), read_text(scratch / "parts" / table));
+    const CheckpointReader first(middle), last(at_once);
+    EXPECT_NE(first.real("grains/seam_x"), last.real("grains/seam_x")) << "the window is to move";
+    EXPECT_GT(first.integer("feed/n_fed"), 0);
+    EXPECT_GT(last.integer("feed/n_fed"), first.integer("feed/n_fed"));
+    const auto inside = static_cast<std::int64_t>(last.array<std::int64_t>("grains/id").size());
+    const std::int64_t left = last.integer("grains/n_left"), fed = last.integer("feed/n_fed");
+    EXPECT_GT(left, 0) << "the case is meant to lose grains";
+    EXPECT_EQ(inside, 200 + fed - left);
+    const auto json = nlohmann::json::parse(read_text(scratch / "parts/run.json"));
+    EXPECT_EQ(json.at("grains_fed"), fed);
+    EXPECT_EQ(json.at("grains_left"), left);
+    if (amount == FeedRate::as_lost) {
+      EXPECT_EQ(json.at("grains_waiting"), left - fed);
+    } else {
+      EXPECT_EQ(json.at("grains_waiting"), 200 - fed) << "2,000 in a second, 0.1 s";
+    }
+  }
+}
+
+TEST(Simulation, AFeedBeginsAtARestartToo) {
+  const TemporaryFolder scratch;
+  Config config = fed_config();
+  config.time.end = 20 * config.time.fluid_step;
+  Config unfed = config;
+  unfed.grains->feed.reset();
+  const auto middle = run(unfed, scratch / "run");
+  config.grains->feed->start = config.time.end;
+  config.time.end *= 2;
+  const CheckpointReader last(run(config, scratch / "run", middle));
+  EXPECT_GT(last.integer("feed/n_fed"), 0);
+  EXPECT_DOUBLE_EQ(last.real("feed/due"), 2000 * 20 * config.time.fluid_step);
+}
+
+TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {
+  const TemporaryFolder scratch;
+  Config config = fed_config();
+  config.size[0] = 0.0045;
+  config.initial.pour->centre = {0.0022, 0.003};
+  config.grains->feed.reset();
+  try {
+    run(config, scratch / "run");
+    FAIL();
+  } catch (const std::runtime_error& problem) {
+    EXPECT_NE(std::string(problem.what()).find("half a box from the largest dune"),
+              std::string::npos)
+        << problem.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run" / "config.toml"));
 }
 
 TEST(Simulation, StartsDifferWhenTheSeedDoes) {

@@ -59,6 +59,14 @@ same bits whole halves
 
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 
+# A window that follows its dune, with grains that leave and come in.
+fed=(--set 'grains.boundary_x="follow"' --set fluid.mean_velocity=0.5 --set grains.feed.rate=8000 --set grains.feed.x=3e-3)
+run 1 heap.toml --out fed-one "${fed[@]}"
+run 3 heap.toml --out fed-parts "${fed[@]}" --set time.end=0.003
+run 2 heap.toml --out fed-parts "${fed[@]}" --restart fed-parts/restart_0000000012.h5
+same grains fed-one fed-parts
+grep -q '"grains_fed": [1-9]' fed-parts/run.json || fail "no grain has come in"
+
 # Grains that are held in place have no contacts, and the files no histories.
 frozen=(--out frozen --set grains.frozen=true --set 'initial.grains="one/restart_0000000024.h5"'
   --set statistics.start=0)

@@ -121,6 +121,34 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
   EXPECT_TRUE(problems(still, {"time.fluid_step=1e-3", "time.end=9999999.999"}).empty());
 }
 
+TEST(ConfigValidate, AFeedAndAWindowThatFollowsAreCheckedTogether) {
+  const std::string both = coupled_case() + "[grains.feed]\nrate = 10\nx = 0.002\n";
+  const std::string follow = "grains.boundary_x=follow";
+  const std::pair<Lines, std::string> wrong[] = {
+      {{"grains.feed.rate=0"}, "rate = 0: must be above 0 with amount = \"given\""},
+      {{"grains.feed.amount=as_lost"}, "rate = 10.0: must be absent with amount = \"as_lost\""},
+      {{"grains.feed.amount=as_lost", "grains.feed.rate=0", "grains.boundary_x=periodic"},
+       "amount = \"as_lost\": must be \"given\" where no grain leaves"},
+      {{"grains.frozen=true"}, "contradicts frozen: grains could not move on"},
+      {{"grains.feed.x=0.1"}, "x = 0.1: must lie within the domain, below 0.1 m"},
+      {{"grains.feed.x=0.0999"}, "must leave room for the largest grain, 0.0002 m, before the"},
+      {{"grains.feed.across=[0.03, 0.01]"}, "must be [from, to] with from below to"},
+      {{"grains.feed.across=[0.03, 0.041]"}, "within the width of 0.04 m"},
+      {{"grains.feed.height=0.025"}, "must be below the height of the domain, 0.025 m"},
+      {{"grains.feed.height=0.0249"}, "must leave room for the largest grain, 0.0002 m, below"},
+      {{follow, "grains.feed.x=1e-3"}, "x = 0.001: must be at least a cell, 0.001042 m"},
+      {{follow, "grains.feed.x=0.06"}, "x = 0.06: must be at most half the domain, 0.05 m"},
+      {{follow, "output.dune_interval=0"}, "must come with an output.dune_interval above 0"},
+      {{follow, "fluid.cells=[7, 30, 25]"}, "must come with 8 fluid.cells along x or more"},
+      {{follow, "grains.frozen=true"}, "must not be \"follow\" with frozen grains"}};
+  for (const auto& [assignments, words] : wrong)
+    EXPECT_TRUE(says(problems(both, assignments), words)) << assignments.back();
+  EXPECT_TRUE(says(problems(grain_case(), {follow}), "must not be \"follow\" without a [fluid]"));
+  EXPECT_TRUE(says(warnings(both, {"grains.feed.start=1"}), "is after the end of the run"));
+  for (const Lines& right : {Lines{}, Lines{follow}, Lines{"grains.feed.across=[0, 0.04]"}})
+    EXPECT_EQ(warnings(both, right), Lines{});
+}
+
 TEST(ConfigValidate, KeysThatCanDoNothingAreErrors) {
   const std::string fluid = fluid_case("mean_velocity = 0.2\n"), grains = grain_case();
   const struct {

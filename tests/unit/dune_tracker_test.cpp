@@ -115,6 +115,8 @@ TEST(DuneTracker, CountsLostGrains) {
   tracker.update(0.0, grains);
   grains.resize(grains.size() - 17);
   EXPECT_EQ(tracker.update(0.1, grains).at(0).n_lost, 17);
+  grains.resize(grains.size() - 2);  // five more have left, and three have come in
+  EXPECT_EQ(tracker.update(0.15, grains, 3).at(0).n_lost, 22);
   EXPECT_TRUE(tracker.update(0.2, {}).empty());
 }
 

@@ -55,6 +55,22 @@ TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {
   EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.grain_step = 1}).grains, 50000);
 }
 
+/// 0.5 s at 2,000 in a second: as many come in as are there.
+TEST(Memory, GrainsThatComeInCount) {
+  Config c = dune();
+  const double without = memory_of_case(c, kSizes);
+  c.grains->feed = FeedConfig{.rate = 2000};
+  EXPECT_DOUBLE_EQ(memory_of_case(c, kSizes) - without, 1000 * 1000.0);
+  const PartSeconds parts{.exchange = 1, .grain_step = 1};
+  Config unfed = c;
+  unfed.grains->feed.reset();
+  const RunSeconds more = run_seconds(c, kSizes, parts), less = run_seconds(unfed, kSizes, parts);
+  EXPECT_DOUBLE_EQ(more.exchange / less.exchange, 1.5) << "half of them on average";
+  EXPECT_DOUBLE_EQ(more.grains / less.grains, 1.5);
+  c.grains->feed->start = 0.25;
+  EXPECT_DOUBLE_EQ(fed_grains(c), 500);
+}
+
 TEST(RunSeconds, CountOutputAndStatistics) {
   Config c = dune();
   c.output.dune_interval = 0.05;

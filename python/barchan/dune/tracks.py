@@ -25,7 +25,7 @@ def bed_of(run: RunFolder) -> Bed:
     if run.domain is None:
         raise MissingData("needs config.toml with the size of the domain")
     grains = run.config.get("grains", {})
-    periodic = (grains.get("boundary_x", "exit") == "periodic",
+    periodic = (grains.get("boundary_x", "exit") in ("periodic", "follow"),
                 grains.get("boundary_z", "periodic") == "periodic")
     return Bed((run.domain[0], run.domain[2]), periodic)
 
