@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from make_fake_run import open_file, write_frame
+
 from barchan.dune.detect import labels
 from barchan.dune.shape import Bed
 from barchan.io.frames import Grains
@@ -122,3 +124,17 @@ def ejecting_two():
     small, (large, _, path) = merging()
     return [small, (large[~FRONT], 1, path), *((large[FRONT & side], 1, leaves(sign))
                                                for side, sign in ((LEFT, -1), (~LEFT, 1)))]
+
+
+def write_run(folder, frames, bed, heap=None, schedule=""):
+    """A run folder with these frames in grains.h5; heap (N): of each grain by its id."""
+    folder.mkdir()
+    config = (f"[domain]\nsize = [{bed.lengths[0]}, 0.02, {bed.lengths[1]}]\n[grains]\nboundary_x = "
+              f"\"{'periodic' if bed.periodic[0] else 'exit'}\"\n{schedule}")
+    (folder / "config.toml").write_text(config)
+    (folder / "run.json").write_text('{"status": "done", "steps": 3}\n')
+    with open_file(folder / "grains.h5") as file:
+        for number, frame in enumerate(frames):
+            arrays = {"id": frame.id, "x": frame.x, "d": frame.d, "dune": frame.dune}
+            write_frame(file, number, frame.time, arrays if heap is None else arrays | {"heap": heap[frame.id]})
+    return folder

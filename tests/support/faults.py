@@ -80,7 +80,7 @@ def same_run(one, other):
         fail(f"{one} and {other} ended at other steps")
     for name in (last_restart(one).name, "grains.h5", "fields.h5", "tracks.h5"):
         same_bits.compare(one / name, other / name)
-    for name in ("history.csv", "dune.csv"):
+    for name in ("history.csv", "dune.csv", *(path.name for path in one.glob("heaps.csv"))):
         if (one / name).read_bytes() != (other / name).read_bytes():
             fail(f"{name} of {one} and {other} differ")
     left = [path.name for path in other.glob("*.tmp")]

@@ -3,7 +3,7 @@
 Definitions: docs/dune-measures.md, "Formation and reversal". SI units.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -60,6 +60,17 @@ def reversal_times(run: RunFolder) -> list[tuple[float, float]]:
     ends = [time for time, _ in turns[1:]] + [np.inf]
     return [(start, _until_horns(run, start, end, along))
             for (start, along), end in zip(turns[1:], ends[1:])]
+
+
+def sentences(run: RunFolder) -> Iterator[str]:
+    """The formation time of the main dune, and its reversal time after each turn of the current."""
+    def said(time: float) -> str:
+        return "not known" if np.isnan(time) else f"{time:.3g} s"
+
+    if run.dune_columns:
+        yield f"formation time {said(formation_time(run.main_dune_columns))}"
+    for start, time in reversal_times(run):
+        yield f"the current turns at {start:.3g} s: reversal time {said(time)}"
 
 
 def _until_horns(run: RunFolder, start: float, end: float, along: np.ndarray) -> float:

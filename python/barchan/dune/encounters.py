@@ -57,7 +57,6 @@ class Encounter:
     new_dunes: str
 
 
-COLUMNS = tuple(column.name for column in fields(Encounter))
 Along = Callable[[float], np.ndarray]
 
 
@@ -65,17 +64,18 @@ def find(run: RunFolder) -> tuple[Lineage, list[Encounter]]:
     """All encounters of a run, in order of their start. Raises MissingData where there is nothing to tell."""
     lineage = lineage_of(run)
     if len(lineage.t) < 2:
-        raise MissingData("needs at least two frames of tracks.h5 or grains.h5 with dunes")
-    if len(lineage.births) < 2:
-        there = "one dune" if lineage.births else "no dune"
-        raise MissingData(f"needs two dunes: the frames of tracks.h5 or grains.h5 have {there}")
+        raise MissingData("needs at least two frames of tracks.h5 or grains.h5")
+    count = len(dunes_of(lineage))
+    if count < 2:
+        there = "one dune" if count else "no dune"
+        raise MissingData(f"needs two dunes that last: the frames of tracks.h5 or grains.h5 have {there}")
     return lineage, encounters(lineage, tracks(run).bed, lambda t: direction(run.config, t))
 
 
 @lru_cache(maxsize=4)
 def lineage_of(run: RunFolder) -> Lineage:
     if run.dune_columns is not None and len(run.dune_columns) < 2:
-        raise MissingData("needs two dunes: dune.csv has one")
+        raise MissingData("needs two dunes in tracks.h5 or grains.h5: dune.csv has one")
     source = tracks(run)
     return follow((source.labelled(index) for index in range(len(source.times))), source.bed, _first_heaps(source))
 
@@ -93,18 +93,22 @@ def _first_heaps(source: Tracks) -> np.ndarray | None:
 def encounters(lineage: Lineage, bed: Bed, along: Along = lambda t: np.array((1.0, 0.0))) -> list[Encounter]:
     """`along`: the unit vector of the current at a time. A dune that two others make between them belongs to their
     encounter, and is none of its own with them."""
-    dunes = [name for name, birth in enumerate(lineage.births) if birth.frame == 0 or lasting(lineage, name)]
-    starts = [(_start(lineage, bed, a, b, along), a, b) for a, b in combinations(dunes, 2)]
+    starts = [(_start(lineage, bed, a, b, along), a, b) for a, b in combinations(dunes_of(lineage), 2)]
     told: list[Encounter] = []
     parties: list[set[int]] = []
-    for start, a, b in sorted(known for known in starts if known[0] is not None):
+    for start, a, b in sorted((start, a, b) for start, a, b in starts if start is not None):
         if any({a, b} <= party for party in parties):
             continue
         ordered = _in_order(lineage, bed, a, b, start, along)
-        encounter, party = _Pair(lineage, bed, *ordered, start, along(lineage.t[start])).tell()
+        encounter, party = _Pair(lineage, bed, *ordered, start, along(float(lineage.t[start]))).tell()
         told.append(encounter)
         parties.append(party)
     return told
+
+
+def dunes_of(lineage: Lineage) -> list[int]:
+    """Names of the dunes that can meet: those of the first frame, and new ones that last."""
+    return [name for name, birth in enumerate(lineage.births) if birth.frame == 0 or lasting(lineage, name)]
 
 
 def lasting(lineage: Lineage, name: int) -> bool:
@@ -246,8 +250,9 @@ class _Pair:
 
 
 def table(found: list[Encounter]) -> dict[str, list[Any]]:
-    """Columns of encounters.csv."""
-    return {name: [getattr(one, name) for one in found] for name in COLUMNS}
+    """Columns of encounters.csv, where `kind` is called class."""
+    return {{"kind": "class"}.get(column.name, column.name): [getattr(one, column.name) for one in found]
+            for column in fields(Encounter)}
 
 
 def sentences(lineage: Lineage, found: list[Encounter]) -> list[str]:

@@ -8,6 +8,7 @@ Definitions: docs/dune-measures.md, "Slopes and transport".
 
 import numpy as np
 
+from barchan.dune import current as dune_current
 from barchan.dune import fluxes as grain_fluxes
 from barchan.dune import transport as dune_transport
 from barchan.figures import style
@@ -24,7 +25,7 @@ def draw(run, ax=None, start=None, end=None):
     shares = dune_transport.measure_shares(run)
     chosen = window(table["t"], start, end)
     figure, panels = style.panels(ax, 3, 2, figsize=(style.FULL_WIDTH, 6.2))
-    say(figure, dune_transport.summary(table, shares, chosen))
+    say(figure, [*dune_transport.summary(table, shares, chosen), *dune_current.sentences(run)])
     keep(figure, "morphodynamics", table, most=None)
     if shares:
         keep(figure, "transport_shares", shares, most=None)

@@ -1,5 +1,8 @@
 """What a figure has besides its picture: the numbers behind it, and what it says in words."""
 
+import json
+import math
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -42,15 +45,42 @@ def say(figure: Any, sentences: Iterable[str]) -> None:
     figure.sentences = list(sentences)
 
 
+def publish(figure: Any, table: str, columns: Mapping[str, Sequence]) -> None:
+    """The same for a table that is a result of the run: figure.results."""
+    figure.__dict__.setdefault("results", {})[table] = dict(columns)
+
+
 def write_numbers(result: Any, folder: Path) -> None:
-    """Each table of a figure as folder/figures_data/TABLE.csv."""
+    """Each table of a figure as folder/figures_data/TABLE.csv; results as folder/TABLE.csv, and in run.json by name."""
     tables = getattr(result, "numbers", {})
     if tables:
         (folder / "figures_data").mkdir(exist_ok=True)
     for name, columns in tables.items():
-        lines = [",".join(columns)]
-        lines += [",".join(map(cell, row)) for row in zip(*columns.values())]
-        (folder / "figures_data" / f"{name}.csv").write_text("\n".join(lines) + "\n")
+        (folder / "figures_data" / f"{name}.csv").write_text(csv_text(columns))
+    for name, columns in getattr(result, "results", {}).items():
+        (folder / f"{name}.csv").write_text(csv_text(columns))
+        add_to_summary(folder / "run.json", name, [dict(zip(columns, row)) for row in zip(*columns.values())])
+
+
+def csv_text(columns: Mapping[str, Sequence]) -> str:
+    lines = [",".join(columns)]
+    lines += [",".join(map(cell, row)) for row in zip(*columns.values())]
+    return "\n".join(lines) + "\n"
+
+
+def add_to_summary(path: Path, name: str, rows: list[dict[str, Any]]) -> None:
+    """An entry of run.json, in which numbers that are not finite are null. A run that goes on keeps its own."""
+    try:
+        summary = json.loads(path.read_text())
+    except (OSError, ValueError):
+        return
+    if not isinstance(summary, dict) or summary.get("status") == "running":
+        return
+    known = [{key: None if isinstance(value, float) and not math.isfinite(value) else value
+              for key, value in row.items()} for row in rows]
+    beside = path.with_name(path.name + ".part")
+    beside.write_text(json.dumps(summary | {name: known}, indent=2, ensure_ascii=False) + "\n")
+    os.replace(beside, path)
 
 
 def cell(value: Any) -> str:
