@@ -103,7 +103,7 @@ TEST(MapFlow, AFlowAcrossKeepsItsBulkVelocity) {
   map_flow(fine, from.fluid, to.fluid);
   EXPECT_NEAR(bulk_velocity_across(from.fluid), -0.28, 1e-14);
   EXPECT_NEAR(bulk_velocity_across(to.fluid), -0.28, 1e-14);
-  EXPECT_NEAR(bulk_velocity(to.fluid), 0, 1e-14);
+  EXPECT_NEAR(bulk_velocity(to.fluid), 0, 1e-4) << "that of the interpolation";
 }
 
 TEST(MapFlow, OnTheSameMeshNothingChanges) {
