@@ -20,6 +20,7 @@ HISTORY = {
     "grain_flux": ("m2 s-1", "volume flux of all grains over the floor's area"),
     "stress_on_grains": ("Pa", "force of the flow on the grains over the floor's area"),
     "grain_step_over_stable": ("1", "grain step over the longest stable one"),
+    "n_fed": ("1", "grains that have come in"),
 }
 DUNES = {
     "t": ("s", "time"),
