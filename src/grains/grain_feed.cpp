@@ -49,7 +49,7 @@ void look_at_start(GrainState& grains) {
     last = std::max(last, id(g));
   }
   all_reduce(grains.ranks, std::span(&last, 1), MPI_MAX);
-  grains.feed.next_id = last + 1;
+  grains.feed.next_id = std::max(last, grains.n_initial) + 1;  // some may have left already
   grains.feed.bodies = of_all_ranks(grains.ranks, bodies);
   std::ranges::sort(grains.feed.bodies);
 }

@@ -25,7 +25,7 @@ const std::string history_header =
     "t,step,u_star,bulk_velocity,pressure_gradient,fluid_kinetic_energy,grain_kinetic_energy,cfl,"
     "continuity_residual,pressure_iterations,n_grains,n_contacts,max_overlap,grain_flux,"
     "stress_on_grains,grain_step_over_stable,bulk_velocity_z,wanted_velocity_x,wanted_velocity_z,"
-    "pressure_gradient_z,grain_flux_z,stress_on_grains_z\n";
+    "pressure_gradient_z,grain_flux_z,stress_on_grains_z,n_fed\n";
 const std::string dune_header =
     "t,dune,n_grains,W,L,H,Cx,Cy,Cz,horn_left,horn_right,crest_x,volume,celerity,n_lost,flux,"
     "horn_left_2d,horn_right_2d\n";
@@ -89,7 +89,7 @@ TEST(RunFolder, WritesTablesInTheDocumentedFormat) {
   dune.horn_right_2d = 0.003;
   append_record(run, dune);
   EXPECT_EQ(read_text(run / "history.csv"),
-            history_header + "0.1,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0,0,0,0,0,0,0\n");
+            history_header + "0.1,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0,0,0,0,0,0,0,0\n");
   EXPECT_EQ(read_text(run / "dune.csv"),
             dune_header + "0.1,0,3000,0.04,0,0,0,0,0,0,0,0,0,0,7,2e-06,0,0.003\n");
 }
@@ -106,7 +106,7 @@ TEST(RunFolder, ARestartCutsTheTables) {
   EXPECT_NE(text.find("\n1.666666667,"), std::string::npos);
   append_record(folder.path(), history_record(2.0));
   EXPECT_TRUE(
-      read_text(table).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0,0,0,0,0,0,0\n"));
+      read_text(table).ends_with("\n2,400,0.0168,0,0,0,0,0,0,0,99999,0,0,0,0,0,0,0,0,0,0,0,0\n"));
 }
 
 TEST(RunFolder, TheTableOfHeapsIsMadeByItsFirstLineAndCutAtARestart) {

@@ -26,6 +26,7 @@ HISTORY = {
     "pressure_gradient_z": ("Pa m-1", "driving pressure gradient along z"),
     "grain_flux_z": ("m2 s-1", "volume flux of all grains along z over the floor's area"),
     "stress_on_grains_z": ("Pa", "force of the flow along z on the grains over the floor's area"),
+    "n_fed": ("1", "grains that have come in"),
 }
 DUNES = {
     "t": ("s", "time"),

@@ -156,9 +156,10 @@ def balance(summary):
     if any(summary.get(key) is None for key in keys):
         return Check("grains", "–", "inside + left = initial", UNKNOWN, "No count in run.json.")
     initial, inside, left = (summary[key] for key in keys)
-    lost = left / initial if initial else 0.0
-    good = inside + left == initial and lost <= LARGEST_LOSS
+    fed = summary.get("grains_fed", 0)
+    lost = max(left - fed, 0) / initial if initial else 0.0  # and not made up for
+    good = inside + left == initial + fed and lost <= LARGEST_LOSS
     about = ("No grain may vanish; those beyond the outlet have left. "
              f"Above {percent(LARGEST_LOSS)} lost, the dune is no longer the one that started.")
-    return Check("grains", f"{inside:,} inside + {left:,} left ({percent(lost)}) of {initial:,}",
+    return Check("grains", f"{inside:,} inside + {left:,} left ({percent(lost)}) of {initial + fed:,}",
                  f"sum = initial; left ≤ {percent(LARGEST_LOSS)}", OK if good else LOOK, about)
