@@ -2,6 +2,7 @@
 
 import json
 
+import h5py
 import made_up_encounters as built
 import numpy as np
 import pytest
@@ -73,6 +74,17 @@ def test_nothing_to_tell_is_told(parts, times, says, tmp_path, capsys):
     assert plot.main([str(folder), "encounters"]) == 2
     assert says in capsys.readouterr().err
     assert not (folder / "encounters.csv").exists()
+
+
+def test_frames_must_say_which_dune(tmp_path, capsys):
+    pair = Pair(built.chasing())
+    frames = pair.frames(TIMES[:2])
+    folder = write_run(tmp_path / "run", frames, pair.bed)
+    with h5py.File(folder / "grains.h5", "r+") as file:
+        for name in file:
+            del file[name]["dune"]
+    assert plot.main([str(folder), "encounters"]) == 2
+    assert "which dune each grain is of (output.dune_interval > 0)" in capsys.readouterr().err
 
 
 def test_currents_of_a_case():

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "src/diagnostics/gathered_grains.hpp"
 #include "src/diagnostics/heap_shares.hpp"
 
 namespace barchan {
@@ -113,6 +114,21 @@ TEST(DuneTracker, TellsWhichHeapTheGrainsOfADuneCameFrom) {
   }
   const Grains of_one_heap = heap(0.02, 0.025, 4.0 * mm, 1.5 * mm);
   EXPECT_TRUE(heap_shares(0.5, of_one_heap, tracker.labels(of_one_heap)).empty());
+}
+
+TEST(DuneTracker, GrainsOfARunBearTheirHeapIfThereAreSeveral) {
+  InitialGrains initial;
+  for (const int id : {7, 9}) initial.add(id, d, {id * mm, mm, mm});
+  GrainState grains = make_grain_state(initial, 2500);
+  for (const GrainSample& grain : gathered_grains(grains)) EXPECT_EQ(grain.heap, -1);
+  grains.heap = Kokkos::View<std::uint8_t*>("heap", 2);
+  const auto heap = mirror(grains.heap);
+  heap(0) = 0, heap(1) = 3;
+  Kokkos::deep_copy(grains.heap, heap);
+  const std::vector<GrainSample> all = gathered_grains(grains);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].heap, 0);
+  EXPECT_EQ(all[1].heap, 3);
 }
 
 TEST(DuneTracker, CountsLostGrains) {

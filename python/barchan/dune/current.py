@@ -20,7 +20,7 @@ ALONG_X = (1.0, 0.0)
 
 
 def currents(config: Mapping[str, Any]) -> list[tuple[float, np.ndarray]]:
-    """[(t [s], unit vector (2) along x and z), ...]: from when on the current of a case goes where; the first from 0 on.
+    """[(t [s], unit vector (2) along x and z), ...]: from when on the current of a case goes where, first from 0 on.
 
     Water that is asked to stand still, or driven by a pressure gradient, has the direction of before, at first +x.
     """

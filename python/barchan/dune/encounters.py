@@ -77,7 +77,10 @@ def lineage_of(run: RunFolder) -> Lineage:
     if run.dune_columns is not None and len(run.dune_columns) < 2:
         raise MissingData("needs two dunes in tracks.h5 or grains.h5: dune.csv has one")
     source = tracks(run)
-    return follow((source.labelled(index) for index in range(len(source.times))), source.bed, _first_heaps(source))
+    if source.read(0).dune is None:
+        raise MissingData("needs frames of tracks.h5 or grains.h5 that say which dune each grain is of "
+                          "(output.dune_interval > 0)")
+    return follow((source.read(index) for index in range(len(source.times))), source.bed, _first_heaps(source))
 
 
 def _first_heaps(source: Tracks) -> np.ndarray | None:

@@ -8,7 +8,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from barchan.dune.detect import labels
 from barchan.dune.shape import MAIN, Bed, Dune, main_dune
 from barchan.errors import BarchanError, MissingData
 from barchan.io.frames import Grains
@@ -62,13 +61,6 @@ class Tracks:
         number, x = number[order], x[order]
         return Grains(time, number, x, self._diameters_of(number) if d is None else d[order],
                       dune if dune is None else dune[order])
-
-    def labelled(self, index: int) -> Grains:
-        """The same with the dune of each grain: found here where the frame does not say it."""
-        grains = self.read(index)
-        if grains.dune is None:
-            grains.dune = labels(grains, self.bed)
-        return grains
 
     @cached_property
     def heaps(self) -> tuple[np.ndarray, np.ndarray | None]:

@@ -1,8 +1,9 @@
 """encounters: dunes that meet: where they go, what becomes of their sand, and how each encounter ended.
 
 Curves are dunes by name, which they keep through contact; bands along x are their extents, dots mark the first
-contact. Solid in the last panel: the share of a dune's grains that is of another heap. Writes encounters.csv besides
-the numbers of the curves, and the classes into run.json. Definitions: docs/dune-measures.md, "Encounters".
+contact. The last panel has the share of a dune's grains that is not of the heap of its first ones. Writes
+encounters.csv besides the numbers of the curves, and the same into run.json. Definitions: docs/dune-measures.md,
+"Names" and "Encounters".
 """
 
 import numpy as np
@@ -14,6 +15,7 @@ from barchan.figures.result import keep, publish, say
 COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.ORANGE, style.PURPLE, style.SKY)
 MOST = len(COLOURS)  # dunes that are drawn in colour, in order of their largest size
 SHOWN = 3            # encounters in the title
+LEAST = 5            # upper end of the exchange [%]: no magnification of single grains
 
 
 def draw(run, ax=None):
@@ -32,7 +34,7 @@ def draw(run, ax=None):
     paths.set(xlabel="$x$ (mm)", ylabel="$t$ (s)", ylim=lineage.t[[0, -1]])
     masses.set(xlabel="$t$ (s)", ylabel="grains", ylim=(0, 1.45 * np.nanmax(lineage.n_grains[:, names])))
     masses.legend(loc="upper left", ncols=2)
-    exchange.set(xlabel="$t$ (s)", ylabel="grains of other heaps (%)", ylim=(0, None))
+    exchange.set(xlabel="$t$ (s)", ylabel="grains of other heaps (%)", ylim=(0, max(LEAST, exchange.get_ylim()[1])))
     for index, axes in enumerate((paths, masses, exchange)):
         style.panel_label(axes, index)
     if ax is None:

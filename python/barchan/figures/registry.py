@@ -61,7 +61,7 @@ OF_RUN = table(
     Entry("profiles", "figures.profiles", "turbulence statistics over the height, with channel DNS", (MEANS,)),
     Entry("history", "figures.history", "flow rate, shear, time step and solver against time", (HISTORY,)),
     Entry("encounters", "figures.encounters",
-          "dunes that meet: their paths, masses, exchanged grains and how it ended: encounters.csv",
+          "dunes that meet: paths, masses, exchange, outcome; writes encounters.csv",
           ("tracks.h5|grains.h5",)),
     Entry("report", "report", "one page about the run, with the grains as an animation: report.html", (), writes=True),
     Entry("profiles_over_dune", "figures.profiles_over_dune",
