@@ -19,7 +19,9 @@ from barchan.io import horn_lengths
 from barchan.io.study_folder import BY_NAME, Case
 from barchan.stats import in_window
 
-FLUXES = ("crest_flux", "migration_flux")
+FLUXES = ("crest_flux", "crest_migration_flux")
+IN_WORDS = {"celerity_L": "celerity L", "crest_flux": "flux over the crest", "crest_migration_flux": "phi c H"}
+MANY = 100  # standard errors: beyond that they are not counted
 OF_THE_FLOW = ("fluid.", "initial.fluid")  # keys that differ between cases of one size and several velocities
 
 
@@ -40,8 +42,8 @@ class Relation:
 
     @property
     def formula(self) -> str:
-        return {"power": f"{self.y} ~ {self.x}^n", "line": f"{self.y} = a + n {self.x}",
-                "ratio": f"{self.y} = n {self.x}"}[self.kind]
+        x, y = (IN_WORDS.get(name, name) for name in (self.x, self.y))
+        return {"power": f"{y} ~ {x}^n", "line": f"{y} = a + n {x}", "ratio": f"{y} = n {x}"}[self.kind]
 
     def fit(self, table: dict[str, np.ndarray]) -> Law | None:
         groups = table[self.among] if self.kind != "ratio" else None
@@ -58,13 +60,13 @@ RELATIONS = {
     "horn": Relation("horn", "L", "line"),
     "loss": Relation("loss", "L", "power"),
     "formation_time": Relation("formation_time", "L", "power"),
-    "flux": Relation("crest_flux", "migration_flux", "ratio", (1, 1), "Bagnold 1941"),
+    "flux": Relation("crest_flux", "crest_migration_flux", "ratio", (1, 1), "Bagnold 1941"),
 }
 
 
 def measure(study: Any, start: float | None = None, end: float | None = None) -> dict[str, np.ndarray]:
     """Columns of all runs of the study whose main dune has four times in the window: the values of `of_run`, and
-    celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and migration_flux = phi c H [m2/s], not numbers where the
+    celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and crest_migration_flux = phi c H [m2/s], not numbers where the
     run lacks the files; mean_velocity [m/s], 0 where none is held; size, the same for cases that differ in the flow
     alone."""
     rows = []
@@ -140,8 +142,8 @@ def verdict(law: Law, relation: Relation) -> str:
     nearest = float(np.clip(law.n, *relation.published))
     if law.holds(nearest):
         return "within, but so is 0: too few runs, or too much alike" if law.holds(0.0) else "within"
-    off = abs(law.n - nearest) / law.error if law.error > 0 else np.inf
-    return f"{'above' if law.n > nearest else 'below'} by {off:.2g} standard errors"
+    side, off = "above" if law.n > nearest else "below", abs(law.n - nearest)
+    return f"{side} by " + (f"{off / law.error:.2g}" if off < MANY * law.error else f"over {MANY}") + " standard errors"
 
 
 def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iterator[str]:
@@ -176,5 +178,6 @@ def on_realisations(names: Sequence[str]) -> Iterator[str]:
     """Which cases are single runs, whose spread is not known."""
     single = [name for name in dict.fromkeys(names) if names.count(name) == 1]
     if single:
-        yield ("errors do not know the spread of " + ("any case" if len(single) == len(set(names)) else ", ".join(single))
-               + ": one realisation each; give the study [ensemble] realisations = 3 or more")
+        which = "any case" if len(single) == len(set(names)) else ", ".join(single)
+        yield (f"errors do not know the spread of {which}: one realisation each; give the study [ensemble] "
+               "realisations = 3 or more")

@@ -47,7 +47,8 @@ def measure(run: RunFolder) -> tuple[dict[str, np.ndarray], list[Slopes]]:
 def of_frame(grains: Grains, dune: Dune, shape: Slopes) -> dict[str, float]:
     return {"t": grains.time, "stoss_angle": shape.stoss, "slip_face_angle": shape.slip_face,
             "crest_height": shape.crest_height, "crest_x": dune.crest_x, "brink_x": shape.brink_x, "L": dune.L,
-            "packing": grain_fluxes.packing(grains, dune), "asymmetry": asymmetry(dune.surface, dune.centroid[2])}
+            "packing": grain_fluxes.packing(grains, dune), "solid_height": grain_fluxes.solid_height(grains, dune),
+            "asymmetry": asymmetry(dune.surface, dune.centroid[2])}
 
 
 def fluxes(last: tuple[Grains, Dune, Slopes] | None, grains: Grains, bed: Bed) -> dict[str, float]:
@@ -65,14 +66,14 @@ def fluxes(last: tuple[Grains, Dune, Slopes] | None, grains: Grains, bed: Bed) -
 
 
 def migration(run: RunFolder, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The flux that moves a dune of this height without changing it, phi c H [m2/s], and L/c [s]; not numbers without
-    dune.csv."""
+    """The flux that moves a dune of this height without changing it, phi c H [m2/s], with the packing phi of its inside
+    or with phi H at its crest; and L/c [s]. Not numbers without dune.csv."""
     unknown = {"t": np.zeros(1), "celerity": np.full(1, np.nan)}
     main = run.main_dune_columns if run.dune_columns else unknown
     celerity = np.interp(table["t"], main["t"], main["celerity"])
     with np.errstate(divide="ignore"):
         return {"celerity": celerity, "migration_flux": table["packing"] * celerity * table["crest_height"],
-                "turnover_time": table["L"] / celerity}
+                "crest_migration_flux": celerity * table["solid_height"], "turnover_time": table["L"] / celerity}
 
 
 def over_window(table: dict[str, np.ndarray], names: tuple[str, ...], start: float | None,
