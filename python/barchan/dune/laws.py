@@ -19,8 +19,7 @@ from barchan.io import horn_lengths
 from barchan.io.study_folder import BY_NAME, Case
 from barchan.stats import in_window
 
-FLUXES = ("crest_flux", "crest_migration_flux")
-IN_WORDS = {"celerity_L": "celerity L", "crest_flux": "flux over the crest", "crest_migration_flux": "phi c H"}
+IN_WORDS = {"celerity_L": "celerity L", "crest_flux": "flux over the crest", "phi_c_H": "phi c H"}
 MANY = 100  # standard errors: beyond that they are not counted
 OF_THE_FLOW = ("fluid.", "initial.fluid")  # keys that differ between cases of one size and several velocities
 
@@ -60,15 +59,17 @@ RELATIONS = {
     "horn": Relation("horn", "L", "line"),
     "loss": Relation("loss", "L", "power"),
     "formation_time": Relation("formation_time", "L", "power"),
-    "flux": Relation("crest_flux", "crest_migration_flux", "ratio", (1, 1), "Bagnold 1941"),
+    "flux": Relation("crest_flux", "phi_c_H", "ratio", (1, 1), "Bagnold 1941"),
 }
 
 
 def measure(study: Any, start: float | None = None, end: float | None = None) -> dict[str, np.ndarray]:
-    """Columns of all runs of the study whose main dune has four times in the window: the values of `of_run`, and
-    celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and crest_migration_flux = phi c H [m2/s], not numbers where the
-    run lacks the files; mean_velocity [m/s], 0 where none is held; size, the same for cases that differ in the flow
-    alone."""
+    """Columns of all runs of the study whose main dune has four times in the window.
+
+    The values of `of_run`; celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and phi_c_H [m2/s], not numbers
+    where the run lacks the files; mean_velocity [m/s], 0 where none is held; size, a label that is the same for cases
+    that differ in the flow alone.
+    """
     rows = []
     for case in study.cases:
         for number, run in enumerate(case.runs, 1):
@@ -76,7 +77,7 @@ def measure(study: Any, start: float | None = None, end: float | None = None) ->
             if values:
                 rows.append({"case": case.name, "realisation": number, **values,
                              "celerity_L": values["celerity"] * values["L"], **of_flow(run, start, end),
-                             **over_crest(run, start, end), "size": size_of(case)})
+                             **over_crest(run, values["celerity"], start, end), "size": size_of(case)})
     return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else {"case": 0})}
 
 
@@ -101,13 +102,15 @@ def of_flow(run: Any, start: float | None, end: float | None) -> dict[str, float
     return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": run.mean_velocity or 0.0}
 
 
-def over_crest(run: Any, start: float | None, end: float | None) -> dict[str, float]:
-    """Flux over the crest and phi c H [m2/s]: docs/dune-measures.md, "Slopes and transport"."""
+def over_crest(run: Any, celerity: float, start: float | None, end: float | None) -> dict[str, float]:
+    """Flux over the crest and phi c H [m2/s], both of the window: docs/dune-measures.md, "Slopes and transport"."""
+    names = ("crest_flux", "solid_height")
     try:
-        known = transport.over_window(transport.measure(run)[0], FLUXES, start, end)
+        known = transport.over_window(transport.measure(run)[0], names, start, end)
     except MissingData:
         known = {}
-    return {name: known.get(name, np.nan) for name in FLUXES}
+    flux, height = (known.get(name, np.nan) for name in names)
+    return {"crest_flux": flux, "phi_c_H": celerity * height}
 
 
 def size_of(case: Case) -> str:
@@ -156,7 +159,7 @@ def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iter
 def with_fit(law: Law, relation: Relation) -> str:
     a = f", a = {1e3 * law.a:.3g} mm" if relation.kind == "line" and len(law.centres) == 1 else ""
     runs = f"{law.runs} runs" if law.runs == law.known else f"{law.runs} of {law.known} runs, the others not positive"
-    said = (f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})")
+    said = f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})"
     if relation.published is None:
         return said
     low, high = relation.published
@@ -170,7 +173,7 @@ def without_fit(table: dict[str, np.ndarray], relation: Relation) -> str:
     if relation.among == "size" and len(set(table["mean_velocity"])) < 2:
         return ": needs cases that differ in fluid.mean_velocity"
     if not known.any():
-        return ": not known in any run" + (" (needs tracks.h5 or grains.h5)" if relation.y in FLUXES else "")
+        return ": not known in any run" + (" (needs tracks.h5 or grains.h5)" if relation.y == "crest_flux" else "")
     return f": too few runs to fit, or cases alike in {relation.x}"
 
 

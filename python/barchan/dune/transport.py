@@ -66,14 +66,14 @@ def fluxes(last: tuple[Grains, Dune, Slopes] | None, grains: Grains, bed: Bed) -
 
 
 def migration(run: RunFolder, table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The flux that moves a dune of this height without changing it, phi c H [m2/s], with the packing phi of its inside
-    or with phi H at its crest; and L/c [s]. Not numbers without dune.csv."""
+    """The flux that moves a dune of this height without changing it, phi c H [m2/s], and L/c [s]; not numbers without
+    dune.csv."""
     unknown = {"t": np.zeros(1), "celerity": np.full(1, np.nan)}
     main = run.main_dune_columns if run.dune_columns else unknown
     celerity = np.interp(table["t"], main["t"], main["celerity"])
     with np.errstate(divide="ignore"):
         return {"celerity": celerity, "migration_flux": table["packing"] * celerity * table["crest_height"],
-                "crest_migration_flux": celerity * table["solid_height"], "turnover_time": table["L"] / celerity}
+                "turnover_time": table["L"] / celerity}
 
 
 def over_window(table: dict[str, np.ndarray], names: tuple[str, ...], start: float | None,

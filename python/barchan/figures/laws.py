@@ -20,7 +20,7 @@ AXES = {
     "horn": ("horn length (mm)", 1e3), "celerity": ("celerity $c$ (mm/s)", 1e3),
     "celerity_L": ("$c\\,L$ (mm$^2$/s)", 1e6), "u_star": ("friction velocity $u_*$ (mm/s)", 1e3),
     "loss": ("loss (% of the grains / s)", 1e2), "formation_time": ("formation time (s)", 1.0),
-    "crest_flux": ("flux over the crest (mm$^2$/s)", 1e6), "crest_migration_flux": ("$\\phi\\, c\\, H$ (mm$^2$/s)", 1e6),
+    "crest_flux": ("flux over the crest (mm$^2$/s)", 1e6), "phi_c_H": ("$\\phi\\, c\\, H$ (mm$^2$/s)", 1e6),
 }
 
 
