@@ -99,7 +99,7 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
 def of_flow(run: Any, start: float | None, end: float | None) -> dict[str, float]:
     history = run.history_columns
     u_star = history["u_star"][in_window(history["t"], start, end)] if history else np.empty(0)
-    return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": run.mean_velocity or 0.0}
+    return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": round(run.mean_velocity or 0.0, 9)}
 
 
 def over_crest(run: Any, celerity: float, start: float | None, end: float | None) -> dict[str, float]:
