@@ -11,6 +11,7 @@ import numpy as np
 
 from barchan.stats import student_t
 
+Labels = Sequence | np.ndarray
 SMALL = 1e-12  # of the values: nearer to each other the cases lie at one place
 
 
@@ -45,8 +46,8 @@ class Law:
         return abs(self.n - n) <= self.interval + SMALL * abs(n)
 
 
-def fit(x: np.ndarray, y: np.ndarray, kind: str, cases: Sequence | None = None,
-        groups: Sequence | None = None) -> Law | None:
+def fit(x: np.ndarray, y: np.ndarray, kind: str, cases: Labels | None = None,
+        groups: Labels | None = None) -> Law | None:
     """Least squares of the means of the cases, each counted with its runs; of the logarithms for a power.
 
     x, y (n): of each run; what is no number, and of a power what is not positive, is left out. cases (n): labels, None:
@@ -56,8 +57,8 @@ def fit(x: np.ndarray, y: np.ndarray, kind: str, cases: Sequence | None = None,
     finite = np.isfinite(x) & np.isfinite(y)
     used = finite & (x > 0) & (y > 0) if kind == "power" else finite
     x, y = (np.log(values[used]) if kind == "power" else values[used] for values in (x, y))
-    case, group = (indices(labels, used) for labels in (np.arange(len(used)) if cases is None else cases,
-                                                         np.zeros(len(used)) if groups is None else groups))
+    case = indices(np.arange(len(used)) if cases is None else cases, used)
+    group = indices(np.zeros(len(used)) if groups is None else groups, used)
     size = np.sqrt(x @ x)
     if kind == "ratio":
         weight, centres = np.ones(len(x)), np.zeros((1, 2))
@@ -77,7 +78,7 @@ def fit(x: np.ndarray, y: np.ndarray, kind: str, cases: Sequence | None = None,
                int(np.count_nonzero(finite)), centres)
 
 
-def indices(labels: Sequence | np.ndarray, used: np.ndarray) -> np.ndarray:
+def indices(labels: Labels, used: np.ndarray) -> np.ndarray:
     """(m) 0, 1, ... of the labels of the runs that are used, in the order of the sorted labels."""
     return np.unique(np.asarray(labels)[used], return_inverse=True)[1]
 

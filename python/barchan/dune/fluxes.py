@@ -5,7 +5,7 @@ Definitions: docs/dune-measures.md, "Slopes and transport". SI units.
 
 import numpy as np
 
-from barchan.dune.shape import Bed, Dune
+from barchan.dune.shape import BIN, HALF_WIDTH, Bed, Dune
 from barchan.errors import MissingData
 from barchan.io.frames import Grains
 
@@ -47,6 +47,13 @@ def packing(grains: Grains, dune: Dune) -> float:
     inside = surface.in_bins(deep, dune.x, dune.z)
     y, r = grains.x[rows, 1][inside], 0.5 * grains.d[rows][inside]
     return float(np.sum(slice_volumes(low - y, high - y, r)) / (area * (high - low)))
+
+
+def solid_height(grains: Grains, dune: Dune) -> float:
+    """phi H at the crest of a dune of any height: solid volume over floor area of a bin to each side of it [m]."""
+    d = grains.d.mean()
+    near = (abs(dune.x - dune.crest_x) < BIN * d) & (abs(dune.z - dune.centroid[2]) < HALF_WIDTH * d)
+    return float(np.sum(volumes(grains.d[dune.rows][near])) / (4 * BIN * HALF_WIDTH * d**2))
 
 
 def slice_volumes(low: np.ndarray, high: np.ndarray, r: np.ndarray) -> np.ndarray:

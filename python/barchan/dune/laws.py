@@ -19,7 +19,8 @@ from barchan.io import horn_lengths
 from barchan.io.study_folder import BY_NAME, Case
 from barchan.stats import in_window
 
-FLUXES = ("crest_flux", "migration_flux")
+IN_WORDS = {"celerity_L": "celerity L", "crest_flux": "flux over the crest", "phi_c_H": "phi c H"}
+MANY = 100  # standard errors: beyond that they are not counted
 OF_THE_FLOW = ("fluid.", "initial.fluid")  # keys that differ between cases of one size and several velocities
 
 
@@ -40,8 +41,8 @@ class Relation:
 
     @property
     def formula(self) -> str:
-        return {"power": f"{self.y} ~ {self.x}^n", "line": f"{self.y} = a + n {self.x}",
-                "ratio": f"{self.y} = n {self.x}"}[self.kind]
+        x, y = (IN_WORDS.get(name, name) for name in (self.x, self.y))
+        return {"power": f"{y} ~ {x}^n", "line": f"{y} = a + n {x}", "ratio": f"{y} = n {x}"}[self.kind]
 
     def fit(self, table: dict[str, np.ndarray]) -> Law | None:
         groups = table[self.among] if self.kind != "ratio" else None
@@ -58,15 +59,17 @@ RELATIONS = {
     "horn": Relation("horn", "L", "line"),
     "loss": Relation("loss", "L", "power"),
     "formation_time": Relation("formation_time", "L", "power"),
-    "flux": Relation("crest_flux", "migration_flux", "ratio", (1, 1), "Bagnold 1941"),
+    "flux": Relation("crest_flux", "phi_c_H", "ratio", (1, 1), "Bagnold 1941"),
 }
 
 
 def measure(study: Any, start: float | None = None, end: float | None = None) -> dict[str, np.ndarray]:
-    """Columns of all runs of the study whose main dune has four times in the window: the values of `of_run`, and
-    celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and migration_flux = phi c H [m2/s], not numbers where the
-    run lacks the files; mean_velocity [m/s], 0 where none is held; size, the same for cases that differ in the flow
-    alone."""
+    """Columns of all runs of the study whose main dune has four times in the window.
+
+    The values of `of_run`; celerity_L = celerity L [m2/s]; u_star [m/s], crest_flux and phi_c_H [m2/s], not numbers
+    where the run lacks the files; mean_velocity [m/s], 0 where none is held; size, a label that is the same for cases
+    that differ in the flow alone.
+    """
     rows = []
     for case in study.cases:
         for number, run in enumerate(case.runs, 1):
@@ -74,7 +77,7 @@ def measure(study: Any, start: float | None = None, end: float | None = None) ->
             if values:
                 rows.append({"case": case.name, "realisation": number, **values,
                              "celerity_L": values["celerity"] * values["L"], **of_flow(run, start, end),
-                             **over_crest(run, start, end), "size": size_of(case)})
+                             **over_crest(run, values["celerity"], start, end), "size": size_of(case)})
     return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else {"case": 0})}
 
 
@@ -96,16 +99,18 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
 def of_flow(run: Any, start: float | None, end: float | None) -> dict[str, float]:
     history = run.history_columns
     u_star = history["u_star"][in_window(history["t"], start, end)] if history else np.empty(0)
-    return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": run.mean_velocity or 0.0}
+    return {"u_star": u_star.mean() if len(u_star) else np.nan, "mean_velocity": round(run.mean_velocity or 0.0, 9)}
 
 
-def over_crest(run: Any, start: float | None, end: float | None) -> dict[str, float]:
-    """Flux over the crest and phi c H [m2/s]: docs/dune-measures.md, "Slopes and transport"."""
+def over_crest(run: Any, celerity: float, start: float | None, end: float | None) -> dict[str, float]:
+    """Flux over the crest and phi c H [m2/s], both of the window: docs/dune-measures.md, "Slopes and transport"."""
+    names = ("crest_flux", "solid_height")
     try:
-        known = transport.over_window(transport.measure(run)[0], FLUXES, start, end)
+        known = transport.over_window(transport.measure(run)[0], names, start, end)
     except MissingData:
         known = {}
-    return {name: known.get(name, np.nan) for name in FLUXES}
+    flux, height = (known.get(name, np.nan) for name in names)
+    return {"crest_flux": flux, "phi_c_H": celerity * height}
 
 
 def size_of(case: Case) -> str:
@@ -140,8 +145,8 @@ def verdict(law: Law, relation: Relation) -> str:
     nearest = float(np.clip(law.n, *relation.published))
     if law.holds(nearest):
         return "within, but so is 0: too few runs, or too much alike" if law.holds(0.0) else "within"
-    off = abs(law.n - nearest) / law.error if law.error > 0 else np.inf
-    return f"{'above' if law.n > nearest else 'below'} by {off:.2g} standard errors"
+    side, off = "above" if law.n > nearest else "below", abs(law.n - nearest)
+    return f"{side} by " + (f"{off / law.error:.2g}" if off < MANY * law.error else f"over {MANY}") + " standard errors"
 
 
 def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iterator[str]:
@@ -154,7 +159,7 @@ def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iter
 def with_fit(law: Law, relation: Relation) -> str:
     a = f", a = {1e3 * law.a:.3g} mm" if relation.kind == "line" and len(law.centres) == 1 else ""
     runs = f"{law.runs} runs" if law.runs == law.known else f"{law.runs} of {law.known} runs, the others not positive"
-    said = (f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})")
+    said = f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})"
     if relation.published is None:
         return said
     low, high = relation.published
@@ -168,7 +173,7 @@ def without_fit(table: dict[str, np.ndarray], relation: Relation) -> str:
     if relation.among == "size" and len(set(table["mean_velocity"])) < 2:
         return ": needs cases that differ in fluid.mean_velocity"
     if not known.any():
-        return ": not known in any run" + (" (needs tracks.h5 or grains.h5)" if relation.y in FLUXES else "")
+        return ": not known in any run" + (" (needs tracks.h5 or grains.h5)" if relation.y == "crest_flux" else "")
     return f": too few runs to fit, or cases alike in {relation.x}"
 
 
@@ -176,5 +181,6 @@ def on_realisations(names: Sequence[str]) -> Iterator[str]:
     """Which cases are single runs, whose spread is not known."""
     single = [name for name in dict.fromkeys(names) if names.count(name) == 1]
     if single:
-        yield ("errors do not know the spread of " + ("any case" if len(single) == len(set(names)) else ", ".join(single))
-               + ": one realisation each; give the study [ensemble] realisations = 3 or more")
+        which = "any case" if len(single) == len(set(names)) else ", ".join(single)
+        yield (f"errors do not know the spread of {which}: one realisation each; give the study [ensemble] "
+               "realisations = 3 or more")

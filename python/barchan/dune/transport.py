@@ -47,7 +47,8 @@ def measure(run: RunFolder) -> tuple[dict[str, np.ndarray], list[Slopes]]:
 def of_frame(grains: Grains, dune: Dune, shape: Slopes) -> dict[str, float]:
     return {"t": grains.time, "stoss_angle": shape.stoss, "slip_face_angle": shape.slip_face,
             "crest_height": shape.crest_height, "crest_x": dune.crest_x, "brink_x": shape.brink_x, "L": dune.L,
-            "packing": grain_fluxes.packing(grains, dune), "asymmetry": asymmetry(dune.surface, dune.centroid[2])}
+            "packing": grain_fluxes.packing(grains, dune), "solid_height": grain_fluxes.solid_height(grains, dune),
+            "asymmetry": asymmetry(dune.surface, dune.centroid[2])}
 
 
 def fluxes(last: tuple[Grains, Dune, Slopes] | None, grains: Grains, bed: Bed) -> dict[str, float]:

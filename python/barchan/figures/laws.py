@@ -6,6 +6,7 @@ of the fit. Definitions: docs/studies.md, "Laws". Asked for by its name it says 
 """
 
 import numpy as np
+from matplotlib.ticker import LogFormatter
 
 from barchan.dune.laws import RELATIONS, measure, need_two_cases, sentences, verdict
 from barchan.figures import style
@@ -19,7 +20,7 @@ AXES = {
     "horn": ("horn length (mm)", 1e3), "celerity": ("celerity $c$ (mm/s)", 1e3),
     "celerity_L": ("$c\\,L$ (mm$^2$/s)", 1e6), "u_star": ("friction velocity $u_*$ (mm/s)", 1e3),
     "loss": ("loss (% of the grains / s)", 1e2), "formation_time": ("formation time (s)", 1.0),
-    "crest_flux": ("flux over the crest (mm$^2$/s)", 1e6), "migration_flux": ("$\\phi\\, c\\, H$ (mm$^2$/s)", 1e6),
+    "crest_flux": ("flux over the crest (mm$^2$/s)", 1e6), "phi_c_H": ("$\\phi\\, c\\, H$ (mm$^2$/s)", 1e6),
 }
 
 
@@ -44,6 +45,9 @@ def draw_law(axes, table, relation, law):
     axes.set(xlabel=x_label, ylabel=y_label)
     if relation.kind == "power" and ((x > 0) & (y > 0)).any():
         axes.set(xscale="log", yscale="log")
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(LogFormatter())
+            axis.set_minor_formatter(LogFormatter(minor_thresholds=(2, 0.5)))
     if law is None:
         axes.text(0.5, 0.95, "no fit", transform=axes.transAxes, ha="center", va="top", color=style.GREY)
         return
