@@ -144,6 +144,18 @@ std::filesystem::path written(const std::filesystem::path& file, const std::stri
   return file;
 }
 
+TEST(Kinds, SizesThatDifferMuchWantKindsOfTheirOwn) {
+  const std::string text = grain_case("[[grains.kind]]\nname = \"a\"\n");
+  const auto warned = [&](const std::string& sizes, const std::string& more) {
+    const Case the_case = load_case_text(text + more, "case.toml", {"grains.sizes=" + sizes});
+    const Lines lines = config_warnings(the_case.config, the_case.sizes);
+    return !lines.empty() && lines[0].find("diameters of 1 to") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("[[2e-4, 50], [7e-4, 5]]", ""));
+  EXPECT_FALSE(warned("[[2e-4, 50], [6e-4, 5]]", ""));
+  EXPECT_FALSE(warned("[[2e-4, 50], [7e-4, 5]]", "[[grains.kind]]\nname = \"b\"\n"));
+}
+
 InitialGrains poured(const std::vector<SizeClass>& sizes) {
   return pour_grains({.centre = {0.05, 0.02}, .radius = 4e-3}, sizes, {0.1, 0.025, 0.04});
 }
