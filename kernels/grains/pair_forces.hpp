@@ -4,6 +4,7 @@
 
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_tile.hpp"
+#include "kernels/grains/half_step_slip.hpp"
 #include "kernels/grains/list_validity.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "kernels/math/prefetch.hpp"
@@ -163,10 +164,16 @@ struct PairForces {
     const Vec3 omega_a = s.omega_a.vec(q), omega_b = s.omega_b.vec(q);
     const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
     s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
-    const Vec3 arm_omega = fma(arm_a, omega_a, arm_b * omega_b);
+    const Vec3 arm_omega = fma(arm_a, omega_a, arm_b * omega_b), velocity = s.slip.vec(q);
+    Vec3 slip;
+    if constexpr (Law::kMany) {
+      slip = slip_half_a_step_ago(separation, normal, velocity, arm_omega, law.dt);
+    } else {
+      slip = contact_slip(velocity, arm_omega, normal);
+    }
     s.contacts.store(q, {.normal = normal,
                          .delta_n = delta_n,
-                         .slip = contact_slip(s.slip.vec(q), arm_omega, normal),
+                         .slip = slip,
                          .omega_difference = omega_a - omega_b,
                          .r_eff = effective.r,
                          .m_eff = effective.m});

@@ -233,6 +233,13 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
       n.d_min);
   found.warning_if(c.grains->skin > n.d_min, {"grains.skin", "grains.sizes"},
                    "is above the smallest diameter: needlessly long neighbour lists");
+  found.warning_if(
+      n.d_max > 3 * n.d_min && c.grains->kinds.size() < 2 && !c.grains->frozen,
+      {"grains.sizes", "grains.kind"},
+      "holds diameters of 1 to {:.3g}: beyond 3 friction may hold small grains between "
+      "large ones; give the small ones a [[grains.kind]] of their own "
+      "(docs/numerics-grains.md)",
+      n.d_max / n.d_min);
   // The neighbour search looks at the columns on either side, which must be three different ones.
   const double reach = 3 * (n.d_max + c.grains->skin);
   found.error_if(

@@ -86,7 +86,7 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
-    const auto k = static_cast<std::size_t>(initial.kind_of(q));
+    const std::size_t k = density.size() > 1 ? static_cast<std::size_t>(initial.kind_of(q)) : 0;
     kin(g) = GrainKinematics{.x = initial.x[q],
                              .r = r,
                              .u = initial.u[q],

@@ -90,7 +90,7 @@ GrainState make_grain_entries(int n, MPI_Comm ranks);
 /// their columns.
 GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> density,
                             MPI_Comm ranks = MPI_COMM_SELF);
-/// The same of one density.
+/// The same of one density for all.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.

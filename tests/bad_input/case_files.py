@@ -131,4 +131,25 @@ STARTS = [
               files={"flow/case.toml": DUNE}, command="run case.toml --quiet"),
 ]
 
-ENTRIES = {"syntax": SYNTAX, "keys": KEYS, "values": VALUES, "contradictions": CONTRADICTIONS, "starts": STARTS}
+def kinds(name, sections, says, **more):
+    """Sections [[grains.kind]] and [[grains.pair]] after the case."""
+    return Entry(name, "", says, text=DUNE + sections, **more)
+
+
+GLASS = '[[grains.kind]]\nname = "glass"\n'
+KINDS = [
+    kinds("kinds of one name", GLASS + GLASS, "case.toml | must be another one for each kind"),
+    kinds("a kind without a name", "[[grains.kind]]\ndensity = 4100\n", "case.toml | name: required key is missing"),
+    kinds("a name with a comma", '[[grains.kind]]\nname = "a,b"\n', "case.toml | must be a word of letters"),
+    kinds("a kind as a section", '[grains.kind]\nname = "glass"\n', "case.toml | must be sections, [[grains.kind]]"),
+    kinds("five kinds", "".join(f'[[grains.kind]]\nname = "k{n}"\n' for n in range(5)), "case.toml | at most 4 sections"),
+    kinds("a pair of no kinds", '[[grains.pair]]\nkinds = ["a", "b"]\nrestitution = 0.5\n',
+          "case.toml | must be absent without [[grains.kind]]"),
+    kinds("a pair with a stranger", GLASS + '[[grains.pair]]\nkinds = ["glass", "glas"]\nrestitution = 0.5\n',
+          'case.toml | must be names of [[grains.kind]] | did you mean "glass"'),
+    kinds("a kind with a material of nothing", GLASS + "youngs_modulus = 0\n", "case.toml | youngs_modulus = 0: must be at least"),
+    kinds("a kind that floats", GLASS + "density = 900\n", 'warning | those of "glass" float', **GOOD),
+]
+
+
+ENTRIES = {"syntax": SYNTAX, "keys": KEYS, "values": VALUES, "contradictions": CONTRADICTIONS, "kinds": KINDS, "starts": STARTS}

@@ -57,6 +57,29 @@ run 3 heap.toml --out halves --set time.end=0.003
 run 3 heap.toml --out halves --restart halves/restart_0000000012.h5
 same bits whole halves
 
+# Two kinds of grains, which take theirs along from rank to rank and through restarts.
+cat heap.toml - > kinds.toml <<'TOML'
+[[grains.kind]]
+name = "glass"
+[[grains.kind]]
+name = "zirconium"
+density = 4100
+youngs_modulus = 6e5
+sizes = [[0.2e-3, 400]]
+[[grains.pair]]
+kinds = ["glass", "zirconium"]
+sliding_friction = 0.3
+TOML
+run 1 kinds.toml --out kinds
+run 3 kinds.toml --out kinds-on-3
+same grains kinds kinds-on-3
+for ranks in 1 3; do
+  run "$ranks" kinds.toml --out "kinds-halves-$ranks" --set time.end=0.003
+  run "$ranks" kinds.toml --out "kinds-halves-$ranks" --restart "kinds-halves-$ranks/restart_0000000012.h5"
+done
+same bits kinds kinds-halves-1
+same bits kinds-on-3 kinds-halves-3
+
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 
 # A window that follows its dune, with grains that leave and come in.

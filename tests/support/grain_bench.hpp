@@ -13,7 +13,8 @@ namespace barchan::test {
 /// A case with its solver: list, contacts and integrator as in a run.
 struct GrainBench {
   GrainBench(const Config& config, const InitialGrains& grains, MPI_Comm ranks = MPI_COMM_SELF)
-      : state(make_grain_state(grains, config.grains->density, ranks)), solver(config, state) {
+      : state(make_grain_state(grains, densities_of(*config.grains), ranks)),
+        solver(config, state) {
     solver.start(state);
   }
 

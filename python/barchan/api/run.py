@@ -9,7 +9,7 @@ import numpy as np
 
 from barchan.errors import BarchanError, MissingData, optional
 from barchan.io import columns, labelled
-from barchan.io.frames import FrameFile
+from barchan.io.frames import FrameFile, names_of
 from barchan.io.progress import Progress
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import NAME
@@ -72,7 +72,8 @@ class Run(RunFolder):
         """pandas.DataFrame of the grains at the frame nearest to t [s], or of number `frame`; the last by default.
 
         One row for each grain, indexed by id: x, y, z, d [m], u, v, w [m/s], omega_x, ... [rad/s], dune (label, -1: in
-        none), and forces [N] where the run has written them. Its time [s] is attrs["time"], units are attrs["units"].
+        none), kind (an index of attrs["kinds"], the names) where there are several, and forces [N] where the run has
+        written them. Its time [s] is attrs["time"], units are attrs["units"].
         """
         file = self.need_grains()
         return self._grains_of(file, file.index(t, frame))
@@ -90,7 +91,10 @@ class Run(RunFolder):
             group = content[name]
             order = np.argsort(group["id"][:])
             found = {key: group[key][:][order] for key in group}
-        return labelled.grains_frame(time, found)
+            kinds = names_of(group, "kind")
+        grains = labelled.grains_frame(time, found)
+        grains.attrs["kinds"] = kinds
+        return grains
 
     def track(self, ids: Sequence[int], progress: bool = True) -> Any:
         """pandas.DataFrame of where grains are in every frame: id, t [s], x, y, z [m], one row for each that is inside.

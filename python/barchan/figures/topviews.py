@@ -6,6 +6,7 @@ the page and the left horn, at z < Cz, is the upper one.
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import ListedColormap
 
 from barchan.errors import MissingData
 from barchan.figures import style
@@ -44,7 +45,7 @@ def draw(run, ax=None):
     panels = list(grid.ravel())  # time goes along the rows
     extent = [1e3 * window[0], 1e3 * window[1], 1e3 * window[3], 1e3 * window[2]]
     for axes, grains in zip(panels, frames):
-        picture = top_view(grains.x, grains.d, window, round(FINER * style.DPI * panel_width), top)
+        picture = top_view(grains, window, round(FINER * style.DPI * panel_width), top)
         axes.imshow(picture, extent=extent, aspect="equal", interpolation="antialiased")
         axes.set(xticks=[], yticks=[])
         axes.text(0.012, 0.95, f"$t$ = {grains.time:.3g} s", transform=axes.transAxes, va="top")
@@ -54,7 +55,7 @@ def draw(run, ax=None):
     share = length / (1e3 * (window[1] - window[0]))
     style.scale_bar(panels[0], length, 0.985 - share, 0.06)
     flow_arrow(panels[0])
-    colour_bar(figure, grid, top)
+    colour_key(figure, grid, top, frames[0].groups, frames[0].kinds)
     return figure
 
 
@@ -65,8 +66,17 @@ def flow_arrow(axes):
     axes.text(0.87, 0.9, "flow", transform=axes.transAxes, ha="right", va="center")
 
 
-def colour_bar(figure, grid, top):
-    scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
+def colour_key(figure, grid, top, groups=(), kinds=()):
+    """What the colours of `top_view` mean: kinds or heaps of these names, or heights up to `top` [m]."""
+    if groups:
+        colours = ListedColormap([style.GROUPS[n % len(style.GROUPS)] for n in range(len(groups))])
+        scale = plt.cm.ScalarMappable(plt.Normalize(-0.5, len(groups) - 0.5), colours)
+    else:
+        scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
     bar = figure.colorbar(scale, ax=grid, location="bottom", shrink=0.5, aspect=35, pad=0.02)
-    bar.set_label("height above the wall (mm)")
+    name = "kind of the grain" if kinds else "heap that a grain came from"
+    bar.set_label(name if groups else "height above the wall (mm)")
+    if groups:
+        bar.set_ticks(range(len(groups)), labels=groups)
+        bar.ax.tick_params(length=0)
     bar.outline.set_linewidth(0.6)

@@ -6,14 +6,15 @@ from pathlib import Path
 import numpy as np
 
 from barchan.errors import BarchanError
-from barchan.io.hdf5 import Root, open_file, patiently
+from barchan.io.hdf5 import Group, Root, open_file, patiently
 
 
 @dataclass
 class Grains:
     """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
 
-    dune and u are None where the frame has none.
+    heap (N): number of the heap that each came from, the place of its name in heaps; kind (N): that of its kind in
+    kinds. dune, u, heap and kind are None where the frame has none.
     """
 
     time: float
@@ -22,6 +23,27 @@ class Grains:
     d: np.ndarray
     dune: np.ndarray | None = None
     u: np.ndarray | None = None
+    heap: np.ndarray | None = None
+    heaps: tuple[str, ...] = ()
+    kind: np.ndarray | None = None
+    kinds: tuple[str, ...] = ()
+
+    @property
+    def group(self) -> np.ndarray | None:
+        """What pictures colour the grains by, an index of `groups` (N): kinds, else heaps, else None: heights."""
+        return self.heap if self.kind is None else self.kind
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        return self.kinds or self.heaps
+
+
+def names_of(frame: Group, name: str) -> tuple[str, ...]:
+    """Names of the heaps or kinds whose numbers an array "heap" or "kind" of a frame holds; () where it has none."""
+    if name not in frame:
+        return ()
+    names = tuple(str(frame[name].attrs.get("names", "")).splitlines())
+    return names + tuple(f"{name} {n + 1}" for n in range(len(names), int(np.max(frame[name][:], initial=-1)) + 1))
 
 
 @dataclass

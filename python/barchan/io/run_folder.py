@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
-from barchan.io.frames import Flow, FrameFile, Grains
+from barchan.io.frames import Flow, FrameFile, Grains, names_of
 from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
 
@@ -141,8 +141,9 @@ class RunFolder:
             group = content[name]
             order = np.argsort(group["id"][:])
             number, x, d = (group[key][:][order] for key in ("id", "x", "d"))
-            dune, u = (group[key][:][order] if key in group else None for key in ("dune", "u"))
-        return Grains(time, number, x, d, dune, u)
+            dune, u, heap, kind = (group[key][:][order] if key in group else None
+                                   for key in ("dune", "u", "heap", "kind"))
+            return Grains(time, number, x, d, dune, u, heap, names_of(group, "heap"), kind, names_of(group, "kind"))
 
     def flow_plane(self, index: int, z: float) -> Flow:
         """The cells nearest to the plane z = `z` [m] in frame `index`."""
