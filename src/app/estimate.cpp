@@ -10,6 +10,7 @@
 #include "src/app/machine_load.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/grains/grain_skins.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -67,7 +68,7 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   const Config& pours = planned.poured_in;
   // What loses no energy does not settle.
   if (config.grains->material.restitution == 1) return checked_grains(pours, {});
-  return packed_grains(*pours.initial.pour, pours.grains->sizes, pours.size);
+  return packed_grains(poured_heaps(pours), pours.size);
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <vector>
 
 namespace barchan {
 namespace {
@@ -123,6 +122,21 @@ std::string printable_lines(std::string_view text) {
     begin = end + 1;
   }
   return shown;
+}
+
+std::string as_lines(std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) text += name + "\n";
+  return text;
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  return lines;
 }
 
 }  // namespace barchan

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace barchan {
 
@@ -25,5 +26,9 @@ std::string printable(std::string_view text, std::size_t longest = std::string_v
 
 /// The same for a message of several lines: these stay.
 std::string printable_lines(std::string_view text);
+
+/// Names as one text for a file, a line each, and back.
+std::string as_lines(std::span<const std::string> names);
+std::vector<std::string> lines_of(std::string_view text);
 
 }  // namespace barchan

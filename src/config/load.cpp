@@ -8,6 +8,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/no_effect.hpp"
 #include "src/config/reading.hpp"
 #include "src/config/validate.hpp"
@@ -159,18 +160,18 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
                                one_for_both ? &flow : nullptr);
     from_starts = std::move(flow.problems);
     from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
+    const std::vector<HeapConfig> heaps = poured_heaps(config);
     loaded.result.random = (config.fluid && (initial.fluid == "turbulent" || flow.result.random)) ||
-                           (config.grains && (initial.pour || grains.result.random));
+                           (config.grains && (!heaps.empty() || grains.result.random));
     if (initial.realisation > 1 && !loaded.result.random && from_starts.empty()) {
       reading.report_conflict(
           "initial.realisation",
           "has other random numbers, and this case starts from none: its realisations "
           "would all be the same");
     }
-    if (config.grains) sizes = config.grains->sizes;
+    if (config.grains) sizes = heaps.empty() ? config.grains->sizes : sizes_of(heaps);
     if (sizes.empty()) sizes = grains.result.sizes;
-    const bool pours = config.grains && initial.pour;
-    resolve_lengths(reading, config, pours ? config.grains->sizes : grains.result.sizes,
+    resolve_lengths(reading, config, heaps.empty() ? grains.result.sizes : sizes,
                     from_starts.empty());
     report(validate(config, sizes), reading);
     if (initial.fluid.extension() == ".toml")

@@ -24,6 +24,18 @@ std::pair<std::string, std::string> split(const std::string& dotted) {
   return {dotted.substr(0, dot), dotted.substr(dot + 1)};
 }
 
+/// A key of one of several sections, "initial.heap.2.radius", as that of all of them.
+std::string without_numbers(std::string_view dotted) {
+  std::string key;
+  while (!dotted.empty()) {
+    const std::size_t dot = std::min(dotted.find('.'), dotted.size());
+    const std::string_view part = dotted.substr(0, dot);
+    if (part.find_first_not_of("0123456789") != part.npos) key = join(key, part);
+    dotted.remove_prefix(std::min(dot + 1, dotted.size()));
+  }
+  return key;
+}
+
 /// A key as TOML needs it written, and a terminal can show it.
 std::string shown_key(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
@@ -207,7 +219,7 @@ void ConfigReader::report_error(const std::string& dotted, const std::string& me
 }
 
 bool ConfigReader::is_bad(const std::string& dotted) const {
-  for (std::string part = dotted; !part.empty(); part = split(part).first) {
+  for (std::string part = without_numbers(dotted); !part.empty(); part = split(part).first) {
     if (bad_.contains(part)) return true;
   }
   return false;

@@ -2,6 +2,7 @@
 #include "src/config/toml_tree.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <sstream>
 
@@ -95,13 +96,22 @@ std::string to_string(const Location& where) {
   return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
 }
 
+const Node* Node::entry(std::string_view name) const {
+  if (const NodeTable* entries = table()) {
+    const auto at = entries->find(name);
+    return at == entries->end() ? nullptr : &at->second;
+  }
+  const auto* list = std::get_if<NodeArray>(&value);
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool whole = error == std::errc() && end == name.data() + name.size();
+  return list != nullptr && whole && number - 1 < list->size() ? &(*list)[number - 1] : nullptr;
+}
+
 const Node* Node::find(std::string_view dotted) const {
-  const NodeTable* entries = table();
-  if (entries == nullptr) return nullptr;
   const std::size_t dot = std::min(dotted.find('.'), dotted.size());
-  const auto at = entries->find(dotted.substr(0, dot));
-  if (at == entries->end()) return nullptr;
-  return dot == dotted.size() ? &at->second : at->second.find(dotted.substr(dot + 1));
+  const Node* at = entry(dotted.substr(0, dot));
+  return at == nullptr || dot == dotted.size() ? at : at->find(dotted.substr(dot + 1));
 }
 
 Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems) {

@@ -33,8 +33,12 @@ struct Node {
 
   const NodeTable* table() const { return std::get_if<NodeTable>(&value); }
   NodeTable* table() { return std::get_if<NodeTable>(&value); }
-  /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none.
+  /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none. Entries of
+  /// arrays are counted from 1: "initial.heap.2.radius".
   const Node* find(std::string_view dotted) const;
+
+ private:
+  const Node* entry(std::string_view name) const;
 };
 
 /// Something is wrong with what was typed, at `where`.

@@ -73,8 +73,11 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;
 
+  if (!initial.heap.empty()) add_heaps(s, initial.heap_names);
+
   const auto kin = mirror(s.kin);
   const auto id = mirror(s.id);
+  const auto heap = mirror(s.heap);
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
@@ -84,6 +87,7 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
                              .m = density * sphere_volume(r),
                              .omega = initial.omega[q]};
     id(g) = initial.id[q];
+    if (!initial.heap.empty()) heap(g) = initial.heap[q];
   }
   s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
   Real d3 = 0, d2 = 0;
@@ -96,7 +100,13 @@ GrainState make_grain_state(const InitialGrains& initial, Real density, MPI_Comm
   s.sauter_diameter = n_all > 0 ? d3 / d2 : 1;
   Kokkos::deep_copy(s.kin, kin);
   Kokkos::deep_copy(s.id, id);
+  Kokkos::deep_copy(s.heap, heap);
   return s;
+}
+
+void add_heaps(GrainState& s, const std::vector<std::string>& names) {
+  s.heap = Kokkos::View<std::uint8_t*>("heap", s.kin.extent(0));
+  s.heap_names = names;
 }
 
 void reserve_entries(GrainState& s, int n, unsigned uses) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kernels/math/vec3.hpp"
@@ -17,6 +18,7 @@ struct InitialGrains {
   std::vector<Vec3> omega;       // angular velocity [rad/s]
   // Of several kinds, or heaps, the index of each grain's; else empty.
   std::vector<std::uint8_t> kind = {}, heap = {};
+  std::vector<std::string> heap_names = {};  // may be empty: a table has none
 
   std::size_t size() const { return id.size(); }
   void add(std::int64_t new_id, double d, const Vec3& centre, const Vec3& velocity = {},

@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "src/base/atomic_file.hpp"
+#include "src/base/words.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/initial/grain_table.hpp"
 #include "src/io/checkpoint.hpp"
@@ -25,6 +26,12 @@ std::vector<Vec3> to_vectors(const std::vector<double>& numbers) {
     vectors[p] = {numbers[3 * p], numbers[3 * p + 1], numbers[3 * p + 2]};
   }
   return vectors;
+}
+
+std::vector<std::uint8_t> to_indices(const std::vector<std::int64_t>& numbers) {
+  std::vector<std::uint8_t> indices;
+  for (const std::int64_t number : numbers) indices.push_back(static_cast<std::uint8_t>(number));
+  return indices;
 }
 
 /// The same demands as on the rows of a table, for a file that somebody else may have made.
@@ -63,6 +70,10 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   grains.x = to_vectors(file.read<double>(group + "x", {n, 3}));
   grains.u = to_vectors(file.read<double>(group + "u", {n, 3}));
   grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
+  const std::string heap = group + "heap";
+  if (!file.exists(heap)) return grains;
+  grains.heap = to_indices(file.read<std::int64_t>(heap, {n}));
+  grains.heap_names = lines_of(file.attribute<std::string>(heap, "names"));
   return grains;
 }
 
@@ -78,6 +89,9 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     std::memcpy(static_cast<void*>(&kin), numbers.data() + g * width, sizeof(kin));
     grains.add(id[g], 2.0 * kin.r, kin.x, kin.u, kin.omega);
   }
+  if (!file.has("grains/heap")) return grains;
+  grains.heap = to_indices(file.array<std::int64_t>("grains/heap", {n}));
+  grains.heap_names = lines_of(file.text("grains/heap_names"));
   return grains;
 }
 

@@ -16,6 +16,7 @@ constexpr LongName kGrains[] = {
     {"u", "velocity"},
     {"omega", "angular velocity"},
     {"dune", "label of the dune that the grain belongs to, -1: none"},
+    {"heap", "number of the heap that the grain came from, from 0; \"names\" has a line for each"},
     {"force_drag", "drag"},
     {"force_added_mass", "force of the added mass"},
     {"force_lift", "lift"},

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "kernels/diagnostics/frame_values.hpp"
+#include "src/base/words.hpp"
 #include "src/io/xdmf.hpp"
 #include "src/output/long_names.hpp"
 #include "src/parallel/communicator.hpp"
@@ -82,6 +83,17 @@ void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::D
                 {dunes->size()}, "1", entries);
 }
 
+/// The heap that each grain came from, where there are several, and the names of these.
+void write_heaps(Hdf5File& file, const std::string& group, const GrainState& grains,
+                 const Hyperslab& entries) {
+  if (grains.heap.size() == 0) return;
+  const auto host = host_copy(Kokkos::subview(grains.heap, std::make_pair(0, grains.n)));
+  const std::vector<int> heap(host.data(), host.data() + host.size());
+  write_named(file, Arrays::grains, group + "/heap", std::span<const int>(heap), {heap.size()}, "1",
+              entries);
+  file.set_attribute(group + "/heap", "names", as_lines(grains.heap_names));
+}
+
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
 void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
                    std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes) {
@@ -106,6 +118,7 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
       write_entries(file, group + "/" + force.name, out, "N", entries);
     }
     write_labels(file, group, dunes, entries);
+    write_heaps(file, group, grains, entries);
   });
 }
 

@@ -6,8 +6,9 @@ picture stays the same size.
 
 import matplotlib
 import numpy as np
+from matplotlib.colors import to_rgb
 
-from barchan.figures.style import HEIGHT_MAP
+from barchan.figures.style import HEAPS, HEIGHT_MAP
 
 LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
 
@@ -57,12 +58,18 @@ def by_height(x, d, top):
     return matplotlib.colormaps[HEIGHT_MAP](np.clip((x[:, 1] + 0.5 * d) / top, 0, 1))[:, :3]
 
 
-def top_view(x, d, window, width, top):
-    """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by height.
+def by_heap(heap):
+    """Colours (N, 3) of the heaps that the grains came from."""
+    return np.array([to_rgb(colour) for colour in HEAPS])[heap % len(HEAPS)]
 
-    The first row is z0. Colours run from 0 to `top` [m].
+
+def top_view(grains, window, width, top):
+    """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by heap if there are several.
+
+    Else by height: colours run from 0 to `top` [m]. The first row is z0.
     """
-    return coloured_view(x, d, by_height(x, d, top), window, width)
+    colours = by_height(grains.x, grains.d, top) if grains.heap is None else by_heap(grains.heap)
+    return coloured_view(grains.x, grains.d, colours, window, width)
 
 
 def coloured_view(x, d, colours, window, width):

@@ -17,9 +17,9 @@ from PIL import Image
 
 from barchan.errors import BarchanError, MissingData
 from barchan.figures import style
-from barchan.figures.grain_image import top_view
+from barchan.figures.grain_image import by_heap, top_view
 from barchan.figures.result import Told, write_numbers
-from barchan.figures.topviews import colour_bar, frame_window
+from barchan.figures.topviews import colour_key, frame_window
 from barchan.io.frames import FrameFile, Grains
 from barchan.io.tables import thin
 
@@ -46,7 +46,7 @@ class Frames:
         self.chosen = np.arange(count)
         self.thin(MOST)
         if self.tracks:
-            self.diameters = diameters(run)
+            self.known = known_grains(run)
 
     def thin(self, most):
         """At most `most` of the frames, first and last included."""
@@ -58,20 +58,24 @@ class Frames:
         time, name = self.all[index]
         with self.tracks.open() as file:
             number, x = file[name]["id"][:], file[name]["x"][:].astype(float)
-        known, d = self.diameters
-        place = np.clip(np.searchsorted(known, number), 0, len(known) - 1)
-        found = known[place] == number
-        return Grains(time, number[found], x[found], d[place[found]])
+        known = self.known
+        place = np.clip(np.searchsorted(known.id, number), 0, len(known.id) - 1)
+        found = known.id[place] == number
+        place = place[found]
+        heap = None if known.heap is None else known.heap[place]
+        return Grains(time, number[found], x[found], known.d[place], heap=heap, heaps=known.heaps)
 
     def __iter__(self):
         return (self.grains(int(index)) for index in self.chosen)
 
 
-def diameters(run):
-    """Sorted ids and their diameters [m]; no grain enters later, so the first frame has almost all."""
+def known_grains(run):
+    """Grains by id with their diameters and heaps; no grain enters later, so the first frame has almost all."""
     grains = [run.frame(index) for index in sorted({0, len(run.need_grains().frames) - 1})]
-    number, first = np.unique(np.concatenate([g.id for g in grains]), return_index=True)
-    return number, np.concatenate([g.d for g in grains])[first]
+    first = np.unique(np.concatenate([g.id for g in grains]), return_index=True)[1]
+    number, x, d = (np.concatenate([getattr(g, name) for g in grains])[first] for name in ("id", "x", "d"))
+    heap = None if grains[0].heap is None else np.concatenate([g.heap for g in grains])[first]
+    return Grains(0.0, number, x, d, heap=heap, heaps=grains[0].heaps)
 
 
 def write_files(run):
@@ -82,14 +86,15 @@ def write_files(run):
               if len(g.d)]
     if not sample:
         raise MissingData("needs a frame with grains in it")
-    scene = Scene(frame_window(sample), max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample))
+    top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample)
+    scene = Scene(frame_window(sample), top, sample[0].heaps)
     log = {"frame": [], "t_s": [], "n_grains": []}
     program = shutil.which("ffmpeg")
     pictures = recorded(scene, frames, log)
     paths = film(run.path / "movie.mp4", pictures, program, len(frames.chosen)) if program else None
     if not paths:
         frames.thin(PICTURES)
-        paths = numbered(run.path / "movie", recorded(scene, frames, clear(log)))
+        paths = numbered(run.path / "movie", recorded(scene, frames, clear(log)), len(sample[0].heaps))
     write_numbers(Told([], {"movie": log}), run.path)
     return paths
 
@@ -111,7 +116,7 @@ def recorded(scene, frames, log):
 class Scene:
     """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
 
-    def __init__(self, window, top):
+    def __init__(self, window, top, heaps):
         ratio = (window[3] - window[2]) / (window[1] - window[0])
         height = WIDTH * ratio + AROUND
         even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
@@ -128,13 +133,13 @@ class Scene:
         axes.annotate("", xy=(0.995, above), xytext=(0.9, above), xycoords="axes fraction",
                       arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "shrinkA": 0, "shrinkB": 0})
         axes.text(0.89, above, "flow", transform=axes.transAxes, ha="right", va="center")
-        colour_bar(self.figure, axes, top)
+        colour_key(self.figure, axes, top, heaps)
         self.figure.canvas.draw()
         self.figure.set_layout_engine("none")  # nothing moves from frame to frame
 
     def picture(self, grains):
         """RGB (rows, columns, 3), bytes."""
-        self.image.set_data(top_view(grains.x, grains.d, self.window, round(DPI * WIDTH), self.top))
+        self.image.set_data(top_view(grains, self.window, round(DPI * WIDTH), self.top))
         self.time.set_text(f"$t$ = {grains.time:.2f} s")
         self.figure.canvas.draw()
         return np.ascontiguousarray(np.asarray(self.figure.canvas.buffer_rgba())[:, :, :3])
@@ -165,23 +170,30 @@ def film(path, pictures, program, count):
     return None
 
 
-def numbered(folder, pictures):
+def numbered(folder, pictures, heaps):
     """PNG files of one palette; those of an earlier, longer run go."""
     if folder.exists() and not folder.is_dir():
         raise BarchanError(f"cannot write pictures: {folder} is a file")
     folder.mkdir(exist_ok=True)
     for old in folder.glob("[0-9][0-9][0-9][0-9].png"):
         old.unlink()
-    few_colours = palette()
+    few_colours = palette(heaps)
     for number, picture in enumerate(pictures):
         few = Image.fromarray(picture).quantize(palette=few_colours, dither=Image.Dither.NONE)
         few.save(folder / f"{number:04d}.png", optimize=True)
     return [folder]
 
 
-def palette():
-    """256 colours: the height map in light, in shade and towards white at the edges of grains; greys."""
+def palette(heaps):
+    """256 colours: the height map in light, in shade and towards white at the edges of grains; greys.
+
+    Of the heaps instead: their colours from shade to light and on towards white.
+    """
     shades = matplotlib.colormaps[style.HEIGHT_MAP](np.linspace(0.0, 1.0, 45))[:, :3]
+    if heaps:
+        colours = by_heap(np.arange(min(heaps, len(style.HEAPS))))
+        steps = np.linspace(0.5, 1.0, 45 // len(colours))
+        shades = (steps[:, None, None] * colours).reshape(-1, 3)
     grey = np.linspace(0.0, 1.0, 31)[:, None] * np.ones(3)
     colours = np.concatenate([shades, 0.6 * shades, 0.8 * shades, 0.67 * shades + 0.33,
                               0.33 * shades + 0.67, grey])

@@ -17,6 +17,8 @@ BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILLION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#8C8C8C"
 SAND, SAND_EDGE = "#E8D9B5", "#6B5B3A"
 
+HEAPS = (ORANGE, BLUE, GREEN, PURPLE, SKY, VERMILLION)  # again from the first for more
+
 HEIGHT_MAP = "viridis"
 VELOCITY_MAP = "cividis"
 FORCE_MAP = "coolwarm"  # Moreland (2009): zero is grey, so that white is left for "no data"

@@ -6,6 +6,7 @@ the page and the left horn, at z < Cz, is the upper one.
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import ListedColormap
 
 from barchan.errors import MissingData
 from barchan.figures import style
@@ -44,7 +45,7 @@ def draw(run, ax=None):
     panels = list(grid.ravel())  # time goes along the rows
     extent = [1e3 * window[0], 1e3 * window[1], 1e3 * window[3], 1e3 * window[2]]
     for axes, grains in zip(panels, frames):
-        picture = top_view(grains.x, grains.d, window, round(FINER * style.DPI * panel_width), top)
+        picture = top_view(grains, window, round(FINER * style.DPI * panel_width), top)
         axes.imshow(picture, extent=extent, aspect="equal", interpolation="antialiased")
         axes.set(xticks=[], yticks=[])
         axes.text(0.012, 0.95, f"$t$ = {grains.time:.3g} s", transform=axes.transAxes, va="top")
@@ -54,7 +55,7 @@ def draw(run, ax=None):
     share = length / (1e3 * (window[1] - window[0]))
     style.scale_bar(panels[0], length, 0.985 - share, 0.06)
     flow_arrow(panels[0])
-    colour_bar(figure, grid, top)
+    colour_key(figure, grid, top, frames[0].heaps)
     return figure
 
 
@@ -65,8 +66,16 @@ def flow_arrow(axes):
     axes.text(0.87, 0.9, "flow", transform=axes.transAxes, ha="right", va="center")
 
 
-def colour_bar(figure, grid, top):
-    scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
+def colour_key(figure, grid, top, heaps=()):
+    """What the colours of `top_view` mean: the heaps of these names, or heights up to `top` [m]."""
+    if heaps:
+        colours = ListedColormap([style.HEAPS[n % len(style.HEAPS)] for n in range(len(heaps))])
+        scale = plt.cm.ScalarMappable(plt.Normalize(-0.5, len(heaps) - 0.5), colours)
+    else:
+        scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
     bar = figure.colorbar(scale, ax=grid, location="bottom", shrink=0.5, aspect=35, pad=0.02)
-    bar.set_label("height above the wall (mm)")
+    bar.set_label("heap that a grain came from" if heaps else "height above the wall (mm)")
+    if heaps:
+        bar.set_ticks(range(len(heaps)), labels=heaps)
+        bar.ax.tick_params(length=0)
     bar.outline.set_linewidth(0.6)

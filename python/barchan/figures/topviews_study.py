@@ -6,6 +6,7 @@ that the dunes can be seen to move. Flow from left to right, z down the page.
 """
 
 import textwrap
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -103,7 +104,7 @@ def draw_grid(grid, window, times, labels):
         page.text(x + 0.5 * width, head - 0.06, labels[j], ha="center", va="bottom", fontsize=label_size)
         for i, grains in enumerate(column):
             if grains is not None:  # else the case has not come so far
-                picture = top_view(grains.x, grains.d, window, round(FINER * style.DPI * width), top)
+                picture = top_view(replace(grains, heap=None), window, round(FINER * style.DPI * width), top)
                 draw_panel(page, picture, x, head + i * (height + GAP), width, height)
     draw_scale(page, window, width)
     bar = figure.add_axes([0.5 - 0.5 * BAR / size[0], 0.36 / size[1], BAR / size[0], 0.08 / size[1]])

@@ -51,6 +51,7 @@ GRAINS = {
     "u": ("m s-1", "velocity of the grain"),
     "omega": ("rad s-1", "angular velocity of the grain"),
     "dune": ("1", "label of the dune, -1: in none"),
+    "heap": ("1", "number of the heap that the grain came from"),
     **{f"force_{name}": ("N", FORCE + name.replace("_", " ")) for name in (
         "drag", "pressure_gradient", "stress", "added_mass", "lift", "contact_normal", "contact_tangential", "total")},
 }

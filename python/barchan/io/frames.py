@@ -6,14 +6,15 @@ from pathlib import Path
 import numpy as np
 
 from barchan.errors import BarchanError
-from barchan.io.hdf5 import Root, open_file, patiently
+from barchan.io.hdf5 import Array, Root, open_file, patiently
 
 
 @dataclass
 class Grains:
     """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
 
-    dune and u are None where the frame has none.
+    heap (N): number of the heap that each came from, the place of its name in heaps. dune, u and heap are None where
+    the frame has none.
     """
 
     time: float
@@ -22,6 +23,14 @@ class Grains:
     d: np.ndarray
     dune: np.ndarray | None = None
     u: np.ndarray | None = None
+    heap: np.ndarray | None = None
+    heaps: tuple[str, ...] = ()
+
+
+def heap_names(heap: Array) -> tuple[str, ...]:
+    """The names of the heaps whose numbers an array "heap" holds."""
+    names = tuple(str(heap.attrs.get("names", "")).splitlines())
+    return names + tuple(f"heap {n + 1}" for n in range(len(names), int(np.max(heap[:], initial=-1)) + 1))
 
 
 @dataclass

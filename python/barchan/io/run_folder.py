@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
-from barchan.io.frames import Flow, FrameFile, Grains
+from barchan.io.frames import Flow, FrameFile, Grains, heap_names
 from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
 
@@ -135,8 +135,9 @@ class RunFolder:
             group = content[name]
             order = np.argsort(group["id"][:])
             number, x, d = (group[key][:][order] for key in ("id", "x", "d"))
-            dune, u = (group[key][:][order] if key in group else None for key in ("dune", "u"))
-        return Grains(time, number, x, d, dune, u)
+            dune, u, heap = (group[key][:][order] if key in group else None for key in ("dune", "u", "heap"))
+            names = heap_names(group["heap"]) if "heap" in group else ()
+        return Grains(time, number, x, d, dune, u, heap, names)
 
     def flow_plane(self, index: int, z: float) -> Flow:
         """The cells nearest to the plane z = `z` [m] in frame `index`."""

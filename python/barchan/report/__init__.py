@@ -162,18 +162,25 @@ def from_config(config):
 def player(facts, missing):
     if facts is None:
         return f'<p class="quiet">{escape(missing)}</p>'
-    swatch = ", ".join(facts["colours"])
     return f"""<div id="player" tabindex="0">
 <div class="controls"><button id="play" type="button" aria-label="play">▶</button>
 <input id="scrubber" type="range" min="0" max="{len(facts["times"]) - 1}" value="0" aria-label="time">
 <output id="time"></output></div>
 <canvas id="top" role="img" aria-label="the grains seen from above"></canvas>
 <canvas id="side" role="img" aria-label="the grains seen from the side"></canvas>
-<div class="below"><span class="bar">0 <i style="background:linear-gradient(90deg, {swatch})"></i>
-{1e3 * facts["top"]:.2g} mm <span class="quiet">height of a grain's top</span></span>
+<div class="below"><span class="bar">{colour_key(facts)}</span>
 <label><input id="near" type="checkbox"> follow the dune</label></div>
 <p class="quiet">{escape(facts["note"])} Seen from above, then from the side, x (downstream) from
 left to right. Arrow keys go from one time to the next, the space bar plays.</p></div>"""
+
+
+def colour_key(facts):
+    if facts["heaps"]:
+        return " ".join(f'<i class="heap" style="background:{heap["colour"]}"></i> {escape(heap["name"])}'
+                        for heap in facts["heaps"])
+    swatch = ", ".join(facts["colours"])
+    return (f'0 <i style="background:linear-gradient(90deg, {swatch})"></i>\n'
+            f'{1e3 * facts["top"]:.2g} mm <span class="quiet">height of a grain\'s top</span>')
 
 
 def curves(run):

@@ -18,16 +18,18 @@ def pack(run):
     """(facts, data): a dictionary for JSON, and the grains in base64.
 
     The data are unsigned 16-bit integers, little-endian: d (n), then for each frame x (n), y (n), z (n)
-    of the same n grains. An integer q stands for low + q (high - low)/65534 of its `bounds`, d for
-    q d_max/65534.
+    of the same n grains, and last the heap of each (n) if there are several. An integer q stands for
+    low + q (high - low)/65534 of its `bounds`, d for q d_max/65534.
     """
     file = run.need_grains()
     chosen = evenly(len(file.frames), MOST_FRAMES)
     kept, largest = kept_ids(run, chosen)
-    frames, times, diameters = [], [], np.zeros(len(kept))
+    frames, times, diameters, heap, heaps = [], [], np.zeros(len(kept)), np.zeros(len(kept), "<u2"), ()
     for index in chosen:
         grains = run.frame(index)
-        x, d = rows_of(grains, kept)
+        x, d, found, place = rows_of(grains, kept)
+        if grains.heap is not None:
+            heap[found], heaps = grains.heap[place], grains.heaps
         frames.append(x)
         times.append(grains.time)
         diameters = np.where(np.isfinite(d), d, diameters)
@@ -38,11 +40,12 @@ def pack(run):
     facts = {
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
-        "window": dune_window(positions, bounds), "colours": colours(),
+        "window": dune_window(positions, bounds), "colours": colours(), "heaps": keys_of(heaps),
         "flow": "fluid" in run.config or "grains" not in run.config,
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
     words += [quantise(x[:, axis], *bounds[axis]) for x in positions for axis in range(3)]
+    words += [heap] if heaps else []
     facts["note"] = note(len(kept), largest, len(chosen), len(file.frames))
     return facts, base64.b64encode(np.concatenate(words).tobytes()).decode()
 
@@ -65,13 +68,13 @@ def kept_ids(run, chosen):
 
 
 def rows_of(grains, kept):
-    """x (n, 3) and d (n) [m] of the grains `kept`, nan for those that are not in the frame."""
+    """x (n, 3) and d (n) [m] of the grains `kept`, nan for those that are not in the frame; which are, and where."""
     x, d = np.full((len(kept), 3), np.nan), np.full(len(kept), np.nan)
-    if len(grains.id):
-        place = np.minimum(np.searchsorted(grains.id, kept), len(grains.id) - 1)
-        found = grains.id[place] == kept
-        x[found], d[found] = grains.x[place[found]], grains.d[place[found]]
-    return x, d
+    place = np.minimum(np.searchsorted(grains.id, kept), max(len(grains.id) - 1, 0))
+    found = grains.id[place] == kept if len(grains.id) else np.zeros(len(kept), bool)
+    place = place[found]
+    x[found], d[found] = grains.x[place], grains.d[place]
+    return x, d, found, place
 
 
 def boxes(positions, diameters, domain):
@@ -104,6 +107,11 @@ def colours():
     """The map of heights of the other figures, from the floor up."""
     shades = matplotlib.colormaps[style.HEIGHT_MAP](np.linspace(0.0, 1.0, COLOURS))
     return [matplotlib.colors.to_hex(shade) for shade in shades]
+
+
+def keys_of(heaps):
+    """Name and colour of each heap."""
+    return [{"name": name, "colour": style.HEAPS[n % len(style.HEAPS)]} for n, name in enumerate(heaps)]
 
 
 def quantise(values, low, high):

@@ -103,7 +103,7 @@
     let current = -1;
     const finish = () => {
       if (current < 0) return;
-      context.fillStyle = facts.colours[current];
+      context.fillStyle = colours[current];
       context.fill();
       if (outline) context.stroke();
     };
@@ -195,14 +195,17 @@
 
   const words = decode(element("data").textContent);
   const radii = Float32Array.from(words.subarray(0, facts.n), (q) => 0.5 * q / last * facts.dMax);
+  const heaps = facts.heaps || [];
+  const colours = heaps.length > 0 ? heaps.map(({ colour }) => colour) : facts.colours;
   let now = 0, timer = null;
 
   function draw() {
     const places = frameOf(words, now), [x, y] = places, view = windowOf(now, element("near").checked);
     const scale = element("top").clientWidth / (view[1] - view[0]);
     const inView = Array.from(x.keys()).filter((i) => x[i] > view[0] && x[i] < view[1]);
-    const level = Int8Array.from(y, (height, i) => Math.min(facts.colours.length - 1,
-      Math.max(0, Math.floor((height + radii[i]) / facts.top * facts.colours.length))));
+    const heap = words.subarray(facts.n * (1 + 3 * facts.times.length));  // of each grain, if there are several
+    const level = heaps.length > 0 ? heap : Int8Array.from(y, (height, i) => Math.min(colours.length - 1,
+      Math.max(0, Math.floor((height + radii[i]) / facts.top * colours.length))));
     const grains = { level, radius: { of: radii, scale }, across: (i) => (x[i] - view[0]) * scale };
     drawFromAbove(element("top"), inView, places, view, grains);
     drawFromSide(element("side"), inView, places, view, grains);
