@@ -38,6 +38,9 @@ bool check_shape(const HeapConfig& heap, const HeapKeys& key, const std::array<d
   const bool bed = heap.shape == HeapShape::bed;
   found.error_if(bed && heap.radius > 0, {key("radius"), key("shape")},
                  "contradicts shape = \"bed\", which covers the floor");
+  found.error_if(bed && !heap.name.empty() && heap.centre != HeapConfig{}.centre,
+                 {key("centre"), key("shape")},  // of `pour` told by check_effects
+                 "must be absent with shape = \"bed\", which covers the floor");
   if (found.error_if(!bed && heap.radius == 0, {key("radius"), key("shape")},
                      "must be above 0 for a {}", heap.shape == HeapShape::cone ? "cone" : "ridge"))
     return false;
@@ -118,6 +121,11 @@ void check_heaps(const Config& c, Findings& found) {
   if (!pour) check_names(heaps, found);
   found.error_if(heaps.size() > std::numeric_limits<std::uint8_t>::max(), {"initial.heap"},
                  "must be at most 255 heaps");
+  std::int64_t count = 0;
+  for (const SizeClass& size : sizes_of(heaps)) count += size.count;
+  constexpr int kMost = std::numeric_limits<int>::max();  // what a run can number
+  found.error_if(!pour && count > kMost, {"initial.heap"}, "must be of at most {} grains in all",
+                 kMost);
   found.error_if(sizes_of(heaps).empty(), {"grains.sizes", "initial.grains"},
                  "must say which grains to pour: sizes = [[2e-4, 3000]] are 3,000 of 0.2 mm");
   found.error_if(c.grains->frozen, {"grains.frozen", pour ? "initial.grains" : "initial.heap"},

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "src/app/info_path.hpp"
 #include "src/config/heaps.hpp"
 #include "src/initial/crater.hpp"
 #include "src/initial/initial_state.hpp"
@@ -172,6 +173,18 @@ TEST(Heaps, ContradictionsAreErrors) {
   const std::string edges = replaced(replaced(kTwo, "[0.02,", "[0.006,"), "[0.04,", "[0.094,");
   EXPECT_EQ(problems(heaps_case(edges)), test::Lines{});
   EXPECT_FALSE(problems(heaps_case("boundary_x = \"periodic\"\n" + edges)).empty());
+}
+
+TEST(Heaps, InfoTellsThem) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "case.toml";
+  std::ofstream(path) << heaps_case(kTwo +
+                                    "shape = \"ridge\"\nname = \"wall\"\nsizes = [[2e-4, 7000]]\n");
+  const std::string told = describe_path(path);
+  EXPECT_TRUE(contains(told,
+                       "grains   7100\nheap     heap 1: cone of 100 grains\n"
+                       "heap     wall: ridge of 7000 grains\n"))
+      << told;
 }
 
 // --- Craters.
