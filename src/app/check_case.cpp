@@ -7,6 +7,7 @@
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
@@ -21,11 +22,7 @@ namespace {
 double top_of(const PlannedGrains& planned) {
   if (!planned.grains) {
     if (planned.sizes.empty()) return 0;
-    const PourConfig& pour = *planned.poured_in.initial.pour;
-    double count = 0;
-    for (const SizeClass& size : planned.sizes) count += static_cast<double>(size.count);
-    return pour.drop_height +
-           poured_height(pour, planned.poured_in.size, count, poured_spacing(planned.sizes));
+    return poured_top(poured_heaps(planned.poured_in), planned.poured_in.size);
   }
   double top = 0;
   for (std::size_t g = 0; g < planned.grains->size(); ++g)

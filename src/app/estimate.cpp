@@ -11,6 +11,7 @@
 #include "src/app/memory.hpp"
 #include "src/base/report.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/grains/grain_skins.hpp"
 #include "src/initial/initial_state.hpp"
@@ -76,7 +77,7 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   const Config& pours = planned.poured_in;
   // What loses no energy does not settle.
   if (loses_no_energy(*config.grains)) return checked_grains(pours, {});
-  return packed_grains(*pours.initial.pour, poured_sizes(*pours.grains), pours.size);
+  return packed_grains(poured_heaps(pours), pours.size);
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {

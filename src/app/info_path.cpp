@@ -11,7 +11,9 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/load.hpp"
+#include "src/config/values.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/heap_shares.hpp"
@@ -114,6 +116,12 @@ std::string driven_by(const FluidConfig& fluid) {
   return text;
 }
 
+std::int64_t count_of(const std::vector<SizeClass>& sizes) {
+  std::int64_t count = 0;
+  for (const SizeClass& size : sizes) count += size.count;
+  return count;
+}
+
 std::string describe_case(const fs::path& path) {
   const std::string text = read_text(path);
   if (("\n" + text).find("\n[study]") != std::string::npos) {
@@ -129,9 +137,13 @@ std::string describe_case(const fs::path& path) {
     told += fmt::format("flow     {} x {} x {} cells, {}\n", nx, ny, nz, driven_by(*c.fluid));
   }
   if (c.grains) {
-    double count = 0;
-    for (const SizeClass& size : the_case.sizes) count += static_cast<double>(size.count);
-    told += count > 0 ? fmt::format("grains   {:.0f}\n", count) : "grains   those of a file\n";
+    const std::int64_t count = count_of(the_case.sizes);
+    told += count > 0 ? fmt::format("grains   {}\n", count) : "grains   those of a file\n";
+  }
+  for (const HeapConfig& heap : poured_heaps(c)) {
+    if (c.initial.pour) break;
+    told += fmt::format("heap     {}: {} of {} grains\n", printable(heap.name, 60),
+                        kChoiceNames<HeapShape>[std::size_t(heap.shape)], count_of(heap.sizes));
   }
   const auto start = [&](const char* name, const fs::path& file) {
     if (file.extension() == ".toml" || file.extension() == ".h5" || file.extension() == ".csv")

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "src/base/errors.hpp"
-#include "src/config/kinds.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/realisation.hpp"
 #include "src/initial/initial_state.hpp"
 
@@ -73,9 +73,9 @@ std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& fold
 PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   if (!config.grains) return {};
-  if (config.initial.pour) {
+  if (const auto heaps = poured_heaps(config); !heaps.empty()) {
     PlannedGrains planned;
-    planned.sizes = poured_sizes(*config.grains);
+    planned.sizes = sizes_of(heaps);
     planned.poured_in = config;
     planned.source = config.file;
     return planned;

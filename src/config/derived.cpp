@@ -172,19 +172,6 @@ double mean_diameter(const std::vector<SizeClass>& sizes) {
   return total / static_cast<double>(count);
 }
 
-double poured_spacing(const std::vector<SizeClass>& sizes) {
-  double widest = 0;
-  for (const SizeClass& size : sizes) widest = std::max(widest, size.diameter);
-  return 1.01 * widest;
-}
-
-double poured_height(const PourConfig& pour, const std::array<double, 3>& domain, double n,
-                     double spacing) {
-  const double volume = n * std::pow(spacing, 3) / std::numbers::sqrt2;
-  if (pour.shape == PourShape::bed) return volume / (domain[0] * domain[2]);
-  return 3 * volume / (std::numbers::pi * pour.radius * pour.radius);
-}
-
 double rayleigh_time(double diameter, double density, const Material& material) {
   const double s = material.poisson_ratio;
   const double shear_modulus = material.youngs_modulus / (2 * (1 + s));

@@ -30,12 +30,6 @@ double true_grain_step(const TimeConfig& time);
 /// Mean diameter [m] by number of grains; there must be some.
 double mean_diameter(const std::vector<SizeClass>& sizes);
 
-/// Poured grains stand on a close-packed lattice this far apart [m]: 1 % more than the largest.
-double poured_spacing(const std::vector<SizeClass>& sizes);
-/// About the height [m] to which `n` sites of that spacing fill the cone or the bed.
-double poured_height(const PourConfig& pour, const std::array<double, 3>& domain, double n,
-                     double spacing);
-
 /// Rayleigh time [s] of a sphere: pi r sqrt(rho/G) / (0.1631 s + 0.8766), G = E / (2 (1 + s)),
 /// the time a surface wave takes over it. Li, Xu & Thornton (2005).
 double rayleigh_time(double diameter, double density, const Material& material);

@@ -118,44 +118,6 @@ void check_motion(const Config& c, const Derived& derived, Findings& found) {
       n.easiest.shields, n.easiest.shields_threshold);
 }
 
-void check_cone(const PourConfig& pour, const std::array<double, 3>& domain, Findings& found) {
-  for (const int axis : {0, 1}) {
-    const double extent = domain[axis == 0 ? 0 : 2];
-    const double at = pour.centre[static_cast<std::size_t>(axis)];
-    found.error_if(at - pour.radius < 0 || at + pour.radius > extent,
-                   {"initial.grains.pour.radius", "initial.grains.pour.centre", "domain.size"},
-                   "must keep the cone inside the domain; along {} it spans {:.4g} to {:.4g} m of "
-                   "0 to {:.4g} m",
-                   axis == 0 ? 'x' : 'z', at - pour.radius, at + pour.radius, extent);
-  }
-}
-
-void check_pour(const Config& c, Findings& found) {
-  const PourConfig& pour = *c.initial.pour;
-  const std::vector<SizeClass> sizes = poured_sizes(*c.grains);
-  found.error_if(sizes.empty(), {"grains.sizes", "initial.grains"},
-                 "must say which grains to pour: sizes = [[2e-4, 3000]] are 3,000 of 0.2 mm");
-  found.error_if(c.grains->frozen, {"grains.frozen", "initial.grains"},
-                 "contradicts pour: grains could not settle");
-  const bool cone = pour.shape == PourShape::cone;
-  found.error_if(!cone && pour.radius > 0,
-                 {"initial.grains.pour.radius", "initial.grains.pour.shape"},
-                 "contradicts shape = \"bed\", which covers the floor");
-  if (found.error_if(cone && pour.radius == 0, {"initial.grains.pour.radius", "initial.grains"},
-                     "must be above 0 for a cone")) {
-    return;
-  }
-  if (cone) check_cone(pour, c.size, found);
-  double count = 0;
-  for (const SizeClass& size : sizes) count += static_cast<double>(size.count);
-  const double spacing = poured_spacing(sizes);
-  if (spacing >= c.size[1]) return;  // told by check_grain_sizes
-  const double top = pour.drop_height + poured_height(pour, c.size, count, spacing);
-  found.error_if(top > c.size[1],
-                 {"initial.grains.pour.radius", "initial.grains.pour.drop_height", "domain.size"},
-                 "must be larger: the heap would reach about {:.3g} m, above the domain", top);
-}
-
 void check_floor(const GrainConfig& grains, const std::array<double, 3>& size, Findings& found) {
   const bool glued = grains.floor == GrainFloor::glued;
   const double d = grains.floor_diameter;
@@ -191,7 +153,6 @@ void check_grains(const Config& c, Findings& found) {
   check_kinds(grains, found);
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
-  if (c.initial.pour) check_pour(c, found);
   check_following(c, found);
   check_feed(c, found);
   found.warning_if(!c.fluid && grains.frozen, {"grains.frozen"},

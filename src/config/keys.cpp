@@ -189,6 +189,41 @@ void add_pour(Sections& all) {
   key("seed", &P::seed, "of the order and the jitter of the grains");
 }
 
+void add_heaps(Sections& all) {
+  Section& section = all.emplace_back(
+      Section{.name = "initial.heap",
+              .meaning = "Several heaps and beds instead of `pour`, each with its own section, "
+                         "poured in this order; each grain keeps the number of its heap"});
+  auto key = repeated_keys(section, [](auto& c) { return &c.initial.heaps; });
+  using H = HeapConfig;
+  key("name", &H::name, at_most(60), "", "in result files and pictures");
+  key("shape", &H::shape,
+      "a cone, a ridge across the whole channel, or a bed of equal depth over the whole floor, on "
+      "which the heaps after it stand");
+  key("centre", &H::centre, any, "m", "[x, z] of a cone's axis; of a ridge x alone counts");
+  key("radius", &H::radius, between(0, 1e6), "m",
+      "of a cone's foot, half the width of a ridge's; both need one");
+  key("kind", &H::kind, "name of the `[[grains.kind]]` of its grains; without it of all");
+  key("sizes", &H::sizes, between(1e-9, 1e6), "m",
+      "[[diameter, count], ...] of its grains; else those of its kind, or all that `[grains]` has");
+  key("drop_height", &H::drop_height, between(0, 1e6), "m",
+      "of its lowest grain above the floor, or above the bed that it stands on");
+  key("seed", &H::seed, "of the order and the jitter of its grains");
+}
+
+void add_craters(Sections& all) {
+  Section& section = all.emplace_back(Section{
+      .name = "initial.crater",
+      .meaning = "Hollows in the grains that the case starts from, whatever their source: a "
+                 "paraboloid without grains, each with its own section"});
+  auto key = repeated_keys(section, [](auto& c) { return &c.initial.craters; });
+  using C = CraterConfig;
+  key("centre", &C::centre, any, "m", "[x, z] of its deepest point", required);
+  key("radius", &C::radius, above(0).at_most(1e6), "m", "of its rim", required);
+  key("depth", &C::depth, above(0).at_most(1e6), "m",
+      "below the mean height of the surface within the rim", required);
+}
+
 void add_output(Sections& all) {
   Keys key(add(all, "output", "Intervals in simulated time; 0: no such file"),
            [](auto& c) { return &c.output; });
@@ -236,9 +271,10 @@ void add_solver(Sections& all) {
 const Sections& sections() {
   static const Sections all = [] {
     Sections made;
-    for (auto* add : {add_case, add_time, add_domain, add_fluid, add_schedule, add_grains, add_wall,
-                      add_kinds, add_pairs, add_ambient, add_feed, add_coupling, add_initial,
-                      add_pour, add_output, add_restart, add_statistics, add_solver}) {
+    for (auto* add :
+         {add_case,  add_time,    add_domain,  add_fluid,   add_schedule,   add_grains,  add_wall,
+          add_kinds, add_pairs,   add_ambient, add_feed,    add_coupling,   add_initial, add_pour,
+          add_heaps, add_craters, add_output,  add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

@@ -8,6 +8,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/no_effect.hpp"
 #include "src/config/reading.hpp"
@@ -160,21 +161,21 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
                                one_for_both ? &flow : nullptr);
     from_starts = std::move(flow.problems);
     from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
+    const std::vector<HeapConfig> heaps = poured_heaps(config);
     loaded.result.random = (config.fluid && (initial.fluid == "turbulent" || flow.result.random)) ||
-                           (config.grains && (initial.pour || grains.result.random));
+                           (config.grains && (!heaps.empty() || grains.result.random));
     if (initial.realisation > 1 && !loaded.result.random && from_starts.empty()) {
       reading.report_conflict(
           "initial.realisation",
           "has other random numbers, and this case starts from none: its realisations "
           "would all be the same");
     }
-    if (config.grains) sizes = poured_sizes(*config.grains);
+    if (config.grains) sizes = heaps.empty() ? poured_sizes(*config.grains) : sizes_of(heaps);
     std::vector<SizeClass> of_start = grains.result.sizes;
     if (config.grains && grains.result.config.grains)
       of_start = with_kinds_of(*config.grains, *grains.result.config.grains, std::move(of_start));
     if (sizes.empty()) sizes = of_start;
-    const bool pours = config.grains && initial.pour;
-    resolve_lengths(reading, config, pours ? sizes : of_start, from_starts.empty());
+    resolve_lengths(reading, config, heaps.empty() ? of_start : sizes, from_starts.empty());
     report(validate(config, sizes), reading);
     if (initial.fluid.extension() == ".toml")
       loaded.result.flow_start = std::make_shared<const Case>(std::move(flow.result));

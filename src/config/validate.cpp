@@ -8,6 +8,7 @@
 #include "src/config/flow_checks.hpp"
 #include "src/config/flow_schedule.hpp"
 #include "src/config/grain_checks.hpp"
+#include "src/config/heap_checks.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/no_effect.hpp"
@@ -117,9 +118,16 @@ void check_initial(const Config& c, Findings& found) {
   found.error_if(!c.fluid && c.initial.fluid != "still", {"initial.fluid", "fluid"},
                  "must be absent without a [fluid] section");
   const bool given = c.initial.pour.has_value() || !c.initial.grains.empty();
+  const bool heaps = !c.initial.heaps.empty();
   found.error_if(!c.grains && given, {"initial.grains", "grains"},
                  "must be absent without a [grains] section");
-  found.error_if(c.grains && !given, {"initial.grains", "initial.grains.pour"},
+  found.error_if(!c.grains && heaps, {"initial.heap", "grains"},
+                 "must be absent without a [grains] section");
+  found.error_if(!c.grains && !c.initial.craters.empty(), {"initial.crater", "grains"},
+                 "must be absent without a [grains] section");
+  found.error_if(given && heaps, {"initial.heap", "initial.grains"},
+                 "contradicts initial.grains: the grains come from one of the two");
+  found.error_if(c.grains && !given && !heaps, {"initial.grains", "initial.grains.pour"},
                  "must say where the [grains] start: a file or {{ pour = {{...}} }}");
 }
 
@@ -182,6 +190,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
     return found.all;
   if (c.fluid) check_fluid(c, found);
   if (c.grains) check_grains(c, found);
+  if (c.grains) check_heaps(c, found);
   check_initial(c, found);
   check_effects(c, found);
   check_output(c, found);

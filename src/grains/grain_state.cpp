@@ -78,11 +78,13 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;
 
+  if (!initial.heap.empty()) add_heaps(s, initial.heap_names);
+
   const auto kin = mirror(s.kin);
   const auto id = mirror(s.id);
-  const bool has_kinds = !initial.kind.empty();
+  const bool has_kinds = !initial.kind.empty(), has_heaps = !initial.heap.empty();
   if (has_kinds) s.kind = Kokkos::View<std::uint8_t*>("kind", s.id.extent(0));
-  const auto kind = mirror(s.kind);
+  const auto kind = mirror(s.kind), heap = mirror(s.heap);
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
@@ -94,6 +96,7 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
                              .omega = initial.omega[q]};
     id(g) = initial.id[q];
     if (has_kinds) kind(g) = initial.kind[q];
+    if (has_heaps) heap(g) = initial.heap[q];
   }
   s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
   Real d3 = 0, d2 = 0;
@@ -107,7 +110,13 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   Kokkos::deep_copy(s.kin, kin);
   Kokkos::deep_copy(s.id, id);
   Kokkos::deep_copy(s.kind, kind);
+  Kokkos::deep_copy(s.heap, heap);
   return s;
+}
+
+void add_heaps(GrainState& s, const std::vector<std::string>& names) {
+  s.heap = Kokkos::View<std::uint8_t*>("heap", s.kin.extent(0));
+  s.heap_names = names;
 }
 
 void reserve_entries(GrainState& s, int n, unsigned uses) {

@@ -65,6 +65,7 @@ struct GrainState {
   Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
   std::vector<std::string> kind_names;                   // by index, or empty
   Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: there is one
+  std::vector<std::string> heap_names;                   // by index, or empty
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                   // constant over one fluid step
@@ -93,6 +94,8 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
 /// The same of one density for all.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
+/// The heap that each grain came from, the first until it is filled in.
+void add_heaps(GrainState& grains, const std::vector<std::string>& names);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
 void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains, const ForceSwitches& forces = {});

@@ -19,6 +19,7 @@ struct InitialGrains {
   // Of several kinds, or heaps, the index of each grain's; else empty.
   std::vector<std::uint8_t> kind = {}, heap = {};
   std::vector<std::string> kind_names = {};  // of a file that has kinds
+  std::vector<std::string> heap_names = {};  // may be empty: a table has none
 
   std::size_t size() const { return id.size(); }
   int kind_of(std::size_t g) const { return kind.empty() ? 0 : kind[g]; }

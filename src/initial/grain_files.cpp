@@ -30,6 +30,12 @@ std::vector<Vec3> to_vectors(const std::vector<double>& numbers) {
   return vectors;
 }
 
+std::vector<std::uint8_t> to_indices(const std::vector<std::int64_t>& numbers) {
+  std::vector<std::uint8_t> indices;
+  for (const std::int64_t number : numbers) indices.push_back(static_cast<std::uint8_t>(number));
+  return indices;
+}
+
 /// The same demands as on the rows of a table, for a file that somebody else may have made.
 void check_grains(const InitialGrains& grains, const std::filesystem::path& file) {
   const auto finite = [](const Vec3& v) {
@@ -72,10 +78,15 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   grains.x = to_vectors(file.read<double>(group + "x", {n, 3}));
   grains.u = to_vectors(file.read<double>(group + "u", {n, 3}));
   grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
-  if (!file.exists(group + "kind")) return grains;
-  for (const int kind : file.read<int>(group + "kind", {n}))
-    grains.kind.push_back(as_kind(kind, file.path()));
-  grains.kind_names = lines_of(file.attribute<std::string>(group + "kind", "names"));
+  const std::string kind = group + "kind", heap = group + "heap";
+  if (file.exists(kind)) {
+    for (const int k : file.read<int>(kind, {n})) grains.kind.push_back(as_kind(k, file.path()));
+    grains.kind_names = lines_of(file.attribute<std::string>(kind, "names"));
+  }
+  if (file.exists(heap)) {
+    grains.heap = to_indices(file.read<std::int64_t>(heap, {n}));
+    grains.heap_names = lines_of(file.attribute<std::string>(heap, "names"));
+  }
   return grains;
 }
 
@@ -91,11 +102,16 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     std::memcpy(static_cast<void*>(&kin), numbers.data() + g * width, sizeof(kin));
     grains.add(id[g], 2.0 * kin.r, kin.x, kin.u, kin.omega);
   }
-  if (!file.has("grains/kind")) return grains;
-  for (const std::int64_t kind : file.array<std::int64_t>("grains/kind", {n}))
-    grains.kind.push_back(as_kind(kind, path));
-  const Config written = config_as_written(file.provenance().config, path);
-  if (written.grains) grains.kind_names = names_of_kinds(*written.grains);
+  if (file.has("grains/kind")) {
+    for (const std::int64_t kind : file.array<std::int64_t>("grains/kind", {n}))
+      grains.kind.push_back(as_kind(kind, path));
+    const Config written = config_as_written(file.provenance().config, path);
+    if (written.grains) grains.kind_names = names_of_kinds(*written.grains);
+  }
+  if (file.has("grains/heap")) {
+    grains.heap = to_indices(file.array<std::int64_t>("grains/heap", {n}));
+    grains.heap_names = lines_of(file.text("grains/heap_names"));
+  }
   return grains;
 }
 

@@ -19,9 +19,9 @@ namespace barchan {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kColumns{"id", "diameter", "x",  "y",  "z",  "vx",
-                                                    "vy", "vz",       "wx", "wy", "wz", "kind"};
-constexpr std::size_t kNRequired = 5, kKind = 11;
+constexpr std::array<std::string_view, 13> kColumns{
+    "id", "diameter", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "kind", "heap"};
+constexpr std::size_t kNRequired = 5, kKind = 11, kHeap = 12;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -111,7 +111,7 @@ class CsvReader {
 
   void read_header() {
     constexpr const char* needed =
-        "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz,kind";
+        "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz,kind,heap";
     if (const std::string marks = other_separator(); !marks.empty()) {
       fail("values are separated by {}; write commas, and decimals with a point", marks);
     }
@@ -152,7 +152,7 @@ class CsvReader {
 
   void read_row() {
     std::array<double, kColumns.size()> value{};
-    std::int64_t id = 0;
+    std::int64_t id = 0, heap = -1;
     split_line();
     const std::size_t n_fields = fields_.size();
     for (std::size_t f = 0; f < std::min(n_fields, order_.size()); ++f) {
@@ -161,6 +161,9 @@ class CsvReader {
         id = number<std::int64_t>(fields_[f], column);
       } else if (column == kKind) {
         add_kind(fields_[f]);
+      } else if (column == kHeap) {
+        heap = number<std::int64_t>(fields_[f], column);
+        if (heap < 0 || heap > 254) fail("heap = {}: must be from 0 to 254", heap);
       } else {
         value[column] = number<double>(fields_[f], column);
       }
@@ -175,6 +178,7 @@ class CsvReader {
     if (!is_new) fail("id {} was used before, in line {}", id, earlier->second);
     grains_.add(id, value[1], {value[2], value[3], value[4]}, {value[5], value[6], value[7]},
                 {value[8], value[9], value[10]});
+    if (heap >= 0) grains_.heap.push_back(static_cast<std::uint8_t>(heap));
   }
 
   /// Names of kinds count in the order in which they appear.

@@ -12,12 +12,14 @@
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/grain_checks.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/load.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/initial/crater.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/initial/map_flow.hpp"
@@ -153,18 +155,22 @@ void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
   }
 }
 
+std::string source_of_grains(const Config& config, const std::filesystem::path& file) {
+  if (config.initial.pour) return "initial.grains.pour";
+  return config.initial.heaps.empty() ? file.string() : "initial.heap";
+}
+
 InitialGrains checked_grains(const Config& config, const std::filesystem::path& file) {
-  const bool poured = config.initial.pour.has_value();
-  PourConfig pour = config.initial.pour.value_or(PourConfig{});
-  pour.seed += static_cast<std::uint64_t>(config.initial.realisation - 1);
-  InitialGrains grains =
-      poured ? pour_grains(pour, poured_sizes(*config.grains), config.size) : read_grains(file);
-  const std::string source = poured ? "initial.grains.pour" : file.string();
+  const std::vector<HeapConfig> heaps = poured_heaps(config);
+  InitialGrains grains = heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size);
+  const std::string source = source_of_grains(config, file);
   if (grains.size() == 0) throw InputError(source + " holds no grains");
-  if (!poured) take_kinds(grains, *config.grains, source);
+  if (heaps.empty()) take_kinds(grains, *config.grains, source);
   check_sizes(extreme_sizes(grains), config, source);
   wrap(grains, config);
   check_inside(grains, config, source);
+  cut_craters(config.initial.craters, grains);
+  if (grains.size() == 0) throw InputError("initial.crater leaves no grains");
   check_apart(grains, source);
   if (!config.grains->frozen) check_overlaps(grains, config.grains->max_overlap, source);
   return grains;

@@ -19,6 +19,9 @@ struct InitialFiles {
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
                  const std::string& source);
 
+/// Where a case's grains come from, for messages: the key that pours them, or the `file`.
+std::string source_of_grains(const Config& config, const std::filesystem::path& file);
+
 /// The grains that a case starts with: poured, or of a .csv or .h5 `file`. Throws InputError if the
 /// case does not suit them, and what the readers throw.
 InitialGrains checked_grains(const Config& config, const std::filesystem::path& file);

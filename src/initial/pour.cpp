@@ -1,11 +1,15 @@
 #include "src/initial/pour.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 
 #include "src/config/derived.hpp"
+#include "src/config/heaps.hpp"
 
 namespace barchan {
 
@@ -24,32 +28,32 @@ void shuffle(std::vector<Item>& items, std::mt19937_64& generator) {
   }
 }
 
-/// Where grains are poured: a cone over its foot, or a bed over the floor.
+/// Where grains are poured: a cone over its foot, a ridge across the channel, a bed over the floor.
 struct Heap {
-  PourShape shape;
+  HeapShape shape;
   Vec3 centre;            // of the foot [m]
   double half_x, half_z;  // of the foot [m]: both the radius of a cone
 
-  Heap(const PourConfig& pour, const std::array<double, 3>& domain)
-      : shape(pour.shape),
-        centre{pour.centre[0], pour.drop_height, pour.centre[1]},
-        half_x(pour.radius),
-        half_z(pour.radius) {
-    if (shape == PourShape::cone) return;
-    half_x = domain[0] / 2, half_z = domain[2] / 2;
-    centre.x = half_x, centre.z = half_z;
+  Heap(const HeapConfig& heap, const std::array<double, 3>& domain, double ground)
+      : shape(heap.shape),
+        centre{heap.centre[0], ground + heap.drop_height, heap.centre[1]},
+        half_x(heap.radius),
+        half_z(heap.radius) {
+    if (shape == HeapShape::cone) return;
+    half_z = domain[2] / 2, centre.z = half_z;
+    if (shape == HeapShape::bed) half_x = domain[0] / 2, centre.x = half_x;
   }
 
-  /// Of the smallest cone or bed through x, seen from the centre [m]; negative outside the foot.
+  /// Of the smallest heap of this shape through x, seen from the centre [m]; negative outside the
+  /// foot.
   double height_through(const Vec3& x, double spacing) const {
-    if (shape == PourShape::bed) {
-      const bool inside =
-          std::abs(x.x) + spacing / 2 <= half_x && std::abs(x.z) + spacing / 2 <= half_z;
-      return inside ? x.y : -1;
-    }
-    const double r = std::hypot(x.x, x.z);
-    return r < half_x ? x.y / (1 - r / half_x) : -1;
+    if (shape == HeapShape::cone) return below_slope(std::hypot(x.x, x.z), x.y);
+    if (std::abs(x.z) + spacing / 2 > half_z) return -1;
+    if (shape == HeapShape::ridge) return below_slope(std::abs(x.x), x.y);
+    return std::abs(x.x) + spacing / 2 <= half_x ? x.y : -1;
   }
+
+  double below_slope(double r, double y) const { return r < half_x ? y / (1 - r / half_x) : -1; }
 };
 
 struct Site {
@@ -85,60 +89,89 @@ std::vector<SizeClass> shuffled(const std::vector<SizeClass>& sizes, std::mt1993
   return grains;
 }
 
-}  // namespace
-
-InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
-                          const std::array<double, 3>& domain) {
-  std::mt19937_64 generator(pour.seed);
-  const std::vector<SizeClass> poured = shuffled(sizes, generator);
-  const std::size_t n = poured.size();
-  const double spacing = poured_spacing(sizes);
-  const Heap heap(pour, domain);
+/// The n lowest sites of a heap, from its axis outward and upward.
+std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::size_t n,
+                               const std::array<double, 3>& domain, std::mt19937_64& generator) {
+  const double spacing = poured_spacing(config.sizes);
   std::vector<Site> sites;
-  const double estimate = poured_height(pour, domain, static_cast<double>(n), spacing);
+  const double estimate = poured_height(config, domain);
   for (double top = 1.2 * estimate + 2 * spacing; sites.size() < n; top *= 1.5) {
     sites = sites_below(top, heap, spacing);
     if (top > 1e3 * domain[1]) break;
   }
-  if (pour.shape == PourShape::bed) shuffle(sites, generator);  // its last layer has gaps anywhere
+  if (heap.shape != HeapShape::cone) shuffle(sites, generator);  // its last layer: gaps anywhere
   std::stable_sort(sites.begin(), sites.end(),
                    [](const Site& a, const Site& b) { return a.height < b.height; });
   const bool fits = sites.size() >= n &&
-                    sites[n - 1].height + spacing / 2 + pour.drop_height < domain[1] &&
+                    heap.centre.y + sites[n - 1].height + spacing / 2 < domain[1] &&
                     heap.centre.x >= heap.half_x && heap.centre.x + heap.half_x <= domain[0];
-  if (!fits) {
-    throw std::runtime_error(
-        "the poured heap of " + std::to_string(n) +
-        " grains does not fit in the domain: change initial.grains.pour.radius, "
-        "its centre or domain.size");
-  }
-  InitialGrains grains;
-  for (std::size_t g = 0; g < n; ++g) {
+  if (fits) return sites;
+  const bool pour = config.name.empty();
+  throw std::runtime_error(fmt::format(
+      "the poured heap {}of {} grains does not fit in the domain: change {}radius, its "
+      "centre or domain.size",
+      pour ? "" : fmt::format("\"{}\" ", config.name), n, pour ? "initial.grains.pour." : "its "));
+}
+
+/// Adds the grains of a heap.
+void add_heap(const HeapConfig& config, const Heap& heap, const std::array<double, 3>& domain,
+              InitialGrains& grains) {
+  std::mt19937_64 generator(config.seed);
+  const std::vector<SizeClass> poured = shuffled(config.sizes, generator);
+  const double spacing = poured_spacing(config.sizes);
+  const auto sites = lowest_sites(config, heap, poured.size(), domain, generator);
+  for (std::size_t g = 0; g < poured.size(); ++g) {
     const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
     const Vec3 x = heap.centre + sites[g].x;
-    grains.add(static_cast<std::int64_t>(g) + 1, poured[g].diameter,
+    grains.add(static_cast<std::int64_t>(grains.size()) + 1, poured[g].diameter,
                {x.x + jitter(), x.y + jitter(), x.z + jitter()});
     grains.kind.push_back(static_cast<std::uint8_t>(poured[g].kind));
   }
-  if (std::ranges::none_of(sizes, &SizeClass::kind)) grains.kind.clear();
-  return grains;
 }
 
-InitialGrains packed_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
-                            const std::array<double, 3>& domain) {
+/// Moves the grains from entry `begin` on together.
+void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, InitialGrains& grains) {
   // As dense as a heap, 0.64 of the volume. Displaced so far, a third of the 12 neighbours touch.
   constexpr double lattice = 1.05, displacement = 0.1;
-  InitialGrains grains = pour_grains(pour, sizes, domain);
-  const double d = mean_diameter(sizes), closer = lattice * d / poured_spacing(sizes);
-  const Heap heap(pour, domain);
-  std::mt19937_64 generator(pour.seed);
+  const double d = mean_diameter(config.sizes), closer = lattice * d / poured_spacing(config.sizes);
+  std::mt19937_64 generator(config.seed);
   const auto displaced = [&] { return displacement * d * (2 * uniform(generator) - 1); };
-  for (std::size_t g = 0; g < grains.size(); ++g) {
+  for (std::size_t g = begin; g < grains.size(); ++g) {
     Vec3 x = heap.centre + closer * (grains.x[g] - heap.centre);
     x = x + Vec3{displaced(), displaced(), displaced()};
     grains.x[g] = {x.x, std::max(x.y, grains.diameter[g] / 2), x.z};
   }
+}
+
+InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double, 3>& domain,
+                   bool packed) {
+  InitialGrains grains;
+  double ground = 0;  // top of the beds [m]
+  for (std::size_t n = 0; n < heaps.size(); ++n) {
+    const std::size_t begin = grains.size();
+    const Heap heap(heaps[n], domain, ground);
+    add_heap(heaps[n], heap, domain, grains);
+    if (packed) pack(heaps[n], heap, begin, grains);
+    if (heaps.size() > 1) grains.heap.resize(grains.size(), static_cast<std::uint8_t>(n));
+    if (heaps.size() > 1) grains.heap_names.push_back(heaps[n].name);
+    if (heap.shape != HeapShape::bed) continue;
+    for (std::size_t g = begin; g < grains.size(); ++g)
+      ground = std::max(ground, grains.x[g].y + grains.diameter[g] / 2);
+  }
+  if (std::ranges::count(grains.kind, 0) == std::ssize(grains.kind)) grains.kind.clear();
   return grains;
+}
+
+}  // namespace
+
+InitialGrains pour_grains(const std::vector<HeapConfig>& heaps,
+                          const std::array<double, 3>& domain) {
+  return pour(heaps, domain, false);
+}
+
+InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
+                            const std::array<double, 3>& domain) {
+  return pour(heaps, domain, true);
 }
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// Grains poured to a heap or a bed.
+// Grains poured to heaps and beds.
 #pragma once
 
 #include <array>
@@ -8,20 +8,20 @@
 
 namespace barchan {
 
-struct PourConfig;
-struct SizeClass;
+struct HeapConfig;
 
-/// A heap of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
-/// holding the grains of `sizes`, of all kinds, in random order: no overlap, no order that survives
-/// the collapse. Sites fill a cone of foot radius pour.radius [m] from its axis outward and upward,
-/// or a bed from the floor up, so the number of grains decides the height. Throws
-/// std::runtime_error if the heap leaves the domain.
-InitialGrains pour_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
+/// Heaps of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
+/// holding the grains of their sizes, of all kinds, in random order: no overlap, no order that
+/// survives the collapse. Sites fill a cone or a ridge from its axis outward and upward, or a bed
+/// from the floor up, so the number of grains decides the height. Each heap stands on the beds
+/// before it. Grains are numbered heap by heap, and know theirs if there are several. `heaps`: see
+/// poured_heaps(). Throws std::runtime_error if a heap leaves the domain [m].
+InitialGrains pour_grains(const std::vector<HeapConfig>& heaps,
                           const std::array<double, 3>& domain);
 
-/// The same heap moved together to about what it settles to, for measurements of time: a grain
+/// The same heaps moved together to about what they settle to, for measurements of time: a grain
 /// touches about four others, as in a heap at rest. Overlaps are up to half a diameter.
-InitialGrains packed_grains(const PourConfig& pour, const std::vector<SizeClass>& sizes,
+InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
                             const std::array<double, 3>& domain);
 
 }  // namespace barchan

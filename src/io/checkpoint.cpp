@@ -114,6 +114,7 @@ void CheckpointWriter::scalar(const std::string& path, T value) {
 }
 template void CheckpointWriter::scalar(const std::string&, double);
 template void CheckpointWriter::scalar(const std::string&, std::int64_t);
+template void CheckpointWriter::scalar(const std::string&, std::string);
 
 void CheckpointWriter::array(const std::string& name, std::span<const double> values,
                              const Extents& extents, const Hyperslab& slab) {
@@ -190,6 +191,10 @@ double CheckpointReader::real(const std::string& name) const { return scalar<dou
 
 std::int64_t CheckpointReader::integer(const std::string& name) const {
   return scalar<std::int64_t>(name);
+}
+
+std::string CheckpointReader::text(const std::string& name) const {
+  return scalar<std::string>(name);
 }
 
 Extents CheckpointReader::extents(const std::string& name) const {

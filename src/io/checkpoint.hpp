@@ -91,7 +91,7 @@ class CheckpointWriter {
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-  /// T is double or std::int64_t.
+  /// T is double, std::int64_t or std::string.
   template <class T>
   void scalar(const std::string& name, T value);
 
@@ -138,6 +138,7 @@ class CheckpointReader {
   bool has(const std::string& name) const;
   double real(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
+  std::string text(const std::string& name) const;
 
   /// Extents of a stored array, slowest first: "grains/id" has extents(...)[0] grains.
   Extents extents(const std::string& name) const;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/words.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/output/feed_state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -202,6 +203,7 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
   for_each_saved_array(s, [&](const std::string& name, const auto& array) {
     save_entries(file, name, first_entries(array, s.n), entries);
   });
+  if (s.heap.size() > 0) file.scalar("grains/heap_names", as_lines(s.heap_names));
   save_contacts(file, s);
   save_of_every_rank(file, "grains/of_rank", s.ranks, s.n);
   if (const GrainPartition* partition = list.partition()) {
@@ -221,6 +223,7 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
   const Piece entries = my_entries(file, ranks);
   GrainState s = make_grain_entries(static_cast<int>(entries.end - entries.begin), ranks);
+  if (file.has("grains/heap")) add_heaps(s, lines_of(file.text("grains/heap_names")));
   s.r_max = file.real("grains/r_max");
   s.r_min = file.real("grains/r_min");
   s.sauter_diameter = file.real("grains/sauter_diameter");

@@ -83,15 +83,16 @@ void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::D
                 {dunes->size()}, "1", entries);
 }
 
-/// The kind of each grain, where there are several, and their names.
-void write_kinds(Hdf5File& file, const std::string& group, const GrainState& grains,
-                 const Hyperslab& entries) {
-  if (grains.kind.size() == 0) return;
-  const auto host = host_copy(Kokkos::subview(grains.kind, std::make_pair(0, grains.n)));
-  const std::vector<int> kind(host.data(), host.data() + host.size());
-  write_named(file, Arrays::grains, group + "/kind", std::span<const int>(kind), {kind.size()}, "1",
+/// The kind, or heap, of each grain, where there are several, and their names.
+void write_numbers(Hdf5File& file, const std::string& name, int n,
+                   const Kokkos::View<std::uint8_t*>& numbers,
+                   const std::vector<std::string>& names, const Hyperslab& entries) {
+  if (numbers.size() == 0) return;
+  const auto host = host_copy(Kokkos::subview(numbers, std::make_pair(0, n)));
+  const std::vector<int> whole(host.data(), host.data() + host.size());
+  write_named(file, Arrays::grains, name, std::span<const int>(whole), {whole.size()}, "1",
               entries);
-  file.set_attribute(group + "/kind", "names", as_lines(grains.kind_names));
+  file.set_attribute(name, "names", as_lines(names));
 }
 
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
@@ -118,7 +119,8 @@ void append_grains(FrameFile& frames, const GrainState& grains, double t, std::i
       write_entries(file, group + "/" + force.name, out, "N", entries);
     }
     write_labels(file, group, dunes, entries);
-    write_kinds(file, group, grains, entries);
+    write_numbers(file, group + "/kind", grains.n, grains.kind, grains.kind_names, entries);
+    write_numbers(file, group + "/heap", grains.n, grains.heap, grains.heap_names, entries);
   });
 }
 

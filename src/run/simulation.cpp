@@ -17,8 +17,7 @@ namespace {
 /// Where the state of a start comes from, for messages.
 std::string source_of(const Config& config, const RunOptions& options, const InitialFiles& files) {
   if (options.restart) return options.restart->string();
-  if (!files.grains.empty()) return files.grains.string();
-  return config.grains ? "initial.grains.pour" : "initial.fluid";
+  return config.grains ? source_of_grains(config, files.grains) : "initial.fluid";
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 import os
 
-from entry import DRY, DUNE, SHORT, TABLE, WET, Entry
+from entry import DRY, DUNE, POUR, SHORT, TABLE, WET, Entry
 
 GOOD = {"code": 0, "command": "check case.toml"}
 
@@ -121,6 +121,36 @@ def flow_from(name, value, says, **more):
     return Entry(name, f"[initial] fluid = {value}", says, **more)
 
 
+def heaps(name, says, *sections, **more):
+    """`sections`: what follows "[[initial." in each."""
+    text = "".join(f"[[initial.{section}\n" for section in sections)
+    return Entry(name, f"[output] => {text}[output]", says, base=DRY.replace(POUR, ""), **more)
+
+
+FIRST = "heap]]\ncentre = [0.003, 0.003]\nradius = 0.0015"
+HEAPS = [
+    heaps("two heaps and a crater", "", FIRST, "heap]]\ncentre = [0.007, 0.003]\nradius = 0.0015",
+          "crater]]\ncentre = [0.003, 0.003]\nradius = 5e-4\ndepth = 2e-4", "heap]]\nshape = \"ridge\"\n"
+          "centre = [0.01, 0]\nradius = 0.0011", code=0, command="run case.toml --out out --quiet --set time.end=5e-4"),
+    heaps("heaps that overlap", '[initial.heap.2] centre | must be at least 0.000253 m farther from "heap 1"', FIRST,
+          "heap]]\ncentre = [0.006, 0.003]\nradius = 0.0015"),
+    heaps("a heap beside the box", "[initial.heap.1] radius = 0.004 | along z it spans -0.001 to 0.007 m",
+          "heap]]\ncentre = [0.005, 0.003]\nradius = 0.004"),
+    heaps("a bed on a heap", '[initial.heap.2] shape = "bed" | must stand before "heap 1"', FIRST,
+          'heap]]\nshape = "bed"'),
+    heaps("a heap of no shape", '@shape = | "cone", "ridge", "bed"', 'heap]]\nshape = "cube"'),
+    Entry("a heap as a section", "[output] => [initial.heap]\n[output]",
+          "must be sections, [[initial.heap]] for each of them", base=DRY),
+    heaps("a crater without depth", "@[[initial.crater]] | depth: required key is missing", FIRST,
+          "crater]]\ncentre = [0.003, 0.003]\nradius = 5e-4"),
+    heaps("a crater beside the heap", "initial.crater.1: no grains lie within its rim", FIRST,
+          "crater]]\ncentre = [0.008, 0.003]\nradius = 5e-4\ndepth = 2e-4"),
+    heaps("a crater below the floor", "initial.crater.1: depth = 0.005: must be at most", FIRST,
+          "crater]]\ncentre = [0.003, 0.003]\nradius = 5e-4\ndepth = 5e-3"),
+    Entry("heaps and a pour", "[output] => [[initial.heap]]\nradius = 0.001\n[output]",
+          "[initial] heap = | contradicts initial.grains", base=DRY),
+]
+
 STARTS = [
     grains_from("a FIFO", '"grains.csv"', "@grains = | not a file but a device or a pipe", files={"grains.csv": os.mkfifo}),
     grains_from("a case without grains", '"other.toml"', "@grains = | a case with [grains]", files={"other.toml": WET}),
@@ -152,4 +182,5 @@ KINDS = [
 ]
 
 
-ENTRIES = {"syntax": SYNTAX, "keys": KEYS, "values": VALUES, "contradictions": CONTRADICTIONS, "kinds": KINDS, "starts": STARTS}
+ENTRIES = {"syntax": SYNTAX, "keys": KEYS, "values": VALUES, "contradictions": CONTRADICTIONS, "kinds": KINDS,
+           "heaps": HEAPS, "starts": STARTS}

@@ -3,6 +3,7 @@
 
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/grains/neighbor_list.hpp"
+#include "src/initial/grain_files.hpp"
 #include "src/output/grain_state_file.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/grain_cases.hpp"
@@ -46,6 +47,21 @@ std::int64_t wrong_marks(const GrainState& s, Real sign = 1) {
   return sum_over(MPI_COMM_WORLD, wrong);
 }
 
+const std::vector<std::string> kHeaps{"upstream", "in the middle", "downstream"};
+
+KOKKOS_FUNCTION std::uint8_t heap_of(std::int64_t id) { return static_cast<std::uint8_t>(id % 3); }
+
+/// Grains with the heap of another one; of all ranks.
+std::int64_t wrong_heaps(const GrainState& s) {
+  const auto heap = s.heap;
+  const auto id = s.id;
+  int wrong = 0;
+  Kokkos::parallel_reduce(
+      "test: wrong heaps", s.n,
+      KOKKOS_LAMBDA(int g, int& sum) { sum += heap(g) != heap_of(id(g)); }, wrong);
+  return sum_over(MPI_COMM_WORLD, wrong);
+}
+
 /// Grains in free flight, marked, through lists that sort them and send them to other ranks.
 struct Marked {
   Marked() : list(box(), grains.r_max, MPI_COMM_WORLD) {
@@ -63,6 +79,8 @@ struct Marked {
   static InitialGrains still_along_y() {  // there is no floor
     InitialGrains grains = test::random_grains(n_grains, size, 5);
     for (Vec3& u : grains.u) u.y = 0;
+    for (const std::int64_t id : grains.id) grains.heap.push_back(heap_of(id));
+    grains.heap_names = kHeaps;
     return grains;
   }
 };
@@ -75,6 +93,7 @@ TEST(GrainArrays, AnExtraOneIsSortedAndMigratesAndGhostsHaveIt) {
     EXPECT_GT(sum_over(MPI_COMM_WORLD, m.grains.n_ghosts), 100);
   }
   EXPECT_EQ(wrong_marks(m.grains), 0);
+  EXPECT_EQ(wrong_heaps(m.grains), 0);
   set_marks(m.grains, 2);  // the marks that are compared are not those of the start
   EXPECT_GE(wrong_marks(m.grains), n_grains);
 }
@@ -158,10 +177,24 @@ TEST(GrainArrays, AnExtraOneIsInRestartFiles) {
   const GrainState same = read_back(file, MPI_COMM_WORLD);
   EXPECT_EQ(same.n_ghosts, m.grains.n_ghosts);
   EXPECT_EQ(wrong_marks(same), 0);
+  EXPECT_EQ(wrong_heaps(same), 0);
+  EXPECT_EQ(same.heap_names, kHeaps);
   // Every rank alone reads all of them.
   const GrainState alone = read_back(file, MPI_COMM_SELF);
   EXPECT_EQ(alone.n, n_grains);
   EXPECT_EQ(wrong_marks(alone), 0);
+  EXPECT_EQ(wrong_heaps(alone), 0);
+}
+
+TEST(GrainArrays, TheHeapsOfASettledStateAreThoseOfTheNextCase) {
+  Marked m;
+  const test::SharedFolder folder;
+  CheckpointWriter writer(folder.path(), 1, {}, MPI_COMM_WORLD);
+  save_grains(writer, m.grains, m.list);
+  const InitialGrains settled = read_grains(writer.commit(1));
+  ASSERT_EQ(settled.size(), std::size_t{n_grains});
+  EXPECT_EQ(wrong_heaps(make_grain_state(settled, 2500, MPI_COMM_WORLD)), 0);
+  EXPECT_EQ(settled.heap_names, kHeaps);
 }
 
 }  // namespace

@@ -79,6 +79,34 @@ for ranks in 1 3; do
 done
 same bits kinds kinds-halves-1
 same bits kinds-on-3 kinds-halves-3
+# Of two heaps every grain keeps its own, on ranks, after a restart and in the case that starts from it.
+sed '/pour = /d' heap.toml > heaps.toml
+cat >> heaps.toml <<'TOML'
+[[initial.heap]]
+name = "upstream"
+centre = [0.005, 0.006]
+radius = 0.003
+[[initial.heap]]
+name = "downstream"
+centre = [0.015, 0.006]
+radius = 0.003
+sizes = [[0.2e-3, 700]]
+TOML
+run 2 heaps.toml --out heaps --set time.end=0.003
+run 3 heaps.toml --out heaps --restart heaps/restart_0000000012.h5
+run 4 heap.toml --out after --set time.end=0.001 --set 'initial.grains="heaps/restart_0000000024.h5"'
+run 2 heap.toml --out later --set time.end=0.001 --set 'initial.grains="after/grains.h5"'
+/usr/bin/python3 - <<'PYTHON' || fail "grains have lost their heaps"
+import h5py
+for run, least in (("heaps", 3), ("after", 1), ("later", 1)):
+    with h5py.File(f"{run}/grains.h5") as file:
+        frames = [name for name in file if name.startswith("frame_")]
+        assert len(frames) >= least, frames
+        for name in frames:
+            number, heap = file[name]["id"][:], file[name]["heap"]
+            assert len(number) == 1500 and ((number > 800) == heap[:]).all(), (run, name)
+            assert heap.attrs["names"] == "upstream\ndownstream\n", heap.attrs["names"]
+PYTHON
 
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 

@@ -7,8 +7,11 @@ node -e 'require("jsdom")' 2> /dev/null || { echo "SKIPPED: no jsdom (Debian pac
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 
 fake "$dir/run"
-plot 0 "$dir/run" report
-node "$root/tests/support/drive_report.js" "$dir/run/report.html" || fail "the page's controls"
+fake "$dir/heaps" --heaps
+for kind in run heaps; do
+  plot 0 "$dir/$kind" report
+  node "$root/tests/support/drive_report.js" "$dir/$kind/report.html" || fail "the page's controls: $kind"
+done
 
 [ "$failures" = 0 ] && echo "all controls as expected"
 exit $((failures > 0))

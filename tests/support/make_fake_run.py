@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Writes a synthetic run folder: a heap that turns into a barchan, with the flow over it.
 
-    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study]
+    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study] [--heaps]
 
 The formats are those of a run; nothing is simulated. `--cut` leaves the folder as a killed run
 would: a CSV line without its end, a frame without its arrays, no run.json. `--average` adds
-flow_average.h5 of a known flow, `--study` writes a study folder with such runs as its cases.
+flow_average.h5 of a known flow, `--study` writes a study folder with such runs as its cases, `--heaps`
+gives every third grain to another heap.
 """
 
 import argparse
@@ -103,13 +104,16 @@ def write_frame(file, index, t, arrays):
         group.create_dataset(name, data=values).attrs["units"] = "SI"
 
 
-def write_grains(folder, cut, frames=FRAMES):
+def write_grains(folder, cut, frames=FRAMES, heaps=False):
     random = np.random.default_rng(1)
     with open_file(folder / "grains.h5") as file:
         for index, t in enumerate(np.linspace(0, END, frames)):
             x, d, dune = make_grains(t, random)
-            write_frame(file, index, t, {"id": random.permutation(len(d)), "x": x, "d": d, "u": 0 * x,
-                                         "omega": 0 * x, "dune": dune})
+            number = random.permutation(len(d))
+            write_frame(file, index, t, {"id": number, "x": x, "d": d, "u": 0 * x, "omega": 0 * x, "dune": dune,
+                                         **({"heap": number % 3 // 2} if heaps else {})})
+            if heaps:
+                file[f"frame_{index:06d}/heap"].attrs["names"] = "first\n<second>\n"
         if cut:
             write_frame(file, frames, END + 0.5, {"id": np.arange(3)})
 
@@ -239,12 +243,13 @@ def main():
     parser.add_argument("--frames", type=int, default=FRAMES, help=f"of grains.h5 ({FRAMES})")
     parser.add_argument("--average", action="store_true", help="with flow_average.h5")
     parser.add_argument("--study", action="store_true", help="a study folder instead of a run folder")
+    parser.add_argument("--heaps", action="store_true", help="grains of two heaps")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     if options.study:
         return write_study(options.out)
     if "grains" not in options.without:
-        write_grains(options.out, options.cut, options.frames)
+        write_grains(options.out, options.cut, options.frames, options.heaps)
     if "fields" not in options.without:
         write_fields(options.out)
     if "tables" not in options.without:

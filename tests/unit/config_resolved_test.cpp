@@ -24,7 +24,7 @@ Config full_case() {
   Config c;
   for (const Section& section : sections()) {
     if (section.prepare) section.prepare(c, true);
-    if (section.repeated()) section.append(c);
+    if (section.append) section.append(c);
   }
   return c;
 }

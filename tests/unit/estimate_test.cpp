@@ -9,6 +9,7 @@
 #include "src/app/check_case.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
+#include "src/config/heaps.hpp"
 #include "src/config/load.hpp"
 #include "src/initial/pour.hpp"
 #include "src/run/simulation.hpp"
@@ -98,8 +99,8 @@ TEST(RebuildRate, FollowsTheFastestGrains) {
 
 TEST(PackedGrains, TouchAsInAHeapAtRest) {
   for (const auto& sizes : {kSizes, std::vector<SizeClass>{{2e-4, 1000}}}) {
-    const InitialGrains g =
-        packed_grains({.centre = {0.01, 0.006}, .radius = 0.003}, sizes, {0.02, 0.02, 0.012});
+    const InitialGrains g = packed_grains(
+        {as_heap({.centre = {0.01, 0.006}, .radius = 0.003}, sizes)}, {0.02, 0.02, 0.012});
     double touching = 0;
     for (std::size_t a = 0; a < g.size(); ++a) {
       EXPECT_GE(g.x[a].y, g.diameter[a] / 2);
@@ -181,7 +182,7 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
                 {"time.end=0.1", "output.history_interval=0.05", "output.grains_interval=0.05"});
   const Config& config = the_case.config;
   const PlannedGrains planned = planned_grains(the_case, folder / "run");
-  const auto pilot = packed_grains(*config.initial.pour, config.grains->sizes, config.size);
+  const auto pilot = packed_grains(poured_heaps(config), config.size);
   const double estimated = run_seconds(config, planned.sizes, time_parts(config, pilot, 0.2)).all();
   Simulation simulation(config, {.folder = folder / "run", .restart = {}}, {});
   const auto start = WallClock::now();
@@ -203,9 +204,9 @@ TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
 TEST(Estimate, OfManyGrainsIsMoreThanOfFew) {
   const Config config = load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml");
   PourConfig pour = *config.initial.pour;
-  const auto few = packed_grains(pour, {{2e-4, 100}}, config.size);
+  const auto few = packed_grains({as_heap(pour, {{2e-4, 100}})}, config.size);
   pour.shape = PourShape::bed;
-  const auto many = packed_grains(pour, {{2e-4, 5000}}, config.size);
+  const auto many = packed_grains({as_heap(pour, {{2e-4, 5000}})}, config.size);
   EXPECT_GT(time_parts(config, many, 0.1).grain_step, 5 * time_parts(config, few, 0.1).grain_step);
 }
 

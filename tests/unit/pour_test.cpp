@@ -13,7 +13,7 @@
 #include "src/parallel/mirror.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-#include "src/config/config.hpp"
+#include "src/config/heaps.hpp"
 
 namespace barchan {
 namespace {
@@ -22,7 +22,7 @@ const std::vector<SizeClass> kSizes = {{1.5e-4, 50}, {2e-4, 900}, {2.5e-4, 50}};
 const PourConfig kPour{.centre = {0.01, 0.006}, .radius = 0.003, .drop_height = 0.0005, .seed = 3};
 
 TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
-  const InitialGrains g = pour_grains(kPour, kSizes, {0.02, 0.02, 0.012});
+  const InitialGrains g = pour_grains({as_heap(kPour, kSizes)}, {0.02, 0.02, 0.012});
   ASSERT_EQ(g.size(), 1000u);
   EXPECT_EQ(std::count(g.diameter.begin(), g.diameter.end(), 1.5e-4), 50);
   EXPECT_EQ(std::count(g.diameter.begin(), g.diameter.end(), 2.5e-4), 50);
@@ -39,7 +39,7 @@ TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
 TEST(Pour, ABedCoversTheFloorEvenly) {
   const std::array<double, 3> size{0.006, 0.01, 0.004};
   const InitialGrains g =
-      pour_grains({.shape = PourShape::bed, .drop_height = 0.001}, kSizes, size);
+      pour_grains({as_heap({.shape = PourShape::bed, .drop_height = 0.001}, kSizes)}, size);
   ASSERT_EQ(g.size(), 1000u);
   std::array<int, 4> quarters{};
   const auto apart = [](double distance, double period) {
@@ -60,19 +60,20 @@ TEST(Pour, ABedCoversTheFloorEvenly) {
 
 TEST(Pour, TheSeedDecides) {
   const std::array<double, 3> size{0.02, 0.02, 0.012};
-  const InitialGrains a = pour_grains(kPour, kSizes, size), b = pour_grains(kPour, kSizes, size);
+  const InitialGrains a = pour_grains({as_heap(kPour, kSizes)}, size),
+                      b = pour_grains({as_heap(kPour, kSizes)}, size);
   EXPECT_EQ(a.diameter, b.diameter);
   EXPECT_EQ(a.x[500].x, b.x[500].x);
   PourConfig other = kPour;
   other.seed = 4;
-  EXPECT_NE(pour_grains(other, kSizes, size).diameter, a.diameter);
+  EXPECT_NE(pour_grains({as_heap(other, kSizes)}, size).diameter, a.diameter);
 }
 
 TEST(Pour, RefusesAConeThatDoesNotFit) {
-  EXPECT_THROW(pour_grains(kPour, kSizes, {0.02, 0.001, 0.012}), std::runtime_error);
+  EXPECT_THROW(pour_grains({as_heap(kPour, kSizes)}, {0.02, 0.001, 0.012}), std::runtime_error);
   PourConfig edge = kPour;
   edge.centre[0] = 0.001;
-  EXPECT_THROW(pour_grains(edge, kSizes, {0.02, 0.02, 0.012}), std::runtime_error);
+  EXPECT_THROW(pour_grains({as_heap(edge, kSizes)}, {0.02, 0.02, 0.012}), std::runtime_error);
 }
 
 // --- Grains of a file in the domain of a case.
