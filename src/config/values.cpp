@@ -71,10 +71,12 @@ Mismatch convert(const Node& node, Length& value) {
 
 Mismatch convert(const Node& node, PlaneVelocity& value) {
   std::array<double, 2> both{};
-  if (!convert(node, both[0]) || !convert(node, both)) {
+  const Mismatch alone = convert(node, both[0]);
+  if (!alone || !convert(node, both)) {
     value = {both[0], both[1]};
     return {};
   }
+  if (std::holds_alternative<double>(node.value)) return alone;
   return "a number, along x, or [along x, along z]";
 }
 

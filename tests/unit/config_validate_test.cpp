@@ -271,9 +271,9 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
 TEST(ConfigValidate, NothingIsConcludedFromAValueThatIsWrong) {
   refused(fluid_case("mean_velocity = 0.2\npressure_gradient = \"x\"\n"),
           "case.toml:8: [fluid] pressure_gradient = \"x\": must be a number");
-  EXPECT_EQ(
-      problems(fluid_case("[initial]\nfluid = 3\n[fluid.x]\n"), {"fluid.mean_velocity=-2e6"}).size(),
-      4u);
+  EXPECT_EQ(problems(fluid_case("[initial]\nfluid = 3\n[fluid.x]\n"), {"fluid.mean_velocity=-2e6"})
+                .size(),
+            4u);
 }
 
 TEST(ConfigValidate, ContradictionsComeWithTheOtherProblems) {

@@ -12,7 +12,7 @@ from barchan.figures.result import keep
 
 # label, scale ("count": linear from zero), {column: legend}; a panel without data is left out
 PANELS = (
-    ("bulk velocity (m/s)", "linear", {"bulk_velocity": None}),
+    ("bulk velocity (m/s)", "linear", {"bulk_velocity": "along x", "bulk_velocity_z": "along z"}),
     ("$u_*$ (mm/s)", "linear", {"u_star": None}),
     ("kinetic energy (J)", "log", {"fluid_kinetic_energy": "fluid",
                                    "grain_kinetic_energy": "grains"}),
