@@ -67,6 +67,7 @@ void check_effects(const Config& c, Findings& found) {
     Config defaults;
     if (c.fluid) defaults.fluid.emplace();
     if (c.grains) defaults.grains.emplace();
+    if (c.grains && c.grains->feed) defaults.grains->feed.emplace();
     if (c.initial.pour) defaults.initial.pour.emplace();
     return defaults;
   }();

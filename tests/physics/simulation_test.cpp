@@ -102,7 +102,7 @@ TEST(Simulation, RestartInTheMiddleOfAFeedContinuesBitwise) {
     for (const char* table : {"history.csv", "dune.csv"})
       EXPECT_EQ(read_text(scratch / "whole" / table), read_text(scratch / "parts" / table));
     const CheckpointReader first(middle), last(at_once);
-    EXPECT_NE(first.real("grains/seam_x"), last.real("grains/seam_x")) << "the window is to move";
+    EXPECT_GT(std::abs(last.real("grains/seam_x") - 0.002), 5e-4) << "the window is to move";
     EXPECT_GT(first.integer("feed/n_fed"), 0);
     EXPECT_GT(last.integer("feed/n_fed"), first.integer("feed/n_fed"));
     const auto inside = static_cast<std::int64_t>(last.array<std::int64_t>("grains/id").size());

@@ -126,7 +126,7 @@ TEST(ConfigValidate, AFeedAndAWindowThatFollowsAreCheckedTogether) {
   const std::string follow = "grains.boundary_x=follow";
   const std::pair<Lines, std::string> wrong[] = {
       {{"grains.feed.rate=0"}, "rate = 0: must be above 0 with amount = \"given\""},
-      {{"grains.feed.amount=as_lost"}, "rate = 10.0: must be absent with amount = \"as_lost\""},
+      {{"grains.feed.amount=as_lost"}, "rate = 10: must be absent with amount = \"as_lost\""},
       {{"grains.feed.amount=as_lost", "grains.feed.rate=0", "grains.boundary_x=periodic"},
        "amount = \"as_lost\": must be \"given\" where no grain leaves"},
       {{"grains.frozen=true"}, "contradicts frozen: grains could not move on"},
@@ -145,7 +145,8 @@ TEST(ConfigValidate, AFeedAndAWindowThatFollowsAreCheckedTogether) {
     EXPECT_TRUE(says(problems(both, assignments), words)) << assignments.back();
   EXPECT_TRUE(says(problems(grain_case(), {follow}), "must not be \"follow\" without a [fluid]"));
   EXPECT_TRUE(says(warnings(both, {"grains.feed.start=1"}), "is after the end of the run"));
-  for (const Lines& right : {Lines{}, Lines{follow}, Lines{"grains.feed.across=[0, 0.04]"}})
+  for (const Lines& right : {Lines{}, Lines{follow}, Lines{"grains.feed.across=[0, 0.04]"},
+                             Lines{"grains.feed.amount=as_lost", "grains.feed.rate=0"}})
     EXPECT_EQ(warnings(both, right), Lines{});
 }
 
