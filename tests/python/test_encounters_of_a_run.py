@@ -12,7 +12,9 @@ import barchan
 from barchan import plot
 from barchan.dune.current import currents, direction, reversal_times, sentences
 from barchan.dune.detect import labels
+from barchan.dune.lineage import follow
 from barchan.dune.shape import Bed
+from barchan.figures.encounters import foreign
 from barchan.io.frames import Grains
 from barchan.io.tables import read_table
 
@@ -50,6 +52,16 @@ def test_the_numbers_behind_it(run):
     assert set(names["dune"]) == {0, 1, 2}
     touching = {(t, body) for t, dune, body in zip(names["t"], names["dune"], names["body"]) if dune == 0}
     assert touching & {(t, body) for t, dune, body in zip(names["t"], names["dune"], names["body"]) if dune == 1}
+
+
+def test_the_share_of_other_heaps():
+    """An eighth of the large one ends on the small one; grains that were loose at first are of no heap."""
+    pair = Pair(built.passing())
+    lineage = follow(pair.frames(TIMES[::4]), pair.bed)
+    taken = np.count_nonzero(np.arange(len(LARGE)) % 8 == 0)
+    share = foreign(lineage, 1)
+    assert share[0] == 0
+    assert share[-1] == pytest.approx(taken / (len(SMALL) + taken), rel=0.05)
 
 
 def test_a_run_that_goes_on_keeps_its_summary(run, tmp_path):

@@ -107,7 +107,8 @@ def main(what, run, other):
         compare_grains(*last)
         for name in ("grains.h5", "tracks.h5"):
             compare_frames(run / name, other / name)
-        compare_tables(run, other, ("dune.csv", "force_map.csv", "history.csv"), COARSE)
+        heaps = [path.name for path in run.glob("heaps.csv")]
+        compare_tables(run, other, ("dune.csv", "force_map.csv", "history.csv", *heaps), COARSE)
     print(f"{run} and {other} agree")
 
 

@@ -67,7 +67,7 @@ def sentences(run: RunFolder) -> Iterator[str]:
     def said(time: float) -> str:
         return "not known" if np.isnan(time) else f"{time:.3g} s"
 
-    if run.dune_columns:
+    if run.dune_columns and "volume" in run.main_dune_columns:
         yield f"formation time {said(formation_time(run.main_dune_columns))}"
     for start, time in reversal_times(run):
         yield f"the current turns at {start:.3g} s: reversal time {said(time)}"

@@ -1,7 +1,7 @@
 """encounters: dunes that meet: where they go, what becomes of their sand, and how each encounter ended.
 
 Curves are dunes by name, which they keep through contact; bands along x are their extents, dots mark the first
-contact. The last panel has the share of a dune's grains that is not of the heap of its first ones. Writes
+contact. The last panel has the share of a dune's grains that is of another heap than its first ones. Writes
 encounters.csv besides the numbers of the curves, and the same into run.json. Definitions: docs/dune-measures.md,
 "Names" and "Encounters".
 """
@@ -9,6 +9,7 @@ encounters.csv besides the numbers of the curves, and the same into run.json. De
 import numpy as np
 
 from barchan.dune import encounters as dune_encounters
+from barchan.dune.lineage import NONE
 from barchan.figures import style
 from barchan.figures.result import keep, publish, say
 
@@ -66,12 +67,13 @@ def draw_path(axes, lineage, name, colour):
 
 
 def foreign(lineage, name):
-    """(F) share of a dune's grains that are not of the heap of most of its first ones; NaN where it is not there."""
+    """(F) share of a dune's grains that are of another heap than most of its first ones; NaN where it is not there."""
     frame, heap, dune, number = lineage.heaps.T
     own = dune == name
     first = own & (frame == frame[own].min())
     home = heap[first][np.argmax(number[first])]
-    count = np.bincount(frame[own & (heap != home)], number[own & (heap != home)], len(lineage.t))
+    others = own & (heap != home) & (heap != NONE)
+    count = np.bincount(frame[others], number[others], len(lineage.t))
     with np.errstate(invalid="ignore"):
         return count / np.where(lineage.present[:, name], lineage.n_grains[:, name], np.nan)
 
