@@ -16,12 +16,13 @@ GRAIN = np.pi / 6 * D**3
 PHI = GRAIN / (ALONG * ACROSS * D)
 SIZE = (120 * ALONG, 0.01, 60 * ACROSS)
 FRAME = 0.1  # [s]
-FLAT = 20    # columns of the crest
+STOSS, FLAT = 3, 10  # columns to a layer of the upstream side, and of the crest
 
 
 def body(layers):
-    """(columns, layers, rows): a flat crest between slopes of a layer a column; away from the walls."""
-    heights = np.concatenate([np.arange(1, layers), np.full(FLAT, layers), np.arange(layers - 1, 0, -1)])
+    """(columns, layers, rows): a flat crest between a gentle slope and one of a layer a column; away from the walls."""
+    heights = np.concatenate([np.repeat(np.arange(1, layers), STOSS), np.full(FLAT, layers),
+                              np.arange(layers - 1, 0, -1)])
     return np.array([(i, j, k) for i, height in enumerate(heights) for j in range(height) for k in range(10, 50)])
 
 
@@ -30,10 +31,10 @@ def write_run(folder, layers, columns, celerity=1.0, moving=lambda body, layers:
     folder.mkdir()
     grains, c = body(layers), columns * ALONG / FRAME
     lattice, shift = (grains + 0.5) * (ALONG, D, ACROSS) + (20 * ALONG, 0, 0), moving(grains, layers)
-    crest, n = (20 + layers - 1 + FLAT // 2) * ALONG, len(grains)
+    crest, n = (20 + STOSS * (layers - 1) + FLAT // 2) * ALONG, len(grains)
     (folder / "config.toml").write_text(f"[domain]\nsize = {list(SIZE)}\n[grains]\nboundary_x = \"periodic\"\n")
     names = "t,dune,n_grains,W,L,H,Cx,Cz,crest_x,horn_left,horn_right,celerity,volume"
-    length = (FLAT + 2 * layers - 2) * ALONG
+    length = (FLAT + (STOSS + 1) * (layers - 1)) * ALONG
     (folder / "dune.csv").write_text(f"{names}\n" + "".join(
         f"{i * FRAME},0,{n},{40 * ACROSS},{length},{layers * D},{celerity * c * i * FRAME},{0.5 * SIZE[2]},"
         f"{crest + i * c * FRAME},0,0,{c},{n * GRAIN}\n" for i in range(frames)))
