@@ -16,12 +16,13 @@ GRAIN = np.pi / 6 * D**3
 PHI = GRAIN / (ALONG * ACROSS * D)
 SIZE = (120 * ALONG, 0.01, 60 * ACROSS)
 FRAME = 0.1  # [s]
-FLAT = 20    # columns of the crest
+STOSS, FLAT = 3, 10  # columns to a layer of the upstream side, and of the crest
 
 
 def body(layers):
-    """(columns, layers, rows): a flat crest between slopes of a layer a column; away from the walls."""
-    heights = np.concatenate([np.arange(1, layers), np.full(FLAT, layers), np.arange(layers - 1, 0, -1)])
+    """(columns, layers, rows): a flat crest between a gentle slope and one of a layer a column; away from the walls."""
+    heights = np.concatenate([np.repeat(np.arange(1, layers), STOSS), np.full(FLAT, layers),
+                              np.arange(layers - 1, 0, -1)])
     return np.array([(i, j, k) for i, height in enumerate(heights) for j in range(height) for k in range(10, 50)])
 
 
@@ -30,17 +31,18 @@ def write_run(folder, layers, columns, celerity=1.0, moving=lambda body, layers:
     folder.mkdir()
     grains, c = body(layers), columns * ALONG / FRAME
     lattice, shift = (grains + 0.5) * (ALONG, D, ACROSS) + (20 * ALONG, 0, 0), moving(grains, layers)
-    crest, n = (20 + layers - 1 + FLAT // 2) * ALONG, len(grains)
+    crest, n = (20 + STOSS * (layers - 1) + FLAT // 2) * ALONG, len(grains)
     (folder / "config.toml").write_text(f"[domain]\nsize = {list(SIZE)}\n[grains]\nboundary_x = \"periodic\"\n")
     names = "t,dune,n_grains,W,L,H,Cx,Cz,crest_x,horn_left,horn_right,celerity,volume"
-    length = (FLAT + 2 * layers - 2) * ALONG
+    length = (FLAT + (STOSS + 1) * (layers - 1)) * ALONG
     (folder / "dune.csv").write_text(f"{names}\n" + "".join(
-        f"{i * FRAME},0,{n},{40 * ACROSS},{length},{layers * D},{celerity * c * i * FRAME},{0.5 * SIZE[2]},{crest + i * c * FRAME},"
-        f"0,0,{c},{n * GRAIN}\n" for i in range(frames)))
+        f"{i * FRAME},0,{n},{40 * ACROSS},{length},{layers * D},{celerity * c * i * FRAME},{0.5 * SIZE[2]},"
+        f"{crest + i * c * FRAME},0,0,{c},{n * GRAIN}\n" for i in range(frames)))
     with h5py.File(folder / "grains.h5", "w") as file:
         for i in range(frames):
             x = lattice + np.outer(shift, (i * columns * ALONG, 0, 0))
-            write_frame(file, i, i * FRAME, {"id": np.arange(n), "x": x, "d": np.full(n, D), "dune": np.zeros(n, int)})
+            write_frame(file, i, i * FRAME,
+                        {"id": np.arange(n), "x": x, "d": np.full(n, D), "dune": np.zeros(n, int)})
     return Run(folder)
 
 
@@ -64,6 +66,12 @@ def test_a_layer_that_moves_carries_its_grains(tmp_path):
     run = write_run(tmp_path / "run", 10, 2, moving=lambda grains, layers: grains[:, 1] >= layers - 2, frames=2)
     table, _ = transport.measure(run)
     assert table["crest_flux"][1] == pytest.approx(2 * 2 * GRAIN / (ACROSS * FRAME), rel=1e-9)
+
+
+def test_means_are_of_the_window():
+    table = {"t": np.arange(5.0), "flux": np.array([np.nan, 10, 2, np.nan, 4]), "none": np.full(5, np.nan)}
+    assert transport.over_window(table, ("flux", "none"), None, None) == {"flux": 3}
+    assert transport.over_window(table, ("flux",), 0, 2) == {"flux": 6}
 
 
 def study(folder, celerity):

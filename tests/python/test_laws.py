@@ -30,8 +30,8 @@ def write_run(folder, length, scatter=lambda: 1.0, velocity=0.28):
     """c = 2e-5/L at 0.28 m/s, and as the cube of the velocity; W = 2 mm + 0.9 L, H = 0.3 mm + 0.08 L, a loss of
     1e-6/L^2 a second; horns of 0.3 L from t = 200 L. u_star is a twentieth of the velocity, a number or [x, z]."""
     t, speed = np.arange(121) / 10, np.hypot(*np.append(velocity, 0.0)[:2])
-    c, w, h, loss = (scatter() * value for value in (2e-5 / length * (speed / 0.28)**3, 2e-3 + 0.9 * length, 3e-4 + 0.08 * length,
-                                                     1e-6 / length**2))
+    c, w, h, loss = (scatter() * value for value in (2e-5 / length * (speed / 0.28)**3, 2e-3 + 0.9 * length,
+                                                     3e-4 + 0.08 * length, 1e-6 / length**2))
     n = 3e4 * np.exp(-loss * t)
     horns = np.where(t >= 200 * length - 1e-9, 0.3 * length, 0)
     columns = [t, 0 * t, n, w + 0 * t, length + 0 * t, h + 0 * t, 0.01 + c * t, 0 * t, horns, horns, c + 0 * t,
@@ -113,13 +113,14 @@ def test_the_figure_has_a_line_for_each_run(study, tmp_path):
 
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory):
-    """Sizes and velocities, the faster ones of larger dunes; one flow is oblique, of the magnitude 0.35 m/s."""
+    """Sizes and velocities: the faster ones of larger dunes, which also get longer. One flow of 0.35 m/s is oblique."""
     folder, cases = tmp_path_factory.mktemp("sweep"), []
     for velocity, names in ((0.22, ("3k", "10k")), ([0.28, 0.21], ("3k", "10k")), (0.35, ("30k",)),
                             (0.45, ("10k", "30k", "100k"))):
         for name in names:
-            run = f"{name}-{np.hypot(*np.append(velocity, 0)[:2]):g}"
-            write_run(folder / run, SIZES[name], velocity=velocity)
+            speed = np.hypot(*np.append(velocity, 0)[:2])
+            run = f"{name}-{np.round(speed, 9):g}"
+            write_run(folder / run, SIZES[name] * (speed / 0.35)**0.5, velocity=velocity)
             values = {"fluid.mean_velocity": velocity, "initial.fluid": f"channel-{velocity}.toml", "heap": name}
             cases.append({"name": run, "case": run, "folder": run, "values": values})
     return study_of(folder, cases)
@@ -188,7 +189,20 @@ def test_one_realisation_is_said(tmp_path):
     write_run(tmp_path / "3k-r2", SIZES["3k"])
     cases = [{"name": name, "case": name, "folder": name, "values": {}} for name in ("3k", "10k", "30k")]
     study = study_of(tmp_path, [*cases, {"name": "3k-r2", "case": "3k", "folder": "3k-r2", "realisation": 2}])
-    assert laws_figure.draw(study).sentences[-1].startswith("errors do not know the spread of 10k, 30k: one realisation")
+    said = laws_figure.draw(study).sentences[-1]
+    assert said.startswith("errors do not know the spread of 10k, 30k: one realisation each")
+
+
+def test_two_runs_make_no_law(tmp_path):
+    """The figure has their points, and the words say why there is no more."""
+    for name in ("3k", "10k"):
+        write_run(tmp_path / name, SIZES[name])
+    cases = [{"name": name, "folder": name, "values": {}} for name in ("3k", "10k")]
+    figure = laws_figure.draw(study_of(tmp_path, cases))
+    assert figure.sentences[0] == "celerity ~ L^n: too few runs to fit, or cases alike in L"
+    assert len(figure.numbers["laws"]["L"]) == 2
+    assert figure.numbers["laws_fits"]["law"] == []
+    figure.savefig(tmp_path / "laws.png")
 
 
 def test_one_case_is_refused(tmp_path):

@@ -89,6 +89,6 @@ def fits(laws):
     rows = [(name, relation.y, relation.x, relation.kind, law.n, law.error, law.interval, law.runs,
              *(relation.published or (np.nan, np.nan)), relation.source, verdict(law, relation))
             for name, law in laws.items() if law for relation in [RELATIONS[name]]]
-    names = ("law", "y", "x", "kind", "n", "standard_error", "ci95", "runs", "published_low", "published_high", "source",
-             "verdict")
+    names = ("law", "y", "x", "kind", "n", "standard_error", "ci95", "runs", "published_low", "published_high",
+             "source", "verdict")
     return {name: [row[column] for row in rows] for column, name in enumerate(names)}
