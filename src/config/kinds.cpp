@@ -119,7 +119,8 @@ std::vector<std::string> names_of_kinds(const GrainConfig& grains) {
 std::string unknown_kinds(const GrainConfig& grains, const std::vector<std::string>& names) {
   const std::vector<std::string> ours = names_of_kinds(grains);
   for (const std::string& name : names) {
-    if (kind_of_name(grains, name) >= 0) continue;
+    const bool any_will_do = name.empty() && ours.size() == 1;
+    if (any_will_do || kind_of_name(grains, name) >= 0) continue;
     if (name.empty())
       return fmt::format("say of which kind each grain is, \"{}\"", fmt::join(ours, "\" or \""));
     if (grains.kinds.empty())

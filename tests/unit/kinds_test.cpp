@@ -248,6 +248,17 @@ TEST(Kinds, ThoseOfAFileBecomeThoseOfTheCase) {
       plain.string() + ": it must say of which kind each grain is, \"glass\" or \"zirconium\"");
 }
 
+TEST(Kinds, WhereThereIsOneAFileNeedNotNameIt) {
+  const TemporaryFolder folder;
+  const auto plain = written(folder / "plain.csv", "id,diameter,x,y,z\n1,0.0002,0.01,0.001,0.01\n");
+  Config config = load_config_text(grain_case("[[grains.kind]]\nname = \"sand\"\ndensity = 2650\n"),
+                                   "case.toml");
+  config.initial.pour.reset();
+  EXPECT_EQ(checked_grains(config, plain).size(), 1u);
+  const SystemState state = make_initial_state(config, {.fluid = {}, .grains = plain});
+  EXPECT_DOUBLE_EQ(host_copy(state.grains->kin)(0).m, 2650 * sphere_volume(1e-4));
+}
+
 TEST(Kinds, AFrameHasThemWithTheirNames) {
   const TemporaryFolder folder;
   const Config config = two_kinds();
