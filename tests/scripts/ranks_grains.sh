@@ -94,8 +94,8 @@ sizes = [[0.2e-3, 700]]
 TOML
 run 2 heaps.toml --out heaps --set time.end=0.003
 run 3 heaps.toml --out heaps --restart heaps/restart_0000000012.h5
-run 4 heap.toml --out after --set time.end=0.001 --set 'initial.grains="heaps/restart_0000000024.h5"'
-run 2 heap.toml --out later --set time.end=0.001 --set 'initial.grains="after/grains.h5"'
+run 4 heap.toml --out after --set time.end=0.002 --set 'initial.grains="heaps/restart_0000000024.h5"'
+run 2 heap.toml --out later --set time.end=0.002 --set 'initial.grains="after/grains.h5"'
 /usr/bin/python3 - <<'PYTHON' || fail "grains have lost their heaps"
 import h5py
 for run, least in (("heaps", 3), ("after", 1), ("later", 1)):

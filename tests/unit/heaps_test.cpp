@@ -138,14 +138,14 @@ TEST(Heaps, MistakesAreToldAtTheirLine) {
   const auto told = [](const std::string& from, const std::string& to, const std::string& line) {
     EXPECT_EQ(problems(heaps_case(replaced(kTwo, from, to))), only(line));
   };
-  told("radius = 0.006", "radius = 0.021",
-       "case.toml:12: [initial.heap.2] radius = 0.021: must keep the cone inside the domain; along "
-       "z it spans -0.001 to 0.041 m of 0 to 0.04 m");
+  told("[0.04, 0.02]", "[0.04, 0.005]",
+       "case.toml:12: [initial.heap.2] radius = 0.006: must keep the cone inside the domain; along "
+       "z it spans -0.001 to 0.011 m of 0 to 0.04 m");
   told("[0.04,", "[0.0315,",
        "case.toml:11: [initial.heap.2] centre = [0.0315, 0.02]: must be at least 0.000702 m "
        "farther from \"heap 1\": the two heaps overlap");
-  told("radius = 0.006", "shape = \"bed\"",
-       "case.toml:12: [initial.heap.2] shape = \"bed\": must stand before \"heap 1\": a bed lies "
+  told("centre = [0.04, 0.02]\nradius = 0.006", "shape = \"bed\"",
+       "case.toml:11: [initial.heap.2] shape = \"bed\": must stand before \"heap 1\": a bed lies "
        "under the heaps after it");
   told("radius = 0.006", "shape = \"ridge\"",
        "case.toml:10: [initial.heap.2] radius: must be above 0 for a ridge");
@@ -157,6 +157,9 @@ TEST(Heaps, MistakesAreToldAtTheirLine) {
        "0.025 m, above the domain");
   told("radius = 0.006", "radius = 0.006\nraduis = 0.006",
        "case.toml:13: [initial.heap] raduis: unknown key (did you mean \"radius\"?)");
+  EXPECT_EQ(problems(heaps_case("[[initial.heap]]\nshape = \"bed\"\ncentre = [0.04, 0.02]\n")),
+            only("case.toml:9: [initial.heap.1] centre = [0.04, 0.02]: must be absent with shape = "
+                 "\"bed\", which covers the floor"));
 }
 
 TEST(Heaps, ContradictionsAreErrors) {
