@@ -22,8 +22,8 @@ Config two_sizes() {
   config.grains->contact_model = ContactModel::linear;
   config.grains->linear_stiffness = 1e4;
   config.grains->kinds = {
-      {.name = "small", .density = 2500, .material = config.grains->material},
-      {.name = "large", .density = 2.5e12, .material = config.grains->material}};
+      {.name = "small", .density = 2500, .material = config.grains->material, .sizes = {}},
+      {.name = "large", .density = 2.5e12, .material = config.grains->material, .sizes = {}}};
   return config;
 }
 

@@ -21,13 +21,15 @@ Config unlike_kinds(Real restitution_of_both = 0.8) {
                          .material = {.youngs_modulus = 4e7,
                                       .poisson_ratio = 0.2,
                                       .restitution = 0.9,
-                                      .sliding_friction = 0.2}};
+                                      .sliding_friction = 0.2},
+                         .sizes = {}};
   const KindConfig light{.name = "light",
                          .density = 1500,
                          .material = {.youngs_modulus = 5e6,
                                       .poisson_ratio = 0.45,
                                       .restitution = 0.5,
-                                      .sliding_friction = 0.8}};
+                                      .sliding_friction = 0.8},
+                         .sizes = {}};
   Config config = bench_config(heavy.material, heavy.density, kLarge);
   config.grains->kinds = {heavy, light};
   config.grains->pairs = {{.kinds = {"light", "heavy"}, .restitution = restitution_of_both}};
