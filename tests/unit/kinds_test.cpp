@@ -1,5 +1,6 @@
 // Grains of several kinds from the case to the state and its files.
 #include "src/config/kinds.hpp"
+#include "src/config/heaps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -159,7 +160,8 @@ TEST(Kinds, SizesThatDifferMuchWantKindsOfTheirOwn) {
 }
 
 InitialGrains poured(const std::vector<SizeClass>& sizes) {
-  return pour_grains({.centre = {0.05, 0.02}, .radius = 4e-3}, sizes, {0.1, 0.025, 0.04});
+  const PourConfig cone{.centre = {0.05, 0.02}, .radius = 4e-3};
+  return pour_grains({as_heap(cone, sizes)}, {0.1, 0.025, 0.04});
 }
 
 // Places are those of one kind; which grain is of which is random: 1000 of 2000 in either half,
