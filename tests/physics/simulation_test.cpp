@@ -137,8 +137,8 @@ TEST(Simulation, AFeedBeginsAtARestartToo) {
 TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {
   const TemporaryFolder scratch;
   Config config = fed_config();
-  config.size[0] = 0.0045;
-  config.initial.pour->centre = {0.0022, 0.003};
+  config.size[0] = 0.004;
+  config.initial.pour->centre = {0.002, 0.003};
   config.grains->feed.reset();
   try {
     run(config, scratch / "run");
