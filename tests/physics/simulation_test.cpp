@@ -137,8 +137,9 @@ TEST(Simulation, AFeedBeginsAtARestartToo) {
 TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {
   const TemporaryFolder scratch;
   Config config = fed_config();
-  config.size[0] = 0.0045;
-  config.initial.pour->centre = {0.0022, 0.003};
+  config.initial.pour->shape = PourShape::bed;  // its grains lie everywhere
+  config.initial.pour->radius = 0;
+  config.grains->sizes = {{2e-4, 3000}};
   config.grains->feed.reset();
   try {
     run(config, scratch / "run");

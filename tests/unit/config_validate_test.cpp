@@ -126,7 +126,8 @@ TEST(ConfigValidate, AFeedAndAWindowThatFollowsAreCheckedTogether) {
   const std::string follow = "grains.boundary_x=follow";
   const std::pair<Lines, std::string> wrong[] = {
       {{"grains.feed.rate=0"}, "rate = 0: must be above 0 with amount = \"given\""},
-      {{"grains.feed.amount=as_lost"}, "rate = 10: must be absent with amount = \"as_lost\""},
+      {{"grains.feed.amount=as_lost", "grains.feed.rate=10"},
+       "must be absent with amount = \"as_lost\""},
       {{"grains.feed.amount=as_lost", "grains.feed.rate=0", "grains.boundary_x=periodic"},
        "amount = \"as_lost\": must be \"given\" where no grain leaves"},
       {{"grains.frozen=true"}, "contradicts frozen: grains could not move on"},
