@@ -272,9 +272,14 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
     return did_you_mean(close);
   }
   if (table) return {};
+  std::vector<std::string> all;
   for (const Section& other : table_) {
-    const std::string near = nearest(name, names_in(other.name));
-    if (!near.empty()) return elsewhere(near, other.name);
+    const std::vector<std::string> names = names_in(other.name);
+    all.insert(all.end(), names.begin(), names.end());
+  }
+  const std::string near = nearest(name, all);
+  for (const Section& other : table_) {
+    if (contains(names_in(other.name), near)) return elsewhere(near, other.name);
   }
   return {};
 }

@@ -87,7 +87,7 @@ TEST(GrainFiles, ProblemsNameFileAndLine) {
   EXPECT_EQ(problem("id,diameter,x,y,z,radius\n"),
             "heap.csv:1: unknown column \"radius\" in the header (did you mean \"diameter\"?); "
             "columns are id,diameter,x,y,z and optionally "
-            "vx,vy,vz,wx,wy,wz,heap");
+            "vx,vy,vz,wx,wy,wz,kind,heap");
   EXPECT_EQ(problem("id,diameter,x,y,z,x\n"), "heap.csv:1: column \"x\" appears twice");
   EXPECT_EQ(problem(head + "1,1,0,0,0\n2,1,0,zero,0\n"),
             "heap.csv:3: y = \"zero\": must be a number");
