@@ -170,7 +170,7 @@ TEST(GrainsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
   for (const FeedRate amount : {FeedRate::given, FeedRate::as_lost}) {
     Config c = box({0.004, 0.004, 0.005});
     c.grains->boundary_x = GrainBoundaryX::exit;
-    c.grains->feed = FeedConfig{.amount = amount, .rate = 2e4, .x = 5e-5, .height = 1e-3};
+    c.grains->feed = FeedConfig{.amount = amount, .rate = 2e4, .x = 5e-5, .height = 3e-3};
     c.time.fluid_step = 1e-4;
     SharedGrains s(c, test::lattice_packing(2000, c.size, 0.8));
     GrainFeed of_whole(c), of_shared(c);

@@ -174,7 +174,7 @@ TEST(ConfigLoad, AllProblemsAtOnceInTheOrderOfLines) {
           "case.toml:11: [grains] density = true: must be a number",
           "case.toml:14: [solver] preconditioner = \"ft\": must be one of \"fft\", \"local_fft\" "
           "(did you mean \"fft\"?)",
-          "case.toml:15: [solver] speed: unknown key (did you mean \"seed\" of [initial]?)",
+          "case.toml:15: [solver] speed: unknown key (did you mean \"seed\" of [grains.feed]?)",
           "--set output.grain_forces = \"yes\": must be true or false",
           "--set time.ende: unknown key (did you mean \"end\"?)", "6 problems; nothing was run."}));
 }
