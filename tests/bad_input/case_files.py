@@ -178,7 +178,7 @@ KINDS = [
     kinds("a pair with a stranger", GLASS + '[[grains.pair]]\nkinds = ["glass", "glas"]\nrestitution = 0.5\n',
           'case.toml | must be names of [[grains.kind]] | did you mean "glass"'),
     kinds("a kind with a material of nothing", GLASS + "youngs_modulus = 0\n", "case.toml | youngs_modulus = 0: must be at least"),
-    kinds("a kind that floats", GLASS + "density = 900\n", 'warning | those of "glass" float', **GOOD),
+    kinds("a kind that floats", GLASS + "density = 900\nyoungs_modulus = 4e5\n", 'warning | those of "glass" float', **GOOD),
 ]
 
 

@@ -3,6 +3,8 @@
 Dashed: the share in the whole dune.
 """
 
+import numpy as np
+
 from barchan.dune.composition import REGIONS, composition
 from barchan.figures import style
 from barchan.figures.result import keep, say
@@ -25,7 +27,8 @@ def draw(run, ax=None):
     keep(figure, "composition", {"t": found.t, **{
         f"{region}_{name}": found.count[region][:, number]
         for region in REGIONS for number, name in enumerate(found.kinds)}}, most=None)
-    say(figure, [sentence(found, region) for region in REGIONS])
+    known = [region for region in REGIONS if np.isfinite(found.share(region)[-1]).all()]
+    say(figure, [sentence(found, region) for region in known])
     return figure
 
 
