@@ -17,7 +17,7 @@ struct GrainSample {
   Vec3 x;            ///< centre [m]
   double d = 0.0;    ///< diameter [m]
   double u_x = 0.0;  ///< streamwise velocity [m/s]
-  double heap = -1;  ///< number of the heap it came from; -1: there is one
+  double heap = -1;  ///< number of the heap it came from; -1: of none
 };
 using GrainCloud = std::span<const GrainSample>;
 

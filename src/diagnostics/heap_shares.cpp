@@ -1,16 +1,20 @@
 #include "src/diagnostics/heap_shares.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <utility>
 
 namespace barchan {
 
+bool are_of_heaps(GrainCloud grains) {
+  return std::ranges::any_of(grains, [](const GrainSample& grain) { return grain.heap >= 0; });
+}
+
 std::vector<HeapShare> heap_shares(double t, GrainCloud grains, std::span<const int> labels) {
   std::map<std::pair<int, int>, HeapShare> shares;
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const GrainSample& grain = grains[p];
-    if (grain.heap < 0) return {};
     const int heap = static_cast<int>(grain.heap);
     HeapShare& share = shares[{labels[p], heap}];
     share.t = t;

@@ -23,15 +23,18 @@ inline constexpr std::array kHeapColumns = [] {
   return std::to_array<Column<H>>({
       {"t", "s", &H::t, "time", 10},
       {"dune", "-", &H::dune, "label as in `dune.csv`; -1: grains in no dune"},
-      {"heap", "-", &H::heap, "the heap they came from, as in `grains.h5`"},
+      {"heap", "-", &H::heap, "the heap they came from, as in `grains.h5`; -1: from none"},
       {"n_grains", "-", &H::n_grains, "grains of this heap in this dune"},
       {"volume", "m3", &H::volume, "sum of pi d^3/6 over them"},
   });
 }();
 inline constexpr CsvTable<HeapShare> kHeapTable{"heaps.csv", kHeapColumns};
 
+/// Whether any of the grains came from one of several heaps.
+bool are_of_heaps(GrainCloud grains);
+
 /// One for each dune and heap that have grains in common, in order of dune, then heap. `labels`:
-/// the dune of each grain, -1: none. Empty where the grains are not of several heaps.
+/// the dune of each grain, -1: none.
 std::vector<HeapShare> heap_shares(double t, GrainCloud grains, std::span<const int> labels);
 
 }  // namespace barchan

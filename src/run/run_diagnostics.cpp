@@ -41,8 +41,7 @@ std::vector<DuneRecord> RunDiagnostics::find_dunes() {
   for (const DuneRecord& dune : dunes) {
     if (!largest_dune_ || dune.volume > largest_dune_->volume) largest_dune_ = dune;
   }
-  const bool of_heaps = !grains.empty() && grains.front().heap >= 0;
-  if (of_heaps)
+  if (are_of_heaps(grains))
     heap_shares_ = barchan::heap_shares(run_.clock.time(), grains, tracker_.labels(grains));
   return dunes;
 }

@@ -91,7 +91,8 @@ TEST(DuneTracker, TellsWhichHeapTheGrainsOfADuneCameFrom) {
   for (GrainSample& grain : first) grain.heap = 0;
   for (GrainSample& grain : second) grain.heap = 1;
   loose[0].heap = 1;
-  first[0].heap = 1;  // one that was carried over
+  first[0].heap = 1;                             // one that was carried over
+  loose.push_back({{0.047, 0.5 * d, 0.01}, d});  // came from no heap
   const Grains all = first + second + loose;
   DuneTracker tracker(channel);
   tracker.update(0.5, all);
@@ -112,8 +113,8 @@ TEST(DuneTracker, TellsWhichHeapTheGrainsOfADuneCameFrom) {
     EXPECT_EQ(share->t, 0.5);
     ++share;
   }
-  const Grains of_one_heap = heap(0.02, 0.025, 4.0 * mm, 1.5 * mm);
-  EXPECT_TRUE(heap_shares(0.5, of_one_heap, tracker.labels(of_one_heap)).empty());
+  EXPECT_TRUE(are_of_heaps(all));
+  EXPECT_FALSE(are_of_heaps(heap(0.02, 0.025, 4.0 * mm, 1.5 * mm)));
 }
 
 TEST(DuneTracker, GrainsOfARunBearTheirHeapIfThereAreSeveral) {
