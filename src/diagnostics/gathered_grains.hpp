@@ -53,7 +53,7 @@ inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
     mine.push_back({.x = kin(g).x,
                     .d = 2 * kin(g).r,
                     .u_x = kin(g).u.x,
-                    .heap = heap.size() > 0 ? static_cast<double>(heap(g)) : -1.0});
+                    .heap = heap.size() > 0 && heap(g) != kNoHeap ? Real(heap(g)) : Real(-1)});
   }
   return on_rank_0(grains.ranks, mine);
 }

@@ -1,5 +1,6 @@
 #include "src/output/output_files.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "kernels/diagnostics/frame_values.hpp"
@@ -89,7 +90,8 @@ void write_numbers(Hdf5File& file, const std::string& name, int n,
                    const std::vector<std::string>& names, const Hyperslab& entries) {
   if (numbers.size() == 0) return;
   const auto host = host_copy(Kokkos::subview(numbers, std::make_pair(0, n)));
-  const std::vector<int> whole(host.data(), host.data() + host.size());
+  std::vector<int> whole(host.data(), host.data() + host.size());
+  std::ranges::replace(whole, int{kNoHeap}, -1);
   write_named(file, Arrays::grains, name, std::span<const int>(whole), {whole.size()}, "1",
               entries);
   file.set_attribute(name, "names", as_lines(names));

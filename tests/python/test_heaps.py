@@ -9,6 +9,7 @@ from matplotlib.colors import to_rgb
 
 import barchan
 from barchan.figures import grain_image, movie, style
+from barchan.io.frames import with_fed
 from barchan.report import grains as packed
 
 
@@ -63,6 +64,13 @@ def test_they_travel_inside_the_report(run):
     assert set(words[-facts["n"]:]) == {0, 1}
     kept, _ = packed.kept_ids(run, packed.evenly(len(run.grain_file.frames), packed.MOST_FRAMES))
     assert np.array_equal(words[-facts["n"]:], kept % 3 // 2)
-    assert [heap["name"] for heap in facts["heaps"]] == ["first", "<second>"]
+    assert [heap["name"] for heap in facts["groups"]] == ["first", "<second>"]
     facts, data = packed.pack(barchan.Run(fake()))
-    assert facts["heaps"] == [] and len(base64.b64decode(data)) == 2 * facts["n"] * (1 + 3 * len(facts["times"]))
+    assert facts["groups"] == [] and len(base64.b64decode(data)) == 2 * facts["n"] * (1 + 3 * len(facts["times"]))
+
+
+def test_fed_grains_are_a_heap_of_their_own():
+    heap, names = with_fed(np.array([0, -1, 1]), ("first", "second"))
+    assert heap.tolist() == [0, 2, 1] and names == ("first", "second", "fed")
+    assert with_fed(np.array([0, 1]), ("first", "second"))[1] == ("first", "second")
+    assert with_fed(None, ()) == (None, ())

@@ -71,13 +71,13 @@ class Frames:
 
 
 def known_grains(run):
-    """Grains by id with their diameters, heaps and kinds; no grain enters later, so the first frame has almost all."""
+    """Grains by id with their diameters, heaps and kinds: those of the first and the last frame."""
     grains = [run.frame(index) for index in sorted({0, len(run.need_grains().frames) - 1})]
     first = np.unique(np.concatenate([g.id for g in grains]), return_index=True)[1]
     number, x, d = (np.concatenate([getattr(g, name) for g in grains])[first] for name in ("id", "x", "d"))
     heap, kind = (None if getattr(grains[0], name) is None else
                   np.concatenate([getattr(g, name) for g in grains])[first] for name in ("heap", "kind"))
-    return Grains(0.0, number, x, d, heap=heap, heaps=grains[0].heaps, kind=kind, kinds=grains[0].kinds)
+    return Grains(0.0, number, x, d, heap=heap, heaps=grains[-1].heaps, kind=kind, kinds=grains[0].kinds)
 
 
 def write_files(run):

@@ -46,6 +46,13 @@ def names_of(frame: Group, name: str) -> tuple[str, ...]:
     return names + tuple(f"{name} {n + 1}" for n in range(len(names), int(np.max(frame[name][:], initial=-1)) + 1))
 
 
+def with_fed(heap: np.ndarray | None, names: tuple[str, ...]) -> tuple[np.ndarray | None, tuple[str, ...]]:
+    """Numbers and names of heaps; grains of none, -1, as a heap of their own: they were fed on the way."""
+    if heap is None or np.min(heap, initial=0) >= 0:
+        return heap, names
+    return np.where(heap < 0, len(names), heap), (*names, "fed")
+
+
 @dataclass
 class Flow:
     """A vertical plane z = `z` of the flow, from wall to top and from end to end.

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
-from barchan.io.frames import Flow, FrameFile, Grains, names_of
+from barchan.io.frames import Flow, FrameFile, Grains, names_of, with_fed
 from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
 
@@ -143,7 +143,8 @@ class RunFolder:
             number, x, d = (group[key][:][order] for key in ("id", "x", "d"))
             dune, u, heap, kind = (group[key][:][order] if key in group else None
                                    for key in ("dune", "u", "heap", "kind"))
-            return Grains(time, number, x, d, dune, u, heap, names_of(group, "heap"), kind, names_of(group, "kind"))
+            heap, heaps = with_fed(heap, names_of(group, "heap"))
+            return Grains(time, number, x, d, dune, u, heap, heaps, kind, names_of(group, "kind"))
 
     def flow_plane(self, index: int, z: float) -> Flow:
         """The cells nearest to the plane z = `z` [m] in frame `index`."""
