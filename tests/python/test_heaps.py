@@ -32,7 +32,7 @@ def test_seen_from_above_they_have_the_colours_of_their_heaps(run):
     grains = run.frame(0)
     window = (0.015, 0.035, 0.01, 0.03)
     picture = grain_image.top_view(grains, window, 400, 2e-3)
-    for heap, colour in enumerate(style.HEAPS[:2]):
+    for heap, colour in enumerate(style.GROUPS[:2]):
         alone = grain_image.top_view(of_heap(grains, heap), window, 400, 2e-3)
         inside = alone[alone.min(axis=2) < 0.3]  # not towards white at an edge
         ratio = inside / inside.max(axis=1, keepdims=True)
