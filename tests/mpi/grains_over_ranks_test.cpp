@@ -181,7 +181,7 @@ TEST(GrainsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
       of_shared.advance(s.shared.state, s.shared.solver.list());
     }
     const FeedState &a = s.whole.state.feed, &b = s.shared.state.feed;
-    EXPECT_GT(a.n_fed, 20);
+    EXPECT_GT(a.n_fed, 10) << "most places are taken";
     EXPECT_EQ(a.n_fed, b.n_fed);
     EXPECT_EQ(a.n_tries, b.n_tries);
     EXPECT_EQ(a.waiting, b.waiting);
