@@ -73,7 +73,7 @@ OF_RUN = table(
     Entry("horns", "figures.horns", "lengths of the horns, their grains and where these came from, against time",
           (GRAINS, DUNES)),
     Entry("composition", "figures.composition",
-          "share of each kind of grains at the surface, at the crest and in the horns, against time",
+          "share of each kind of grains at surface, crest and horns against time",
           (GRAINS, DUNES)),
     Entry("horn_origins", "figures.horn_origins", "grains of the horns, their paths and origins (--time)",
           (GRAINS, DUNES)),
