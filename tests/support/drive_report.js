@@ -41,8 +41,8 @@ function differs(a, b, what) {
 
 async function drive() {
   assert.deepEqual(complaints, []);
-  const { heaps } = JSON.parse(element("facts").textContent);
-  for (const { colour } of heaps)
+  const { groups } = JSON.parse(element("facts").textContent);
+  for (const { colour } of groups)
     assert.ok(drawn.top.some(([what, value]) => what === "fillStyle" && value === colour), `no grain in ${colour}`);
   const end = state();
   assert.equal(end.time, "t = 8.00 s", "starts at the end");
