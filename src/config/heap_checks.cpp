@@ -84,20 +84,19 @@ void check_apart(const std::vector<HeapConfig>& heaps, std::size_t n, const Heap
   }
 }
 
-/// Of sizes of its own a heap of several kinds would not know which is of which.
-void check_kind(const Config& c, std::size_t n, Findings& found) {
+/// False if its kind is not known. Of sizes of its own a heap of several kinds would not know which
+/// is of which.
+bool check_kind(const Config& c, std::size_t n, Findings& found) {
   const HeapConfig& heap = c.initial.heaps[n];
   const HeapKeys key{fmt::format("initial.heap.{}", n + 1)};
   const std::vector<std::string> names = names_of_kinds(*c.grains);
-  if (!heap.kind.empty()) {
-    found.error_if(kind_of_name(*c.grains, heap.kind) < 0, {key("kind"), "grains.kind"},
-                   "must be the name of a [[grains.kind]]; \"{}\" is none{}", heap.kind,
-                   did_you_mean(nearest(heap.kind, names)));
-  } else {
-    found.error_if(!heap.sizes.empty() && c.grains->kinds.size() > 1,
-                   {key("sizes"), key("kind"), "grains.kind"}, "must come with a kind, \"{}\"",
-                   fmt::join(names, "\" or \""));
-  }
+  if (heap.kind.empty())
+    return !found.error_if(!heap.sizes.empty() && c.grains->kinds.size() > 1,
+                           {key("sizes"), key("kind"), "grains.kind"},
+                           "must come with a kind, \"{}\"", fmt::join(names, "\" or \""));
+  return !found.error_if(kind_of_name(*c.grains, heap.kind) < 0, {key("kind"), "grains.kind"},
+                         "must be the name of a [[grains.kind]]; \"{}\" is none{}", heap.kind,
+                         did_you_mean(nearest(heap.kind, names)));
 }
 
 void check_names(const std::vector<HeapConfig>& heaps, Findings& found) {
@@ -139,7 +138,9 @@ void check_heaps(const Config& c, Findings& found) {
     return HeapKeys{pour ? "initial.grains.pour" : fmt::format("initial.heap.{}", n + 1)};
   };
   if (!pour) check_names(heaps, found);
-  for (std::size_t n = 0; n < c.initial.heaps.size(); ++n) check_kind(c, n, found);
+  bool known = true;
+  for (std::size_t n = 0; n < c.initial.heaps.size(); ++n) known = check_kind(c, n, found) && known;
+  if (!known) return;
   found.error_if(heaps.size() > std::numeric_limits<std::uint8_t>::max(), {"initial.heap"},
                  "must be at most 255 heaps");
   std::int64_t count = 0;

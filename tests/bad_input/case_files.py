@@ -138,6 +138,8 @@ HEAPS = [
           "heap]]\ncentre = [0.005, 0.003]\nradius = 0.004"),
     heaps("a bed on a heap", '[initial.heap.2] shape = "bed" | must stand before "heap 1"', FIRST,
           'heap]]\nshape = "bed"'),
+    heaps("a heap of no kind", '[initial.heap.1] kind = "glas": must be the name of a [[grains.kind]] | did you mean "glass"',
+          'heap]]\ncentre = [0.005, 0.003]\nradius = 0.0015\nkind = "glas"\n[[grains.kind]]\nname = "glass"'),
     heaps("a heap of no shape", '@shape = | "cone", "ridge", "bed"', 'heap]]\nshape = "cube"'),
     Entry("a heap as a section", "[output] => [initial.heap]\n[output]",
           "must be sections, [[initial.heap]] for each of them", base=DRY),

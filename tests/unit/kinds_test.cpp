@@ -181,6 +181,19 @@ TEST(Kinds, ArePouredMixed) {
   EXPECT_NEAR(low, 500, 5 * std::sqrt(2000.0) / 4);
 }
 
+// A heap of one kind has its sizes; one without a kind has those of both.
+TEST(Kinds, AHeapMayBeOfOneKind) {
+  Config config = two_kinds();
+  config.initial.pour.reset();
+  config.initial.heaps.resize(2);
+  config.initial.heaps[0] = {.name = "second", .kind = config.grains->kinds[1].name};
+  const std::vector<HeapConfig> heaps = poured_heaps(config);
+  ASSERT_EQ(heaps.size(), 2u);
+  for (const SizeClass& size : heaps[0].sizes) EXPECT_EQ(size.kind, 1);
+  EXPECT_EQ(heaps[0].sizes.size(), config.grains->kinds[1].sizes.size());
+  EXPECT_EQ(heaps[1].sizes, poured_sizes(*config.grains));
+}
+
 TEST(Kinds, AMassIsThatOfItsDensity) {
   const Config config = two_kinds();
   const SystemState state = make_initial_state(config, {});
