@@ -186,7 +186,7 @@ TEST(Kinds, AHeapMayBeOfOneKind) {
   Config config = two_kinds();
   config.initial.pour.reset();
   config.initial.heaps.resize(2);
-  config.initial.heaps[0] = {.name = "second", .kind = config.grains->kinds[1].name};
+  config.initial.heaps[0].kind = config.grains->kinds[1].name;
   const std::vector<HeapConfig> heaps = poured_heaps(config);
   ASSERT_EQ(heaps.size(), 2u);
   for (const SizeClass& size : heaps[0].sizes) EXPECT_EQ(size.kind, 1);
