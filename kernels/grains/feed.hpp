@@ -41,15 +41,15 @@ struct LeavingGrain {
 
 /// Lists the grains that leave, in whatever order the threads come; `n` starts at zero.
 struct ListLeavingGrains {
-  CountBeyondOutlet outlet;
+  CountLeaving who;
   Kokkos::View<const std::int64_t*> id;
   Kokkos::View<const std::uint8_t*> kind;  // empty: one
   Kokkos::View<LeavingGrain*> leaving;
   Kokkos::View<int> n;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    if (!outlet.is_beyond(g)) return;
-    const GrainKinematics& k = outlet.grains(g);
+    if (!who.leaves(g)) return;
+    const GrainKinematics& k = who.grains(g);
     leaving(Kokkos::atomic_fetch_add(&n(), 1)) = {.id = static_cast<Real>(id(g)),
                                                   .r = k.r,
                                                   .m = k.m,

@@ -42,20 +42,20 @@ struct GrainVolumeFlow {
   }
 };
 
-/// Grains that leave: outside 0 .. lx along the flow, or nowhere. In a window that follows its
-/// dune, periodic along x, those within a strip around its seam; nobody while it has no seam.
-struct CountBeyondOutlet {
+/// Grains that leave: those beyond 0 .. lx along the flow, or whose x is not a number. In a window
+/// that follows its dune: those within a strip around the seam, where its ends meet.
+struct CountLeaving {
   Kokkos::View<const GrainKinematics*> grains;
   Real lx;              // [m]
   Real half_strip = 0;  // half the width of the strip [m]; 0: there is none
   Real seam_x = 0;      // its middle [m]; not a number: no seam yet
-  KOKKOS_FORCEINLINE_FUNCTION bool is_beyond(int g) const {
+  KOKKOS_FORCEINLINE_FUNCTION bool leaves(int g) const {
     const Real x = grains(g).x.x;
     if (half_strip == 0) return !(x >= 0 && x <= lx);
     const Real from_seam = x - seam_x;
     return Kokkos::abs(from_seam - lx * Kokkos::round(from_seam / lx)) <= half_strip;
   }
-  KOKKOS_FUNCTION void operator()(int g, int& count) const { count += is_beyond(g) ? 1 : 0; }
+  KOKKOS_FUNCTION void operator()(int g, int& count) const { count += leaves(g) ? 1 : 0; }
 };
 
 }  // namespace barchan

@@ -116,12 +116,6 @@ std::string driven_by(const FluidConfig& fluid) {
   return text;
 }
 
-std::int64_t count_of(const std::vector<SizeClass>& sizes) {
-  std::int64_t count = 0;
-  for (const SizeClass& size : sizes) count += size.count;
-  return count;
-}
-
 std::string describe_case(const fs::path& path) {
   const std::string text = read_text(path);
   if (("\n" + text).find("\n[study]") != std::string::npos) {
@@ -140,8 +134,8 @@ std::string describe_case(const fs::path& path) {
     const std::int64_t count = count_of(the_case.sizes);
     told += count > 0 ? fmt::format("grains   {}\n", count) : "grains   those of a file\n";
   }
-  for (const HeapConfig& heap : poured_heaps(c)) {
-    if (c.initial.pour) break;
+  for (const HeapConfig& heap :
+       c.initial.heaps.empty() ? std::vector<HeapConfig>() : poured_heaps(c)) {
     told += fmt::format("heap     {}: {} of {} grains\n", printable(heap.name, 60),
                         kChoiceNames<HeapShape>[std::size_t(heap.shape)], count_of(heap.sizes));
   }

@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/config/heaps.hpp"
+#include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
 #include "src/initial/initial_state.hpp"
 
@@ -88,6 +89,10 @@ PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   PlannedGrains planned = planned_grains(start.realised, start.folder);
   planned.sizes =
       with_kinds_of(*config.grains, *start.realised.config.grains, std::move(planned.sizes));
+  if (planned.grains) {
+    planned.grains->kind_names = names_of_kinds(*start.realised.config.grains);
+    take_kinds(*planned.grains, *config.grains, source.string());
+  }
   check_sizes(planned.sizes, config, source);
   return planned;
 }

@@ -20,7 +20,7 @@ enum class GrainBoundaryZ { periodic, wall };
 enum class GrainFloor { smooth, glued };
 enum class PourShape { cone, bed };
 enum class HeapShape { cone, ridge, bed };
-enum class FeedRate { given, as_lost };
+enum class FeedAmount { given, as_lost };
 enum class DragLaw {
   gidaspow,
   di_felice,
@@ -134,12 +134,12 @@ struct PairConfig {
 
 /// [grains.feed]: grains that come in at the inlet.
 struct FeedConfig {
-  FeedRate amount = FeedRate::given;  // or as many as have left
-  double rate = 0;                    // [1/s], of amount = "given", then required
-  double start = 0;                   // [s]
-  double x = 0;                       // [m] where they come in
-  std::array<double, 2> across{};     // z from, z to [m]; both 0: over the whole width
-  double height = 0;                  // [m] of the lowest of them above the floor
+  FeedAmount amount = FeedAmount::given;  // or as many as have left
+  double rate = 0;                        // [1/s], of amount = "given", then required
+  double start = 0;                       // [s]
+  double x = 0;                           // [m] where they come in
+  std::array<double, 2> across{};         // z from, z to [m]; both 0: over the whole width
+  double height = 0;                      // [m] of the lowest of them above the floor
   std::uint64_t seed = 1;
   bool operator==(const FeedConfig&) const = default;
 };

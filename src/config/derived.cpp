@@ -140,6 +140,10 @@ bool exchanges_by_row(const CouplingConfig& coupling) {
   return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
 }
 
+bool grains_leave(const GrainConfig& grains) {
+  return grains.boundary_x == GrainBoundaryX::exit || grains.boundary_x == GrainBoundaryX::follow;
+}
+
 bool is_periodic_x(const Config& config) {
   if (!config.grains) return false;
   const GrainBoundaryX ends = config.grains->boundary_x;

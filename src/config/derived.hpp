@@ -14,6 +14,8 @@ namespace barchan {
 /// row.
 bool exchanges_by_row(const CouplingConfig& coupling);
 
+/// True if grains leave along x: at the ends, or at the seam of a window that follows its dune.
+bool grains_leave(const GrainConfig& grains);
 /// True if grains that go beyond one end in x come in at the other: without [grains] not.
 bool is_periodic_x(const Config& config);
 /// Half the width of the strip along x in which grains leave a window that follows its dune, one

@@ -18,12 +18,10 @@ void check_following(const Config& c, Findings& found) {
 void check_feed(const Config& c, Findings& found) {
   if (!c.grains->feed) return;
   const FeedConfig& feed = *c.grains->feed;
-  const GrainBoundaryX ends = c.grains->boundary_x;
-  found.error_if(feed.amount == FeedRate::given && feed.rate == 0,
+  found.error_if(feed.amount == FeedAmount::given && feed.rate == 0,
                  {"grains.feed.rate", "grains.feed.amount"},
                  "must be above 0 with amount = \"given\"");
-  found.error_if(feed.amount == FeedRate::as_lost && ends != GrainBoundaryX::exit &&
-                     ends != GrainBoundaryX::follow,
+  found.error_if(feed.amount == FeedAmount::as_lost && !grains_leave(*c.grains),
                  {"grains.feed.amount", "grains.boundary_x"},
                  "must be \"given\" where no grain leaves: boundary_x is neither \"exit\" nor "
                  "\"follow\"");

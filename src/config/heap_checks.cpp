@@ -53,8 +53,8 @@ bool check_shape(const HeapConfig& heap, const HeapKeys& key, const std::array<d
   return true;
 }
 
-/// Where heaps may touch, in the plane of the floor [m]: the distance of their feet, through
-/// periodic sides as well.
+/// Distance of the feet of two heaps in the plane of the floor [m], through periodic sides as well,
+/// less a grain; negative: they overlap.
 double gap(const HeapConfig& a, const HeapConfig& b, const Config& c) {
   const auto distance = [](double from, double to, double period, bool periodic) {
     return std::abs(periodic ? std::remainder(from - to, period) : from - to);
@@ -84,8 +84,7 @@ void check_apart(const std::vector<HeapConfig>& heaps, std::size_t n, const Heap
   }
 }
 
-/// False if its kind is not known. Of sizes of its own a heap of several kinds would not know which
-/// is of which.
+/// False if its kind is not known, or it has sizes and does not say of which of several kinds.
 bool check_kind(const Config& c, std::size_t n, Findings& found) {
   const HeapConfig& heap = c.initial.heaps[n];
   const HeapKeys key{fmt::format("initial.heap.{}", n + 1)};
@@ -143,19 +142,17 @@ void check_heaps(const Config& c, Findings& found) {
   if (!known) return;
   found.error_if(heaps.size() > std::numeric_limits<std::uint8_t>::max(), {"initial.heap"},
                  "must be at most 255 heaps");
-  std::int64_t count = 0;
-  for (const SizeClass& size : sizes_of(heaps)) count += size.count;
+  const std::vector<SizeClass> sizes = sizes_of(heaps);
   constexpr int kMost = std::numeric_limits<int>::max();  // what a run can number
-  found.error_if(!pour && count > kMost, {"initial.heap"}, "must be of at most {} grains in all",
-                 kMost);
-  found.error_if(sizes_of(heaps).empty(), {"grains.sizes", "initial.grains"},
+  found.error_if(!pour && count_of(sizes) > kMost, {"initial.heap"},
+                 "must be of at most {} grains in all", kMost);
+  found.error_if(sizes.empty(), {"grains.sizes", "initial.grains"},
                  "must say which grains to pour: sizes = [[2e-4, 3000]] are 3,000 of 0.2 mm");
   found.error_if(c.grains->frozen, {"grains.frozen", pour ? "initial.grains" : "initial.heap"},
                  "contradicts pour: grains could not settle");
   bool shaped = true;
   for (std::size_t n = 0; n < heaps.size(); ++n)
     shaped = check_shape(heaps[n], keys_of(n), c.size, found) && shaped;
-  const std::vector<SizeClass> sizes = sizes_of(heaps);
   if (!shaped || sizes.empty()) return;
   if (poured_spacing(sizes) >= c.size[1]) return;  // told by check_grain_sizes
   double highest = 0;

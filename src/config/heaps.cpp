@@ -18,8 +18,7 @@ double poured_spacing(const std::vector<SizeClass>& sizes) {
 }
 
 double poured_height(const HeapConfig& heap, const std::array<double, 3>& domain) {
-  double n = 0;
-  for (const SizeClass& size : heap.sizes) n += static_cast<double>(size.count);
+  const auto n = static_cast<double>(count_of(heap.sizes));
   const double volume = n * std::pow(poured_spacing(heap.sizes), 3) / std::numbers::sqrt2;
   if (heap.shape == HeapShape::bed) return volume / (domain[0] * domain[2]);
   if (heap.shape == HeapShape::ridge) return volume / (heap.radius * domain[2]);
@@ -50,23 +49,27 @@ HeapConfig as_heap(const PourConfig& pour, const std::vector<SizeClass>& sizes) 
 std::vector<HeapConfig> poured_heaps(const Config& config) {
   const InitialConfig& initial = config.initial;
   if (!config.grains) return {};
-  std::vector<HeapConfig> heaps = initial.heaps;
   const std::vector<SizeClass> all = poured_sizes(*config.grains);
-  if (initial.pour) heaps.assign(1, as_heap(*initial.pour, all));
+  std::vector<HeapConfig> heaps = initial.heaps;
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     HeapConfig& heap = heaps[n];
-    if (heap.name.empty() && !initial.pour) heap.name = fmt::format("heap {}", n + 1);
+    if (heap.name.empty()) heap.name = fmt::format("heap {}", n + 1);
     const int kind = kind_of_name(*config.grains, heap.kind);
-    if (heap.sizes.empty()) {
-      std::ranges::copy_if(all, std::back_inserter(heap.sizes), [&](const SizeClass& size) {
-        return heap.kind.empty() || size.kind == kind;
-      });
-    } else if (!initial.pour) {
-      for (SizeClass& size : heap.sizes) size.kind = std::max(kind, 0);
-    }
-    heap.seed += static_cast<std::uint64_t>(initial.realisation - 1);
+    for (SizeClass& size : heap.sizes) size.kind = std::max(kind, 0);
+    if (!heap.sizes.empty()) continue;
+    std::ranges::copy_if(all, std::back_inserter(heap.sizes), [&](const SizeClass& size) {
+      return heap.kind.empty() || size.kind == kind;
+    });
   }
+  if (initial.pour) heaps = {as_heap(*initial.pour, all)};
+  for (HeapConfig& heap : heaps) heap.seed += static_cast<std::uint64_t>(initial.realisation - 1);
   return heaps;
+}
+
+std::int64_t count_of(const std::vector<SizeClass>& sizes) {
+  std::int64_t count = 0;
+  for (const SizeClass& size : sizes) count += size.count;
+  return count;
 }
 
 std::vector<SizeClass> sizes_of(const std::vector<HeapConfig>& heaps) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "src/config/config.hpp"
@@ -20,6 +21,8 @@ HeapConfig as_heap(const PourConfig& pour, const std::vector<SizeClass>& sizes);
 /// The heaps that a case pours, in their order, each with its name, its sizes and the seed of the
 /// case's realisation; empty: it pours none.
 std::vector<HeapConfig> poured_heaps(const Config& config);
+/// How many grains these are.
+std::int64_t count_of(const std::vector<SizeClass>& sizes);
 /// The grains of all heaps; empty if those of one are not known.
 std::vector<SizeClass> sizes_of(const std::vector<HeapConfig>& heaps);
 

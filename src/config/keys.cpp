@@ -98,8 +98,7 @@ void add_grains(Sections& all) {
   key("frozen", &G::frozen, "grains hold still and the flow feels them");
   key("boundary_x", &G::boundary_x,
       "what happens to grains at both ends in x; \"follow\": periodic, but half a box from the "
-      "largest "
-      "dune they leave",
+      "largest dune they leave",
       fixed_by_restart);
   key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
   key("floor", &G::floor, "what the floor is to grains: smooth, or a close layer of glued spheres",
@@ -190,10 +189,10 @@ void add_pour(Sections& all) {
 }
 
 void add_heaps(Sections& all) {
-  Section& section = all.emplace_back(
-      Section{.name = "initial.heap",
-              .meaning = "Several heaps and beds instead of `pour`, each with its own section, "
-                         "poured in this order; each grain keeps the number of its heap"});
+  Section& section = all.emplace_back(Section{
+      .name = "initial.heap",
+      .meaning = "Several heaps and beds instead of `pour`, poured in this order; each grain "
+                 "keeps the number of its heap"});
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.heaps; });
   using H = HeapConfig;
   key("name", &H::name, at_most(60), "", "in result files and pictures");
@@ -214,8 +213,8 @@ void add_heaps(Sections& all) {
 void add_craters(Sections& all) {
   Section& section = all.emplace_back(Section{
       .name = "initial.crater",
-      .meaning = "Hollows in the grains that the case starts from, whatever their source: a "
-                 "paraboloid without grains, each with its own section"});
+      .meaning = "Hollows in the grains that the case starts from: each a paraboloid without "
+                 "grains"});
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.craters; });
   using C = CraterConfig;
   key("centre", &C::centre, any, "m", "[x, z] of its deepest point", required);

@@ -16,8 +16,8 @@ void add_wall(Sections& all) {
 void add_kinds(Sections& all) {
   Section& section = all.emplace_back(
       Section{.name = "grains.kind",
-              .meaning = "Grains of several kinds, at most four, a section each; without one all "
-                         "are of `[grains]`, and what a kind leaves out is as there",
+              .meaning = "Grains of several kinds, at most four; what a kind leaves out is as in "
+                         "`[grains]`",
               .like = "grains"});
   const auto list = [](auto& c) { return c.grains ? &c.grains->kinds : nullptr; };
   auto key = repeated_keys(section, list);

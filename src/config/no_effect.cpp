@@ -43,7 +43,7 @@ constexpr Need kNeeds[] = {
     {"grains.youngs_modulus", "grains.contact_model", is_hertzian, kWithSprings},
     {"grains.poisson_ratio", "grains.contact_model", is_hertzian, kWithSprings},
     {"grains.feed.rate", "grains.feed.amount",
-     [](const Config& c) { return c.grains->feed->amount == FeedRate::given; },
+     [](const Config& c) { return c.grains->feed->amount == FeedAmount::given; },
      "must be absent with amount = \"as_lost\", as many as leave"},
     {"initial.grains.pour.centre", "initial.grains.pour.shape",
      [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },

@@ -37,7 +37,7 @@ constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"
 constexpr auto names_of(GrainFloor) { return std::array{"smooth"sv, "glued"sv}; }
 constexpr auto names_of(PourShape) { return std::array{"cone"sv, "bed"sv}; }
 constexpr auto names_of(HeapShape) { return std::array{"cone"sv, "ridge"sv, "bed"sv}; }
-constexpr auto names_of(FeedRate) { return std::array{"given"sv, "as_lost"sv}; }
+constexpr auto names_of(FeedAmount) { return std::array{"given"sv, "as_lost"sv}; }
 constexpr auto names_of(DragLaw) {
   return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
                     "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
@@ -57,7 +57,7 @@ static_assert(kChoiceNames<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX:
 static_assert(kChoiceNames<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
 static_assert(kChoiceNames<PourShape>.size() == std::size_t(PourShape::bed) + 1);
 static_assert(kChoiceNames<HeapShape>.size() == std::size_t(HeapShape::bed) + 1);
-static_assert(kChoiceNames<FeedRate>.size() == std::size_t(FeedRate::as_lost) + 1);
+static_assert(kChoiceNames<FeedAmount>.size() == std::size_t(FeedAmount::as_lost) + 1);
 static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
 static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
 static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);

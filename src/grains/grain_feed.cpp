@@ -6,6 +6,7 @@
 #include <span>
 
 #include "kernels/math/random.hpp"
+#include "src/base/errors.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/launch.hpp"
@@ -77,27 +78,25 @@ void GrainFeed::advance(GrainState& grains, NeighborList& list) {
   if (feed.next_id == 0) look_at_start(grains);
   ++feed.n_steps;
   const bool has_begun = static_cast<Real>(feed.n_steps) * dt_ > config_.start;
-  if (has_begun && config_.amount == FeedRate::as_lost) note_leaving(grains, list);
+  if (has_begun && config_.amount == FeedAmount::as_lost) note_leaving(grains, list);
   list.drop_left(grains);
   if (!has_begun) return;
-  if (config_.amount == FeedRate::given) ask_for_grains(feed);
+  if (config_.amount == FeedAmount::given) ask_for_grains(feed);
   if (!feed.waiting.empty()) come_in(grains, list);
 }
 
 /// What is about to leave waits to come back, in the order of the numbers.
 void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
-  const CountBeyondOutlet outlet = list.outlet(grains);
+  const CountLeaving who = list.leaving(grains);
   int n = 0;
-  Kokkos::parallel_reduce("feed: count those that leave", items(grains.n), outlet, n);
+  Kokkos::parallel_reduce("feed: count those that leave", items(grains.n), who, n);
   if (sum_over(grains.ranks, n) == 0) return;
   reserve(leaving_, "feed: bodies of those that leave", n);
   Kokkos::deep_copy(n_leaving_, 0);
-  Kokkos::parallel_for("feed: list those that leave", items(grains.n),
-                       ListLeavingGrains{.outlet = outlet,
-                                         .id = grains.id,
-                                         .kind = grains.kind,
-                                         .leaving = leaving_,
-                                         .n = n_leaving_});
+  Kokkos::parallel_for(
+      "feed: list those that leave", items(grains.n),
+      ListLeavingGrains{
+          .who = who, .id = grains.id, .kind = grains.kind, .leaving = leaving_, .n = n_leaving_});
   const auto mine = host_copy(leaving_);
   auto all = of_all_ranks(grains.ranks, std::vector(mine.data(), mine.data() + n));
   std::ranges::sort(all, {}, &LeavingGrain::id);
@@ -108,6 +107,8 @@ void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
 /// enough to know how many.
 void GrainFeed::ask_for_grains(FeedState& feed) const {
   feed.due += config_.rate * dt_;
+  if (feed.bodies.empty())
+    throw InputError("grains.feed: no grains are left whose sizes it could take");
   while (feed.waiting.size() < kPlaces && n_later(feed) > 0) {
     const auto count = static_cast<std::uint64_t>(feed.n_asked++);
     const Real which = uniform_number(config_.seed, kBody, count);
@@ -124,7 +125,11 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
     if (places.size() == kPlaces) break;
     auto [from, to] = config_.across;
     if (from == to) to = from + lz_;
-    if (walls_z_) from = std::max(from, body.r), to = std::min(to, lz_ - body.r);
+    if (walls_z_) {
+      const double last = std::max(body.r, lz_ - body.r);
+      from = std::clamp(from, body.r, last);
+      to = std::clamp(to, body.r, last);
+    }
     const auto count = static_cast<std::uint64_t>(feed.n_tries++);
     const Real inlet = from_seam_ && std::isfinite(grains.seam_x) ? grains.seam_x : 0;
     const Real x = inlet + config_.x + body.r;

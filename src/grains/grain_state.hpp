@@ -64,7 +64,7 @@ struct GrainState {
   Kokkos::View<std::int64_t*> id;                        // never reused
   Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
   std::vector<std::string> kind_names;                   // by index, or empty
-  Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: there is one
+  Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: not several
   std::vector<std::string> heap_names;                   // by index, or empty
   Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]

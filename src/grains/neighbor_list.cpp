@@ -37,8 +37,7 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks)
     : skins_(config, r_max),
       lx_(config.size[0]),
-      exit_x_(config.grains->boundary_x == GrainBoundaryX::exit ||
-              config.grains->boundary_x == GrainBoundaryX::follow),
+      leaves_x_(grains_leave(*config.grains)),
       half_strip_(half_seam_strip(config)) {
   const Real lz = config.size[2];
   columns_.periodic_x = is_periodic_x(config);
@@ -138,13 +137,13 @@ void NeighborList::sort(GrainState& grains, bool drop) {
   const auto entry = Kokkos::subview(entry_, entries);
   const auto kin = grains.kin;
   const SearchColumns columns = columns_;
-  const CountBeyondOutlet outlet = this->outlet(grains);
-  const bool drops = drop && exit_x_;
+  const CountLeaving who = leaving(grains);
+  const bool drops = drop && leaves_x_;
   int n_dropped = 0;
   Kokkos::parallel_reduce(
       "neighbors: sort keys", n,
       KOKKOS_LAMBDA(int g, int& dropped) {
-        const bool outside = drops && outlet.is_beyond(g);
+        const bool outside = drops && who.leaves(g);
         key(g) = outside ? kDroppedKey : columns.key_of(kin(g).x);
         entry(g) = g;
         dropped += outside ? 1 : 0;

@@ -26,7 +26,7 @@ struct NewGrain {
 
 /// Half Verlet list with a skin around each grain (SetSkins): valid until a grain has moved its
 /// skin from where it was at the last rebuild. A rebuild sorts the grains in space, keeps the
-/// contact history and, when asked, drops grains beyond the outlet. Throws StateError naming the
+/// contact history and, when asked, drops grains that leave. Throws StateError naming the
 /// grain if a position is not finite.
 ///
 /// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
@@ -36,14 +36,14 @@ class NeighborList {
  public:
   NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF);
 
-  /// Sorts, searches, carries the history over. `drop` removes grains beyond the outlet.
+  /// Sorts, searches, carries the history over. `drop` removes grains that leave.
   void rebuild(GrainState& grains, bool drop);
   /// Such a rebuild if there are any.
   void drop_left(GrainState& grains);
   /// A rebuild with new grains: at rest, without contacts. Of all ranks the first one takes them.
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
   /// Who leaves now.
-  CountBeyondOutlet outlet(const GrainState& grains) const {
+  CountLeaving leaving(const GrainState& grains) const {
     return {grains.kin, lx_, half_strip_, grains.seam_x};
   }
   /// Searches again from x_reference in the present order: the list of the last rebuild, with its
@@ -101,7 +101,7 @@ class NeighborList {
   PeriodicBox box_;
   GrainSkins skins_;
   Real lx_ = 0;
-  bool exit_x_ = false;        // grains leave along x,
+  bool leaves_x_ = false;      // grains leave along x,
   Real half_strip_ = 0;        // in a strip of this half width [m]; 0: at both ends
   std::vector<NewGrain> new_;  // of the rebuild that goes on
   std::int64_t rebuilds_ = 0;

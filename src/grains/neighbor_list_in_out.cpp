@@ -35,10 +35,10 @@ void NeighborList::append_new(GrainState& grains) {
 }
 
 void NeighborList::drop_left(GrainState& grains) {
-  if (!exit_x_) return;
-  int n_outside = 0;
-  Kokkos::parallel_reduce("grains: count beyond the outlet", grains.n, outlet(grains), n_outside);
-  if (sum_over(grains.ranks, std::int64_t{n_outside}) > 0) rebuild(grains, true);
+  if (!leaves_x_) return;
+  int n_leaving = 0;
+  Kokkos::parallel_reduce("grains: count those that leave", grains.n, leaving(grains), n_leaving);
+  if (sum_over(grains.ranks, std::int64_t{n_leaving}) > 0) rebuild(grains, true);
 }
 
 void NeighborList::bring_in(GrainState& grains, const std::vector<NewGrain>& come) {

@@ -30,10 +30,15 @@ std::vector<Vec3> to_vectors(const std::vector<double>& numbers) {
   return vectors;
 }
 
-std::vector<std::uint8_t> to_indices(const std::vector<std::int64_t>& numbers) {
-  std::vector<std::uint8_t> indices;
-  for (const std::int64_t number : numbers) indices.push_back(static_cast<std::uint8_t>(number));
-  return indices;
+std::vector<std::uint8_t> as_heaps(const std::vector<std::int64_t>& numbers,
+                                   const std::filesystem::path& file) {
+  std::vector<std::uint8_t> heaps;
+  for (const std::int64_t heap : numbers) {
+    if (heap < -1 || heap > kNoHeap)  // -1 in frames is kNoHeap in restart files
+      throw std::runtime_error(fmt::format("{}: it holds a heap {}", file.string(), heap));
+    heaps.push_back(static_cast<std::uint8_t>(heap));
+  }
+  return heaps;
 }
 
 /// The same demands as on the rows of a table, for a file that somebody else may have made.
@@ -80,11 +85,12 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
   const std::string kind = group + "kind", heap = group + "heap";
   if (file.exists(kind)) {
-    for (const int k : file.read<int>(kind, {n})) grains.kind.push_back(as_kind(k, file.path()));
+    for (const std::int64_t k : file.read<std::int64_t>(kind, {n}))
+      grains.kind.push_back(as_kind(k, file.path()));
     grains.kind_names = lines_of(file.attribute<std::string>(kind, "names"));
   }
   if (file.exists(heap)) {
-    grains.heap = to_indices(file.read<std::int64_t>(heap, {n}));
+    grains.heap = as_heaps(file.read<std::int64_t>(heap, {n}), file.path());
     grains.heap_names = lines_of(file.attribute<std::string>(heap, "names"));
   }
   return grains;
@@ -109,7 +115,7 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     if (written.grains) grains.kind_names = names_of_kinds(*written.grains);
   }
   if (file.has("grains/heap")) {
-    grains.heap = to_indices(file.array<std::int64_t>("grains/heap", {n}));
+    grains.heap = as_heaps(file.array<std::int64_t>("grains/heap", {n}), path);
     grains.heap_names = lines_of(file.text("grains/heap_names"));
   }
   return grains;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -152,7 +153,8 @@ class CsvReader {
 
   void read_row() {
     std::array<double, kColumns.size()> value{};
-    std::int64_t id = 0, heap = -1;
+    std::int64_t id = 0;
+    std::optional<std::int64_t> heap;
     split_line();
     const std::size_t n_fields = fields_.size();
     for (std::size_t f = 0; f < std::min(n_fields, order_.size()); ++f) {
@@ -163,7 +165,8 @@ class CsvReader {
         add_kind(fields_[f]);
       } else if (column == kHeap) {
         heap = number<std::int64_t>(fields_[f], column);
-        if (heap < 0 || heap > 254) fail("heap = {}: must be from 0 to 254", heap);
+        if (*heap < -1 || *heap > 254)
+          fail("heap = {}: must be from 0 to 254, or -1: of none", *heap);
       } else {
         value[column] = number<double>(fields_[f], column);
       }
@@ -178,7 +181,7 @@ class CsvReader {
     if (!is_new) fail("id {} was used before, in line {}", id, earlier->second);
     grains_.add(id, value[1], {value[2], value[3], value[4]}, {value[5], value[6], value[7]},
                 {value[8], value[9], value[10]});
-    if (heap >= 0) grains_.heap.push_back(static_cast<std::uint8_t>(heap));
+    if (heap) grains_.heap.push_back(static_cast<std::uint8_t>(*heap));  // -1: kNoHeap
   }
 
   /// Names of kinds count in the order in which they appear.

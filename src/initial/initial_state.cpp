@@ -85,20 +85,6 @@ void wrap(InitialGrains& grains, const Config& config) {
   }
 }
 
-/// Kinds of a file, which has them in an order of its own, as those of the case.
-void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source) {
-  std::vector<std::string> theirs = grains.kind_names;
-  if (grains.kind.empty()) theirs = {""};
-  if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
-    throw InputError(fmt::format("{}: it must {}", source, problem));
-  for (std::uint8_t& kind : grains.kind) {
-    if (!theirs.empty() && kind < theirs.size())
-      kind = static_cast<std::uint8_t>(kind_of_name(config, theirs[kind]));
-    if (std::cmp_greater_equal(kind, all_kinds(config).size()))
-      throw InputError(fmt::format("{}: it holds grains of more kinds than the case", source));
-  }
-}
-
 /// The smallest and the largest grain of each kind.
 std::vector<SizeClass> extreme_sizes(const InitialGrains& grains) {
   std::map<int, std::pair<double, double>> of_kind;
@@ -146,6 +132,22 @@ void check_apart(const InitialGrains& grains, const std::string& source) {
 }
 
 }  // namespace
+
+void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source) {
+  std::vector<std::string> theirs = grains.kind_names;
+  if (grains.kind.empty()) theirs = {""};
+  if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
+    throw InputError(fmt::format("{}: it must {}", source, problem));
+  const std::size_t n_kinds = all_kinds(config).size();
+  std::vector<int> ours;  // of each of theirs; without names these are in the case's order
+  for (const std::string& name : theirs) ours.push_back(kind_of_name(config, name));
+  for (std::uint8_t& kind : grains.kind) {
+    if (kind >= (theirs.empty() ? n_kinds : ours.size()))
+      throw InputError(fmt::format("{}: it holds grains of more kinds than it names", source));
+    if (!theirs.empty()) kind = static_cast<std::uint8_t>(ours[kind]);
+  }
+  if (n_kinds == 1) grains.kind.clear();  // as of grains that are poured
+}
 
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
                  const std::string& source) {

@@ -14,6 +14,10 @@ struct InitialFiles {
   std::filesystem::path fluid, grains;  // empty: not from a file
 };
 
+/// Makes the kinds of grains that come from `source`, which has them in an order of its own, those
+/// of the case. Throws InputError if that does not have them all.
+void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source);
+
 /// Refuses grains of sizes that the steps or the domain do not suit: InputError, which says that
 /// they came from `source`.
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,

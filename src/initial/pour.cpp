@@ -106,11 +106,10 @@ std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::
                     heap.centre.y + sites[n - 1].height + spacing / 2 < domain[1] &&
                     heap.centre.x >= heap.half_x && heap.centre.x + heap.half_x <= domain[0];
   if (fits) return sites;
-  const bool pour = config.name.empty();
   throw std::runtime_error(fmt::format(
-      "the poured heap {}of {} grains does not fit in the domain: change {}radius, its "
-      "centre or domain.size",
-      pour ? "" : fmt::format("\"{}\" ", config.name), n, pour ? "initial.grains.pour." : "its "));
+      "the poured heap{} of {} grains does not fit in the domain: change its radius, its centre or "
+      "domain.size",
+      config.name.empty() ? "" : fmt::format(" \"{}\"", config.name), n));
 }
 
 /// Adds the grains of a heap.
@@ -152,8 +151,10 @@ InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double
     const Heap heap(heaps[n], domain, ground);
     add_heap(heaps[n], heap, domain, grains);
     if (packed) pack(heaps[n], heap, begin, grains);
-    if (heaps.size() > 1) grains.heap.resize(grains.size(), static_cast<std::uint8_t>(n));
-    if (heaps.size() > 1) grains.heap_names.push_back(heaps[n].name);
+    if (heaps.size() > 1) {
+      grains.heap.resize(grains.size(), static_cast<std::uint8_t>(n));
+      grains.heap_names.push_back(heaps[n].name);
+    }
     if (heap.shape != HeapShape::bed) continue;
     for (std::size_t g = begin; g < grains.size(); ++g)
       ground = std::max(ground, grains.x[g].y + grains.diameter[g] / 2);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "src/config/kinds.hpp"
+
 namespace barchan {
 
 namespace {
@@ -28,7 +30,8 @@ std::vector<GrainBody> load_bodies(const CheckpointReader& file, const std::stri
   std::vector<GrainBody> bodies;
   for (std::size_t k = 0; k + 2 < numbers.size(); k += kBodyNumbers) {
     bodies.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
-    if (!(bodies.back().r > 0 && bodies.back().m > 0 && bodies.back().kind >= 0))
+    const auto& [r, m, kind] = bodies.back();
+    if (!(r > 0 && m > 0 && kind >= 0 && kind < kMostKinds))
       file.fail(name + " holds a grain that makes no sense");
   }
   return bodies;

@@ -17,7 +17,9 @@ constexpr LongName kGrains[] = {
     {"omega", "angular velocity"},
     {"dune", "label of the dune that the grain belongs to, -1: none"},
     {"kind", "kind of the grain, from 0; \"names\" has a line for each"},
-    {"heap", "number of the heap that the grain came from, from 0; \"names\" has a line for each"},
+    {"heap",
+     "number of the heap that the grain came from, from 0, -1: of none; \"names\" has a line for "
+     "each"},
     {"force_drag", "drag"},
     {"force_added_mass", "force of the added mass"},
     {"force_lift", "lift"},

@@ -52,7 +52,7 @@ void Simulation::follow_first_dune(const std::string& source) {
     throw InputError(source + ": holds no dune that grains.boundary_x = \"follow\" could follow");
   int n_cut = 0;
   Kokkos::parallel_reduce("grains: at the seam", grains.n,
-                          run_.coupled_step.neighbor_list()->outlet(grains), n_cut);
+                          run_.coupled_step.neighbor_list()->leaving(grains), n_cut);
   const std::int64_t n = sum_over(run_.ranks, n_cut);
   if (n == 0) return;
   throw InputError(fmt::format(

@@ -167,7 +167,7 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
 
 /// The same grains come in at the same places, and those that left with the same sizes.
 TEST(GrainsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
-  for (const FeedRate amount : {FeedRate::given, FeedRate::as_lost}) {
+  for (const FeedAmount amount : {FeedAmount::given, FeedAmount::as_lost}) {
     Config c = box({0.004, 0.004, 0.005});
     c.grains->boundary_x = GrainBoundaryX::exit;
     c.grains->feed = FeedConfig{.amount = amount, .rate = 2e4, .x = 5e-5, .height = 3e-3};

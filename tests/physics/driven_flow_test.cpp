@@ -137,6 +137,23 @@ TEST(DrivenFlow, SwingsAsStokesLayerDoes) {
 }
 
 /// A square box of turbulent water driven along x, or the same along z.
+/// Largest difference of a flow from `turned`, the same with x and z exchanged, and its largest
+/// velocity along z [m/s].
+std::pair<double, double> compare_turned(const FlowRun& along, const FlowRun& turned) {
+  const auto u = to_host(along.fluid.u.x), v = to_host(along.fluid.u.y),
+             w = to_host(along.fluid.u.z);
+  const auto turned_u = to_host(turned.fluid.u.x), turned_v = to_host(turned.fluid.u.y),
+             turned_w = to_host(turned.fluid.u.z);
+  double largest = 0, across = 0;
+  for_owned_cells(along.grid, [&](int i, int j, int k) {
+    largest = std::max({largest, std::abs(u(i, j, k) - turned_w(k, j, i)),
+                        std::abs(v(i, j, k) - turned_v(k, j, i)),
+                        std::abs(w(i, j, k) - turned_u(k, j, i))});
+    across = std::max(across, std::abs(w(i, j, k)));
+  });
+  return {largest, across};
+}
+
 FlowRun turbulent_run(const PlaneVelocity& velocity) {
   Config config = flow_config({16, 12, 16}, {0.03, 0.02, 0.03}, 8e-4);
   config.fluid->mean_velocity = velocity;
@@ -149,16 +166,7 @@ FlowRun turbulent_run(const PlaneVelocity& velocity) {
 
 TEST(DrivenFlow, TurbulenceAlongZIsThatAlongXWithXAndZExchanged) {
   const FlowRun along = turbulent_run({0.28, 0.02}), across = turbulent_run({0.02, 0.28});
-  const auto u = to_host(along.fluid.u.x), v = to_host(along.fluid.u.y),
-             w = to_host(along.fluid.u.z);
-  const auto z_u = to_host(across.fluid.u.x), z_v = to_host(across.fluid.u.y),
-             z_w = to_host(across.fluid.u.z);
-  double largest = 0, swirl = 0;
-  for_owned_cells(along.grid, [&](int i, int j, int k) {
-    largest = std::max({largest, std::abs(u(i, j, k) - z_w(k, j, i)),
-                        std::abs(v(i, j, k) - z_v(k, j, i)), std::abs(w(i, j, k) - z_u(k, j, i))});
-    swirl = std::max(swirl, std::abs(w(i, j, k)));
-  });
+  const auto [largest, swirl] = compare_turned(along, across);
   EXPECT_GT(swirl, 0.02) << "it is turbulent";
   expect_below("turbulence along z, largest difference [m/s]", largest, 1e-12);
   const double u_star = along.solver.friction_velocity(along.fluid);
@@ -199,17 +207,7 @@ TEST(DrivenFlow, AlongZIsAlongXTurned) {
     return run;
   };
   const FlowRun along = run_of(false), turned = run_of(true);
-  const auto u = to_host(along.fluid.u.x), v = to_host(along.fluid.u.y),
-             w = to_host(along.fluid.u.z);
-  const auto turned_u = to_host(turned.fluid.u.x), turned_v = to_host(turned.fluid.u.y),
-             turned_w = to_host(turned.fluid.u.z);
-  double largest = 0, across = 0;
-  for_owned_cells(along.grid, [&](int i, int j, int k) {
-    largest = std::max({largest, std::abs(u(i, j, k) - turned_w(k, j, i)),
-                        std::abs(v(i, j, k) - turned_v(k, j, i)),
-                        std::abs(w(i, j, k) - turned_u(k, j, i))});
-    across = std::max(across, std::abs(w(i, j, k)));
-  });
+  const auto [largest, across] = compare_turned(along, turned);
   EXPECT_GT(across, 1e-3) << "the flow is three-dimensional";
   expect_below("turned flow, largest difference [m/s]", largest, 1e-10);
   EXPECT_NEAR(turned.fluid.drive.z, along.fluid.drive.x, 1e-6 * std::abs(along.fluid.drive.x));

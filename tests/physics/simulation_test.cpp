@@ -90,7 +90,7 @@ Config fed_config() {
 }
 
 TEST(Simulation, RestartInTheMiddleOfAFeedContinuesBitwise) {
-  for (const FeedRate amount : {FeedRate::given, FeedRate::as_lost}) {
+  for (const FeedAmount amount : {FeedAmount::given, FeedAmount::as_lost}) {
     const TemporaryFolder scratch;
     Config whole = fed_config();
     whole.grains->feed->amount = amount;
@@ -112,7 +112,7 @@ TEST(Simulation, RestartInTheMiddleOfAFeedContinuesBitwise) {
     const auto json = nlohmann::json::parse(read_text(scratch / "parts/run.json"));
     EXPECT_EQ(json.at("grains_fed"), fed);
     EXPECT_EQ(json.at("grains_left"), left);
-    if (amount == FeedRate::as_lost) {
+    if (amount == FeedAmount::as_lost) {
       EXPECT_EQ(json.at("grains_waiting"), left - fed);
     } else {
       EXPECT_EQ(json.at("grains_waiting"), 200 - fed) << "2,000 in a second, 0.1 s";

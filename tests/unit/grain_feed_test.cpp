@@ -16,7 +16,7 @@ using test::CoupledRun;
 constexpr Real kSmall = 1.5e-4, kLarge = 2.5e-4;  // diameters [m]
 
 /// A box of still water with an outlet, 12 x 3 x 4 mm; grains sink.
-Config fed_case(FeedRate amount, double rate) {
+Config fed_case(FeedAmount amount, double rate) {
   Config c = test::still_water({0.012, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::exit;
   c.grains->gravity = {0, -9.81, 0};
@@ -64,7 +64,7 @@ void carry_on(const GrainState& grains, Real distance) {
 }
 
 TEST(GrainFeed, BringsInTheGivenRateFromItsStartOn) {
-  Config c = fed_case(FeedRate::given, 1000);
+  Config c = fed_case(FeedAmount::given, 1000);
   c.grains->feed->start = 0.005;
   c.grains->gravity = {0, 0, 0};
   CoupledRun run(c, some_grains(8));
@@ -84,7 +84,7 @@ TEST(GrainFeed, BringsInTheGivenRateFromItsStartOn) {
 }
 
 TEST(GrainFeed, PutsThemWhereItIsTold) {
-  Config c = fed_case(FeedRate::given, 1000);
+  Config c = fed_case(FeedAmount::given, 1000);
   c.grains->gravity = {0, 0, 0};
   c.grains->feed->x = 2e-3;
   c.grains->feed->across = {1e-3, 2e-3};
@@ -109,7 +109,7 @@ TEST(GrainFeed, PutsThemWhereItIsTold) {
 
 /// Where one grain lies still no second one comes in.
 TEST(GrainFeed, OthersWaitWhileThePlaceIsTaken) {
-  Config c = fed_case(FeedRate::given, 4000);
+  Config c = fed_case(FeedAmount::given, 4000);
   c.grains->gravity = {0, 0, 0};
   c.grains->feed->across = {2e-3, 2.0001e-3};
   CoupledRun run(c, some_grains(8));
@@ -124,7 +124,7 @@ TEST(GrainFeed, OthersWaitWhileThePlaceIsTaken) {
 /// 3/4 of the grains at the start are small: of n that come in so many are, but for four times
 /// sqrt(n 3/16).
 TEST(GrainFeed, SizesAreThoseOfTheGrainsAtTheStart) {
-  Config c = fed_case(FeedRate::given, 4000);
+  Config c = fed_case(FeedAmount::given, 4000);
   c.grains->gravity = {0, 0, 0};
   CoupledRun run(c, some_grains(8));
   std::map<std::int64_t, Real> seen;
@@ -143,7 +143,7 @@ TEST(GrainFeed, SizesAreThoseOfTheGrainsAtTheStart) {
 
 /// All that leave come back, each with its size and a new number.
 TEST(GrainFeed, AsManyComeBackAsLeave) {
-  Config c = fed_case(FeedRate::as_lost, 0);
+  Config c = fed_case(FeedAmount::as_lost, 0);
   c.grains->gravity = {0, 0, 0};
   CoupledRun run(c, some_grains(32));
   const auto before = diameters(*run.state.grains);

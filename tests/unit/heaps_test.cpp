@@ -272,7 +272,7 @@ TEST(Heaps, ATableMayHoldThem) {
   EXPECT_EQ(checked_grains(config, path).heap, (std::vector<std::uint8_t>{0, 7}));
   std::ofstream(path) << "id,diameter,x,y,z,heap\n1,2e-4,1e-3,1e-3,1e-3,255\n";
   EXPECT_TRUE(contains(message_of([&] { checked_grains(config, path); }),
-                       "grains.csv:2: heap = 255: must be from 0 to 254"));
+                       "grains.csv:2: heap = 255: must be from 0 to 254, or -1"));
 }
 
 }  // namespace

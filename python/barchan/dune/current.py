@@ -44,6 +44,12 @@ def direction(config: Mapping[str, Any], t: float) -> np.ndarray:
     return [unit for time, unit in currents(config) if time <= t or time == 0][-1]
 
 
+def always_along_x(config: Mapping[str, Any]) -> bool:
+    """Whether the current goes along +x all the time."""
+    turns = currents(config)
+    return len(turns) == 1 and bool(np.allclose(turns[0][1], ALONG_X))
+
+
 def turned(grains: Grains, centroid: np.ndarray, bed: Bed, along: np.ndarray) -> Grains:
     """The grains about a centroid (3) [m], seen with the unit vector `along` as x; periodic images undone."""
     x, y, z = bed.nearest(grains.x - centroid).T

@@ -28,7 +28,6 @@ EXCHANGED = 0.05  # of the lighter dune's grains: the least exchange of two that
 CHASING, MERGING, EXCHANGE = "chasing", "merging", "exchange"
 FRAGMENTATION_CHASING, FRAGMENTATION_EXCHANGE = "fragmentation-chasing", "fragmentation-exchange"
 UNDECIDED = "undecided"
-KINDS = (CHASING, MERGING, EXCHANGE, FRAGMENTATION_CHASING, FRAGMENTATION_EXCHANGE, UNDECIDED)
 
 
 @dataclass
@@ -151,14 +150,19 @@ def _start(lineage: Lineage, bed: Bed, a: int, b: int, along: Along) -> int | No
         if _related(lineage, a, b):
             continue
         way = along(lineage.t[frame])
-        distance = apart[frame, 0] * way[0] + apart[frame, 2] * way[1]
+        distance = _project(apart[frame], way)
         first, second = (a, b) if distance > 0 else (b, a)
         length, width = (_extent(lineage, frame, first, axis) for axis in (way, _across(way)))
         gap = abs(distance) - 0.5 * (length + _extent(lineage, frame, second, way))
-        aside = abs(apart[frame, 0] * -way[1] + apart[frame, 2] * way[0])
+        aside = abs(_project(apart[frame], _across(way)))
         if gap <= WAKE * length and aside <= 0.5 * (width + _extent(lineage, frame, second, _across(way))):
             return int(frame)
     return None
+
+
+def _project(apart: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """The part of distances (..., 3) [m] along a unit vector (2) of the plane of the bed."""
+    return apart[..., 0] * way[0] + apart[..., 2] * way[1]
 
 
 def _across(way: np.ndarray) -> np.ndarray:
@@ -174,7 +178,7 @@ def _extent(lineage: Lineage, frame: int, name: int, axis: np.ndarray) -> float:
 def _in_order(lineage: Lineage, bed: Bed, a: int, b: int, start: int, along: Along) -> tuple[int, int]:
     """(upstream, downstream)"""
     apart, way = bed.nearest(_separation(lineage, bed, a, b)[start]), along(lineage.t[start])
-    return (a, b) if apart[0] * way[0] + apart[2] * way[1] > 0 else (b, a)
+    return (a, b) if _project(apart, way) > 0 else (b, a)
 
 
 class _Pair:
@@ -188,9 +192,9 @@ class _Pair:
         present = [lineage.present[:, sorted(side)].any(axis=1) for side in self.sides]
         self.end = int(np.nonzero(present[0] & present[1])[0][-1])
         apart = _separation(lineage, bed, up, down)
-        distance = (apart[:, 0] * way[0] + apart[:, 2] * way[1])[start:self.end + 1]
+        distance = _project(apart, way)[start:self.end + 1]
         self.distance = distance[np.isfinite(distance)]
-        self.aside = float(apart[start, 0] * -way[1] + apart[start, 2] * way[0])
+        self.aside = float(_project(apart[start], _across(way)))
         self.lighter = float(np.min(lineage.n_grains[start, [up, down]]))
         touching = [frame for frame in range(start, self.end + 1) if self._touch(frame)]
         self.contact = touching[0] if touching else None

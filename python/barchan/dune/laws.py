@@ -49,7 +49,7 @@ class Relation:
         return fit(table[self.x], table[self.y], self.kind, table["case"], groups)
 
 
-# c = Q/(L + L0) has the exponent -1/(1 + L0/L): -1 for large dunes, -1/2 for one as small as L0.
+# Andreotti et al.: c = Q/(H + H0) has the exponent -1/(1 + H0/H): -1 for large dunes, -1/2 for one as high as H0.
 RELATIONS = {
     "celerity": Relation("celerity", "L", "power", (-1, -1), "Hersen 2005"),
     "celerity_by_height": Relation("celerity", "H", "power", (-1, -0.5), "Andreotti et al. 2002"),

@@ -5,6 +5,7 @@ those of grains.h5. Lengths in m.
 """
 
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +30,24 @@ def bed_of(run: RunFolder) -> Bed:
     return Bed((run.domain[0], run.domain[2]), periodic)
 
 
+def known_grains(run: RunFolder) -> Grains:
+    """Each grain of grains.h5 by id, with its diameter, heap and kind, where it is first seen.
+
+    Looks at the first and the last frame, and at all where grains are fed on the way.
+    """
+    count = len(run.need_grains().frames)
+    chosen = range(count) if "feed" in run.config.get("grains", {}) else sorted({0, count - 1})
+    seen = [run.frame(index) for index in chosen]
+    first = np.unique(np.concatenate([grains.id for grains in seen]), return_index=True)[1]
+
+    def of_all(name: str) -> Any:
+        parts = [getattr(grains, name) for grains in seen]
+        return None if any(part is None for part in parts) else np.concatenate(parts)[first]
+
+    return Grains(0.0, of_all("id"), of_all("x"), of_all("d"), heap=of_all("heap"),
+                  heaps=max((grains.heaps for grains in seen), key=len), kind=of_all("kind"), kinds=seen[0].kinds)
+
+
 class Tracks:
     def __init__(self, run: RunFolder) -> None:
         self.run = run
@@ -45,10 +64,13 @@ class Tracks:
         return int(np.searchsorted(self.times, time * (1 + 1e-9), side="right")) - 1
 
     @cached_property
+    def known(self) -> Grains:
+        return known_grains(self.run)
+
+    @cached_property
     def diameters(self) -> tuple[np.ndarray, np.ndarray]:
-        """(ids, diameters [m]), ordered by id: of the first frame of grains.h5, which has all grains."""
-        first = self.run.frame(0)
-        return first.id, first.d
+        """(ids, diameters [m]), ordered by id."""
+        return self.known.id, self.known.d
 
     def read(self, index: int) -> Grains:
         """The grains of a frame, ordered by id; those whose position is not a number are left out."""
@@ -64,12 +86,8 @@ class Tracks:
 
     @cached_property
     def heaps(self) -> tuple[np.ndarray, np.ndarray | None]:
-        """(ids, heap of each), ordered by id, of the first frame of grains.h5; None for a run without heaps."""
-        file = self.run.need_grains()
-        with file.open() as content:
-            group = content[file.frames[0][1]]
-            order = np.argsort(group["id"][:])
-            return group["id"][:][order], group["heap"][:][order].astype(int) if "heap" in group else None
+        """(ids, heap of each), ordered by id; None for a run without heaps."""
+        return self.known.id, self.known.heap
 
     def _diameters_of(self, number: np.ndarray) -> np.ndarray:
         ids, d = self.diameters

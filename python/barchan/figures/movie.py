@@ -15,6 +15,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from barchan.dune.current import always_along_x
+from barchan.dune.tracks import known_grains
 from barchan.errors import BarchanError, MissingData
 from barchan.figures import style
 from barchan.figures.grain_image import by_group, top_view
@@ -70,16 +72,6 @@ class Frames:
         return (self.grains(int(index)) for index in self.chosen)
 
 
-def known_grains(run):
-    """Grains by id with their diameters, heaps and kinds: those of the first and the last frame."""
-    grains = [run.frame(index) for index in sorted({0, len(run.need_grains().frames) - 1})]
-    first = np.unique(np.concatenate([g.id for g in grains]), return_index=True)[1]
-    number, x, d = (np.concatenate([getattr(g, name) for g in grains])[first] for name in ("id", "x", "d"))
-    heap, kind = (None if getattr(grains[0], name) is None else
-                  np.concatenate([getattr(g, name) for g in grains])[first] for name in ("heap", "kind"))
-    return Grains(0.0, number, x, d, heap=heap, heaps=grains[-1].heaps, kind=kind, kinds=grains[0].kinds)
-
-
 def write_files(run):
     """Draws the frames; returns the paths to name."""
     frames = Frames(run)
@@ -89,14 +81,15 @@ def write_files(run):
     if not sample:
         raise MissingData("needs a frame with grains in it")
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample)
-    scene = Scene(frame_window(sample), top, sample[0])
+    named = max(sample, key=lambda grains: len(grains.groups))
+    scene = Scene(frame_window(sample), top, named, always_along_x(run.config))
     log = {"frame": [], "t_s": [], "n_grains": []}
     program = shutil.which("ffmpeg")
     pictures = recorded(scene, frames, log)
     paths = film(run.path / "movie.mp4", pictures, program, len(frames.chosen)) if program else None
     if not paths:
         frames.thin(PICTURES)
-        paths = numbered(run.path / "movie", recorded(scene, frames, clear(log)), len(sample[0].groups))
+        paths = numbered(run.path / "movie", recorded(scene, frames, clear(log)), len(named.groups))
     write_numbers(Told([], {"movie": log}), run.path)
     return paths
 
@@ -118,7 +111,7 @@ def recorded(scene, frames, log):
 class Scene:
     """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
 
-    def __init__(self, window, top, sample):
+    def __init__(self, window, top, named, along_x):
         ratio = (window[3] - window[2]) / (window[1] - window[0])
         height = WIDTH * ratio + AROUND
         even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
@@ -132,10 +125,11 @@ class Scene:
         above = 1.0 + 0.1 / (WIDTH * ratio)
         self.time = axes.text(0.005, above, "", transform=axes.transAxes, fontsize=10)
         style.scale_bar(axes, style.round_length(0.25e3 * (window[1] - window[0])), 0.4, above)
-        axes.annotate("", xy=(0.995, above), xytext=(0.9, above), xycoords="axes fraction",
-                      arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "shrinkA": 0, "shrinkB": 0})
-        axes.text(0.89, above, "flow", transform=axes.transAxes, ha="right", va="center")
-        colour_key(self.figure, axes, top, sample.groups, sample.kinds)
+        if along_x:
+            axes.annotate("", xy=(0.995, above), xytext=(0.9, above), xycoords="axes fraction",
+                          arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "shrinkA": 0, "shrinkB": 0})
+            axes.text(0.89, above, "flow", transform=axes.transAxes, ha="right", va="center")
+        colour_key(self.figure, axes, top, named.groups, named.kinds)
         self.figure.canvas.draw()
         self.figure.set_layout_engine("none")  # nothing moves from frame to frame
 

@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 
+from barchan.dune.current import always_along_x
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.figures.grain_image import top_view
@@ -54,8 +55,10 @@ def draw(run, ax=None):
     length = style.round_length(0.25e3 * (window[1] - window[0]))
     share = length / (1e3 * (window[1] - window[0]))
     style.scale_bar(panels[0], length, 0.985 - share, 0.06)
-    flow_arrow(panels[0])
-    colour_key(figure, grid, top, frames[0].groups, frames[0].kinds)
+    if always_along_x(run.config):
+        flow_arrow(panels[0])
+    named = max(frames, key=lambda grains: len(grains.groups))
+    colour_key(figure, grid, top, named.groups, named.kinds)
     return figure
 
 

@@ -181,7 +181,7 @@ def player(facts, missing):
 <canvas id="side" role="img" aria-label="the grains seen from the side"></canvas>
 <div class="below"><span class="bar">{colour_key(facts)}</span>
 <label><input id="near" type="checkbox"> follow the dune</label></div>
-<p class="quiet">{escape(facts["note"])} Seen from above, then from the side, x (downstream) from
+<p class="quiet">{escape(facts["note"])} Seen from above, then from the side, x from
 left to right. Arrow keys go from one time to the next, the space bar plays.</p></div>"""
 
 

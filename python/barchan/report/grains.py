@@ -6,6 +6,7 @@ import json
 import matplotlib
 import numpy as np
 
+from barchan.dune.current import always_along_x
 from barchan.errors import MissingData
 from barchan.figures import style
 
@@ -41,7 +42,7 @@ def pack(run):
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
         "window": dune_window(positions, bounds), "colours": colours(), "groups": keys_of(groups),
-        "flow": "fluid" in run.config or "grains" not in run.config,
+        "flow": ("fluid" in run.config or "grains" not in run.config) and always_along_x(run.config),
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
     words += [quantise(x[:, axis], *bounds[axis]) for x in positions for axis in range(3)]
@@ -56,14 +57,9 @@ def evenly(n, most):
 
 
 def kept_ids(run, chosen):
-    """The ids to show, every k-th of the fullest frame, and how many grains that frame has.
-
-    Nothing enters a domain, so the fullest frame holds every grain of the others.
-    """
+    """The ids to show, every k-th of the grains that are in any of the frames, and how many these are."""
     with run.grain_file.open() as file:
-        names = [run.grain_file.frames[index][1] for index in chosen]
-        fullest = max(names, key=lambda name: len(file[name]["id"]))
-        ids = np.sort(file[fullest]["id"][:])
+        ids = np.unique(np.concatenate([file[run.grain_file.frames[index][1]]["id"][:] for index in chosen]))
     return ids[::max(1, -(-len(ids) // MOST_GRAINS))], len(ids)
 
 

@@ -161,5 +161,8 @@ def balance(summary):
     good = inside + left == initial + fed and lost <= LARGEST_LOSS
     about = ("No grain may vanish; those beyond the outlet have left. "
              f"Above {percent(LARGEST_LOSS)} lost, the dune is no longer the one that started.")
-    return Check("grains", f"{inside:,} inside + {left:,} left ({percent(lost)}) of {initial + fed:,}",
-                 f"sum = initial; left ≤ {percent(LARGEST_LOSS)}", OK if good else LOOK, about)
+    if not fed:
+        return Check("grains", f"{inside:,} inside + {left:,} left ({percent(lost)}) of {initial:,}",
+                     f"sum = initial; left ≤ {percent(LARGEST_LOSS)}", OK if good else LOOK, about)
+    return Check("grains", f"{inside:,} inside + {left:,} left of {initial:,} initial + {fed:,} fed",
+                 f"sum = initial + fed; lost and not fed ≤ {percent(LARGEST_LOSS)}", OK if good else LOOK, about)
