@@ -8,32 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace barchan {
+#include "src/config/choices.hpp"
 
-enum class Turbulence { none, wale };
-enum class WallFlow { no_slip, free_slip };
-enum class CoulombLimit { total, elastic };  // normal force that limits friction
-enum class RollingModel { none, epsd2, theta_m, cdt };
-enum class ContactModel { hertz_mindlin, linear };
-enum class GrainBoundaryX { exit, periodic, wall, follow };
-enum class GrainBoundaryZ { periodic, wall };
-enum class GrainFloor { smooth, glued };
-enum class PourShape { cone, bed };
-enum class HeapShape { cone, ridge, bed };
-enum class FeedAmount { given, as_lost };
-enum class DragLaw {
-  gidaspow,
-  di_felice,
-  koch_hill,
-  syamlal_obrien,
-  beetstra,
-  paper_repaired,
-  gidaspow_blended,
-  none
-};
-enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Exchange { by_row, interpolated, smoothed };
-enum class Preconditioner { fft, local_fft };
+namespace barchan {
 
 /// A length in metres. A case may give it in mean diameters of its grains, as "3 d"; load_config
 /// makes metres of them.
@@ -233,6 +210,25 @@ struct InitialConfig {
   bool operator==(const InitialConfig&) const = default;
 };
 
+/// [[body]]: a solid at rest in the flow and among the grains. Which shape takes which keys:
+/// body_checks.cpp. Lengths of 0 are not given.
+struct BodyConfig {
+  std::string name;                       // in tables and pictures, required
+  BodyShape shape = BodyShape::cylinder;  // required
+  std::array<double, 2> centre{};         // x, z of its middle; of a dune of its crest [m]
+  double base = 0;                        // of its underside above the floor [m]
+  BodyAxis axis = BodyAxis::y;            // of a cylinder
+  double radius = 0;                      // of a cylinder, a sphere, a fence's posts [m]
+  double height = 0;                      // [m]; of a wave from trough to crest
+  double length = 0;                      // of a lying cylinder; of a fence between end posts [m]
+  std::array<double, 2> size{};           // of a box, a dune: along x, along z [m]
+  double lee = 0;                         // length of a dune's lee side, of all its length [m]
+  double spacing = 0;                     // of a fence's posts, between their axes [m]
+  double wavelength = 0;                  // [m]
+  double angle = 0;                       // by which box and fence are turned from x to z [rad]
+  bool operator==(const BodyConfig&) const = default;
+};
+
 /// [output], intervals in simulated seconds; 0 turns a file off.
 struct OutputConfig {
   double history_interval = 0.01;
@@ -277,6 +273,7 @@ struct Config {
   std::array<double, 3> size{};  // [domain] size = [Lx, Ly, Lz] [m]
   std::optional<FluidConfig> fluid;
   std::optional<GrainConfig> grains;
+  std::vector<BodyConfig> bodies = {};
   CouplingConfig coupling;
   InitialConfig initial;
   OutputConfig output;

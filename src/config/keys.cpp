@@ -1,5 +1,6 @@
 #include "src/config/keys.hpp"
 
+#include "src/config/body_keys.hpp"
 #include "src/config/key_builder.hpp"
 #include "src/config/material_keys.hpp"
 
@@ -271,9 +272,10 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add :
-         {add_case,  add_time,    add_domain,  add_fluid,   add_schedule,   add_grains,  add_wall,
-          add_kinds, add_pairs,   add_ambient, add_feed,    add_coupling,   add_initial, add_pour,
-          add_heaps, add_craters, add_output,  add_restart, add_statistics, add_solver}) {
+         {add_case,     add_time,       add_domain, add_fluid,   add_schedule, add_grains,
+          add_wall,     add_kinds,      add_pairs,  add_ambient, add_feed,     add_bodies,
+          add_coupling, add_initial,    add_pour,   add_heaps,   add_craters,  add_output,
+          add_restart,  add_statistics, add_solver}) {
       add(made);
     }
     return made;

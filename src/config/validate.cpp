@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/config/body_checks.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/flow_checks.hpp"
 #include "src/config/flow_schedule.hpp"
@@ -191,6 +192,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   if (c.fluid) check_fluid(c, found);
   if (c.grains) check_grains(c, found);
   if (c.grains) check_heaps(c, found);
+  check_bodies(c, found);
   check_initial(c, found);
   check_effects(c, found);
   check_output(c, found);

@@ -38,6 +38,11 @@ constexpr auto names_of(GrainFloor) { return std::array{"smooth"sv, "glued"sv}; 
 constexpr auto names_of(PourShape) { return std::array{"cone"sv, "bed"sv}; }
 constexpr auto names_of(HeapShape) { return std::array{"cone"sv, "ridge"sv, "bed"sv}; }
 constexpr auto names_of(FeedAmount) { return std::array{"given"sv, "as_lost"sv}; }
+constexpr auto names_of(BodyShape) {
+  return std::array{"cylinder"sv, "sphere"sv, "half_sphere"sv, "box"sv,
+                    "fence"sv,    "dune"sv,   "wave"sv};
+}
+constexpr auto names_of(BodyAxis) { return std::array{"x"sv, "y"sv, "z"sv}; }
 constexpr auto names_of(DragLaw) {
   return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
                     "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
@@ -58,6 +63,7 @@ static_assert(kChoiceNames<GrainFloor>.size() == std::size_t(GrainFloor::glued) 
 static_assert(kChoiceNames<PourShape>.size() == std::size_t(PourShape::bed) + 1);
 static_assert(kChoiceNames<HeapShape>.size() == std::size_t(HeapShape::bed) + 1);
 static_assert(kChoiceNames<FeedAmount>.size() == std::size_t(FeedAmount::as_lost) + 1);
+static_assert(kChoiceNames<BodyShape>.size() == std::size_t(BodyShape::wave) + 1);
 static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
 static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
 static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);

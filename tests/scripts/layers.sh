@@ -6,8 +6,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 # Each folder may include itself and those before it. ARCHITECTURE.md draws them.
-kernel_rooms=(math fluid grains coupling diagnostics)
-src_rooms=(base parallel config io fluid grains coupling output initial diagnostics run app)
+kernel_rooms=(math bodies fluid grains coupling diagnostics)
+src_rooms=(base parallel config io bodies fluid grains coupling output initial diagnostics run app)
 
 max_lines=400          # anywhere
 max_lines_of_program=300  # in src/ and kernels/

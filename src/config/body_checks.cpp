@@ -1,0 +1,150 @@
+#include "src/config/body_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "src/config/body_extent.hpp"
+#include "src/config/keys.hpp"
+#include "src/config/values.hpp"
+
+namespace barchan {
+namespace {
+
+constexpr std::size_t kMostBodies = 8;
+constexpr double kFewCells = 4;  // across the smallest size of a body
+
+std::string key_of(std::size_t n, std::string_view key) {
+  return fmt::format("body.{}.{}", n + 1, key);
+}
+
+/// Which keys a shape takes beside name, shape, centre and base, and which of them it needs.
+struct ShapeKeys {
+  std::vector<std::string_view> needs, takes = {};
+};
+
+ShapeKeys keys_of(const BodyConfig& body) {
+  switch (body.shape) {
+    case BodyShape::cylinder:
+      if (body.axis == BodyAxis::y) return {{"radius", "height"}, {"axis"}};
+      return {{"radius"}, {"axis", "length"}};
+    case BodyShape::sphere:
+    case BodyShape::half_sphere:
+      return {{"radius"}};
+    case BodyShape::box:
+      return {{"height"}, {"size", "angle"}};
+    case BodyShape::fence:
+      return {{"radius", "height", "spacing", "length"}, {"angle"}};
+    case BodyShape::dune:
+      return {{"height", "size", "lee"}};
+    case BodyShape::wave:
+      return {{"height", "wavelength"}};
+  }
+  return {};
+}
+
+/// What a body is called in messages.
+std::string words_for(const BodyConfig& body) {
+  const std::string_view shape = kChoiceNames<BodyShape>[static_cast<std::size_t>(body.shape)];
+  if (body.shape != BodyShape::cylinder) return fmt::format("shape = \"{}\"", shape);
+  return body.axis == BodyAxis::y ? "an upright cylinder" : "a lying cylinder";
+}
+
+/// The keys that its shape needs, and no other ones; true if all is well.
+bool check_keys(const Config& c, std::size_t n, Findings& found) {
+  const ShapeKeys shape = keys_of(c.bodies[n]);
+  const auto holds = [](const std::vector<std::string_view>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  Config alone, plain;
+  alone.bodies = {c.bodies[n]};
+  plain.bodies = {BodyConfig{}};
+  bool well = true;
+  for (const Section& section : sections()) {
+    if (section.name != "body") continue;
+    for (const Key& key : section.keys) {
+      const bool given = key.text(alone) != key.text(plain), needed = holds(shape.needs, key.name);
+      if (needed)
+        well = !found.error_if(!given, {key_of(n, key.name), key_of(n, "shape")},
+                               "must be above 0 with {}", words_for(c.bodies[n])) &&
+               well;
+      if (needed || holds(shape.takes, key.name) ||
+          holds({"name", "shape", "centre", "base"}, key.name))
+        continue;
+      well = !found.error_if(given, {key_of(n, key.name), key_of(n, "shape")},
+                             "must be absent with {}", words_for(c.bodies[n])) &&
+             well;
+    }
+  }
+  return well;
+}
+
+/// What keys cannot say one by one; true if all is well.
+bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
+  if (body.shape == BodyShape::box)
+    return !found.error_if(body.angle != 0 && (body.size[0] == 0 || body.size[1] == 0),
+                           {key_of(n, "angle"), key_of(n, "size")},
+                           "must be absent for a box through the whole domain");
+  if (body.shape == BodyShape::fence)
+    return !found.error_if(body.spacing <= 2 * body.radius,
+                           {key_of(n, "spacing"), key_of(n, "radius")},
+                           "must be above the diameter of a post, {:.3g} m", 2 * body.radius);
+  if (body.shape != BodyShape::dune) return true;
+  if (found.error_if(body.size[0] == 0 || body.size[1] == 0, {key_of(n, "size")},
+                     "must be above 0 along x and along z"))
+    return false;
+  return !found.error_if(body.lee >= body.size[0], {key_of(n, "lee"), key_of(n, "size")},
+                         "must be below the length of the dune, {:.3g} m", body.size[0]);
+}
+
+void check_place(const Config& c, std::size_t n, Findings& found) {
+  const BodyExtent extent = body_extent(c.bodies[n], c.size);
+  for (const std::size_t axis : {0u, 2u}) {
+    const double low = extent.low[axis], high = extent.high[axis], most = c.size[axis];
+    found.error_if(
+        low < -1e-12 * most || high > most * (1 + 1e-12), {key_of(n, "centre"), "domain.size"},
+        "must keep the body inside the domain along {}: it reaches from {:.4g} to {:.4g} "
+        "m of {:.4g} m",
+        axis == 0 ? 'x' : 'z', low, high, most);
+  }
+  found.error_if(extent.low[1] >= c.size[1] || extent.high[1] <= 0,
+                 {key_of(n, "base"), "domain.size"},
+                 "must leave a part of the body in the domain: it reaches from {:.4g} to {:.4g} m",
+                 extent.low[1], extent.high[1]);
+  const bool blocks = extent.low[0] <= 0 && extent.high[0] >= c.size[0] && extent.low[2] <= 0 &&
+                      extent.high[2] >= c.size[2] && extent.high[1] >= c.size[1];
+  found.error_if(blocks, {key_of(n, "shape"), "domain.size"}, "must leave water above the body");
+  if (c.bodies[n].shape != BodyShape::wave) return;
+  const double waves = c.size[0] / c.bodies[n].wavelength;
+  found.error_if(
+      std::abs(waves - std::round(waves)) > 1e-6 * waves, {key_of(n, "wavelength"), "domain.size"},
+      "must fit into the length of the domain, {:.4g} m, a whole number of times", c.size[0]);
+}
+
+void check_resolution(const Config& c, std::size_t n, Findings& found) {
+  const auto [nx, ny, nz] = c.fluid->cells;
+  double cell = c.size[0] / nx;
+  if (nz > 1) cell = std::max(cell, c.size[2] / nz);
+  const double cells = smallest_size(c.bodies[n]) / cell;
+  found.warning_if(cells < kFewCells, {key_of(n, "shape"), "fluid.cells"},
+                   "has {:.1f} cells across its smallest size; below {} the flow hardly sees it",
+                   cells, kFewCells);
+}
+
+}  // namespace
+
+void check_bodies(const Config& c, Findings& found) {
+  found.error_if(c.bodies.size() > kMostBodies, {"body"}, "must be at most {} bodies", kMostBodies);
+  for (std::size_t n = 0; n < c.bodies.size(); ++n) {
+    for (std::size_t before = 0; before < n; ++before)
+      found.error_if(c.bodies[before].name == c.bodies[n].name, {key_of(n, "name")},
+                     "must be another one: \"{}\" is the name of an earlier body",
+                     c.bodies[n].name);
+    if (!check_keys(c, n, found) || !check_sizes(c.bodies[n], n, found)) continue;
+    check_place(c, n, found);
+    if (c.fluid) check_resolution(c, n, found);
+  }
+}
+
+}  // namespace barchan

@@ -1,0 +1,12 @@
+// Checks of [[body]].
+#pragma once
+
+#include "src/config/config.hpp"
+#include "src/config/findings.hpp"
+
+namespace barchan {
+
+/// The bodies alone, with each other, and with the domain, the cells and the grains' gravity.
+void check_bodies(const Config& c, Findings& found);
+
+}  // namespace barchan

@@ -1,0 +1,10 @@
+// Keys of [[body]].
+#pragma once
+
+#include "src/config/keys.hpp"
+
+namespace barchan {
+
+void add_bodies(Sections& all);
+
+}  // namespace barchan
