@@ -79,6 +79,7 @@ for ranks in 1 3; do
 done
 same bits kinds kinds-halves-1
 same bits kinds-on-3 kinds-halves-3
+
 # Of two heaps every grain keeps its own, on ranks, after a restart and in the case that starts from it.
 sed '/pour = /d' heap.toml > heaps.toml
 cat >> heaps.toml <<'TOML'
@@ -94,6 +95,9 @@ sizes = [[0.2e-3, 700]]
 TOML
 run 2 heaps.toml --out heaps --set time.end=0.003
 run 3 heaps.toml --out heaps --restart heaps/restart_0000000012.h5
+run 1 heaps.toml --out heaps-one
+same grains heaps-one heaps
+[ -s heaps/heaps.csv ] || fail "no table of heaps"
 run 4 heap.toml --out after --set time.end=0.002 --set 'initial.grains="heaps/restart_0000000024.h5"'
 run 2 heap.toml --out later --set time.end=0.002 --set 'initial.grains="after/grains.h5"'
 /usr/bin/python3 - <<'PYTHON' || fail "grains have lost their heaps"
