@@ -14,6 +14,7 @@
 #include "src/config/heaps.hpp"
 #include "src/config/load.hpp"
 #include "src/config/values.hpp"
+#include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/heap_shares.hpp"
@@ -92,6 +93,7 @@ std::string describe_csv(const fs::path& path) {
   std::string told = describe_table(kHistoryTable, rows);
   if (told.empty()) told = describe_table(kDuneTable, rows);
   if (told.empty()) told = describe_table(kHeapTable, rows);
+  if (told.empty()) told = describe_table(kBodyTable, rows);
   if (told.empty()) told = describe_table(kStatisticsTable, rows);
   if (!told.empty()) return told;
   const std::string& h = rows.header;

@@ -10,6 +10,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/resolved.hpp"
+#include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/heap_shares.hpp"
 #include "src/io/checkpoint.hpp"
@@ -23,14 +24,39 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultNames[] = {
-    "config.toml",       "run.json",           kHistoryTable.file,
-    kDuneTable.file,     kHeapTable.file,      "encounters.csv",
-    "fields.h5",         "fields.xdmf",        "grains.h5",
-    "grains.xdmf",       "tracks.h5",          "log.txt",
-    "statistics.csv",    "flow_average.h5",    "flow_average.xdmf",
-    "force_map.csv",     "failure_grains.h5",  "failure_grains.xdmf",
-    "failure_fields.h5", "failure_fields.xdmf"};
+constexpr const char* kResultNames[] = {"config.toml",
+                                        "run.json",
+                                        kHistoryTable.file,
+                                        kDuneTable.file,
+                                        kHeapTable.file,
+                                        kBodyTable.file,
+                                        "encounters.csv",
+                                        "fields.h5",
+                                        "fields.xdmf",
+                                        "grains.h5",
+                                        "grains.xdmf",
+                                        "tracks.h5",
+                                        "log.txt",
+                                        "statistics.csv",
+                                        "flow_average.h5",
+                                        "flow_average.xdmf",
+                                        "force_map.csv",
+                                        "failure_grains.h5",
+                                        "failure_grains.xdmf",
+                                        "failure_fields.h5",
+                                        "failure_fields.xdmf"};
+
+/// Tables that not every run has.
+template <class Record>
+void cut_if_there(const fs::path& folder, const CsvTable<Record>& table, double t) {
+  if (fs::exists(folder / table.file)) cut_table(folder / table.file, table.header(), t);
+}
+template <class Record>
+void append_or_begin(const fs::path& folder, const CsvTable<Record>& table, const Record& record) {
+  const fs::path file = folder / table.file;
+  if (!fs::exists(file)) cut_table(file, table.header(), record.t);
+  append_text(file, table.line(record));
+}
 
 }  // namespace
 
@@ -58,6 +84,7 @@ void check_tables(const fs::path& folder) {
   text_of_table(folder / kHistoryTable.file, kHistoryTable.header());
   text_of_table(folder / kDuneTable.file, kDuneTable.header());
   text_of_table(folder / kHeapTable.file, kHeapTable.header());
+  text_of_table(folder / kBodyTable.file, kBodyTable.header());
 }
 
 std::string status_in(const fs::path& run_json) {
@@ -88,8 +115,8 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
     const double t = restart_time.value_or(0);
     cut_table(folder / kHistoryTable.file, kHistoryTable.header(), t);
     cut_table(folder / kDuneTable.file, kDuneTable.header(), t);
-    if (fs::exists(folder / kHeapTable.file))
-      cut_table(folder / kHeapTable.file, kHeapTable.header(), t);
+    cut_if_there(folder, kHeapTable, t);
+    cut_if_there(folder, kBodyTable, t);
   }
   synchronise(communicator);
   return folder;
@@ -104,9 +131,11 @@ void append_record(const fs::path& folder, const DuneRecord& record) {
 }
 
 void append_record(const fs::path& folder, const HeapShare& record) {
-  const fs::path file = folder / kHeapTable.file;
-  if (!fs::exists(file)) cut_table(file, kHeapTable.header(), record.t);
-  append_text(file, kHeapTable.line(record));
+  append_or_begin(folder, kHeapTable, record);
+}
+
+void append_record(const fs::path& folder, const BodyRecord& record) {
+  append_or_begin(folder, kBodyTable, record);
 }
 
 void write_summary(const fs::path& folder, const nlohmann::ordered_json& summary) {

@@ -12,6 +12,7 @@
 
 namespace barchan {
 
+struct BodyRecord;
 struct DuneRecord;
 struct HeapShare;
 struct HistoryRecord;
@@ -35,19 +36,19 @@ bool is_result_name(const std::filesystem::path& name);
 std::filesystem::path prepare_folder(const std::filesystem::path& folder,
                                      std::optional<double> restart_time,
                                      MPI_Comm communicator = MPI_COMM_SELF);
-/// Adds a whole line to history.csv, dune.csv or heaps.csv, on its way to the disk when the call
-/// returns. The last one is made with its first line.
+/// Adds a whole line to history.csv, dune.csv, heaps.csv or bodies.csv, on its way to the disk when
+/// the call returns. The last two are made with their first line.
 void append_record(const std::filesystem::path& folder, const HistoryRecord& record);
 void append_record(const std::filesystem::path& folder, const DuneRecord& record);
 void append_record(const std::filesystem::path& folder, const HeapShare& record);
+void append_record(const std::filesystem::path& folder, const BodyRecord& record);
 /// Replaces run.json as a whole. Numbers that are not finite become null.
 void write_summary(const std::filesystem::path& folder, const nlohmann::ordered_json& summary);
 
 /// The "status" in a run.json; empty if the file is missing or damaged.
 std::string status_in(const std::filesystem::path& run_json);
 
-/// Throws std::runtime_error if history.csv, dune.csv or heaps.csv has other columns than a restart
-/// goes on with.
+/// Throws std::runtime_error if one of these tables has other columns than a restart goes on with.
 void check_tables(const std::filesystem::path& folder);
 
 }  // namespace barchan

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "src/base/atomic_file.hpp"
+#include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/heap_shares.hpp"
@@ -46,8 +47,8 @@ TEST(CsvTable, AColumnIsOneLine) {
 
 TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {
   const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/files.md");
-  for (const std::string& columns :
-       {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(), kStatisticsTable.page()}) {
+  for (const std::string& columns : {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(),
+                                     kBodyTable.page(), kStatisticsTable.page()}) {
     EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos) << "docs/files.md must have:\n"
                                                                    << columns;
   }

@@ -1,0 +1,49 @@
+// bodies.csv: what water and grains do to each body.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "src/bodies/body_load.hpp"
+#include "src/output/csv_table.hpp"
+
+namespace barchan {
+
+/// One body, and the means over an interval of what acts on it.
+struct BodyRecord {
+  double t = 0;                                     // [s]
+  std::int64_t body = 0;                            // in the order of the case
+  double force_x = 0, force_y = 0, force_z = 0;     // of the water [N]
+  double torque_x = 0, torque_y = 0, torque_z = 0;  // [N m]
+  double grain_force_x = 0, grain_force_y = 0, grain_force_z = 0;
+  double grain_torque_x = 0, grain_torque_y = 0, grain_torque_z = 0;
+  std::int64_t n_contacts = 0;  // with grains, now
+};
+
+inline constexpr std::array kBodyColumns = [] {
+  using B = BodyRecord;
+  return std::to_array<Column<B>>({
+      {"t", "s", &B::t, "time", 10},
+      {"body", "-", &B::body, "number of the `[[body]]`, from 0 in the order of the case"},
+      {"force_x", "N", &B::force_x, "force of the water, mean since the line before"},
+      {"force_y", "N", &B::force_y, "the same upwards, without buoyancy"},
+      {"force_z", "N", &B::force_z, "the same along z"},
+      {"torque_x", "N m", &B::torque_x, "its torque about the middle of the underside"},
+      {"torque_y", "N m", &B::torque_y, "the same about y"},
+      {"torque_z", "N m", &B::torque_z, "the same about z"},
+      {"grain_force_x", "N", &B::grain_force_x, "force of the grains that touch it, mean as above"},
+      {"grain_force_y", "N", &B::grain_force_y, "the same upwards"},
+      {"grain_force_z", "N", &B::grain_force_z, "the same along z"},
+      {"grain_torque_x", "N m", &B::grain_torque_x, "torque of the grains"},
+      {"grain_torque_y", "N m", &B::grain_torque_y, "the same about y"},
+      {"grain_torque_z", "N m", &B::grain_torque_z, "the same about z"},
+      {"n_contacts", "-", &B::n_contacts, "grains that touch it"},
+  });
+}();
+inline constexpr CsvTable<BodyRecord> kBodyTable{"bodies.csv", kBodyColumns};
+
+/// A line of the table.
+BodyRecord body_record(double t, int body, const BodyLoad& water, const BodyLoad& grains,
+                       std::int64_t n_contacts);
+
+}  // namespace barchan
