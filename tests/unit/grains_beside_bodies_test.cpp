@@ -69,7 +69,7 @@ TEST(GrainsBesideBodies, AHeapIsPouredAroundAPost) {
         EXPECT_GE(distance, (1 - 1e-12) * g.diameter[n] / 2);
         beside += distance < g.diameter[n] ? 1 : 0;
       }
-      EXPECT_GT(beside, 5u) << "it is to reach the post";
+      EXPECT_GT(beside, shape == PourShape::cone ? 5u : 0u) << "it is to reach the post";
     }
   }
 }
@@ -82,7 +82,7 @@ TEST(GrainsBesideBodies, APourWithoutBodiesStaysWhatItWas) {
 }
 
 TEST(GrainsBesideBodies, GrainsOfAFileThatLieInABodyAreRefused) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "grains.csv";
   std::ofstream(path) << "id,diameter,x,y,z\n"
                          "1,2e-4,0.002,0.001,0.002\n"
