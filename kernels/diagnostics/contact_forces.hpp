@@ -1,6 +1,7 @@
 // Contact forces of each grain by normal and tangential part, for output.
 #pragma once
 
+#include "kernels/bodies/body.hpp"
 #include "kernels/grains/grain.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/wall_shapes.hpp"
@@ -8,8 +9,8 @@
 namespace barchan {
 
 /// Splits contact_force(g) [N] of the last grain step. Pairs: F_t = F - (F.n) n, with n from the
-/// positions, which have not changed since. Walls: the rest, along and across
-/// the normal of the first wall that the grain touches.
+/// positions, which have not changed since. Walls and bodies: the rest, along
+/// and across the normal of the first wall that the grain touches, or else of the first body.
 struct SplitContacts {
   PeriodicBox box;
   PairList list;
@@ -17,6 +18,8 @@ struct SplitContacts {
   Kokkos::View<const Vec3*> contact_force;
   Kokkos::View<const std::uint8_t*> wall_touching;
   WallShapes walls;
+  Kokkos::View<const std::uint8_t*> body_touching;  // empty: there are no bodies
+  Bodies bodies;
   Kokkos::View<Vec3*> normal, tangential;  // results [N]
 
   /// Takes the force of one pair into the sums that `normal` (all of it) and `tangential` hold.
@@ -46,6 +49,11 @@ struct SplitContacts {
   KOKKOS_FUNCTION void split_walls(int g) const {
     const Vec3 wall = contact_force(g) - normal(g);
     Vec3 wall_normal;
+    for (int b = bodies.n - 1; b >= 0; --b) {
+      if (!(body_touching(g) >> b & 1)) continue;
+      const Vec3 n = bodies.body[b].to_surface(grains(g).x).normal;
+      wall_normal = dot(wall, n) * n;
+    }
     for (int w = kMaxWalls - 1; w >= 0; --w) {
       if (!(wall_touching(g) >> w & 1)) continue;
       const Vec3 n = walls.at(w, grains(g).x).normal;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/fluid/stencil.hpp"
+#include "kernels/grains/body_contact.hpp"
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/wall_shapes.hpp"
@@ -39,11 +40,12 @@ struct WorstGrains {
   WorstItem in_wall{0, -1}, displacement{0, -1};
 };
 
-/// Of a grain: its overlap with walls over its diameter, and its displacement in a grain step over
-/// its radius [-]; infinite where its position or velocity is not finite.
+/// Of a grain: its overlap with walls and bodies over its diameter, and its displacement in a grain
+/// step over its radius [-]; infinite where its position or velocity is not finite.
 struct GrainLimits {
   Kokkos::View<const GrainKinematics*> grains;
   WallShapes walls;
+  Bodies bodies;
   Real dt;  // grain step [s]
 
   KOKKOS_FUNCTION void operator()(int g, WorstGrains& worst) const {
@@ -53,6 +55,7 @@ struct GrainLimits {
       const Real depth = walls.at(w, grain.x).overlap(grain);
       overlap = Kokkos::max(overlap, or_infinity(depth / (2 * grain.r)));
     }
+    overlap = Kokkos::max(overlap, deepest_in(bodies, grain.x, grain.r) / (2 * grain.r));
     take_worse(worst.in_wall, overlap, g);
     const Real speed = norm(grain.u) + grain.r * norm(grain.omega);
     const Real finite = 0 * (grain.x.x + grain.x.y + grain.x.z);  // zero, or not a number

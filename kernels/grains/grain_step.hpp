@@ -51,6 +51,7 @@ struct SumKickDrift {
   GrainMotion motion;
   PairForces<Law> pairs;
   Walls<Law> walls;
+  Kokkos::View<const ContactSum*> of_bodies;          // of each grain; empty: there are none
   Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last grain step: [N], [N m]
   bool last = false;
   Real min_slack = 0;  // of a grain at rest [m]
@@ -69,6 +70,7 @@ struct SumKickDrift {
     }
     const auto is_near = [&](int g) { return !kOnHost || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
+    if (of_bodies.extent(0) > 0) add_bodies(begin, end, sums);
     if (last) keep(begin, end, sums);
     bool expired = false;
     for (int g = begin; g < end; g += kTile) {
@@ -78,6 +80,14 @@ struct SumKickDrift {
       expired = expired || is_expired;
     }
     pairs.list.expired(chunk) = expired;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void add_bodies(int begin, int end, ContactSum* sums) const {
+    for (int g = begin; g < end; ++g) {
+      ContactSum& sum = sums[place_in_chunk(g, begin)];
+      sum.force = sum.force + of_bodies(g).force;
+      sum.torque = sum.torque + of_bodies(g).torque;
+    }
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void keep(int begin, int end, const ContactSum* sums) const {

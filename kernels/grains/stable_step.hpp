@@ -2,6 +2,7 @@
 // contacts of a grain brake its spin together: they, not the springs, limit an explicit step.
 #pragma once
 
+#include "kernels/grains/body_contact.hpp"
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/law_table.hpp"
 #include "kernels/grains/pair_list.hpp"
@@ -53,11 +54,12 @@ struct TangentialOfPairs {
   }
 };
 
-/// Adds the walls; reduces the shortest step of all grains [s].
+/// Adds walls and bodies; reduces the shortest step of all grains [s].
 template <class Laws>
 struct StableStepOfGrains {
   Laws laws;  // a LawTable, of the walls
   WallShapes walls;
+  Bodies bodies;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
   Kokkos::View<const std::uint8_t*> kind;  // empty: one
@@ -68,13 +70,16 @@ struct StableStepOfGrains {
         laws.stiffness[laws.at(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0})];
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
-    for (int w = 0; w < walls.n; ++w) {
-      const Real overlap = walls.at(w, grain.x).overlap(grain);
-      if (!(overlap > 0)) continue;
-      const ContactStiffness k = law(walls.effective_radius(w, grain.r), grain.m, overlap);
+    const auto add = [&](Real overlap, Real r_eff) {
+      if (!(overlap > 0)) return;
+      const ContactStiffness k = law(r_eff, grain.m, overlap);
       stiffness += k.k_t, damping += k.gamma_t;
       take(stable_step(k.k_t, k.gamma_t, kSlipInertia * grain.m));
-    }
+    };
+    for (int w = 0; w < walls.n; ++w)
+      add(walls.at(w, grain.x).overlap(grain), walls.effective_radius(w, grain.r));
+    for (int b = 0; b < bodies.n; ++b)
+      add(grain.r - bodies.body[b].distance(grain.x), effective_radius(bodies.body[b], grain.r));
     if (stiffness > 0) take(stable_step(stiffness, damping, kSpinInertia * grain.m));
   }
 };

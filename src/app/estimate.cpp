@@ -10,6 +10,7 @@
 #include "src/app/machine_load.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/report.hpp"
+#include "src/bodies/make_bodies.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
@@ -77,7 +78,7 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   const Config& pours = planned.poured_in;
   // What loses no energy does not settle.
   if (loses_no_energy(*config.grains)) return checked_grains(pours, {});
-  return packed_grains(poured_heaps(pours), pours.size);
+  return packed_grains(poured_heaps(pours), pours.size, make_bodies(pours));
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {

@@ -17,6 +17,12 @@ namespace {
 // gathered in.
 constexpr double kBytesPerGrain = 1000;
 
+/// With the history of its contacts with bodies.
+double bytes_per_grain(const Config& config) {
+  if (config.bodies.empty()) return kBytesPerGrain;
+  return kBytesPerGrain + 70 + 48 * static_cast<double>(config.bodies.size());
+}
+
 /// Of a cell: the state, about 30 numbers of work space and two complex transforms.
 double bytes_per_cell() {
   int numbers = 30 + 4;
@@ -41,8 +47,9 @@ double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes)
     bytes += bytes_per_cell() * nx * ny * nz;
   }
   if (config.grains) {
-    bytes += kBytesPerGrain * fed_grains(config);
-    for (const SizeClass& size : sizes) bytes += kBytesPerGrain * static_cast<double>(size.count);
+    const double of_grain = bytes_per_grain(config);
+    bytes += of_grain * fed_grains(config);
+    for (const SizeClass& size : sizes) bytes += of_grain * static_cast<double>(size.count);
   }
   return bytes;
 }

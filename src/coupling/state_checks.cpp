@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,20 +70,35 @@ const char* name_of(const Plane& wall) {
   return wall.normal.x != 0 ? "a wall across x" : "a wall across z";
 }
 
-/// The wall that a grain is deepest in.
-Plane deepest_wall(const WallShapes& walls, const Vec3& x) {
-  Plane deepest = walls.at(0, x);
-  for (int w = 1; w < walls.n; ++w) {
+/// What a grain is deepest in, and how far its centre is from that surface [m].
+struct DeepestIn {
+  std::string name;
+  Real distance;
+};
+
+/// Of walls and bodies, which have these names.
+DeepestIn find_deepest(const GrainSolver& solver, const std::vector<BodyConfig>& bodies,
+                       const Vec3& x) {
+  const WallShapes& walls = solver.walls();
+  DeepestIn deepest{"nothing", std::numeric_limits<Real>::infinity()};
+  const auto look_at = [&](Real distance, const auto& name) {
+    if (distance < deepest.distance) deepest = {name(), distance};
+  };
+  for (int w = 0; w < walls.n; ++w) {
     const Plane wall = walls.at(w, x);
-    if (wall.distance(x) < deepest.distance(x)) deepest = wall;
+    look_at(wall.distance(x), [&] { return std::string(name_of(wall)); });
   }
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    look_at(solver.bodies().body[b].distance(x),
+            [&] { return fmt::format("body \"{}\"", bodies[b].name); });
   return deepest;
 }
 
 /// What to tell of the worst grain or pair of this rank.
 struct GrainProblems {
   const GrainState& grains;
-  const WallShapes& walls;
+  const GrainSolver& solver;
+  const std::vector<BodyConfig>& bodies;
   Real limit;  // grains.max_overlap
   bool at_start;
 
@@ -101,16 +117,16 @@ struct GrainProblems {
   }
   std::string in_wall(const WorstItem& worst) const {
     const Vec3 x = element(grains.kin, worst.loc).x;
-    const Plane wall = deepest_wall(walls, x);
+    const DeepestIn wall = find_deepest(solver, bodies, x);
     const std::string who = grain_at(grains, worst.loc);
-    if (wall.distance(x) < 0) {
-      return fmt::format("{} has gone through {}{}", who, name_of(wall),
+    if (wall.distance < 0) {
+      return fmt::format("{} has gone through {}{}", who, wall.name,
                          at_start ? ""
                                   : ": it was too fast or pressed too hard; take a shorter "
                                     "time.grain_step or a larger grains.youngs_modulus");
     }
     return fmt::format("{} is pressed {:.1f} % of its diameter into {} (at most {:.0f} %){}", who,
-                       100 * worst.val, name_of(wall), 100 * limit, remedy());
+                       100 * worst.val, wall.name, 100 * limit, remedy());
   }
   std::string pair(const WorstItem& worst) const {
     const int i = element(grains.list.i, worst.loc), j = element(grains.list.j, worst.loc);
@@ -179,6 +195,7 @@ StateChecks::Worst StateChecks::worst_here(const SystemState& state, const Coupl
     Kokkos::parallel_reduce("state checks: grains", items(grains.n),
                             GrainLimits{.grains = grains.kin,
                                         .walls = step.grain_solver()->walls(),
+                                        .bodies = step.grain_solver()->bodies(),
                                         .dt = true_grain_step(config_.time)},
                             worst_.into<WorstGrains>(kGrains));
   }
@@ -201,7 +218,7 @@ std::string StateChecks::problem_of(const SystemState& state, const CoupledStep&
                           mine.fraction};
   all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (grains_move) {
-    const GrainProblems problems{*state.grains, step.grain_solver()->walls(),
+    const GrainProblems problems{*state.grains, *step.grain_solver(), config_.bodies,
                                  config_.grains->max_overlap, at_start};
     const auto check = [&](Real of_all, Real most, const WorstItem& item, auto problem) {
       if (of_all <= most) return std::string();

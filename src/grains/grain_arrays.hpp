@@ -31,6 +31,9 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.wall_xi_t,        "wall_xi_t",        "m",    by_solver,  kRestart);
   add(s.wall_torque,      "wall_torque",      "N m",  by_solver,  kRestart);
   add(s.wall_touching,    "wall_touching",    "1",    always,     kRestart);
+  add(s.body_xi_t,        "body_xi_t",        "m",    by_solver,  kRestart);
+  add(s.body_torque,      "body_torque",      "N m",  by_solver,  kRestart);
+  add(s.body_touching,    "body_touching",    "1",    by_solver,  kRestart);
   add(f.u_f,              "u_f",              "m/s",  with_fluid, kGatherWrites);
   add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
   add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites | kDepositReads);

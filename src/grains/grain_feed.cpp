@@ -5,8 +5,10 @@
 #include <numeric>
 #include <span>
 
+#include "kernels/grains/body_contact.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/errors.hpp"
+#include "src/bodies/make_bodies.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/launch.hpp"
@@ -65,6 +67,7 @@ std::int64_t n_later(const FeedState& feed) {
 
 GrainFeed::GrainFeed(const Config& config)
     : config_(*config.grains->feed),
+      bodies_(make_bodies(config)),
       dt_(config.time.fluid_step),
       lz_(config.size[2]),
       walls_z_(config.grains->boundary_z == GrainBoundaryZ::wall),
@@ -168,6 +171,7 @@ void GrainFeed::come_in(GrainState& grains, NeighborList& list) const {
   std::vector<GrainBody> waiting;
   for (std::size_t q = 0; q < feed.waiting.size(); ++q) {
     const bool free = q < places.size() && is_taken[q] == 0 &&
+                      deepest_in(bodies_, places[q].x, places[q].r) == 0 &&
                       std::ranges::none_of(come, [&](const NewGrain& other) {
                         return places[q].overlaps(list.box(), other.x, other.body.r);
                       });

@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "kernels/bodies/body.hpp"
 #include "kernels/grains/feed.hpp"
 #include "src/grains/neighbor_list.hpp"
 
 namespace barchan {
 
 /// At the end of a fluid step grains come in at rest, at a given rate or as many as leave. Each is
-/// put at random across the stream where it overlaps no other, or waits for the next step. Nothing
-/// depends on the number of ranks. All ranks together.
+/// put at random across the stream where it overlaps no other and no body, or waits for the next
+/// step. Nothing depends on the number of ranks. All ranks together.
 class GrainFeed {
  public:
   /// The case must have [grains.feed].
@@ -28,6 +29,7 @@ class GrainFeed {
   void come_in(GrainState& grains, NeighborList& list) const;
 
   FeedConfig config_;
+  Bodies bodies_;
   Real dt_ = 0;             // of a fluid step [s]
   Real lz_ = 0;             // [m]
   bool walls_z_ = false;    // of the grains

@@ -1,14 +1,11 @@
 #include "src/grains/grain_solver.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "kernels/diagnostics/contact_forces.hpp"
+#include "kernels/grains/body_contact.hpp"
 #include "kernels/grains/grain_step.hpp"
-#include "kernels/grains/grain_sums.hpp"
-#include "kernels/grains/stable_step.hpp"
 #include "src/config/kinds.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
@@ -59,11 +56,13 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
     : GrainSolver(config, grains, kinds_of(*config.grains)) {}
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds)
-    : list_(config, grains.r_max, grains.ranks),
+    : ranks_(grains.ranks),
+      list_(config, grains.r_max, grains.ranks),
       many_kinds_(kinds.count() > 1),
       pair_laws_(laws_of_pairs(*config.grains, kinds)),
       wall_laws_(laws_of_walls(*config.grains, kinds)),
-      rolling_(make_rolling(*config.grains, kinds)) {
+      rolling_(make_rolling(*config.grains, kinds)),
+      on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_)) {
   list_.with_laws = many_kinds_;
   add_walls(config, grains.r_max);
   using WallHistory = decltype(grains.wall_xi_t);
@@ -122,21 +121,6 @@ void GrainSolver::kick_and_drift(const GrainState& grains, int n, Real dt) {
                           max_excess(0));
 }
 
-/// Calls launch(laws of pairs, laws of walls) with the tables of this case: of one kind, one law.
-template <class Launch>
-void GrainSolver::with_laws(const Launch& launch) const {
-  std::visit(
-      [&](const auto& pairs) {
-        const auto& walls = std::get<std::decay_t<decltype(pairs)>>(wall_laws_);
-        if (many_kinds_) {
-          launch(pairs, walls);
-        } else {
-          launch(only_law(pairs), only_law(walls));
-        }
-      },
-      pair_laws_);
-}
-
 /// Grain step s: forces at the new positions and second half kick, then, unless it is the last one,
 /// the first half kick and drift of the next one.
 void GrainSolver::grain_step(const GrainState& grains, int s, bool last, Real dt) {
@@ -159,6 +143,18 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
                               .list = grains.list,
                               .keep_force = list_.with_force && last};
   kernels_.for_each("grains: inter-chunk pairs", tiles_of(grains.list.n_inter), pairs);
+  if (on_bodies_.any())
+    kernels_.for_each("grains: bodies", on_bodies_.near().n,
+                      BodyContacts<Law>{.bodies = on_bodies_.bodies(),
+                                        .law = {.table = of_walls, .rolling = rolling, .dt = dt},
+                                        .validity = pairs.validity,
+                                        .near = on_bodies_.near(),
+                                        .grains = grains.kin,
+                                        .kind = grains.kind,
+                                        .xi_t = grains.body_xi_t,
+                                        .rolling = grains.body_torque,
+                                        .touching = grains.body_touching,
+                                        .sums = on_bodies_.sums()});
   const Walls<Law> walls{.shapes = walls_,
                          .law = {.table = of_walls, .rolling = rolling, .dt = dt},
                          .grains = grains.kin,
@@ -169,6 +165,7 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
   const SumKickDrift<Law> sum{.motion = motion(grains, dt, (s + 0.5) * dt),
                               .pairs = pairs,
                               .walls = walls,
+                              .of_bodies = on_bodies_.sums(),
                               .contact_force = grains.contact_force,
                               .contact_torque = grains.contact_torque,
                               .last = last,
@@ -180,6 +177,7 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
 void GrainSolver::rebuild(GrainState& grains, int s) {
   list_.rebuild(grains, false);
   Kokkos::deep_copy(Kokkos::subview(excess_, s), Real(0));
+  on_bodies_.find(grains, list_.rebuilds());
 }
 
 /// Over ranks, before each grain step: ghosts to where their grains are, or a new list as soon as a
@@ -230,6 +228,8 @@ int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
 
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
   if (n == 0 || (grains.n == 0 && !list_.partition())) return;
+  on_bodies_.begin(grains, n, strongest_on_body(grains.r_max));
+  on_bodies_.find(grains, list_.rebuilds());
   kick_and_drift(grains, n, dt);
   for (int s = 0; s < n;) {
     if (list_.partition()) {
@@ -240,61 +240,6 @@ void GrainSolver::advance(GrainState& grains, int n, Real dt) {
       s = launch_ahead(grains, s, n, dt);
     }
   }
-}
-
-void GrainSolver::split_contacts(const GrainState& grains, const Kokkos::View<Vec3*>& normal,
-                                 const Kokkos::View<Vec3*>& tangential) const {
-  if (!grains.list.has_force()) {
-    throw std::logic_error("the forces of pairs were not kept: set output.grain_forces");
-  }
-  Kokkos::parallel_for("output: split contacts", grains.list.chunks.count(),
-                       SplitContacts{.box = list_.box(),
-                                     .list = grains.list,
-                                     .grains = grains.kin,
-                                     .contact_force = grains.contact_force,
-                                     .wall_touching = grains.wall_touching,
-                                     .walls = walls_,
-                                     .normal = normal,
-                                     .tangential = tangential});
-}
-
-Real GrainSolver::stable_step(const GrainState& grains) const {
-  Real of_pairs = std::numeric_limits<Real>::infinity(), of_grains = of_pairs;
-  const Kokkos::View<Real* [2]> sums("tangential sums", static_cast<std::size_t>(grains.n));
-  bool slides = false;
-  with_laws([&]<class Laws>(const Laws& pairs, const Laws& walls) {
-    for (const Laws* laws : {&pairs, &walls})
-      for (const Friction& friction : laws->friction) slides = slides || friction.sliding != 0;
-    if (!slides) return;
-    Kokkos::parallel_reduce("grains: tangential stiffness of pairs", items(grains.list.n_pairs),
-                            TangentialOfPairs<Laws>{.laws = pairs,
-                                                    .box = list_.box(),
-                                                    .list = grains.list,
-                                                    .grains = grains.kin,
-                                                    .sums = sums},
-                            Kokkos::Min<Real>(of_pairs));
-    Kokkos::parallel_reduce("grains: stable step", items(grains.n),
-                            StableStepOfGrains<Laws>{.laws = walls,
-                                                     .walls = walls_,
-                                                     .grains = grains.kin,
-                                                     .sums = sums,
-                                                     .kind = grains.kind},
-                            Kokkos::Min<Real>(of_grains));
-  });
-  return slides ? -max_over(grains.ranks, -std::min(of_pairs, of_grains)) : of_pairs;
-}
-
-ContactSummary GrainSolver::contacts(const GrainState& grains) const {
-  ContactSummary summary;
-  Kokkos::parallel_reduce(
-      "grains: contact summary", grains.list.n_pairs,
-      ContactsOfPairs{
-          .box = list_.box(), .list = grains.list, .grains = grains.kin, .n_owned = grains.n},
-      summary.n_contacts, Kokkos::Max<Real>(summary.max_overlap));
-  if (summary.n_contacts == 0)
-    summary.max_overlap = 0;  // the maximum over nothing is minus infinity
-  return {.n_contacts = sum_over(grains.ranks, summary.n_contacts),
-          .max_overlap = max_over(grains.ranks, summary.max_overlap)};
 }
 
 }  // namespace barchan

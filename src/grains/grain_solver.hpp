@@ -6,6 +6,7 @@
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/grains/grains_on_bodies.hpp"
 #include "src/grains/neighbor_list.hpp"
 #include "src/grains/step_kernels.hpp"
 
@@ -51,6 +52,10 @@ class GrainSolver {
   const NeighborList& list() const { return list_; }
   const PeriodicBox& box() const { return list_.box(); }
   const WallShapes& walls() const { return walls_; }
+  const Bodies& bodies() const { return on_bodies_.bodies(); }
+  /// What the grains of all ranks did to each body in the last call of advance(). All ranks
+  /// together.
+  std::vector<GrainsOnBody> body_loads() const { return on_bodies_.loads(ranks_); }
   /// Grain steps that are launched before the host waits and looks whether the list still holds;
   /// the results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
@@ -73,16 +78,19 @@ class GrainSolver {
               Real dt);
   template <class Launch>
   void with_laws(const Launch& launch) const;
+  Real strongest_on_body(Real r_max) const;
   void rebuild(GrainState& grains, int s);
   void update_ghosts(GrainState& grains, int s);
   bool prepare_graph(const GrainState& grains, int n, Real dt);
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
+  MPI_Comm ranks_;
   NeighborList list_;
   bool many_kinds_;
   LawTables pair_laws_, wall_laws_;
   RollingLaw rolling_;
   WallShapes walls_;
+  GrainsOnBodies on_bodies_;
   int ahead_ = kOnHost ? 1 : 16;
   bool makes_graphs_ = !kOnHost;
   StepKernels kernels_;
@@ -97,5 +105,20 @@ class GrainSolver {
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;
 };
+
+/// Calls launch(laws of pairs, laws of walls) with the tables of this case: of one kind, one law.
+template <class Launch>
+void GrainSolver::with_laws(const Launch& launch) const {
+  std::visit(
+      [&](const auto& pairs) {
+        const auto& walls = std::get<std::decay_t<decltype(pairs)>>(wall_laws_);
+        if (many_kinds_) {
+          launch(pairs, walls);
+        } else {
+          launch(only_law(pairs), only_law(walls));
+        }
+      },
+      pair_laws_);
+}
 
 }  // namespace barchan

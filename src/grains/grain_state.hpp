@@ -73,6 +73,9 @@ struct GrainState {
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, history), see Walls [m]
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
   Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> body_xi_t;    // (n, body) [m]; or empty
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> body_torque;  // the same, rolling torque [N m]; or empty
+  Kokkos::View<std::uint8_t*> body_touching;             // bit per body; or empty
   std::vector<ExtraGrainArray> extra;                    // see add_extra()
   PairList list;                                         // neighbours and their contact history
   Real r_max = 0, r_min = 0;                             // [m], of the initial grains of all ranks

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "src/base/errors.hpp"
+#include "src/bodies/make_bodies.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/heaps.hpp"
@@ -164,7 +165,8 @@ std::string source_of_grains(const Config& config, const std::filesystem::path& 
 
 InitialGrains checked_grains(const Config& config, const std::filesystem::path& file) {
   const std::vector<HeapConfig> heaps = poured_heaps(config);
-  InitialGrains grains = heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size);
+  InitialGrains grains =
+      heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size, make_bodies(config));
   const std::string source = source_of_grains(config, file);
   if (grains.size() == 0) throw InputError(source + " holds no grains");
   if (heaps.empty()) take_kinds(grains, *config.grains, source);
@@ -174,6 +176,7 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   cut_craters(config.initial.craters, grains);
   if (grains.size() == 0) throw InputError("initial.crater leaves no grains");
   check_apart(grains, source);
+  check_outside_bodies(grains, config, source);
   if (!config.grains->frozen) check_overlaps(grains, config.grains->max_overlap, source);
   return grains;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
+#include "src/bodies/make_bodies.hpp"
 
 namespace barchan {
 namespace {
@@ -81,6 +82,31 @@ void check_overlaps(const InitialGrains& grains, double most, const std::string&
       "than grains.max_overlap, {:.3g} %{}",
       source, first, second, 100 * found.overlap, 100 * most,
       found.count > 1 ? fmt::format("; {} pairs do", found.count) : ""));
+}
+
+void check_outside_bodies(const InitialGrains& grains, const Config& config,
+                          const std::string& source) {
+  const Bodies bodies = make_bodies(config);
+  const double most = config.grains->frozen ? 0.5 : std::min(config.grains->max_overlap, 0.5);
+  for (int b = 0; b < bodies.n; ++b) {
+    std::size_t count = 0, deepest = 0;
+    double overlap = 0;
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      const double in = 0.5 - bodies.body[b].distance(grains.x[g]) / grains.diameter[g];
+      if (in > most) ++count;
+      if (in > overlap) overlap = in, deepest = g;
+    }
+    if (count == 0) continue;
+    const Vec3& x = grains.x[deepest];
+    throw InputError(fmt::format(
+        "{}: {} in body \"{}\" by more than {:.3g} % of the diameter{}, the deepest grain {} at "
+        "({:.6g}, {:.6g}, {:.6g}) m by {:.3g} %: take out the grains there, or move the body "
+        "(body.{}.centre, body.{}.base)",
+        source, count == 1 ? "a grain lies" : fmt::format("{} grains lie", count),
+        config.bodies[static_cast<std::size_t>(b)].name, 100 * most,
+        config.grains->frozen ? "" : " (grains.max_overlap)", grains.id[deepest], x.x, x.y, x.z,
+        100 * overlap, b + 1, b + 1));
+  }
 }
 
 }  // namespace barchan

@@ -1,8 +1,9 @@
-// Grains that overlap at the start.
+// Grains that overlap each other or a body at the start.
 #pragma once
 
 #include <string>
 
+#include "src/config/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
@@ -11,5 +12,11 @@ namespace barchan {
 /// (grains.max_overlap): the run would stop at once, or they would fly apart. Throws InputError
 /// with the deepest overlap. Images beyond periodic sides are not looked at.
 void check_overlaps(const InitialGrains& grains, double most, const std::string& source);
+
+/// Refuses the grains of `source` if the centre of one lies in a body, or, where grains move, if
+/// one reaches into it by more than grains.max_overlap of its diameter. Throws InputError with
+/// their number and the deepest one.
+void check_outside_bodies(const InitialGrains& grains, const Config& config,
+                          const std::string& source);
 
 }  // namespace barchan

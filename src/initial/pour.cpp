@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "kernels/bodies/body.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 
@@ -33,12 +34,15 @@ struct Heap {
   HeapShape shape;
   Vec3 centre;            // of the foot [m]
   double half_x, half_z;  // of the foot [m]: both the radius of a cone
+  Bodies bodies;          // where nothing is poured
 
-  Heap(const HeapConfig& heap, const std::array<double, 3>& domain, double ground)
+  Heap(const HeapConfig& heap, const std::array<double, 3>& domain, const Bodies& solids,
+       double ground)
       : shape(heap.shape),
         centre{heap.centre[0], ground + heap.drop_height, heap.centre[1]},
         half_x(heap.radius),
-        half_z(heap.radius) {
+        half_z(heap.radius),
+        bodies(solids) {
     if (shape == HeapShape::cone) return;
     half_z = domain[2] / 2, centre.z = half_z;
     if (shape == HeapShape::bed) half_x = domain[0] / 2, centre.x = half_x;
@@ -51,6 +55,11 @@ struct Heap {
     if (std::abs(x.z) + spacing / 2 > half_z) return -1;
     if (shape == HeapShape::ridge) return below_slope(std::abs(x.x), x.y);
     return std::abs(x.x) + spacing / 2 <= half_x ? x.y : -1;
+  }
+
+  /// Of a grain of this diameter, x as above.
+  bool in_body(const Vec3& x, double diameter) const {
+    return bodies.n > 0 && bodies.nearest(centre + x).surface.distance < diameter / 2;
   }
 
   double below_slope(double r, double y) const { return r < half_x ? y / (1 - r / half_x) : -1; }
@@ -73,7 +82,7 @@ std::vector<Site> sites_below(double top, const Heap& heap, double spacing) {
         const Vec3 x{spacing * (i + 0.5 * ((k + j) & 1)), spacing / 2 + layer * j,
                      row * (k + (j & 1) / 3.0)};
         const double height = heap.height_through(x, spacing);
-        if (height >= 0 && height <= top) sites.push_back({x, height});
+        if (height >= 0 && height <= top && !heap.in_body(x, spacing)) sites.push_back({x, height});
       }
     }
   }
@@ -106,10 +115,12 @@ std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::
                     heap.centre.y + sites[n - 1].height + spacing / 2 < domain[1] &&
                     heap.centre.x >= heap.half_x && heap.centre.x + heap.half_x <= domain[0];
   if (fits) return sites;
-  throw std::runtime_error(fmt::format(
-      "the poured heap{} of {} grains does not fit in the domain: change its radius, its centre or "
-      "domain.size",
-      config.name.empty() ? "" : fmt::format(" \"{}\"", config.name), n));
+  throw std::runtime_error(
+      fmt::format("the poured heap{} of {} grains does not fit in the domain{}: change its radius, "
+                  "its centre or "
+                  "domain.size",
+                  config.name.empty() ? "" : fmt::format(" \"{}\"", config.name), n,
+                  heap.bodies.n > 0 ? " beside the bodies" : ""));
 }
 
 /// Adds the grains of a heap.
@@ -139,16 +150,19 @@ void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, Initial
     Vec3 x = heap.centre + closer * (grains.x[g] - heap.centre);
     x = x + Vec3{displaced(), displaced(), displaced()};
     grains.x[g] = {x.x, std::max(x.y, grains.diameter[g] / 2), x.z};
+    if (!heap.in_body(grains.x[g] - heap.centre, grains.diameter[g])) continue;
+    const ToSurface at = heap.bodies.nearest(grains.x[g]).surface;
+    grains.x[g] += (grains.diameter[g] / 2 - at.distance) * at.normal;
   }
 }
 
 InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double, 3>& domain,
-                   bool packed) {
+                   const Bodies& bodies, bool packed) {
   InitialGrains grains;
   double ground = 0;  // top of the beds [m]
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     const std::size_t begin = grains.size();
-    const Heap heap(heaps[n], domain, ground);
+    const Heap heap(heaps[n], domain, bodies, ground);
     add_heap(heaps[n], heap, domain, grains);
     if (packed) pack(heaps[n], heap, begin, grains);
     if (heaps.size() > 1) {
@@ -165,14 +179,24 @@ InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double
 
 }  // namespace
 
+InitialGrains pour_grains(const std::vector<HeapConfig>& heaps, const std::array<double, 3>& domain,
+                          const Bodies& bodies) {
+  return pour(heaps, domain, bodies, false);
+}
+
 InitialGrains pour_grains(const std::vector<HeapConfig>& heaps,
                           const std::array<double, 3>& domain) {
-  return pour(heaps, domain, false);
+  return pour(heaps, domain, {}, false);
+}
+
+InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
+                            const std::array<double, 3>& domain, const Bodies& bodies) {
+  return pour(heaps, domain, bodies, true);
 }
 
 InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
                             const std::array<double, 3>& domain) {
-  return pour(heaps, domain, true);
+  return pour(heaps, domain, {}, true);
 }
 
 }  // namespace barchan

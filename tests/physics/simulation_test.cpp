@@ -1,6 +1,7 @@
 // Whole runs: reproducible to the bit, across a restart too, and every grain accounted for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -62,6 +63,11 @@ TEST(Simulation, RestartContinuesBitwise) {
   Config whole = coupled_config();
   whole.grains->floor = GrainFloor::glued;  // three histories of contact with the floor
   whole.grains->floor_diameter = 2e-4;
+  whole.bodies = {{.name = "post",
+                   .shape = BodyShape::cylinder,
+                   .centre = {0.008, 0.003},
+                   .radius = 5e-4,
+                   .height = 0.002}};
   whole.statistics.emplace();
   whole.statistics->interval = 2 * whole.time.fluid_step;
   whole.statistics->fields = whole.statistics->grain_forces = true;
@@ -69,6 +75,8 @@ TEST(Simulation, RestartContinuesBitwise) {
   half.time.end = whole.time.end / 2;
   const auto at_once = run(whole, scratch / "whole");
   const auto middle = run(half, scratch / "parts");
+  const auto touching = CheckpointReader(middle).array<std::int64_t>("grains/body_touching");
+  EXPECT_GT(std::ranges::count_if(touching, [](std::int64_t bits) { return bits != 0; }), 0);
   const auto in_parts = run(whole, scratch / "parts", middle);
   expect_same_state(at_once, in_parts);
   for (const char* table : {"history.csv", "dune.csv", "statistics.csv", "force_map.csv"}) {
