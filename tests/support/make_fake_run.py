@@ -48,6 +48,7 @@ height = 0.002
 spacing = 0.002
 length = 0.012
 """
+REATTACHED = 0.012       # [m]
 FORCES = (2e-4, 5e-5)  # of the water along x on each body [N]
 
 
@@ -160,11 +161,21 @@ def write_grid(file):
     return [file[f"grid/{name}"][:] for name in ("x", "y", "z")]
 
 
-def write_fields(folder):
+def write_fields(folder, bodies=False):
     with open_file(folder / "fields.h5") as file:
         centres = write_grid(file)
         for index, t in enumerate((0.0, END)):
-            write_frame(file, index, t, make_flow(t, *centres))
+            flow = make_flow(t, *centres)
+            if bodies:
+                add_wake(flow["u"], *centres)
+            write_frame(file, index, t, flow)
+
+
+def add_wake(u, x, y, z):
+    """Behind the pile u grows linearly along x, through zero REATTACHED behind its axis."""
+    i, j, k = (abs(x - 0.0695) < 6.5e-3), y < 0.01, abs(z - 0.02) < 4e-3
+    u[np.ix_(k, j, i)] = 10 * (x[i] - 0.06 - REATTACHED)
+
 
 
 def known_flow(x, y, z):
@@ -284,7 +295,7 @@ def main():
     if "grains" not in options.without:
         write_grains(options.out, options.cut, options.frames, options.heaps)
     if "fields" not in options.without:
-        write_fields(options.out)
+        write_fields(options.out, options.bodies)
     if "tables" not in options.without:
         write_tables(options.out, options.cut)
         write_statistics(options.out)

@@ -50,8 +50,8 @@ def mean_forces(run: RunFolder, start: float | None = None, end: float | None = 
             for axis in "xy":
                 values = table[column(of, axis)][chosen]
                 values = values[np.isfinite(values)]
-                found.append(MeanForce(body, of, axis, *(float(f(values)) if len(values) else np.nan
-                                                         for f in (np.mean, np.std))))
+                mean, deviation = (np.mean(values), np.std(values)) if len(values) else (np.nan, np.nan)
+                found.append(MeanForce(body, of, axis, float(mean), float(deviation)))
     return found
 
 

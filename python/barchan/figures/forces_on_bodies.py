@@ -1,7 +1,7 @@
 """forces_on_bodies: force of the water and of the grains on each body, along x and upwards, against time.
 
 Lines are means over output.history_interval (bodies.csv). The legend has mean and standard deviation of the second half
-of the run, or of the window of --from and --to; the title has the drag coefficient with the bulk velocity and the area
+of the run, or of the window of --from and --to; the sentences have the drag coefficient with the bulk velocity and the area
 that a body shows to the stream.
 """
 
@@ -32,10 +32,9 @@ def draw(run, ax=None, start=None, end=None):
         axes.axvspan(chosen[0], chosen[-1], color=style.GREY, alpha=0.12, lw=0)
         axes.axhline(0, color=style.BLACK, lw=0.5)
         axes.set(xlabel="$t$ (s)", ylabel=f"{LABELS[axis]} ({unit})", xlim=(t[0], max(t[-1], t[0] + 1e-9)))
-        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.1)
+        axes.legend(loc="lower left", bbox_to_anchor=(0.07, 1.0), borderaxespad=0.1)
     for index, axes in enumerate((along, upwards)):
         style.panel_label(axes, index)
-        axes.title.set_position((0, 1))
     say(figure, body_forces.sentences(run, found))
     keep_tables(figure, run, found)
     return figure
