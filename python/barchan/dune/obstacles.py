@@ -33,8 +33,8 @@ BLOCKED, DESTROYED, UNDECIDED = "blocked", "destroyed", "undecided"
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A body or a crater with its outline `plan` (n, 2) in x and z [m]. `over`: which places x (n, 3) are above it or in
-    it; `near`: which grains at x, of diameters d (n), touch it."""
+    """A body or a crater with its outline `plan` (n, 2) in x and z [m]. `over`: which places x (n, 3) are above it or
+    in it; `near`: which grains at x, of diameters d (n), touch it."""
 
     name: str
     kind: str

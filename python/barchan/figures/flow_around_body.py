@@ -1,8 +1,8 @@
 """flow_around_body: mean velocity and streamlines in the vertical plane through each body, and its separation bubble.
 
-Colour: mean streamwise velocity of the cells, of flow_average.h5, or of the frames of fields.h5 (second half of the run,
-or --from, --to). Bodies are grey, cells in grains have the colour of sand. The red line is u = 0; the triangle marks the
-reattachment point x_r, where u in the lowest row of water is forward again.
+Colour: mean streamwise velocity of the cells, of flow_average.h5, or of the frames of fields.h5 (second half of the
+run, or --from, --to). Bodies are grey, cells in grains have the colour of sand. The red line is u = 0; the triangle
+marks the reattachment point x_r, where u in the lowest row of water is forward again.
 """
 
 import numpy as np

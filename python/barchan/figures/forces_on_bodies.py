@@ -1,8 +1,8 @@
 """forces_on_bodies: force of the water and of the grains on each body, along x and upwards, against time.
 
 Lines are means over output.history_interval (bodies.csv). The legend has mean and standard deviation of the second half
-of the run, or of the window of --from and --to; the sentences have the drag coefficient with the bulk velocity and the area
-that a body shows to the stream.
+of the run, or of the window of --from and --to; the sentences have the drag coefficient with the bulk velocity and the
+area that a body shows to the stream.
 """
 
 import numpy as np

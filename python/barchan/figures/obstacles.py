@@ -18,7 +18,7 @@ PLACES = (("upstream", style.BLUE), ("around", style.ORANGE), ("downstream", sty
 def draw(run, ax=None):
     found = dune_obstacles.find(run)
     shown = found[:MOST]
-    figure, grid = style.panels(ax, len(shown), 2, sharex=ax is None, figsize=(style.FULL_WIDTH, 0.7 + 2.0 * len(shown)))
+    figure, grid = style.panels(ax, len(shown), 2, sharex=True, figsize=(style.FULL_WIDTH, 0.7 + 2.0 * len(shown)))
     for row, (one, (places, shares)) in enumerate(zip(shown, grid)):
         path = one.path
         places.axhspan(*(1e3 * end for end in path.ends), color=style.BODY, lw=0)
