@@ -31,13 +31,18 @@ struct Body {
 
   /// Distance from x, which may be outside the domain, and normal of the nearest image.
   KOKKOS_INLINE_FUNCTION ToSurface to_surface(const Vec3& x) const {
-    Vec3 s = x - foot;
-    s.x -= lx * Kokkos::round(s.x / lx);
-    s.z -= lz * Kokkos::round(s.z / lz);
+    const Vec3 s = from_foot(x);
     const Vec3 p{cosine * s.x + sine * s.z, s.y, cosine * s.z - sine * s.x};
     const ToSurface at = of_form(p);
     const Vec3& n = at.normal;
     return {at.distance, {cosine * n.x - sine * n.z, n.y, cosine * n.z + sine * n.x}};
+  }
+  /// x as seen from the foot of that image [m].
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 from_foot(const Vec3& x) const {
+    Vec3 s = x - foot;
+    s.x -= lx * Kokkos::round(s.x / lx);
+    s.z -= lz * Kokkos::round(s.z / lz);
+    return s;
   }
   KOKKOS_FORCEINLINE_FUNCTION Real distance(const Vec3& x) const { return to_surface(x).distance; }
 

@@ -94,20 +94,51 @@ KOKKOS_FORCEINLINE_FUNCTION ToSurface to_hill(Real y, Real f, Real f_x, Real f_z
 }
 
 /// A dune: straight slopes from a crest of `height` down to a foot of two half ellipses, as long as
-/// `stoss` upstream (towards smaller x) and `lee` downstream, as wide as 2 `half_width`.
+/// `stoss` upstream (towards smaller x) and `lee` downstream, as wide as 2 `half_width`. Convex, so
+/// the distance is the largest one to the planes that touch it, which an angle t counts, or that to
+/// the crest.
 KOKKOS_INLINE_FUNCTION ToSurface to_dune(const Vec3& p, Real height, Real stoss, Real lee,
                                          Real half_width) {
-  const Real a = p.x < 0 ? stoss : lee, b = half_width;
-  const Real x = p.x / a, z = p.z / b, rho = Kokkos::sqrt(x * x + z * z);
-  const Real slope = rho > 0 ? -height / rho : Real(0);
-  return to_hill(p.y, height * (1 - rho), slope * x / a, slope * z / b);
+  const Real first = p.x < 0 ? stoss : lee;
+  Real t = Kokkos::atan2(p.z / half_width, p.x / first);
+  ToSurface best;
+  for (int n = 0; n < 5; ++n) {
+    const Real c = Kokkos::cos(t), s = Kokkos::sin(t);
+    const Real k_x = height / (c < 0 ? stoss : lee), k_z = height / half_width;
+    const ToSurface at = to_hill(p.y, height - k_x * c * p.x - k_z * s * p.z, -k_x * c, -k_z * s);
+    if (n > 0 && !(at.distance > best.distance)) break;
+    best = at;
+    // Newton's step to where the derivative of N / sqrt(S) is zero.
+    const Real slope_n = -k_x * s * p.x + k_z * c * p.z, a = k_x * c * p.x + k_z * s * p.z;
+    const Real big_n = a + p.y - height, big_s = 1 + k_x * k_x * c * c + k_z * k_z * s * s;
+    const Real half_slope_s = (k_z * k_z - k_x * k_x) * s * c;
+    const Real curve =
+        -a * big_s + slope_n * half_slope_s - big_n * (k_z * k_z - k_x * k_x) * (c * c - s * s);
+    if (!(curve < 0)) break;
+    t -= (slope_n * big_s - big_n * half_slope_s) / curve;
+  }
+  const Vec3 from_crest{p.x, p.y - height, p.z};
+  if (from_crest.y <= best.distance * best.normal.y) return best;
+  const Real r = norm(from_crest);  // the planes touch above the crest
+  return {r, (1 / r) * from_crest};
 }
 
-/// A wavy floor, crests `height` above troughs, one crest at x = 0.
+/// A wavy floor, crests `height` above troughs, one crest at x = 0. Exact as far from it as half
+/// its smallest radius of curvature, farther to first order in the curvature.
 KOKKOS_INLINE_FUNCTION ToSurface to_wave(const Vec3& p, Real height, Real wavelength) {
-  const Real k = 2 * Real(3.141592653589793238) / wavelength;
-  return to_hill(p.y, height / 2 * (1 + Kokkos::cos(k * p.x)),
-                 -height / 2 * k * Kokkos::sin(k * p.x), 0);
+  const Real k = 2 * Real(3.141592653589793238) / wavelength, half = height / 2;
+  const ToSurface near =
+      to_hill(p.y, half * (1 + Kokkos::cos(k * p.x)), -half * k * Kokkos::sin(k * p.x), 0);
+  if (Kokkos::abs(near.distance) * half * k * k > Real(0.5)) return near;
+  Real x = p.x - near.distance * near.normal.x;  // of the nearest point, by Newton's steps
+  for (int n = 0; n < 4; ++n) {
+    const Real f = half * (1 + Kokkos::cos(k * x)), slope = -half * k * Kokkos::sin(k * x);
+    const Real curve = k * k * (half - f);
+    x -= (x - p.x + (f - p.y) * slope) / (1 + slope * slope + (f - p.y) * curve);
+  }
+  const Real slope = -half * k * Kokkos::sin(k * x);
+  const Vec3 n = to_hill(0, 0, slope, 0).normal;
+  return {n.x * (p.x - x) + n.y * (p.y - half * (1 + Kokkos::cos(k * x))), n};
 }
 
 }  // namespace barchan

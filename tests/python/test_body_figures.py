@@ -141,3 +141,10 @@ def test_a_run_without_bodies_says_so(name, says):
     with pytest.raises(barchan.MissingData, match=r"\[\[body\]\]") as reason:
         barchan.Run(fake()).figure(name)
     assert says in str(reason.value)
+
+
+def test_the_table_of_forces(run):
+    table = run.body_forces
+    assert table.index.names == ["body", "t"] and len(table.loc[1]) == 161
+    assert table.attrs["units"]["grain_torque_z"] == "N m"
+    assert table.loc[0].force_x[4:].mean() == pytest.approx(fake_run.FORCES[0], rel=0.04)

@@ -123,19 +123,48 @@ class Body:
         return self.spacing * np.clip(np.round(q / self.spacing - shift) + shift, -last, last)
 
     def _to_dune(self, p: np.ndarray, y: np.ndarray, q: np.ndarray) -> np.ndarray:
-        a, b = self._half_axes(p)
-        rho = np.hypot(p / a, q / b)
-        slope = self.height / np.where(rho > 0, rho, np.inf)
-        steepness = np.hypot(slope * p / a**2, slope * q / b**2)
-        return (y - self.height * (1 - rho)) / np.sqrt(1 + steepness**2)
+        """The largest distance to the planes that touch it, which an angle t counts, or that to the crest."""
+        p, y, q = np.broadcast_arrays(p, y, q)
+        half_width = 0.5 * self.size[1]
+        t = np.arctan2(q / half_width, p / self._half_axes(p)[0])
+        best, upwards, goes_on = np.zeros(p.shape), np.ones(p.shape), np.ones(p.shape, bool)
+        for n in range(5):
+            c, s = np.cos(t), np.sin(t)
+            k_x, k_z = self.height / self._half_axes(c)[0], self.height / half_width
+            a = k_x * c * p + k_z * s * q
+            square = 1 + k_x**2 * c**2 + k_z**2 * s**2
+            distance = (y - (self.height - a)) / np.sqrt(square)
+            if n > 0:
+                goes_on = goes_on & (distance > best)
+            best, upwards = np.where(goes_on, distance, best), np.where(goes_on, 1 / np.sqrt(square), upwards)
+            slope, half_slope = -k_x * s * p + k_z * c * q, (k_z**2 - k_x**2) * s * c
+            height = a + y - self.height
+            curve = -a * square + slope * half_slope - height * (k_z**2 - k_x**2) * (c**2 - s**2)
+            goes_on = goes_on & (curve < 0)
+            t = np.where(goes_on, t - (slope * square - height * half_slope) / np.where(goes_on, curve, 1.0), t)
+        above = y - self.height > best * upwards  # the planes touch above the crest
+        return np.where(above, np.sqrt(p**2 + (y - self.height)**2 + q**2), best)
 
     def _half_axes(self, p: np.ndarray) -> tuple[np.ndarray, float]:
         return np.where(p < 0, self.size[0] - self.lee, self.lee), 0.5 * self.size[1]
 
     def _to_wave(self, p: np.ndarray, y: np.ndarray, q: np.ndarray) -> np.ndarray:
-        k = 2 * np.pi / self.wavelength
-        steepness = 0.5 * self.height * k * np.sin(k * p)
-        return (y - 0.5 * self.height * (1 + np.cos(k * p))) / np.sqrt(1 + steepness**2)
+        """Near it by Newton's steps to the nearest point, else to first order in the curvature."""
+        k, half = 2 * np.pi / self.wavelength, 0.5 * self.height
+
+        def surface(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+            slope = -half * k * np.sin(k * x)
+            return half * (1 + np.cos(k * x)), slope, 1 / np.sqrt(1 + slope**2)
+
+        f, slope, scale = surface(p)
+        first = scale * (y - f)
+        x = p + first * scale * slope
+        for _ in range(4):
+            f, slope, _ = surface(x)
+            curve = 1 + slope**2 + (f - y) * k**2 * (half - f)
+            x = x - (x - p + (f - y) * slope) / np.where(curve == 0, 1.0, curve)
+        f, slope, scale = surface(x)
+        return np.where(abs(first) * half * k**2 > 0.5, first, scale * ((y - f) - slope * (p - x)))
 
     def interval(self, x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(bottom, top) above the floor [m] of what is solid over places x, z (...); NaN where nothing is."""
