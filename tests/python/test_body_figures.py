@@ -1,7 +1,9 @@
 """Pictures of runs with bodies, the forces on them, and the flow around them."""
 
 import json
+import shutil
 
+import h5py
 import make_fake_run as fake_run
 import numpy as np
 import pytest
@@ -105,6 +107,21 @@ def test_the_bubble_ends_where_the_flow_was_made_to_turn(run):
     assert figure.sentences[0].startswith("pile: separation bubble of 1.5 D behind it")
     assert "fence: no reversed flow" in figure.sentences[1]
     assert run.figure("flow_around_body", start=0.0).numbers["flow_around_body"]["samples"] == [2, 2]
+
+
+def test_a_bubble_across_the_seam(run, tmp_path):
+    """The same flow and body, both moved 28 mm down the stream, so that the flow is forward again behind the seam."""
+    case = (run.path / "config.toml").read_text().replace("centre = [0.06, 0.02]", "centre = [0.088, 0.02]")
+    (tmp_path / "config.toml").write_text(case)
+    shutil.copy(run.path / "fields.h5", tmp_path / "fields.h5")
+    with h5py.File(tmp_path / "fields.h5", "r+") as file:
+        for name in file:
+            for field in file[name] if name != "grid" else ():
+                file[name][field][:] = np.roll(file[name][field][:], 28, axis=2)
+    plane, before = (mean_plane(one, bodies_of(one.config)[0]) for one in (barchan.Run(tmp_path), run))
+    assert np.all(np.diff(plane.x) > 0) and np.allclose(plane.x, before.x, rtol=0, atol=1e-12)
+    assert np.array_equal(plane.solid[:, abs(plane.x) < 0.01], before.solid[:, abs(plane.x) < 0.01])
+    assert bubble(plane).x_r == pytest.approx(fake_run.REATTACHED, abs=1e-9)
 
 
 def test_solid_and_bed_are_no_water(run):

@@ -120,6 +120,20 @@ def test_a_domain_without_ends(tmp_path):
     assert one.celerity_after == pytest.approx(9e-3, rel=0.02)
 
 
+def test_of_heaps_on_a_bed_those_that_are_no_bed_are_followed(tmp_path):
+    """The dune is heap 0; heap 1 lies still under it from end to end, so that the labels of a frame tell nothing."""
+    x, z = (each.ravel() for each in np.meshgrid(np.arange(0, 0.08, 2 * D), np.arange(0, 0.03, 2 * D)))
+    still = np.stack([x, np.full_like(x, 0.5 * D), z], axis=1)
+    pair = Pair([(SMALL + (0, D, 0), 0, line(built.X0, SPEED)), (still, 1, lambda t: np.zeros(2))])
+    frames = pair.frames(TIMES[::8])
+    for grains in frames:
+        grains.x[:, 0] = np.clip(grains.x[:, 0], 0, 0.0799)
+        grains.dune = np.zeros(len(grains.id), int)
+    one, = obstacles.find(barchan.open(write_run(tmp_path / "run", frames, pair.bed, pair.heap, schedule=CRATER)))
+    assert (one.dune, one.obstacle, one.outcome) == ("heap 1", "crater 1", "passes over")
+    assert one.n_grains == len(SMALL)
+
+
 def test_the_command_writes_picture_table_and_entry(tmp_path, capsys):
     folder = told(until(0.0253), WIDE, tmp_path)
     assert plot.main([str(folder), "obstacles"]) == 0
