@@ -31,7 +31,7 @@ def draw(run, ax=None, start=None, end=None):
         chosen = t[in_window(t, start, end)]
         axes.axvspan(chosen[0], chosen[-1], color=style.GREY, alpha=0.12, lw=0)
         axes.axhline(0, color=style.BLACK, lw=0.5)
-        axes.set(xlabel="$t$ (s)", ylabel=f"{LABELS[axis]} ({unit})", xlim=(t[0], max(t[-1], t[0] + 1e-9)))
+        axes.set(xlabel="$t$ (s)", ylabel=f"{LABELS[axis]} ({unit})", xlim=(t[0], t[-1]))
         axes.legend(loc="lower left", bbox_to_anchor=(0.07, 1.0), borderaxespad=0.1)
     for index, axes in enumerate((along, upwards)):
         style.panel_label(axes, index)

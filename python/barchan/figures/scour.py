@@ -8,6 +8,7 @@ import numpy as np
 
 from barchan.dune.bodies import bodies_of
 from barchan.dune.scour import COVERED, BedMap, diameter, history
+from barchan.dune.shape import BIN
 from barchan.dune.tracks import bed_of
 from barchan.errors import MissingData
 from barchan.figures import bodies as body_pictures
@@ -39,7 +40,9 @@ def draw(run, ax=None):
         t, share = [one.t for one in found], [one.depth / diameter(body) for one in found]
         depths.plot(t, share, color=COLOURS[body.number % len(COLOURS)], marker=style.mark_if_few(t), label=body.name)
     depths.axhline(0, color=style.BLACK, lw=0.5)
-    depths.set(xlabel="$t$ (s)", ylabel="scour depth $/D$", xlim=(times[0], max(times[-1], times[0] + 1e-9)))
+    depths.set(xlabel="$t$ (s)", ylabel="scour depth $/D$")
+    if len(times) > 1:
+        depths.set_xlim(times[0], times[-1])
     if len(histories) > 1:
         depths.legend()
     draw_map(figure, plan, maps[times[-1]], bodies, histories)
@@ -53,7 +56,7 @@ def draw(run, ax=None):
 
 def draw_map(figure, axes, bed, bodies, histories):
     over = 1e3 * (bed.h - bed.far)
-    most = max(float(np.nanmax(abs(over))), 1e-3)
+    most = max(float(np.nanmax(abs(over))), 1e3 * float(bed.size.min()) / BIN)  # at least a grain
     edges = [1e3 * np.append(0.0, centres + 0.5 * size) for centres, size in zip((bed.x, bed.z), bed.size)]
     image = axes.pcolormesh(*edges, np.ma.masked_invalid(over).T, vmin=-most, vmax=most, cmap=style.FORCE_MAP,
                             rasterized=True)
