@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the sketches of the theory pages: sketch-domain, sketch-dune, sketch-exchange, sketch-forces (.png in docs/).
+"""Draws the sketches of the pages: sketch-domain, -dune, -exchange, -forces, -bodies (.png in docs/).
 
 Nothing here is a result: shapes are made up. In the sketch of the exchange the shares and the lengths of the arrows
 follow from the formulas of docs/theory-coupling.md. usage: python3 docs/sketches.py [NAME ...]
@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Polygon, Rectangle
 
+import sketch_bodies
 import sketch_parts as part
 from sketch_parts import arrow, bezier, distance, force, frame, note, s, sphere, turn, wall
 
@@ -386,7 +387,7 @@ def draw_forces():
 
 
 DRAWINGS = {"sketch-domain": draw_domain, "sketch-dune": draw_dune, "sketch-exchange": draw_exchange,
-            "sketch-forces": draw_forces}
+            "sketch-forces": draw_forces, "sketch-bodies": sketch_bodies.draw}
 
 
 def main(names):

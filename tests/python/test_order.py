@@ -61,7 +61,8 @@ def units_of(page, heading):
 def test_units_are_those_of_the_documents():
     """docs/files.md, which a test of the program compares with what it writes."""
     page = (ROOT / "docs/files.md").read_text()
-    for heading, ours in (("## history.csv", columns.HISTORY), ("## dune.csv", columns.DUNES)):
+    for heading, ours in (("## history.csv", columns.HISTORY), ("## dune.csv", columns.DUNES),
+                          ("## bodies.csv", columns.BODIES)):
         theirs = units_of(page, heading)
         assert len(theirs) > 10
         written = {name: {"-": "1", "m/s": "m s-1", "m2/s": "m2 s-1", "1/s": "s-1", "Pa/m": "Pa m-1"}.get(unit, unit)

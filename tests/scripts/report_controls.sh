@@ -8,7 +8,8 @@ node -e 'require("jsdom")' 2> /dev/null || { echo "SKIPPED: no jsdom (Debian pac
 
 fake "$dir/run"
 fake "$dir/heaps" --heaps
-for kind in run heaps; do
+fake "$dir/bodies" --bodies
+for kind in run heaps bodies; do
   plot 0 "$dir/$kind" report
   node "$root/tests/support/drive_report.js" "$dir/$kind/report.html" || fail "the page's controls: $kind"
 done

@@ -41,7 +41,12 @@ function differs(a, b, what) {
 
 async function drive() {
   assert.deepEqual(complaints, []);
-  const { groups } = JSON.parse(element("facts").textContent);
+  const { groups, bodies } = JSON.parse(element("facts").textContent);
+  for (const { name, section } of bodies) {
+    assert.ok(drawn.top.some(([what, text]) => what === "fillText" && text === name), `no body is called ${name}`);
+    const corners = section.flat().length;
+    assert.ok(drawn.side.filter(([what]) => what === "lineTo").length >= corners, `${name} is not seen from the side`);
+  }
   for (const { colour } of groups)
     assert.ok(drawn.top.some(([what, value]) => what === "fillStyle" && value === colour), `no grain in ${colour}`);
   const end = state();

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Writes a synthetic run folder: a heap that turns into a barchan, with the flow over it.
 
-    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study] [--heaps]
+    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study] [--heaps] [--bodies]
 
 The formats are those of a run; nothing is simulated. `--cut` leaves the folder as a killed run
 would: a CSV line without its end, a frame without its arrays, no run.json. `--average` adds
 flow_average.h5 of a known flow, `--study` writes a study folder with such runs as its cases, `--heaps`
-gives every third grain to another heap.
+gives every third grain to another heap. `--bodies` puts a cylinder and a fence in the way, with bodies.csv of known
+forces.
 """
 
 import argparse
@@ -30,6 +31,38 @@ end = {END}
 [domain]
 size = [{SIZE[0]}, {SIZE[1]}, {SIZE[2]}]
 """
+
+
+BODIES = """[[body]]
+name = "pile"
+shape = "cylinder"
+centre = [0.06, 0.02]
+radius = 0.003
+height = 0.012
+[[body]]
+name = "fence"
+shape = "fence"
+centre = [0.08, 0.02]
+radius = 5e-4
+height = 0.002
+spacing = 0.002
+length = 0.012
+"""
+REATTACHED = 0.012       # [m]
+FORCES = (2e-4, 5e-5)  # of the water along x on each body [N]
+
+
+def write_forces(folder):
+    """Noise about the known forces from 1 s on, no force before; grains push with a tenth of it, and lift is half."""
+    random = np.random.default_rng(3)
+    names = [f"{kind}{what}_{axis}" for kind in ("", "grain_") for what in ("force", "torque") for axis in "xyz"]
+    rows = []
+    for t in np.linspace(0, END, 161):
+        for body, force in enumerate(FORCES):
+            fx = force * (1 + 0.1 * random.normal()) if t >= 1 else 0.0
+            one = [fx, 0.5 * fx, 0.0, 0.0, 0.0, -0.006 * fx]
+            rows.append([t, body, *one, *(0.1 * value for value in one), 7])
+    write_csv(folder / "bodies.csv", ",".join(["t", "body", *names, "n_contacts"]), np.array(rows).T)
 
 
 def shape(t):
@@ -128,11 +161,21 @@ def write_grid(file):
     return [file[f"grid/{name}"][:] for name in ("x", "y", "z")]
 
 
-def write_fields(folder):
+def write_fields(folder, bodies=False):
     with open_file(folder / "fields.h5") as file:
         centres = write_grid(file)
         for index, t in enumerate((0.0, END)):
-            write_frame(file, index, t, make_flow(t, *centres))
+            flow = make_flow(t, *centres)
+            if bodies:
+                add_wake(flow["u"], *centres)
+            write_frame(file, index, t, flow)
+
+
+def add_wake(u, x, y, z):
+    """Behind the pile u grows linearly along x, through zero REATTACHED behind its axis."""
+    i, j, k = (abs(x - 0.0695) < 6.5e-3), y < 0.01, abs(z - 0.02) < 4e-3
+    u[np.ix_(k, j, i)] = 10 * (x[i] - 0.06 - REATTACHED)
+
 
 
 def known_flow(x, y, z):
@@ -244,6 +287,7 @@ def main():
     parser.add_argument("--average", action="store_true", help="with flow_average.h5")
     parser.add_argument("--study", action="store_true", help="a study folder instead of a run folder")
     parser.add_argument("--heaps", action="store_true", help="grains of two heaps")
+    parser.add_argument("--bodies", action="store_true", help="with two bodies and bodies.csv")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     if options.study:
@@ -251,14 +295,16 @@ def main():
     if "grains" not in options.without:
         write_grains(options.out, options.cut, options.frames, options.heaps)
     if "fields" not in options.without:
-        write_fields(options.out)
+        write_fields(options.out, options.bodies)
     if "tables" not in options.without:
         write_tables(options.out, options.cut)
         write_statistics(options.out)
     if options.average:
         write_average(options.out)
+    if options.bodies:
+        write_forces(options.out)
     if not options.cut:
-        (options.out / "config.toml").write_text(CONFIG)
+        (options.out / "config.toml").write_text(CONFIG + (BODIES if options.bodies else ""))
         (options.out / "run.json").write_text('{"status": "done", "title": "synthetic barchan"}\n')
 
 

@@ -56,6 +56,16 @@ class Run(RunFolder):
         joined["dune"] = joined["dune"].astype(int)
         return labelled.data_frame(joined, columns.DUNES).set_index(["dune", "t"])
 
+    @cached_property
+    def body_forces(self) -> Any:
+        """pandas.DataFrame of bodies.csv, indexed by (body, t [s]); run.body_forces.loc[0] is the first [[body]]."""
+        if self.body_columns is None:
+            raise MissingData("needs bodies.csv with at least one line")
+        tables = list(self.body_columns.values())
+        joined = {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
+        joined["body"] = joined["body"].astype(int)
+        return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
+
     # --- grains
 
     @property

@@ -4,11 +4,14 @@
 picture stays the same size.
 """
 
+from functools import lru_cache
+
 import matplotlib
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from barchan.figures.style import GROUPS, HEIGHT_MAP
+from barchan.dune.bodies import tops
+from barchan.figures.style import BODY, GROUPS, HEIGHT_MAP
 
 LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
 
@@ -63,23 +66,24 @@ def by_group(group):
     return np.array([to_rgb(colour) for colour in GROUPS])[group % len(GROUPS)]
 
 
-def top_view(grains, window, width, top):
+def top_view(grains, window, width, top, bodies=()):
     """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by kind or heap if there are several.
 
-    Else by height: colours run from 0 to `top` [m]. The first row is z0.
+    Else by height: colours run from 0 to `top` [m]. The first row is z0. Bodies are seen where no grain lies on them.
     """
     colours = by_height(grains.x, grains.d, top) if grains.group is None else by_group(grains.group)
-    return coloured_view(grains.x, grains.d, colours, window, width)
+    return coloured_view(grains.x, grains.d, colours, window, width, bodies)
 
 
-def coloured_view(x, d, colours, window, width):
+def coloured_view(x, d, colours, window, width, bodies=()):
     """The same with a colour for each grain: colours (N, 3)."""
     inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
               & (x[:, 2] < window[3]))
     x, d, colours = x[inside], d[inside], colours[inside]
     pixel = (window[1] - window[0]) / width
     if len(d) == 0:
-        return np.ones((max(1, round((window[3] - window[2]) / pixel)), width, 3))
+        picture = np.ones((max(1, round((window[3] - window[2]) / pixel)), width, 3))
+        return with_bodies(picture, 0.0, bodies, window, 1)
     visible = ~hidden(x, d)
     x, d, colours = x[visible], d[visible], colours[visible]
     # Finer than the grains, then averaged: smooth edges, at a bounded size.
@@ -89,7 +93,29 @@ def coloured_view(x, d, colours, window, width):
     covered = grain >= 0
     picture[covered] = colours[grain[covered]] * shade(grain, height, x, d, window,
                                                        pixel / finer)[:, None]
-    return block_mean(picture, finer)
+    return block_mean(with_bodies(picture, height, bodies, window, finer), finer)
+
+
+def with_bodies(picture, height, bodies, window, finer):
+    """The picture (rows, columns, 3), with bodies where they are higher than `height` [m] (rows, columns)."""
+    if not bodies:
+        return picture
+    rows, columns = picture.shape[:2]
+    colour, top = seen_bodies(tuple(bodies), tuple(map(float, window)), -(-rows // finer), -(-columns // finer))
+    colour, top = (np.repeat(np.repeat(each, finer, 0), finer, 1)[:rows, :columns] for each in (colour, top))
+    return np.where((top > height)[..., None], colour, picture)
+
+
+@lru_cache(maxsize=4)
+def seen_bodies(bodies, window, rows, columns):
+    """(colours (rows, columns, 3), heights (rows, columns) [m], 0 where no body is) of bodies from above."""
+    x = window[0] + (window[1] - window[0]) * (np.arange(columns) + 0.5) / columns
+    z = window[2] + (window[3] - window[2]) * (np.arange(rows) + 0.5) / rows
+    top = tops(bodies, *np.meshgrid(x, z))
+    slopes = [np.nan_to_num(each) for each in np.gradient(top, z, x)] if min(top.shape) > 1 else [0 * top, 0 * top]
+    normal = np.stack([-slopes[1], np.ones_like(top), -slopes[0]], axis=-1)
+    light = np.clip(normal @ (LIGHT / np.linalg.norm(LIGHT)) / np.linalg.norm(normal, axis=-1), 0, 1)
+    return np.array(to_rgb(BODY)) * (0.6 + 0.5 * light[..., None]).clip(0, 1), np.nan_to_num(top)
 
 
 def block_mean(picture, n):

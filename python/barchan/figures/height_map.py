@@ -8,9 +8,11 @@ of 3 mean diameters to each side of the dashed line.
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from barchan.errors import MissingData
+from barchan.dune.bodies import bodies_of
 from barchan.dune.height_map import HeightMap, centre_z, common_window
 from barchan.dune.shape import BIN, HALF_WIDTH
+from barchan.errors import MissingData
+from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.result import keep
 
@@ -37,6 +39,7 @@ def draw(run, ax=None):
     step = style.round_length(1.5 * top / CONTOURS)
     for index, (axes, surface, grains) in enumerate(zip(panels, maps, frames)):
         image, lines = draw_map(axes, surface, top, step)
+        body_pictures.draw_plan(axes, bodies_of(run.config), fill=True)
         style.panel_label(axes, index)
         axes.set_title(f"$t$ = {grains.time:.3g} s", pad=3)
         centreline = axes.axhline(1e3 * centre_z(grains), color=style.GREY, lw=0.9, ls=(0, (6, 4)),

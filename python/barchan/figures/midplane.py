@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
+from barchan.dune.bodies import bodies_of
+from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 
 DARK = 0.5   # of the largest u: below it the colour is dark and arrows are white
@@ -38,6 +40,7 @@ def draw(run, ax=None):
             style.panel_label(axes, index)
     for axes in panels:
         image = draw_flow(axes, flow, bottom, top)
+        body_pictures.draw_section(axes, bodies_of(run.config), flow.z)
         if grains is not None:
             draw_grains(axes, grains, flow.z)
         axes.set(aspect="equal", ylabel="$y$ (mm)")

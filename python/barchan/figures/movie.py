@@ -15,9 +15,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from barchan.dune.bodies import bodies_of
 from barchan.dune.current import always_along_x
 from barchan.dune.tracks import known_grains
 from barchan.errors import BarchanError, MissingData
+from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.grain_image import by_group, top_view
 from barchan.figures.result import Told, write_numbers
@@ -82,7 +84,8 @@ def write_files(run):
         raise MissingData("needs a frame with grains in it")
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample)
     named = max(sample, key=lambda grains: len(grains.groups))
-    scene = Scene(frame_window(sample), top, named, always_along_x(run.config))
+    window = body_pictures.in_window(frame_window(sample), run.config)
+    scene = Scene(window, top, named, always_along_x(run.config), bodies_of(run.config))
     log = {"frame": [], "t_s": [], "n_grains": []}
     program = shutil.which("ffmpeg")
     pictures = recorded(scene, frames, log)
@@ -111,17 +114,18 @@ def recorded(scene, frames, log):
 class Scene:
     """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
 
-    def __init__(self, window, top, named, along_x):
+    def __init__(self, window, top, named, along_x, bodies=()):
         ratio = (window[3] - window[2]) / (window[1] - window[0])
         height = WIDTH * ratio + AROUND
         even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
-        self.window, self.top = window, top
+        self.window, self.top, self.bodies = window, top, bodies
         self.figure = Figure(figsize=even, dpi=DPI)
         FigureCanvasAgg(self.figure)
         axes = self.figure.subplots()
         extent = [1e3 * window[0], 1e3 * window[1], 1e3 * window[3], 1e3 * window[2]]
         axes.set(xticks=[], yticks=[], aspect="equal", xlim=extent[:2], ylim=extent[2:])
         self.image = axes.imshow(np.ones((2, 2, 3)), extent=extent, interpolation="antialiased")
+        body_pictures.draw_plan(axes, bodies, named=True)
         above = 1.0 + 0.1 / (WIDTH * ratio)
         self.time = axes.text(0.005, above, "", transform=axes.transAxes, fontsize=10)
         style.scale_bar(axes, style.round_length(0.25e3 * (window[1] - window[0])), 0.4, above)
@@ -135,7 +139,7 @@ class Scene:
 
     def picture(self, grains):
         """RGB (rows, columns, 3), bytes."""
-        self.image.set_data(top_view(grains, self.window, round(DPI * WIDTH), self.top))
+        self.image.set_data(top_view(grains, self.window, round(DPI * WIDTH), self.top, self.bodies))
         self.time.set_text(f"$t$ = {grains.time:.2f} s")
         self.figure.canvas.draw()
         return np.ascontiguousarray(np.asarray(self.figure.canvas.buffer_rgba())[:, :, :3])

@@ -51,6 +51,7 @@ def table(*entries: Entry) -> dict[str, Entry]:
 
 
 GRAINS, FIELDS, HISTORY, DUNES, MEANS = "grains.h5", "fields.h5", "history.csv", "dune.csv", "statistics.csv"
+BODIES = "bodies.csv"
 
 OF_RUN = table(
     Entry("topviews", "figures.topviews", "the grains from above at several times", (GRAINS,)),
@@ -81,6 +82,15 @@ OF_RUN = table(
           ("force_map.csv|grains.h5",)),
     Entry("sectors", "figures.sectors", "in words: shares of horn grains by sector, signs of the force; no picture",
           (GRAINS, DUNES), on_request=True),
+    Entry("forces_on_bodies", "figures.forces_on_bodies",
+          "force of water and grains on each body, along x and upwards (--from, --to)", (BODIES,)),
+    Entry("flow_around_body", "figures.flow_around_body",
+          "mean flow around each body, separation bubble (--from, --to)", ("flow_average.h5|fields.h5",)),
+    Entry("obstacles", "figures.obstacles",
+          "a dune that meets a body or a crater, and the outcome; writes obstacles.csv",
+          ("tracks.h5|grains.h5",)),
+    Entry("scour", "figures.scour", "depth of the bed around each body against time, map of the bed at the end",
+          (GRAINS,)),
 )
 OF_STUDY = table(
     Entry("topviews", "figures.topviews_study", "the grains from above, a row per time, a column per value",

@@ -16,6 +16,7 @@ from barchan.errors import BarchanError
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILLION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#8C8C8C"
 SAND, SAND_EDGE = "#E8D9B5", "#6B5B3A"
+BODY, BODY_EDGE = "#DADADA", "#4A4A4A"  # solids at rest
 
 GROUPS = (ORANGE, BLUE, GREEN, PURPLE, SKY, VERMILLION)  # of grains: kinds, heaps; again from the first for more
 

@@ -8,8 +8,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 
+from barchan.dune.bodies import bodies_of
 from barchan.dune.current import always_along_x
 from barchan.errors import MissingData
+from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.grain_image import top_view
 
@@ -32,7 +34,8 @@ def draw(run, ax=None):
     frames = [g for g in map(run.frame, file.evenly_spaced(*counts)) if len(g.d)]
     if not frames:
         raise MissingData("needs a frame with grains in it")
-    window = frame_window(frames)
+    bodies = bodies_of(run.config)
+    window = body_pictures.in_window(frame_window(frames), run.config)
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in frames)
     ratio = (window[3] - window[2]) / (window[1] - window[0])
     columns = 2 if ax is None and len(frames) > 3 and len(frames) * ratio > 2.2 else 1
@@ -46,9 +49,10 @@ def draw(run, ax=None):
     panels = list(grid.ravel())  # time goes along the rows
     extent = [1e3 * window[0], 1e3 * window[1], 1e3 * window[3], 1e3 * window[2]]
     for axes, grains in zip(panels, frames):
-        picture = top_view(grains, window, round(FINER * style.DPI * panel_width), top)
+        picture = top_view(grains, window, round(FINER * style.DPI * panel_width), top, bodies)
         axes.imshow(picture, extent=extent, aspect="equal", interpolation="antialiased")
-        axes.set(xticks=[], yticks=[])
+        body_pictures.draw_plan(axes, bodies, named=grains is frames[0])
+        axes.set(xticks=[], yticks=[], xlim=extent[:2], ylim=extent[2:])
         axes.text(0.012, 0.95, f"$t$ = {grains.time:.3g} s", transform=axes.transAxes, va="top")
     for axes in panels[len(frames):]:
         axes.set_visible(False)

@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
+from barchan.dune.bodies import bodies_of
 from barchan.dune.shape import main_rows
 from barchan.errors import MissingData
 from barchan.figures import style
@@ -76,12 +77,12 @@ def draw(study, key, ax=None):
         raise MissingData("needs a frame with grains in it")
     times, grid = times_shown(times, grid)
     figure = draw_grid(grid, common_window(frames), times,
-                       [case.label_in(key) for case in cases])
+                       [case.label_in(key) for case in cases], [bodies_of(case.run.config) for case in cases])
     keep_rows(figure, study, key, cases, times, grid)
     return figure
 
 
-def draw_grid(grid, window, times, labels):
+def draw_grid(grid, window, times, labels, bodies):
     """A page in inches: all panels are pictures in one frameless axes, as 99 axes would take minutes."""
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for column in grid for g in column if g)
     ratio = (window[3] - window[2]) / (window[1] - window[0])
@@ -104,7 +105,8 @@ def draw_grid(grid, window, times, labels):
         page.text(x + 0.5 * width, head - 0.06, labels[j], ha="center", va="bottom", fontsize=label_size)
         for i, grains in enumerate(column):
             if grains is not None:  # else the case has not come so far
-                picture = top_view(replace(grains, heap=None, kind=None), window, round(FINER * style.DPI * width), top)
+                picture = top_view(replace(grains, heap=None, kind=None), window, round(FINER * style.DPI * width), top,
+                                   bodies[j])
                 draw_panel(page, picture, x, head + i * (height + GAP), width, height)
     draw_scale(page, window, width)
     bar = figure.add_axes([0.5 - 0.5 * BAR / size[0], 0.36 / size[1], BAR / size[0], 0.08 / size[1]])

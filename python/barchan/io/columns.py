@@ -77,3 +77,20 @@ AXES = {
     "y": ("m", "upwards from the floor"),
     "z": ("m", "across the flow"),
 }
+BODIES = {
+    "t": ("s", "time"),
+    "body": ("1", "number of the body"),
+    "force_x": ("N", "force of the water along x"),
+    "force_y": ("N", "force of the water upwards"),
+    "force_z": ("N", "force of the water along z"),
+    "torque_x": ("N m", "torque of the water about x"),
+    "torque_y": ("N m", "torque of the water about y"),
+    "torque_z": ("N m", "torque of the water about z"),
+    "grain_force_x": ("N", "force of the grains along x"),
+    "grain_force_y": ("N", "force of the grains upwards"),
+    "grain_force_z": ("N", "force of the grains along z"),
+    "grain_torque_x": ("N m", "torque of the grains about x"),
+    "grain_torque_y": ("N m", "torque of the grains about y"),
+    "grain_torque_z": ("N m", "torque of the grains about z"),
+    "n_contacts": ("1", "grains that touch the body"),
+}

@@ -87,6 +87,16 @@ class RunFolder:
             result[int(label)] = dune
         return result
 
+    @cached_property
+    def body_columns(self) -> dict[int, dict[str, np.ndarray]] | None:
+        """bodies.csv as {number: {column: values (n)}}, None where there is none."""
+        table = self._table("bodies.csv")
+        if table is None:
+            return None
+        numbers = np.unique(table["body"]).astype(int)
+        return {int(number): {name: column[table["body"] == number] for name, column in table.items()}
+                for number in numbers}
+
     @property
     def main_dune_columns(self) -> dict[str, np.ndarray]:
         """Columns of the dune with the smallest label: the largest of the first time."""

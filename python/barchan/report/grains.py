@@ -6,6 +6,7 @@ import json
 import matplotlib
 import numpy as np
 
+from barchan.dune.bodies import bodies_of
 from barchan.dune.current import always_along_x
 from barchan.errors import MissingData
 from barchan.figures import style
@@ -42,6 +43,7 @@ def pack(run):
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
         "window": dune_window(positions, bounds), "colours": colours(), "groups": keys_of(groups),
+        "bodies": bodies(run.config),
         "flow": ("fluid" in run.config or "grains" not in run.config) and always_along_x(run.config),
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
@@ -103,6 +105,15 @@ def colours():
     """The map of heights of the other figures, from the floor up."""
     shades = matplotlib.colormaps[style.HEIGHT_MAP](np.linspace(0.0, 1.0, COLOURS))
     return [matplotlib.colors.to_hex(shade) for shade in shades]
+
+
+def bodies(config):
+    """Name, outline from above (x, z) and in the plane through the middle (x, y) of each body [m]."""
+    def rounded(outlines):
+        return [np.round(outline, 6).tolist() for outline in outlines]
+
+    return [{"name": body.name, "plan": rounded(body.plan()), "section": rounded(body.section(body.heart[1])),
+             "top": body.top} for body in bodies_of(config)]
 
 
 def keys_of(groups):

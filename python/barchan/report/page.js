@@ -122,6 +122,31 @@
     finish();
   }
 
+  function paintBodies(context, kind, across, up) {  // outlines in the plan or in the section
+    context.fillStyle = "rgba(218, 218, 218, 0.9)";
+    context.strokeStyle = "#4a4a4a";
+    context.lineWidth = 1;
+    for (const body of facts.bodies || []) {
+      for (const outline of body[kind]) {
+        context.beginPath();
+        for (const [a, b] of outline) context.lineTo(across(a), up(b));
+        context.closePath();
+        context.fill();
+        context.stroke();
+      }
+    }
+  }
+
+  function nameBodies(context, x0, z0, scale) {  // where there are several
+    if ((facts.bodies || []).length < 2) return;
+    context.textAlign = "center";
+    for (const { name, plan } of facts.bodies) {
+      const x = plan.flat().map((place) => place[0]), z = plan.flat().map((place) => place[1]);
+      const middle = 0.5 * (Math.min(...x) + Math.max(...x));
+      if (x.length > 0) context.fillText(name, (middle - x0) * scale, Math.max(12, (Math.min(...z) - z0) * scale - 4));
+    }
+  }
+
   function lettering(context) {
     const ink = getComputedStyle(document.documentElement).getPropertyValue("--on-water").trim();
     context.fillStyle = ink;
@@ -173,8 +198,10 @@
   function drawFromAbove(canvas, inView, [, y, z], [x0, x1, z0, z1], grains) {
     const width = canvas.clientWidth, scale = width / (x1 - x0), height = Math.round((z1 - z0) * scale);
     const context = sized(canvas, height);
+    paintBodies(context, "plan", (place) => (place - x0) * scale, (place) => (place - z0) * scale);
     paint(context, inView.sort((a, b) => y[a] - y[b]), { ...grains, up: (i) => (z[i] - z0) * scale });
     lettering(context);
+    nameBodies(context, x0, z0, scale);
     if (facts.flow) flowArrow(context);
     scaleBar(context, width, height, scale);
   }
@@ -182,7 +209,9 @@
   function drawFromSide(canvas, inView, [, y, z], [x0, x1], grains) {
     const width = canvas.clientWidth, scale = width / (x1 - x0);
     const stretch = Math.max(1, Math.min(4, Math.round(60 / (facts.top * scale))));
-    const height = Math.round(1.25 * facts.top * scale * stretch) + 40, context = sized(canvas, height);
+    const top = Math.max(facts.top, ...(facts.bodies || []).map((body) => Math.min(body.top, 3 * facts.top)));
+    const height = Math.round(1.25 * top * scale * stretch) + 40, context = sized(canvas, height);
+    paintBodies(context, "section", (x) => (x - x0) * scale, (y) => height - 20 - y * scale * stretch);
     paint(context, inView.sort((a, b) => z[a] - z[b]),
       { ...grains, up: (i) => height - 20 - y[i] * scale * stretch });
     lettering(context);
