@@ -102,13 +102,14 @@ struct ContinuityResidual {
 };
 
 /// u = u* + f dt e_x - (dt / rho) grad p. Keeps the old velocity's change as du_dt. Walls stay at
-/// rest.
-template <Fraction fraction>
+/// rest. With bodies a push moves the water as far as c is of alpha.
+template <Fraction fraction, bool with_bodies = false>
 struct CorrectVelocity {
   GridRef grid;
   ConstFaceRef u_star;
   ConstFieldRef p;      // with ghosts
   ConstFieldRef alpha;  // with ghosts; one where the fraction is uniform, and not read
+  ConstFaceRef c;       // with bodies
   Real inv_density;     // 1 / rho
   Real drive_dt, dt;
   FaceRef u, du_dt;
@@ -118,9 +119,17 @@ struct CorrectVelocity {
   KOKKOS_FORCEINLINE_FUNCTION LargestAndSums operator()(int i, int j, int k) const {
     const Real inside = j > 0 ? Real(1) : Real(0);
     const Real push = dt * inv_density;
-    const Real ux = u_star.x(i, j, k) + (drive_dt - push * ddx_at_xface(grid, p, i, j, k));
-    const Real uy = inside * (u_star.y(i, j, k) - push * ddy_at_yface(grid, p, i, j, k));
-    const Real uz = u_star.z(i, j, k) - push * ddz_at_zface(grid, p, i, j, k);
+    Real push_x = drive_dt - push * ddx_at_xface(grid, p, i, j, k);
+    Real push_y = push * ddy_at_yface(grid, p, i, j, k);
+    Real push_z = push * ddz_at_zface(grid, p, i, j, k);
+    if constexpr (with_bodies) {
+      push_x *= c.x(i, j, k) / cell_to_xface(alpha, i, j, k);
+      push_y *= c.y(i, j, k) / cell_to_yface(grid, alpha, i, j, k);
+      push_z *= c.z(i, j, k) / cell_to_zface(alpha, i, j, k);
+    }
+    const Real ux = u_star.x(i, j, k) + push_x;
+    const Real uy = inside * (u_star.y(i, j, k) - push_y);
+    const Real uz = u_star.z(i, j, k) - push_z;
     du_dt.x(i, j, k) = (ux - u.x(i, j, k)) * (1 / dt);
     du_dt.y(i, j, k) = (uy - u.y(i, j, k)) * (1 / dt);
     du_dt.z(i, j, k) = (uz - u.z(i, j, k)) * (1 / dt);

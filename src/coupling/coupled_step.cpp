@@ -63,7 +63,9 @@ void CoupledStep::start(SystemState& state) {
   if (grains_) grains_->start(*state.grains);
   if (coupling_)
     coupling_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
-  if (fluid_) fluid_->fill_ghosts(*state.fluid);
+  if (!fluid_) return;
+  fluid_->fill_ghosts(*state.fluid);
+  fluid_->flow_around_bodies(*state.fluid);
 }
 
 void CoupledStep::advance(SystemState& state) {

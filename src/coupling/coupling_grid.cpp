@@ -1,5 +1,6 @@
 #include "src/coupling/coupling_grid.hpp"
 
+#include "kernels/coupling/beside_bodies.hpp"
 #include "kernels/coupling/deposit.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/decomposition.hpp"
@@ -15,6 +16,9 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidS
   if (walls == EvenExtension{} || config.coupling.smoothing_length == 0) return solver.fft();
   return std::make_shared<const PlaneFft>(grid, walls);
 }
+
+// Deeper in a body there are no grains.
+constexpr Real kLeastKept = 1e-3;
 
 /// Grains of diameter d that lie a diameter apart: of cells of width h, up to (h + d)/d per
 /// direction have their centres in one, and h/d fit in.
@@ -42,7 +46,21 @@ CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, cons
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
             .z = config.grains->boundary_z == GrainBoundaryZ::wall},
       smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
-      marks("coupling: columns", grid, kMarks) {}
+      bodies(solver.bodies()),
+      marks("coupling: columns", grid, kMarks) {
+  if (bodies == nullptr || smoothing_length == 0) return;
+  kept = Field("coupling: kept by the smoothing", grid);
+  Kokkos::deep_copy(kept.storage, Real(1));
+  bodies->close(kept);
+  const Region everywhere(grid);
+  smoother.solve(kept, everywhere);
+  for_each_cell("coupling: least kept", grid, KeepAbove{kept, kLeastKept});
+  boundary.fill_scalars(kept);
+}
+
+void CouplingGrid::raise_to_kept(Field& f, const Region& region) const {
+  if (kept.storage.size() > 0) for_each_cell("coupling: over kept", region, DivideBy{kept, f});
+}
 
 void CouplingGrid::mark_columns_of(const GrainState& grains) const {
   marks.set_zero();

@@ -28,6 +28,8 @@ struct CouplingGrid {
   /// Ghosts beside a region; constant beyond walls.
   void fill_ghosts(FaceVector& f, const Region& region) const;
   void fill_ghosts(CellVector& f, const Region& region) const;
+  /// f over the share that the smoothing keeps in the water, if bodies take any.
+  void raise_to_kept(Field& f, const Region& region) const;
   /// The first and the last face across which the smoothing does not go, in this rank's pencil.
   WallFaces wall_faces_x() const;
   WallFaces wall_faces_z() const;
@@ -42,6 +44,8 @@ struct CouplingGrid {
   Real reach_of_grain;    // of its points from its centre [m]
   EvenExtension walls;    // of the grains, where the smoothing ends
   Smoother smoother;
+  const BodiesInFlow* bodies;  // null without
+  Field kept;                  // share of what is smoothed that bodies leave; empty: all
   enum Mark : int { kOfGrains, kOfFraction, kMarks };  // alpha_f is less than one
   ColumnMarks marks;
 };

@@ -12,7 +12,7 @@ namespace {
 /// Cells around those that grains' volume is spread over: their faces, and the columns that the
 /// pressure equation relaxes. These reach four cells beyond what is obstructed by more than 1e-5,
 /// which ends where less than half of the twelve digits has decayed (LocalCorrection).
-int cells_around(int reach) { return 1 + std::max(0, 5 - reach / 2); }
+int cells_around(int reach) { return 1 + std::max(0, kCellsAroundObstructed - reach / 2); }
 
 /// Elsewhere than in a region the fraction before the smoothing is one.
 struct OneBeyond {
@@ -108,8 +108,10 @@ void Deposit::find_cells() {
   ColumnMap smoothed = of_grains.grown(reach);
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
-  const ColumnMap of_flow =
-      smoothed.united(fields_.of_fraction.cells.columns()).grown(cells_around(reach)).in_blocks();
+  const ColumnMap of_flow = smoothed.united(fields_.of_fraction.cells.columns())
+                                .grown(cells_around(reach))
+                                .in_blocks()
+                                .united(grid_.bodies ? grid_.bodies->columns() : ColumnMap{});
   fields_.of_flow.fraction.set(of_flow);
   const bool spreads = config_.exchange == Exchange::smoothed;
   fields_.of_flow.exchange.set(spreads ? of_flow : of_grains.grown(1).in_blocks());
@@ -148,11 +150,14 @@ void Deposit::bound_sums(const ExchangeSums& sums) {
 void Deposit::update_fraction(FluidState& fluid, const ExchangeSums& sums) {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   decode(Deposits::kVolume, deposits_.volume, fields_.smoothed, fluid.alpha_f);
+  grid_.raise_to_kept(fluid.alpha_f, fields_.smoothed);
   grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
   sum_each_cell("coupling: solid fraction to fluid fraction", sums, ExchangeSums::kDepositedVolume,
                 owned_cells(grid_.grid),
                 ByRegion{fields_.smoothed.ref(), SolidToFluidFraction{grid_.grid, fluid.alpha_f},
                          ClearWater{fluid.alpha_f}});
+  if (grid_.bodies)
+    grid_.bodies->add_solid_inside(fluid.alpha_f, sums, ExchangeSums::kVolumeInBodies);
   grid_.boundary.fill(fluid.alpha_f, FieldKind::scalar);
   if (!config_.alpha_time_derivative) {  // the fraction counts as if it had always been the new one
     Kokkos::deep_copy(fluid.alpha_f_previous.storage, fluid.alpha_f.storage);

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "kernels/coupling/beside_bodies.hpp"
 #include "kernels/coupling/force_density.hpp"
 #include "kernels/coupling/gather_shear.hpp"
 #include "src/grains/grain_arrays.hpp"
@@ -81,6 +82,9 @@ void Gather::undo_smoothing(const FluidState& fluid) {
                                    .walls_x = grid_.wall_faces_x(),
                                    .walls_z = grid_.wall_faces_z(),
                                    .unsmoothed = fields_.alpha_before_smoothing});
+  if (grid_.kept.storage.size() > 0)
+    for_each_cell("coupling: fraction beside bodies", cells,
+                  FractionBesideBodies{grid_.kept, fields_.alpha_before_smoothing});
   grid_.boundary.fill_scalars(cells, fields_.alpha_before_smoothing);
 }
 
@@ -89,7 +93,7 @@ void Gather::undo_smoothing(const FluidState& fluid) {
 void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains,
                                const ExchangeSums& sums) {
   if (!forces_.pressure_gradient) return;
-  if (grid_.by_row && grid_.walls == EvenExtension{})
+  if (grid_.by_row && grid_.walls == EvenExtension{} && grid_.bodies == nullptr)
     return smoothed_pressure_gradient(fluid, sums);
   const auto& [cells, and_faces] = fields_.of_fraction;
   FaceVector& on_faces = fields_.pressure_on_faces;
@@ -100,11 +104,14 @@ void Gather::pressure_gradient(const FluidState& fluid, const GrainState& grains
                                      .rho_f = rho_f_,
                                      .drive = fluid.drive,
                                      .force = on_faces});
+  if (grid_.bodies) grid_.bodies->close(on_faces);  // there it pushes the body
   fill_faces_beside(on_faces, and_faces);
   to_cells(on_faces, fluid.alpha_f, cells, in_cells, sums, ExchangeSums::kPressureOnSolid);
   if (!grid_.by_row) return at_centres(on_faces, grains, flow_at_.pressure);
-  for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z})
+  for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z}) {
     grid_.smoother.solve(*component, cells);
+    grid_.raise_to_kept(*component, cells);
+  }
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
 

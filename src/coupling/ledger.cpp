@@ -28,7 +28,7 @@ ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
   fetch();
   const auto totals = get<GrainTotals>(kTotals);
   return {.grain_volume = totals.volume,
-          .deposited_volume = get(kDepositedVolume),
+          .deposited_volume = get(kDepositedVolume) - get(kVolumeInBodies),
           .given_to_grains = totals.impulse,
           .taken_from_fluid = get<Vec3>(kTakenFromFluid),
           .flow_on_solid = dt * (get<Vec3>(kPressureOnSolid) + get<Vec3>(kStressOnSolid)),

@@ -29,6 +29,7 @@ struct ExchangeSums : Tally {
     kForceOnGrains = 13,
     kTakenFromFluid = 16,   // [N s]
     kDepositedVolume = 19,  // [m^3]
+    kVolumeInBodies,        // of that what counts for nothing
     kSums
   };
   ExchangeSums() : Tally("ledger: sums", kSums) {}

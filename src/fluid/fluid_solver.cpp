@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "kernels/fluid/closed_faces.hpp"
 #include "kernels/fluid/conjugate_gradients.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/bodies/make_bodies.hpp"
 #include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
@@ -39,47 +39,47 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid)
 
 FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fraction)
     : config_(config.fluid.value()),
-      fraction_(fraction),
+      fraction_(config.bodies.empty() ? fraction : Fraction::variable),
       drive_(config_),
       tolerance_(config.solver.pressure_tolerance),
       grid_(grid),
+      is_clear_(!is_variable(fraction)),
       everywhere_(grid),
       boundary_(grid, config_.bottom, config_.top, config_.top_velocity),
       fft_(std::make_shared<const PlaneFft>(grid)),
       pressure_(grid, boundary_.halo(), fft_, config.solver),
       u_star_(make_faces_in_one_piece("fluid: u star", grid)),
-      flux_(is_variable(fraction) ? make_faces_in_one_piece("fluid: alpha u", grid) : FaceVector{}),
-      mobility_(is_variable(fraction) ? make_faces_in_one_piece("fluid: mobility", grid)
-                                      : FaceVector{}),
+      flux_(is_variable(fraction_) ? make_faces_in_one_piece("fluid: alpha u", grid)
+                                   : FaceVector{}),
+      mobility_(is_variable(fraction_) ? make_faces_in_one_piece("fluid: mobility", grid)
+                                       : FaceVector{}),
       source_("fluid: pressure source", grid),
-      c_w_delta_("fluid: filter width", grid.ny) {
+      c_w_delta_("fluid: filter width", grid.ny),
+      loads_(config.bodies.size()),
+      numbers_("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * config.bodies.size()) {
+  if (!config.bodies.empty()) bodies_.emplace(make_bodies(config), grid, boundary_.halo(), config_);
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
 }
 
-void FluidSolver::close_faces(const FaceVector& open) {
-  open_ = open;
-  boundary_.fill_periodic(*open_);
-}
-
-void FluidSolver::close(FaceVector& f) const {
-  if (open_) for_each_cell("fluid: close faces", grid_, CloseFacesOf{*open_, f});
-}
-
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
-  const bool knows_where = exchange != nullptr && exchange->regions != nullptr && !open_;
-  regions_ = knows_where ? exchange->regions : &everywhere_;
+  const bool knows_where = exchange != nullptr && exchange->regions != nullptr;
+  regions_ = knows_where            ? exchange->regions
+             : bodies_ && is_clear_ ? &bodies_->regions()
+                                    : &everywhere_;
+  if (bodies_) bodies_->forget_change(fluid.alpha_f, fluid.alpha_f_previous);
   if (is_variable(fraction_)) boundary_.fill_scalars(fluid.alpha_f, fluid.alpha_f_previous);
   if (fluid.time == 0)
     fluid.bulk_at_start = {bulk_velocity(fluid),
                            drive_.along_z() ? bulk_velocity_across(fluid) : 0};
   update_eddy_viscosity(fluid);  // nu_t
   predict(fluid, exchange, dt);  // u*
-  update_mobility(fluid);        // c of the pressure equation
+  update_mobility(fluid, dt);    // c of the pressure equation
   push(fluid, dt);               // f that gives the wanted bulk velocity
   solve_pressure(fluid, dt);     // p
   correct(fluid, dt);            // u, du/dt
+  if (bodies_) loads_ = bodies_->loads(numbers_, kLoads);
   fluid.has_history = true;
   fluid.dt_previous = dt;
   fluid.time += dt;
@@ -95,60 +95,62 @@ void FluidSolver::remove_divergence(FluidState& fluid) {
   Kokkos::deep_copy(u_star_.x.storage, fluid.u.x.storage);
   Kokkos::deep_copy(u_star_.y.storage, fluid.u.y.storage);
   Kokkos::deep_copy(u_star_.z.storage, fluid.u.z.storage);
-  update_mobility(work);
+  update_mobility(work, 0);
   solve_pressure(work, 1);
   correct(work, 1);
+}
+
+void FluidSolver::flow_around_bodies(FluidState& fluid) {
+  if (!bodies_) return;
+  const auto bulk = [&] { return Vec2{bulk_velocity(fluid), bulk_velocity_across(fluid)}; };
+  const Vec2 before = bulk();
+  if (!bodies_->stop(fluid.u)) return;
+  remove_divergence(fluid);
+  const Vec2 now = bulk();
+  const Real wanted = before.x * before.x + before.z * before.z;
+  const Real there = before.x * now.x + before.z * now.z;
+  if (wanted == 0 || there == 0) return;
+  const Real scale = wanted / there;
+  for (Field* f : {&fluid.u.x, &fluid.u.y, &fluid.u.z})
+    for_each_cell("fluid: bulk velocity", grid_, Combine{scale, *f, 0, *f});
+  boundary_.fill_velocity(fluid.u);
 }
 
 void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
   if (config_.turbulence == Turbulence::none) return;
   for_each_cell("fluid: eddy viscosity", grid_,
                 UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_.data()});
+  if (bodies_) bodies_->clear(fluid.nu_t);
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 
-void FluidSolver::add_flow_rate(const FaceVector& u, const FluidState& fluid, int slot) const {
-  const CellRange all = owned_cells(grid_);
-  sum_each_cell("fluid: flow rate", numbers_, slot, all, FlowRate{grid_, u.x, fluid.alpha_f});
-  if (!drive_.along_z()) return;
-  sum_each_cell("fluid: flow rate across", numbers_, slot + 1, all,
-                FlowRateAcross{grid_, u.z, fluid.alpha_f});
-}
-
-/// c near the grains, and how much a force along x and z adds to the flow.
-void FluidSolver::update_mobility(const FluidState& fluid) {
+/// c near grains and bodies, and how much a force along x and z adds to the flow. What the walls of
+/// bodies hold back in dt is taken from c and u*.
+void FluidSolver::update_mobility(const FluidState& fluid, Real dt) {
   if (!is_variable(fraction_)) return;
   sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.around,
              UpdateMobility{grid_, fluid.alpha_f, mobility_});
-  if (open_) {
-    close(mobility_);
-    const CellRange all = owned_cells(grid_);
-    sum_each_cell("fluid: mobility", numbers_, kMobility, all, HeightSum{grid_, mobility_.x});
-    sum_each_cell("fluid: mobility", numbers_, kMobility + 2, all, HeightSum{grid_, mobility_.z});
-  }
+  if (bodies_) bodies_->hold_back(u_star_, mobility_, fluid.alpha_f, dt, numbers_, kHeld);
   if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(mobility_);
 }
 
 /// What predictor and mobility added up.
 void FluidSolver::find_driven_flow(const FluidState& fluid) {
-  if (open_) {
-    add_flow_rate(u_star_, fluid, kPredictedRate);
-  } else if (drive_.along_z()) {
+  if (drive_.along_z()) {
     sum_each_cell("fluid: flow rate across", numbers_, kPredictedRate + 1, owned_cells(grid_),
                   FlowRateAcross{grid_, u_star_.z, fluid.alpha_f});
   }
-  numbers_.combine(ranks_of(grid_), kPredictedRate, kFlowNumbers - kPredictedRate, MPI_SUM);
+  numbers_.combine(ranks_of(grid_), kPredictedRate, kMeanOfWater - kPredictedRate, MPI_SUM);
   numbers_.fetch();
   flow_.rate = {numbers_.get(kPredictedRate), numbers_.get(kPredictedRate + 1)};
   const auto mobility = numbers_.get<Vec3>(kMobility);
   const Real full = grid_.height_of_all_columns();
-  if (open_) {
-    flow_.response = {mobility.x, drive_.along_z() ? mobility.z : 0};
-    flow_.height = flow_.response.x;
-  } else {
-    flow_.response = {full + mobility.x, full + mobility.z};
-    flow_.height = full + mobility.y;
-  }
+  flow_.response = {full + mobility.x, full + mobility.z};
+  flow_.height = full + mobility.y;
+  if (!bodies_) return;
+  const auto [rate, along, across] = numbers_.get<Vec3>(kHeld);
+  flow_.rate.x -= rate;  // that across is a sum over what is left
+  flow_.response.x -= along, flow_.response.z -= across;
 }
 
 /// Along x the force is added where the pressure is; across, it is added to u* here.
@@ -161,7 +163,7 @@ void FluidSolver::push(FluidState& fluid, Real dt) {
   report_.bulk_velocity = {flow_.rate.x / flow_.height, flow_.rate.z / flow_.height};
   if (!drive_.along_z()) return;
   for_each_cell("fluid: drive across", grid_, DriveAcross{u_star_.z, fluid.drive.z * dt});
-  close(u_star_);
+  if (bodies_) bodies_->hold_back_across(u_star_.z, fluid.drive.z * dt, dt);
 }
 
 /// Total pressure: every step solves for all of it. p_previous becomes the last one.
@@ -186,6 +188,7 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   }
   report_.pressure_iterations = solved.iterations;
   report_.pressure_residual = solved.residual;
+  if (bodies_) bodies_->settle(fluid.p, numbers_, kMeanOfWater);
   boundary_.fill(fluid.p, FieldKind::scalar);
 }
 
@@ -203,12 +206,13 @@ PressureSource<fraction> FluidSolver::pressure_source(const FaceVector& u, const
           .b = source_};
 }
 
-template <Fraction fraction>
-CorrectVelocity<fraction> FluidSolver::correction(FluidState& fluid, Real dt) {
+template <Fraction fraction, bool with_bodies>
+CorrectVelocity<fraction, with_bodies> FluidSolver::correction(FluidState& fluid, Real dt) {
   return {.grid = grid_,
           .u_star = u_star_,
           .p = fluid.p,
           .alpha = fluid.alpha_f,
+          .c = with_bodies ? mobility_ : FaceVector{},
           .inv_density = 1 / config_.density,
           .drive_dt = fluid.drive.x * dt,
           .dt = dt,
@@ -221,17 +225,13 @@ void FluidSolver::correct(FluidState& fluid, Real dt) {
   const auto correct = [&](const auto& each_face) {
     largest_and_sums("fluid: correct velocity", numbers_, kCourant, owned_cells(grid_), each_face);
   };
-  if (is_variable(fraction_)) {
-    correct(ByRegion{regions_->fraction.cells.ref(), correction<Fraction::variable>(fluid, dt),
-                     in_clear_water});
+  const RegionRef region = regions_->fraction.cells.ref();
+  if (bodies_) {
+    correct(ByRegion{region, correction<Fraction::variable, true>(fluid, dt), in_clear_water});
+  } else if (is_variable(fraction_)) {
+    correct(ByRegion{region, correction<Fraction::variable>(fluid, dt), in_clear_water});
   } else {
     correct(in_clear_water);
-  }
-  if (open_) {
-    close(fluid.u), close(fluid.du_dt);
-    max_each_cell("fluid: Courant number", numbers_, kCourant, owned_cells(grid_),
-                  Courant{grid_, fluid.u, dt});
-    add_flow_rate(fluid.u, fluid, kNewRate);
   }
   boundary_.fill_velocity(fluid.u);
   if (is_variable(fraction_)) boundary_.fill_acceleration(fluid.du_dt);
@@ -252,6 +252,7 @@ void FluidSolver::measure(FluidState& fluid, Real dt) {
   } else {
     residual(in_clear_water);
   }
+  if (bodies_) bodies_->add_loads(fluid, dt, numbers_, kLoads);
   numbers_.combine(ranks_of(grid_), kContinuity, 2, MPI_MAX);
   numbers_.combine(ranks_of(grid_), kNewRate, 2, MPI_SUM);
   numbers_.fetch();

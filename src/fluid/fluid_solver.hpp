@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/fluid/pressure.hpp"
+#include "src/fluid/bodies_in_flow.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/drive.hpp"
 #include "src/fluid/exchange_on_faces.hpp"
@@ -41,19 +42,23 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid);
 /// correction projects exactly, up to the tolerance of the pressure equation.
 class FluidSolver {
  public:
-  /// The fraction of a case with grains is variable.
+  /// The fraction of a case with grains is variable, and so is that of one with bodies.
   FluidSolver(const Config& config, const Grid& grid);
   FluidSolver(const Config& config, const Grid& grid, Fraction fraction);
 
   const Drive& drive() const { return drive_; }
-  /// Closes faces for good: `open` is 1 in the owned cells where water may pass, 0 where it may not
-  /// (closed_faces.hpp). The fraction must be variable, and the flow through these faces zero.
-  void close_faces(const FaceVector& open);
-
   /// One step. Of a variable fraction fluid.alpha_f holds the new one and alpha_f_previous the old
   /// one in the owned cells; a uniform one is one. `exchange`: with the grains, if there are any;
   /// the fraction is then variable. On return all ghosts are valid.
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+
+  /// Stops what flows inside bodies, the bulk velocity kept; nothing where nothing does. Ghosts of
+  /// the velocity are valid on return.
+  void flow_around_bodies(FluidState& fluid);
+  /// Of the flow on the bodies of the case, in their order, over the last step.
+  const std::vector<BodyLoad>& body_loads() const { return loads_; }
+  /// Null without.
+  const BodiesInFlow* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
 
   /// Makes all ghosts valid, to be called after a state was set or read.
   void fill_ghosts(FluidState& fluid) const { barchan::fill_ghosts(boundary_, fluid); }
@@ -93,7 +98,7 @@ class FluidSolver {
   Predict<fraction, with_exchange> prediction(FluidState& fluid, const ExchangeOnFaces* exchange,
                                               Real dt);
   void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
-  void update_mobility(const FluidState& fluid);
+  void update_mobility(const FluidState& fluid, Real dt);
   void find_driven_flow(const FluidState& fluid);
   void push(FluidState& fluid, Real dt);
   void solve_pressure(FluidState& fluid, Real dt);
@@ -101,12 +106,9 @@ class FluidSolver {
   template <Fraction fraction>
   PressureSource<fraction> pressure_source(const FaceVector& u, const FluidState& fluid,
                                            Real drive_x, Real dt);
-  template <Fraction fraction>
-  CorrectVelocity<fraction> correction(FluidState& fluid, Real dt);
+  template <Fraction fraction, bool with_bodies = false>
+  CorrectVelocity<fraction, with_bodies> correction(FluidState& fluid, Real dt);
   void measure(FluidState& fluid, Real dt);
-  /// Nothing where no face is closed.
-  void close(FaceVector& f) const;
-  void add_flow_rate(const FaceVector& u, const FluidState& fluid, int slot) const;
 
   /// Sums and maxima of a step over all cells, two a slot along x and z, three that of a vector.
   enum FlowNumber : int {
@@ -114,8 +116,10 @@ class FluidSolver {
     kCourant,            // with the next ones a LargestAndSums
     kNewRate,            // flow rate of the new velocity [m^2/s]
     kPredictedRate = 4,  // of u* [m^2/s]
-    kMobility = 6,       // what the mobility lacks to one, or all of it where faces are closed [m]
-    kFlowNumbers = 9
+    kMobility = 6,       // what the mobility lacks to one [m]
+    kHeld = 9,           // what bodies take of kPredictedRate [m^2/s] and kMobility along x, z [m]
+    kMeanOfWater = 12,   // of the pressure, where there are bodies
+    kLoads               // on each body
   };
 
   FluidConfig config_;
@@ -123,6 +127,7 @@ class FluidSolver {
   Drive drive_;
   Real tolerance_;  // of the pressure equation
   Grid grid_;
+  bool is_clear_;  // nothing but bodies makes the fraction variable
   FlowRegions everywhere_;
   const FlowRegions* regions_ = &everywhere_;  // of this step
   Boundary boundary_;
@@ -131,8 +136,9 @@ class FluidSolver {
   FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
   Field source_;                         // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  std::optional<FaceVector> open_;       // where faces are closed
-  Tally numbers_{"fluid: numbers", kFlowNumbers};
+  std::optional<BodiesInFlow> bodies_;
+  std::vector<BodyLoad> loads_;
+  Tally numbers_;
   DrivenFlow flow_;  // its rate is that with the drive after push()
   FluidStepReport report_;
 };

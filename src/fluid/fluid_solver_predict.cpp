@@ -56,11 +56,11 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
                  prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water}});
     drag_between_rows(fluid, *exchange);
   } else if (is_variable(fraction_)) {
-    predict(prediction<Fraction::variable, false>(fluid, exchange, dt));
+    predict(ByRegion{regions_->fraction.cells.ref(),
+                     prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water});
   } else {
     predict(in_clear_water);
   }
-  close(u_star_);
 }
 
 /// Moves momentum within columns alone, so the flow rate stays.

@@ -12,6 +12,10 @@
 
 namespace barchan {
 
+/// The solve looks at so many cells around those that have obstructed faces, with c < 1: relaxed
+/// columns and what is left of the equation around them.
+inline constexpr int kCellsAroundObstructed = 5;
+
 /// Preconditioner where grains hinder the flow: the constant-coefficient solve misses the few cells
 /// where c is far below one. Symmetric multiplicative combination: relax the columns with grains
 /// (block SOR over columns, by colours), solve globally for what is left, relax again in

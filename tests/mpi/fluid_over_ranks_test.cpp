@@ -254,5 +254,45 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
   }
 }
 
+/// A box that ends where cells do, and a sphere that ranks cut.
+std::vector<BodyConfig> two_bodies() {
+  BodyConfig box, sphere;
+  box.name = "box", box.shape = BodyShape::box;
+  box.centre = {kSize[0] * 10 / 21, kSize[2] * 8 / 15};
+  box.size = {kSize[0] * 4 / 21, kSize[2] * 4 / 15};
+  box.height = 0.0071;
+  sphere.name = "sphere", sphere.shape = BodyShape::sphere;
+  sphere.centre = {0.041, 0.0061};
+  sphere.radius = 0.0055, sphere.base = 0.009;
+  return {box, sphere};
+}
+
+TEST(FluidOverRanks, FlowAroundBodiesAsOnOneRank) {
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    TwoFlows flows(along_x);
+    flows.config.bodies = two_bodies();
+    flows.config.solver.pressure_tolerance = 1e-12;
+    FluidSolver here(flows.config, flows.grid.mine), there(flows.config, flows.grid.whole);
+    here.fill_ghosts(flows.here);
+    there.fill_ghosts(flows.there);
+    here.flow_around_bodies(flows.here);
+    there.flow_around_bodies(flows.there);
+    flows.expect_same(1e-9);  // of a pressure that is solved for to 1e-12
+    for (int step = 0; step < 5; ++step) {
+      const FluidStepReport report = here.advance(flows.here, nullptr, 1e-3);
+      const FluidStepReport report_there = there.advance(flows.there, nullptr, 1e-3);
+      EXPECT_EQ(report.pressure_iterations, report_there.pressure_iterations);
+      EXPECT_LT(report.continuity_residual, 1e-9);
+    }
+    flows.expect_same(1e-9);
+    for (std::size_t body = 0; body < 2; ++body) {
+      const BodyLoad &a = here.body_loads()[body], &b = there.body_loads()[body];
+      EXPECT_LT(norm(a.force - b.force), 1e-9 * norm(b.force));
+      EXPECT_LT(norm(a.torque - b.torque), 1e-9 * norm(b.torque));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace barchan

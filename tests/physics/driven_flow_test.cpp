@@ -1,4 +1,4 @@
-// Flows along x and z, flows that follow a schedule, and bodies made of closed cells.
+// Flows along x and z, and flows that follow a schedule.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -211,82 +211,6 @@ TEST(DrivenFlow, AlongZIsAlongXTurned) {
   EXPECT_GT(across, 1e-3) << "the flow is three-dimensional";
   expect_below("turned flow, largest difference [m/s]", largest, 1e-10);
   EXPECT_NEAR(turned.fluid.drive.z, along.fluid.drive.x, 1e-6 * std::abs(along.fluid.drive.x));
-}
-
-/// Closes all faces of some cells.
-template <class Closed>
-FaceVector around(const FlowRun& run, const Closed& closed) {
-  FaceVector open = make_faces("test: open", run.grid);
-  const Grid& g = run.grid;
-  const auto at = [&](int i, int j, int k) {
-    return j >= 0 && closed((i + g.nx) % g.nx, j, (k + g.nz) % g.nz);
-  };
-  const auto face = [&](int di, int dj, int dk) {
-    return [=](int i, int j, int k) { return at(i, j, k) || at(i - di, j - dj, k - dk) ? 0. : 1.; };
-  };
-  set_field(open.x, g, face(1, 0, 0));
-  set_field(open.y, g, face(0, 1, 0));
-  set_field(open.z, g, face(0, 0, 1));
-  return open;
-}
-
-// Half of the depth is closed. Above it stands the parabola of a flow down a plane, at rest where
-// the highest closed velocity is, half a cell inside: there the scheme is exact.
-TEST(ClosedFaces, OverAClosedHalfTheFlowIsPoiseuilles) {
-  const double gradient = 2, nu = 1e-3, rho = 1000, height = 0.02;
-  const int ny = 16, closed = 8;
-  Config config = laminar({4, ny, 4}, {0.01, height, 0.01}, nu);
-  config.fluid->pressure_gradient = gradient;
-  FlowRun run(config, Fraction::variable);
-  run.solver.close_faces(around(run, [&](int, int j, int) { return j < closed; }));
-  run.start_uniform(0);
-  for (int s = 0; s < 5000; ++s) run.advance(2e-4);
-  const auto u = to_host(run.fluid.u.x), v = to_host(run.fluid.u.y);
-  const double floor = run.h.y(closed - 1), depth = height - floor;
-  double error = 0;
-  for (int j = 0; j < ny; ++j) {
-    const double s = std::max(0., run.h.y(j) - floor);
-    const double exact = gradient / (rho * nu) * (depth * s - s * s / 2);
-    error = std::max(error, std::abs(u(1, j, 2) - exact));
-    EXPECT_EQ(v(1, j, 2), 0);
-  }
-  expect_below("flow over a closed half, error over the largest velocity",
-               error / (gradient / (rho * nu) * depth * depth / 2), 1e-6);
-}
-
-TEST(ClosedFaces, NothingFlowsThroughABlockAndAsMuchThroughEverySection) {
-  Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5);
-  config.fluid->mean_velocity = 0.28;
-  FlowRun run(config, Fraction::variable);
-  const auto block = [](int i, int j, int k) { return i > 4 && i < 9 && j < 5 && k > 2 && k < 8; };
-  const FaceVector open = around(run, block);
-  run.solver.close_faces(open);
-  set_field(run.fluid.u.x, run.grid,
-            [&, x = to_host(open.x)](int i, int j, int k) { return 0.28 * x(i, j, k); });
-  run.solver.fill_ghosts(run.fluid);
-  for (int s = 1; s <= 20; ++s) {
-    run.advance(5e-4);
-    EXPECT_LT(run.report.continuity_residual, 1e-9);
-    EXPECT_LT(run.report.courant, 1);
-  }
-  EXPECT_NEAR(run.report.bulk_velocity.x / 0.28, 1, 1e-3);
-  const auto u = to_host(run.fluid.u.x), v = to_host(run.fluid.u.y), w = to_host(run.fluid.u.z);
-  const auto x = to_host(open.x), y = to_host(open.y), z = to_host(open.z);
-  std::vector<double> section(16);
-  for_owned_cells(run.grid, [&](int i, int j, int k) {
-    section[static_cast<std::size_t>(i)] += u(i, j, k) * run.h.dy(j);
-    if (x(i, j, k) == 0) {
-      EXPECT_EQ(u(i, j, k), 0);
-    }
-    if (y(i, j, k) == 0) {
-      EXPECT_EQ(v(i, j, k), 0);
-    }
-    if (z(i, j, k) == 0) {
-      EXPECT_EQ(w(i, j, k), 0);
-    }
-  });
-  for (const double flow : section) EXPECT_NEAR(flow / section[0], 1, 1e-9);
-  EXPECT_GT(std::abs(v(4, 3, 5)), 0.01) << "the water goes over the block";
 }
 
 }  // namespace
