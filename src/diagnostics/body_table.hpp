@@ -23,21 +23,22 @@ struct BodyRecord {
 inline constexpr std::array kBodyColumns = [] {
   using B = BodyRecord;
   return std::to_array<Column<B>>({
-      {"t", "s", &B::t, "time", 10},
-      {"body", "-", &B::body, "number of the `[[body]]`, from 0 in the order of the case"},
-      {"force_x", "N", &B::force_x, "force of the water, mean since the line before"},
-      {"force_y", "N", &B::force_y, "the same upwards, without buoyancy"},
-      {"force_z", "N", &B::force_z, "the same along z"},
-      {"torque_x", "N m", &B::torque_x, "its torque about the middle of the underside"},
-      {"torque_y", "N m", &B::torque_y, "the same about y"},
-      {"torque_z", "N m", &B::torque_z, "the same about z"},
-      {"grain_force_x", "N", &B::grain_force_x, "force of the grains that touch it, mean as above"},
-      {"grain_force_y", "N", &B::grain_force_y, "the same upwards"},
-      {"grain_force_z", "N", &B::grain_force_z, "the same along z"},
-      {"grain_torque_x", "N m", &B::grain_torque_x, "torque of the grains"},
-      {"grain_torque_y", "N m", &B::grain_torque_y, "the same about y"},
-      {"grain_torque_z", "N m", &B::grain_torque_z, "the same about z"},
-      {"n_contacts", "-", &B::n_contacts, "grains that touch it"},
+      {"t", "s", &B::t, "time at the end of the interval", 10},
+      {"body", "-", &B::body, "number of the body from 0, in the order of the case"},
+      {"force_x", "N", &B::force_x, "force of the water on the body, along x"},
+      {"force_y", "N", &B::force_y, "the same, upwards"},
+      {"force_z", "N", &B::force_z, "the same, along z"},
+      {"torque_x", "N m", &B::torque_x, "torque of the water on the body, about x"},
+      {"torque_y", "N m", &B::torque_y, "the same, about y"},
+      {"torque_z", "N m", &B::torque_z, "the same, about z"},
+      {"grain_force_x", "N", &B::grain_force_x, "force of the grains that touch the body, along x"},
+      {"grain_force_y", "N", &B::grain_force_y, "the same, upwards"},
+      {"grain_force_z", "N", &B::grain_force_z, "the same, along z"},
+      {"grain_torque_x", "N m", &B::grain_torque_x,
+       "torque of the grains that touch the body, about x"},
+      {"grain_torque_y", "N m", &B::grain_torque_y, "the same, about y"},
+      {"grain_torque_z", "N m", &B::grain_torque_z, "the same, about z"},
+      {"n_contacts", "-", &B::n_contacts, "grains that touch the body, at this time"},
   });
 }();
 inline constexpr CsvTable<BodyRecord> kBodyTable{"bodies.csv", kBodyColumns};

@@ -63,6 +63,7 @@ void ResultsWriter::write_due() {
   const PhaseTimer timer(accounts_.phases, "output");
   const bool history = clock.due(run_.config.output.history_interval);
   if (history) write_history();
+  if (history && clock.step > 0) write_bodies();
   write_frames();
   if (clock.step == 0) return;
   if (restart_due() && clock.step < clock.end) write_restart();
@@ -129,6 +130,12 @@ void ResultsWriter::write_history() {
   }
   if (rank_of(run_.ranks) == 0) append_record(folder_, row);
   accounts_.interval = {};
+}
+
+void ResultsWriter::write_bodies() {
+  const auto rows = accounts_.bodies.take(run_.clock.time(), run_.coupled_step);
+  if (rank_of(run_.ranks) != 0) return;
+  for (const BodyRecord& body : rows) append_record(folder_, body);
 }
 
 void ResultsWriter::write_frames() {

@@ -29,6 +29,7 @@ class ResultsWriter {
  private:
   double check_grain_step();
   void write_history();
+  void write_bodies();
   void write_frames();
   bool restart_due() const;
 

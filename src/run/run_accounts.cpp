@@ -84,9 +84,11 @@ void RunAccounts::save(CheckpointWriter& file) const {
       interval.continuity_residual,        interval.courant,
       interval.impulse_on_grains.x,        interval.impulse_on_grains.z};
   file.array("since_history_row", std::span<const double>(numbers));
+  bodies.save(file);
 }
 
 void RunAccounts::load(const CheckpointReader& file) {
+  bodies.load(file);
   if (!file.has("since_history_row")) return;
   auto numbers = file.array<double>("since_history_row", file.extents("since_history_row"));
   numbers.resize(6);  // earlier versions have four or five

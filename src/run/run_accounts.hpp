@@ -5,6 +5,7 @@
 
 #include "src/base/report.hpp"
 #include "src/parallel/exchange.hpp"
+#include "src/run/body_sums.hpp"
 #include "src/run/run_state.hpp"
 
 namespace barchan {
@@ -24,6 +25,7 @@ struct FluidStepSums {
 /// Sums, extremes and rates for history.csv, the progress line and run.json.
 struct RunAccounts {
   FluidStepSums interval, all;        // since the last row of history.csv; since begin()
+  BodySums bodies{0};                 // since the last lines of bodies.csv
   double max_overlap = 0;             // over the mean diameter of the pair
   double grain_step_over_stable = 0;  // largest
   std::int64_t grain_steps = 0;

@@ -30,6 +30,7 @@ Simulation::Simulation(const Config& config, const RunOptions& options, const In
       run_(config, restart_.get(), files),
       diagnostics_(run_),
       state_checks_(config, run_.ranks) {
+  accounts_.bodies = BodySums(config.bodies.size());
   if (restart_) {
     diagnostics_.load(*restart_);
     accounts_.load(*restart_);
@@ -112,6 +113,7 @@ void Simulation::one_step() {
     const PhaseTimer timer(accounts_.phases, "state_checks");
     state_checks_.check(run_.state, run_.coupled_step);
   }
+  accounts_.bodies.add(run_.coupled_step);
   if (!run_.state.fluid) return;
   for (FluidStepSums* sums : {&accounts_.interval, &accounts_.all})
     sums->add(run_.coupled_step.fluid_report(), run_.clock.fluid_step,
