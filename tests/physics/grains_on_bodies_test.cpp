@@ -119,12 +119,12 @@ TEST(GrainsOnBodies, AGrainOnASlopeStaysOrSlides) {
     const Real angle = 0.45, mu = 0.1;
     const Slide slides = slide(material(mu, 0.1), on_dune, angle, time);
     const Real expected = kG * (std::sin(angle) - mu * std::cos(angle));
-    expect_relative(where + ", it slides with", slides.speed / time, expected, 5e-3);
+    expect_relative(where + ", it slides with", slides.speed / time, expected, 1e-4);
     expect_relative(where + ", and turns with", slides.spin / time,
-                    2.5 * mu * kG * std::cos(angle) / kRadius, 2e-2);
+                    2.5 * mu * kG * std::cos(angle) / kRadius, 1e-4);
     const Slide rolls = slide(material(0.6, 0.1), on_dune, angle, time);
     expect_relative(where + ", it rolls with", rolls.speed / time, kG * std::sin(angle) * 5 / 7,
-                    5e-3);
+                    1e-4);
     const Real mu_r = std::tan(angle);
     const Slide stays = slide(material(0.6, 0.1, 1.05 * mu_r), on_dune, angle, 5 * time);
     expect_below(where + ", below the angle of rolling it goes", stays.speed, 1e-6);
@@ -161,8 +161,8 @@ TEST(GrainsOnBodies, AGrainLeavesABallWhereTheoryPutsIt) {
       const Real cosine = (k.x.y - centre.y) / norm(k.x - centre);
       const Real expected = std::cos(begin) * (rolls ? 10.0 / 17 : 2.0 / 3);
       const std::string claim = shape.name + (rolls ? ", it rolls" : ", it slides");
-      expect_relative(claim + ", and leaves at cos", cosine, expected, 1e-2);
-      expect_below(claim + ", energy off by", std::abs(total(k) - first) / (k.m * kG * way), 2e-3);
+      expect_relative(claim + ", and leaves at cos", cosine, expected, 5e-3);
+      expect_below(claim + ", energy off by", std::abs(total(k) - first) / (k.m * kG * way), 1e-4);
     }
   }
 }
@@ -201,7 +201,7 @@ TEST(GrainsOnBodies, ASpringDoesNotDriftAroundACylinder) {
   const Real force = mass * (press - speed * speed / way);
   const Real sinks = std::pow(3 * force / (4 * e_eff(config) * std::sqrt(kRadius)), 2.0 / 3);
   expect_below("slip over speed", slip, 1e-3);
-  expect_below("spring over overlap", stretched / sinks, 0.1);
+  expect_below("spring over overlap", stretched / sinks, 0.01);
   expect_below("its part along the normal over overlap", along / sinks, 1e-3);
 }
 

@@ -99,10 +99,31 @@ TEST(ConfigKeys, ARestartKeepsWhatItsNumbersRestOn) {
       EXPECT_EQ(changed[0], key.dotted() + " " + was + " -> " + now);
     }
   });
-  EXPECT_EQ(fixed, (Lines{"time.fluid_step", "domain.size", "fluid.cells",
-                          "fluid.first_cell_height", "fluid.uniform_height", "grains.density",
-                          "grains.boundary_x", "grains.boundary_z", "grains.floor",
-                          "grains.floor_diameter", "grains.kind.name", "grains.kind.density"}));
+  EXPECT_EQ(fixed, (Lines{"time.fluid_step",
+                          "domain.size",
+                          "fluid.cells",
+                          "fluid.first_cell_height",
+                          "fluid.uniform_height",
+                          "grains.density",
+                          "grains.boundary_x",
+                          "grains.boundary_z",
+                          "grains.floor",
+                          "grains.floor_diameter",
+                          "grains.kind.name",
+                          "grains.kind.density",
+                          "body.name",
+                          "body.shape",
+                          "body.centre",
+                          "body.base",
+                          "body.axis",
+                          "body.radius",
+                          "body.height",
+                          "body.length",
+                          "body.size",
+                          "body.lee",
+                          "body.spacing",
+                          "body.wavelength",
+                          "body.angle"}));
   EXPECT_EQ(restart_conflicts(Config{}, full_case()),
             (Lines{"[fluid]: it was written by a case with this section",
                    "[grains]: it was written by a case with this section"}));
