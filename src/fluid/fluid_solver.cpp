@@ -65,9 +65,8 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fracti
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
   const bool knows_where = exchange != nullptr && exchange->regions != nullptr;
-  regions_ = knows_where            ? exchange->regions
-             : bodies_ && is_clear_ ? &bodies_->regions()
-                                    : &everywhere_;
+  const bool bodies_alone = bodies_ && is_clear_ && exchange == nullptr;
+  regions_ = knows_where ? exchange->regions : bodies_alone ? &bodies_->regions() : &everywhere_;
   if (bodies_) bodies_->forget_change(fluid.alpha_f, fluid.alpha_f_previous);
   if (is_variable(fraction_)) boundary_.fill_scalars(fluid.alpha_f, fluid.alpha_f_previous);
   if (fluid.time == 0)

@@ -130,14 +130,6 @@ TEST(BodiesInFlow, CouetteFlowIsExactOnStretchedRows) {
   }
 }
 
-// Flow along the rods of a square array, half of each in this box between planes of symmetry.
-// Drummond & Tahir, Int. J. Multiphase Flow 10, 515 (1984): permeability
-//   K / a^2 = (-ln c - 1.476 + (2 c - 0.796 c^2) / (1 + 0.489 c - 1.605 c^2)) / (4 c).
-double permeability_along(double c) {
-  return (-std::log(c) - 1.476 + (2 * c - 0.796 * c * c) / (1 + 0.489 * c - 1.605 * c * c)) /
-         (4 * c);
-}
-
 /// A rod of volume fraction c in the middle of a square box of n x n cells; shifted along z by a
 /// part of a cell. Flow along it until it is steady. Returns K / a^2.
 double measured_permeability_along(double c, int n, double shift) {
@@ -152,8 +144,8 @@ double measured_permeability_along(double c, int n, double shift) {
   config.bodies = {rod};
   FlowRun run(config);
   run.start_uniform(0);
-  const double dt = 0.2 * size * size / n / n / nu;
-  for (double before = -1, now = 0; std::abs(now - before) > 1e-5 * now || now == 0;) {
+  const double dt = 0.08 * size * size / n / n / nu;  // explicit diffusion allows 1/12
+  for (double before = -1, now = 0; !(std::abs(now - before) <= 1e-5 * now) && !std::isnan(now);) {
     before = now;
     for (int s = 0; s < 50; ++s) run.advance(dt);
     now = bulk_velocity(run.fluid);
@@ -161,18 +153,21 @@ double measured_permeability_along(double c, int n, double shift) {
   return bulk_velocity(run.fluid) * 1000 * nu / (a * a);
 }
 
-TEST(BodiesInFlow, AlongASquareArrayOfRodsItIsDrummondAndTahirs) {
-  for (const double c : {0.3}) {
-    const double exact = permeability_along(c);
-    double worst[2] = {};
-    for (const int fine : {0, 1}) {
-      for (const double shift : {0.0, 0.37})
-        worst[fine] =
-            std::max(worst[fine],
-                     std::abs(measured_permeability_along(c, fine ? 24 : 12, shift) / exact - 1));
+// u = A ln(r / a) - (r^2 - a^2) / 4 + sum B_n (r^4n - a^8n r^-4n) cos 4 n phi vanishes on the rod;
+// with no slope on the sides of the square its mean is K / a^2 = 0.2351908 for c = 0.3. The first
+// terms of Drummond & Tahir, Int. J. Multiphase Flow 10, 515 (1984), (-ln c - 1.476 + 2 c - c^2 /
+// 2) / 4 c, are 0.2355.
+TEST(BodiesInFlow, AlongASquareArrayOfRodsItIsOfSecondOrder) {
+  double worst[2] = {};
+  for (const int fine : {0, 1}) {
+    for (const double shift : {0.0, 0.37}) {
+      const double k = measured_permeability_along(0.3, fine ? 24 : 12, shift);
+      worst[fine] = std::max(worst[fine], std::abs(k / 0.2351908 - 1));
     }
-    std::printf("[ measured ] along rods, c = %g: errors %.3g, %.3g\n", c, worst[0], worst[1]);
   }
+  expect_below("flow along rods, error of the permeability, 15 cells to a diameter", worst[1],
+               0.01);
+  expect_order("flow along rods, permeability", worst[0], worst[1], 2, 0.3);
 }
 
 /// A cylinder along z of volume fraction c in the middle of a square box, with Stokes flow along x
@@ -189,8 +184,8 @@ double measured_drag_across(double c, int n, double shift) {
   config.bodies = {rod};
   FlowRun run(config);
   run.start_uniform(0);
-  const double dt = 0.2 * size * size / n / n / nu;
-  for (double before = -1, now = 0; std::abs(now - before) > 1e-5 * now || now == 0;) {
+  const double dt = 0.08 * size * size / n / n / nu;  // explicit diffusion allows 1/12
+  for (double before = -1, now = 0; !(std::abs(now - before) <= 1e-5 * now) && !std::isnan(now);) {
     before = now;
     for (int s = 0; s < 50; ++s) run.advance(dt);
     now = bulk_velocity(run.fluid);
@@ -200,17 +195,12 @@ double measured_drag_across(double c, int n, double shift) {
   return drag / (1000 * nu * bulk_velocity(run.fluid));
 }
 
-// Sangani & Acrivos, Int. J. Multiphase Flow 8, 193 (1982), table 1: F / (mu U) of square arrays.
+// Sangani & Acrivos, Int. J. Multiphase Flow 8, 193 (1982), table 1: F / (mu U) of square arrays is
+// 102.90 at c = 0.3. Fluxes end at whole faces, so the error of the finer mesh is not always less.
 TEST(BodiesInFlow, AcrossASquareArrayOfCylindersItIsSanganiAndAcrivos) {
-  for (const auto& [c, exact] : {std::pair{0.3, 102.90}}) {
-    double worst[2] = {};
-    for (const int fine : {0, 1}) {
-      for (const double shift : {0.0, 0.37})
-        worst[fine] = std::max(
-            worst[fine], std::abs(measured_drag_across(c, fine ? 24 : 12, shift) / exact - 1));
-    }
-    std::printf("[ measured ] across cylinders, c = %g: errors %.3g, %.3g\n", c, worst[0],
-                worst[1]);
+  for (const double shift : {0.0, 0.37}) {
+    const double drag = measured_drag_across(0.3, 24, shift);
+    expect_relative("drag across cylinders, 15 cells to a diameter", drag, 102.90, 0.015);
   }
 }
 

@@ -17,19 +17,37 @@ using namespace test;
 constexpr double kDiameter = 0.1, kHeight = 0.41, kNu = 1e-3, kRho = 1;  // [m], [m^2/s], [kg/m^3]
 constexpr double kCentreX = 0.5, kCentreY = 0.2;
 
-/// The channel is periodic and its bulk velocity U is held: `length` must be long enough for the
-/// wake to become a parabola again. `n` cells to a diameter.
+/// The channel is periodic and its bulk velocity U is held. The benchmark has a parabola two
+/// diameters before the cylinder, where without it the flow already knows of the cylinder: the drag
+/// is 5 % less in a longer inlet. So the water is pushed towards the parabola between 2 and 4
+/// diameters before. `n` cells to a diameter.
 struct Benchmark {
   double bulk;
   int n;
   FlowRun run;
+  ExchangeOnFaces inlet;
   double dt;
 
   Benchmark(double u, int cells, double length)
-      : bulk(u), n(cells), run(config_of(u, cells, length)), dt(0.22 * kDiameter / cells / u) {
-    dt = std::min(dt, 0.15 * kDiameter * kDiameter / cells / cells / kNu);
+      : bulk(u),
+        n(cells),
+        run(config_of(u, cells, length)),
+        inlet{make_faces("test: inlet", run.grid)},
+        dt(0.22 * kDiameter / cells / u) {
+    dt = std::min(dt, 0.1 * kDiameter * kDiameter / cells / cells / kNu);
     run.start([&](int, int j, int) { return parabola(run.h.y(j)); });
     run.solver.flow_around_bodies(run.fluid);
+  }
+  void advance() {
+    const auto u = to_host(run.fluid.u.x), v = to_host(run.fluid.u.y);
+    const auto in_inlet = [&](double x) { return x > kCentreX - 0.4 && x < kCentreX - 0.1999; };
+    set_field(inlet.impulse.x, run.grid, [&](int i, int j, int k) {
+      return in_inlet(i * run.grid.dx) ? 0.5 * kRho * (parabola(run.h.y(j)) - u(i, j, k)) : 0;
+    });
+    set_field(inlet.impulse.y, run.grid, [&](int i, int j, int k) {
+      return in_inlet(run.h.x(i)) && j > 0 ? -0.5 * kRho * v(i, j, k) : 0;
+    });
+    run.advance(dt, &inlet);
   }
   double parabola(double y) const { return 6 * bulk * y * (kHeight - y) / (kHeight * kHeight); }
   static Config config_of(double u, int n, double length) {
@@ -88,10 +106,10 @@ struct Benchmark {
     while (i + 1 < run.grid.nx && at(i + 1) < 0) ++i;
     return (i + at(i) / (at(i) - at(i + 1))) * h - kCentreX - kDiameter / 2;
   }
-  /// Largest difference to the parabola a diameter and a half upstream, over the bulk velocity.
+  /// Largest difference to the parabola two diameters upstream, over the bulk velocity.
   double inflow_error() const {
     const auto u = to_host(run.fluid.u.x);
-    const int i = static_cast<int>((kCentreX - 0.2) / run.grid.dx);
+    const int i = static_cast<int>((kCentreX - 0.2) / run.grid.dx + 0.5);
     double error = 0;
     for (int j = 0; j < run.grid.ny; ++j)
       error = std::max(error, std::abs(u(i, j, 0) - parabola(run.h.y(j))));
@@ -109,7 +127,7 @@ Steady steady_flow(int n, double length) {
   const int each = static_cast<int>(1 / flow.dt);
   for (int second = 0; second < 60 && std::abs(drag - before) > 1e-5 * drag; ++second) {
     before = drag;
-    for (int s = 0; s < each; ++s) flow.run.advance(flow.dt);
+    for (int s = 0; s < each; ++s) flow.advance();
     drag = flow.coefficients().first;
   }
   const auto [cd, cl] = flow.coefficients();
