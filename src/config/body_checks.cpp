@@ -13,7 +13,7 @@ namespace barchan {
 namespace {
 
 constexpr std::size_t kMostBodies = 8;
-constexpr double kFewCells = 4;  // across the smallest size of a body
+constexpr double kFewCells = 4;  // across a body
 
 std::string key_of(std::size_t n, std::string_view key) {
   return fmt::format("body.{}.{}", n + 1, key);
@@ -91,6 +91,9 @@ bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
                            {key_of(n, "spacing"), key_of(n, "radius")},
                            "must be above the diameter of a post, {:.3g} m", 2 * body.radius);
   if (body.shape != BodyShape::dune) return true;
+  if (found.error_if(body.base > 0, {key_of(n, "base"), key_of(n, "shape")},
+                     "must be at most 0 with shape = \"dune\", which stands on the floor"))
+    return false;
   if (found.error_if(body.size[0] == 0 || body.size[1] == 0, {key_of(n, "size")},
                      "must be above 0 along x and along z"))
     return false;
@@ -122,14 +125,20 @@ void check_place(const Config& c, std::size_t n, Findings& found) {
       "must fit into the length of the domain, {:.4g} m, a whole number of times", c.size[0]);
 }
 
+/// Along the floor against the cells, upwards against the lowest rows.
 void check_resolution(const Config& c, std::size_t n, Findings& found) {
   const auto [nx, ny, nz] = c.fluid->cells;
   double cell = c.size[0] / nx;
   if (nz > 1) cell = std::max(cell, c.size[2] / nz);
-  const double cells = smallest_size(c.bodies[n]) / cell;
-  found.warning_if(cells < kFewCells, {key_of(n, "shape"), "fluid.cells"},
-                   "has {:.1f} cells across its smallest size; below {} the flow hardly sees it",
-                   cells, kFewCells);
+  const double first = c.fluid->first_cell_height, row = first > 0 ? first : c.size[1] / ny;
+  const double across = smallest_width(c.bodies[n]) / cell;
+  const double upwards = body_height(c.bodies[n]) / row;
+  found.warning_if(across < kFewCells, {key_of(n, "shape"), "fluid.cells"},
+                   "has {:.1f} cells across its smallest width; below {} the flow hardly sees it",
+                   across, kFewCells);
+  found.warning_if(upwards < kFewCells, {key_of(n, "shape"), "fluid.cells"},
+                   "is {:.1f} rows of cells high; below {} the flow hardly sees it", upwards,
+                   kFewCells);
 }
 
 }  // namespace

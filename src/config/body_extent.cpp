@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace barchan {
 namespace {
@@ -35,13 +36,13 @@ HalfSizes half_sizes(const BodyConfig& b) {
   return {};
 }
 
-double height_of(const BodyConfig& b) {
+}  // namespace
+
+double body_height(const BodyConfig& b) {
   if (b.shape == BodyShape::half_sphere) return b.radius;
   const bool lies = b.shape == BodyShape::cylinder && b.axis != BodyAxis::y;
   return lies || b.shape == BodyShape::sphere ? 2 * b.radius : b.height;
 }
-
-}  // namespace
 
 BodyExtent body_extent(const BodyConfig& b, const std::array<double, 3>& domain) {
   const HalfSizes half = half_sizes(b);
@@ -49,7 +50,7 @@ BodyExtent body_extent(const BodyConfig& b, const std::array<double, 3>& domain)
   const double x = b.shape == BodyShape::dune ? b.centre[0] + b.lee - half.x : b.centre[0];
   const double z = b.centre[1];
   BodyExtent extent{{x - half.x, b.base, z - half.z},
-                    {x + half.x, b.base + height_of(b), z + half.z}};
+                    {x + half.x, b.base + body_height(b), z + half.z}};
   if (half.x == 0) extent.low[0] = 0, extent.high[0] = domain[0];
   if (half.z == 0) extent.low[2] = 0, extent.high[2] = domain[2];
   return extent;
@@ -59,9 +60,9 @@ int fence_posts(const BodyConfig& fence) {
   return 1 + static_cast<int>(std::floor(fence.length / fence.spacing * (1 + 1e-9)));
 }
 
-double smallest_size(const BodyConfig& b) {
-  double smallest = height_of(b);
-  for (const double size : {2 * b.radius, b.size[0], b.size[1]})
+double smallest_width(const BodyConfig& b) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double size : {2 * b.radius, b.size[0], b.size[1], b.wavelength})
     if (size > 0) smallest = std::min(smallest, size);
   return smallest;
 }

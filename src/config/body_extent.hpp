@@ -17,7 +17,10 @@ BodyExtent body_extent(const BodyConfig& body, const std::array<double, 3>& doma
 /// Posts of a fence.
 int fence_posts(const BodyConfig& fence);
 
-/// The shortest length that flow and grains should see of it [m]: a diameter, a side, a height.
-double smallest_size(const BodyConfig& body);
+/// Its height [m].
+double body_height(const BodyConfig& body);
+
+/// Its smallest size along the floor [m]: a diameter, a side, a wavelength.
+double smallest_width(const BodyConfig& body);
 
 }  // namespace barchan
