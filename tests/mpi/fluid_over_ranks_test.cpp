@@ -278,7 +278,8 @@ TEST(FluidOverRanks, FlowAroundBodiesAsOnOneRank) {
     there.fill_ghosts(flows.there);
     here.flow_around_bodies(flows.here);
     there.flow_around_bodies(flows.there);
-    flows.expect_same(1e-9);  // of a pressure that is solved for to 1e-12
+    // Of a pressure that is solved for to 1e-12.
+    EXPECT_LT(flows.grid.difference(flows.there.u.x, flows.here.u.x), 1e-9);
     for (int step = 0; step < 5; ++step) {
       const FluidStepReport report = here.advance(flows.here, nullptr, 1e-3);
       const FluidStepReport report_there = there.advance(flows.there, nullptr, 1e-3);
