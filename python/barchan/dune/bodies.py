@@ -52,6 +52,7 @@ class Body:
 
     @property
     def top(self) -> float:
+        """Height of its highest point above the floor [m]."""
         return self.base + self.tall
 
     @property
@@ -83,12 +84,15 @@ class Body:
         return c * sx + s * sz, c * sz - s * sx
 
     def placed(self, p: np.ndarray, q: np.ndarray) -> np.ndarray:
-        """(n, 2) x and z of places along and across [m]."""
+        """(n, 2) x and z of places p (n) along and q (n) across [m]."""
         c, s = np.cos(self.angle), np.sin(self.angle)
         return np.stack([self.centre[0] + c * p - s * q, self.centre[1] + s * p + c * q], axis=-1)
 
     def distance(self, x: np.ndarray) -> np.ndarray:
-        """(...) from places x (..., 3) to the surface [m], negative inside."""
+        """(...) from places x (..., 3) to the surface [m], negative inside.
+
+        The distances below are of p along, y above the lowest point and q across, all of one shape (...), in m.
+        """
         x = np.asarray(x, float)
         p, q = self.local(x[..., 0], x[..., 2])
         return getattr(self, f"_to_{self.form}")(p, x[..., 1] - self.base, q)
@@ -146,6 +150,7 @@ class Body:
         return np.where(above, np.sqrt(p**2 + (y - self.height)**2 + q**2), best)
 
     def _half_axes(self, p: np.ndarray) -> tuple[np.ndarray, float]:
+        """Of a dune's foot [m]: along, upstream or downstream of the crest by the sign of p, and across."""
         return np.where(p < 0, self.size[0] - self.lee, self.lee), 0.5 * self.size[1]
 
     def _to_wave(self, p: np.ndarray, y: np.ndarray, q: np.ndarray) -> np.ndarray:
@@ -219,7 +224,7 @@ class Body:
         return [self._rectangle(a, b)]
 
     def _rectangle(self, a: float, b: float) -> np.ndarray:
-        """Of half sizes a along and b across; 0: through the whole domain."""
+        """Of half sizes a along and b across [m]; 0: through the whole domain."""
         corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)], float)
         places = self.placed(a * corners[:, 0], b * corners[:, 1])
         for axis, half, length in ((0, a, self.domain[0]), (1, b, self.domain[2])):
@@ -228,7 +233,7 @@ class Body:
         return places
 
     def _stripes(self, up: float) -> list[np.ndarray]:
-        """Of a wave: where it is higher than `up`."""
+        """Of a wave: where it is higher than `up` [m]."""
         share = np.clip(2 * up / self.height - 1, -1, 1)
         half, n = np.arccos(share) / (2 * np.pi) * self.wavelength, round(self.domain[0] / self.wavelength)
         first = self.centre[0] % self.wavelength
@@ -271,14 +276,14 @@ class Body:
 
 
 def _corner(*faces: np.ndarray) -> np.ndarray:
-    """Distance to a convex body from those to its faces, which meet at right angles."""
+    """Distance to a convex body from those to its faces, which meet at right angles; all (...) in m."""
     nearest = np.maximum.reduce(faces)
     outside = np.sqrt(sum(np.maximum(face, 0.0)**2 for face in faces))
     return np.where(np.sum([face > 0 for face in faces], axis=0) < 2, nearest, outside)
 
 
 def _ring(a: float, b: float) -> tuple[np.ndarray, np.ndarray]:
-    """Along and across of an ellipse of half axes a and b, closed."""
+    """Along (POINTS) and across (POINTS) of an ellipse of half axes a and b, closed [m]."""
     angle = np.linspace(0, 2 * np.pi, POINTS)
     return a * np.cos(angle), b * np.sin(angle)
 

@@ -32,6 +32,7 @@ def need_bodies(run: RunFolder, files: str) -> tuple[Body, ...]:
 
 
 def column(of: str, axis: str) -> str:
+    """Its name in bodies.csv."""
     return f"{'grain_' if of == OF_GRAINS else ''}force_{axis}"
 
 
@@ -65,8 +66,9 @@ def drag_coefficient(run: RunFolder, force: MeanForce) -> float:
 
 
 def sentences(run: RunFolder, found: list[MeanForce]) -> list[str]:
+    """One for each body."""
     told = []
-    for body in {force.body: None for force in found}:
+    for body in dict.fromkeys(force.body for force in found):
         own = {(force.of, force.axis): force for force in found if force.body == body}
         parts = [f"{of}: {own[of, 'x'].mean:.3g} N along x (spread {own[of, 'x'].deviation:.2g}), "
                  f"{own[of, 'y'].mean:.3g} N upwards (spread {own[of, 'y'].deviation:.2g})"

@@ -45,9 +45,12 @@ class Obstacle:
 
 @dataclass
 class Meeting:
-    """A dune and an obstacle. Times [s], not a number for what did not happen; shares of the dune's grains at the end;
-    `over`: of those downstream that were seen on top of it, or in it, `together`: within 1.5 of the first length;
-    celerities [m/s] in the second before the contact and the last one."""
+    """A dune and an obstacle. Times [s], NaN for what did not happen.
+
+    Shares of the dune's grains at the end: `upstream`, `around`, `downstream`; `over`: of those downstream the share
+    that was seen on top of the obstacle, or in it; `together`: within TOGETHER times the first length. Celerities [m/s]
+    over the last second before the contact, and before the end.
+    """
 
     dune: str
     obstacle: str
@@ -68,8 +71,8 @@ class Meeting:
 
 @dataclass
 class Path:
-    """Against t (F) [s]: s (F), the mean place of the dune's grains along the current from the middle of the obstacle
-    [m], and shares (F, 3) upstream, around and downstream; `ends`: of the obstacle [m]."""
+    """Against t (F) [s]: s (F), the median place of the dune's grains along the current from the middle of the
+    obstacle [m], and shares (F, 3) upstream, around and downstream; `ends`: of the obstacle [m]."""
 
     t: np.ndarray
     s: np.ndarray
@@ -175,6 +178,7 @@ class _Followed:
         self.touched: list[float] = []
 
     def see(self, grains: Grains) -> None:
+        """The next frame."""
         place = np.minimum(np.searchsorted(self.ids, grains.id), len(self.ids) - 1)
         own = self.ids[place] == grains.id
         place, x = place[own], grains.x[own]
@@ -189,15 +193,16 @@ class _Followed:
         self.s.append((at[:, (0, 2)] - self.middle) @ self.way)  # NaN: it has left
 
     def tell(self) -> Meeting:
+        """From all frames that it has seen."""
         t, s = np.array(self.t), np.array(self.s)
         gone = ~np.isfinite(s)
         shares = np.stack([np.mean(~gone & (s < self.ends[0]), axis=1),
                            np.mean(~gone & (s >= self.ends[0]) & (s <= self.ends[1]), axis=1),
                            np.mean(gone | (s > self.ends[1]), axis=1)], axis=1)
         contact = np.flatnonzero(np.array(self.touched) >= TOUCH)
-        mean = np.array([np.nanmedian(row) if np.isfinite(row).any() else np.nan for row in s])
+        median = np.array([np.nanmedian(row) if np.isfinite(row).any() else np.nan for row in s])
         before = t[contact[0]] if len(contact) else t[-1]
-        speeds = _slope(t, mean, before), _slope(t, mean, t[-1])
+        speeds = _slope(t, median, before), _slope(t, median, t[-1])
         passed = gone[-1] | (s[-1] > self.ends[1])
         over = float(np.mean(self.on[passed])) if passed.any() else np.nan
         together = _together(s[-1], TOGETHER * (np.nanquantile(s[0], 0.975) - np.nanquantile(s[0], 0.025)))
@@ -205,7 +210,7 @@ class _Followed:
         upstream, around, downstream = map(float, shares[-1])
         return Meeting(self.name, self.obstacle.name, self.obstacle.kind, outcome,
                        float(before) if len(contact) else np.nan, float(t[-1]), len(self.ids), upstream, around,
-                       downstream, over, together, *speeds, Path(t, mean, shares, self.ends))
+                       downstream, over, together, *speeds, Path(t, median, shares, self.ends))
 
 
 def _slope(t: np.ndarray, s: np.ndarray, end: float) -> float:
@@ -223,6 +228,7 @@ def _together(s: np.ndarray, length: float) -> float:
 
 def _outcome(kind: str, shares: np.ndarray, over: float, together: float, speeds: tuple[float, float],
              met: bool) -> str:
+    """The class, from shares (3) upstream, around, downstream and speeds [m/s] before the contact and at the end."""
     downstream, stands = shares[2] >= HALF, speeds[1] < SLOW * speeds[0]
     if kind == "body":
         if downstream:
@@ -244,6 +250,7 @@ def table(found: list[Meeting]) -> dict[str, list[Any]]:
 
 
 def sentences(found: list[Meeting]) -> list[str]:
+    """One for each meeting."""
     told = []
     for one in found:
         contact = "no contact" if np.isnan(one.t_contact) else f"contact at {one.t_contact:.4g} s"

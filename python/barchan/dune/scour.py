@@ -59,12 +59,10 @@ class BedMap:
         return nearest(bodies, np.stack([x, np.full_like(x, self.level), z], axis=-1))
 
     def _median(self, top: np.ndarray) -> np.ndarray:
+        """Of 3 x 3 bins (nx, nz) without NaN; 0 where all are NaN."""
         for axis in (0, 1):
             edge = [(1, 1) if axis == each else (0, 0) for each in (0, 1)]
-            if self.bed.periodic[axis]:
-                top = np.pad(top, edge, mode="wrap")
-            else:
-                top = np.pad(top, edge, mode="edge")
+            top = np.pad(top, edge, mode="wrap" if self.bed.periodic[axis] else "edge")
         nx, nz = len(self.x), len(self.z)
         views = np.stack([top[i:i + nx, k:k + nz] for i in range(3) for k in range(3)])
         held = np.isfinite(views).any(axis=0)
@@ -92,7 +90,7 @@ class BedMap:
 
 
 def diameter(body: Body) -> float:
-    """Of what is round; else the width across x, of what goes through the domain the height [m]."""
+    """D [m]: of what is round the diameter, else the width along z, or the height if the body has no ends there."""
     if body.radius > 0:
         return 2 * body.radius
     return body.size[1] if body.size[1] > 0 else body.height

@@ -26,10 +26,11 @@ def draw_plan(axes, bodies, named=False, **options):
             patch(axes, outline, **{"fill": False} | options)
         if named and len(bodies) > 1:
             x0, x1, z0, _ = body.reach
-            at_the_end = x1 > 0.9 * body.domain[0]
-            axes.annotate(body.name, (1e3 * x0 if at_the_end else 500 * (x0 + x1), 1e3 * z0),
-                          xytext=(-3 if at_the_end else 0, -8 if at_the_end else 2), textcoords="offset points",
-                          ha="right" if at_the_end else "center", va="bottom", fontsize=7, color=style.BODY_EDGE)
+            x, shift, side = 0.5 * (x0 + x1), (0, 2), "center"
+            if x1 > 0.9 * body.domain[0]:  # else the name would run out of the picture
+                x, shift, side = x0, (-3, -8), "right"
+            axes.annotate(body.name, (1e3 * x, 1e3 * z0), xytext=shift, textcoords="offset points", ha=side,
+                          va="bottom", fontsize=7, color=style.BODY_EDGE)
 
 
 def draw_section(axes, bodies, z, shift=0.0, **options):
@@ -40,5 +41,6 @@ def draw_section(axes, bodies, z, shift=0.0, **options):
 
 
 def patch(axes, outline, **options):
+    """An outline (n, 2) [m]."""
     look = {"fc": style.BODY, "ec": style.BODY_EDGE, "lw": 0.7, "zorder": 2.6} | options
     axes.add_patch(Polygon(1e3 * outline, closed=True, **look))

@@ -1,8 +1,9 @@
 """flow_around_body: mean velocity and streamlines in the vertical plane through each body, and its separation bubble.
 
 Colour: mean streamwise velocity of the cells, of flow_average.h5, or of the frames of fields.h5 (second half of the
-run, or --from, --to). Bodies are grey, cells in grains have the colour of sand. The red line is u = 0; the triangle
-marks the reattachment point x_r, where u in the lowest row of water is forward again.
+run, or --from, --to). Bodies are grey, cells in grains have the colour of sand. The red line is u = 0. The triangle
+marks the reattachment point x_r, where u in the lowest row of water is forward again; a dot marks it at half the height
+of a body with water below it.
 """
 
 import numpy as np
@@ -28,11 +29,10 @@ def draw(run, ax=None, start=None, end=None):
     ratios = [(y1 - y0) / (x1 - x0) for x0, x1, y0, y1 in views]
     figure, grid = style.panels(ax, len(shown), 1, height_ratios=ratios,
                                 figsize=(style.FULL_WIDTH, 0.9 + 0.4 * len(shown) + 6.2 * sum(ratios)))
-    low, high = (limit([plane.u[plane.water] for plane, _ in shown]) for limit in
-                 (lambda parts: min(float(np.min(part)) for part in parts),
-                  lambda parts: max(float(np.max(part)) for part in parts)))
+    u = np.concatenate([plane.u[plane.water] for plane, _ in shown])
+    limits = min(float(u.min()), 0.0), float(u.max())
     for index, (axes, (plane, one), window) in enumerate(zip(grid[:, 0], shown, views)):
-        image = draw_plane(axes, run, plane, one, window, min(low, 0.0), high)
+        image = draw_plane(axes, run, plane, one, window, limits)
         style.panel_label(axes, index)
         axes.set_title(title(plane, one), pad=3)
         axes.set_ylabel("$y$ (mm)")
@@ -64,11 +64,11 @@ def view(plane, found):
     return x0, x1, 0.0, min(plane.y_face[-1], max(1.8 * plane.body.top, 0.16 * (x1 - x0)))
 
 
-def draw_plane(axes, run, plane, found, window, low, high):
+def draw_plane(axes, run, plane, found, window, limits):
     axes.set(xlim=1e3 * np.array(window[:2]), ylim=1e3 * np.array(window[2:]), aspect="equal")
     u = np.where(plane.solid, np.nan, plane.u)
-    image = axes.pcolormesh(1e3 * plane.x_face, 1e3 * plane.y_face, u, vmin=low, vmax=high, cmap=style.VELOCITY_MAP,
-                            rasterized=True)
+    image = axes.pcolormesh(1e3 * plane.x_face, 1e3 * plane.y_face, u, vmin=limits[0], vmax=limits[1],
+                            cmap=style.VELOCITY_MAP, rasterized=True)
     draw_streamlines(axes, plane, window)
     if plane.bed.any():
         bed = np.ma.masked_where(~plane.bed, np.ones_like(plane.u))
@@ -79,12 +79,16 @@ def draw_plane(axes, run, plane, found, window, low, high):
         axes.contour(1e3 * plane.x, 1e3 * plane.y, seen, [0.0], colors=style.VERMILLION, linewidths=1.2, zorder=2.5)
     body_pictures.draw_section(axes, body_pictures.bodies_of(run.config), plane.z, shift=-plane.body.heart[0])
     if np.isfinite(found.x_r):
-        y = 0.0 if found.row == "floor" else plane.body.base + 0.5 * plane.body.tall
-        axes.plot(1e3 * found.x_r, 1e3 * y, "^" if found.row == "floor" else "o", color=style.VERMILLION,
-                  mec=style.BLACK, mew=0.5, ms=7, clip_on=False, zorder=5)
-        axes.annotate("$x_r$", (1e3 * found.x_r, 1e3 * y), xytext=(6, 6), textcoords="offset points",
-                      color="white", zorder=5)
+        mark_reattachment(axes, plane, found)
     return image
+
+
+def mark_reattachment(axes, plane, found):
+    y, mark = (0.0, "^") if found.row == "floor" else (plane.body.base + 0.5 * plane.body.tall, "o")
+    axes.plot(1e3 * found.x_r, 1e3 * y, mark, color=style.VERMILLION, mec=style.BLACK, mew=0.5, ms=7, clip_on=False,
+              zorder=5)
+    axes.annotate("$x_r$", (1e3 * found.x_r, 1e3 * y), xytext=(6, 6), textcoords="offset points", color="white",
+                  zorder=5)
 
 
 def draw_streamlines(axes, plane, window):
@@ -94,10 +98,15 @@ def draw_streamlines(axes, plane, window):
     rows = np.clip(np.searchsorted(plane.y_face, y) - 1, 0, len(plane.y) - 1)
     columns = np.clip(np.searchsorted(plane.x_face, x) - 1, 0, len(plane.x) - 1)
     blocked = ~plane.water[np.ix_(rows, columns)]
-    u, v = (np.ma.masked_where(blocked, np.array([np.interp(y, plane.y, column) for column in np.array(
-        [np.interp(x, plane.x, row) for row in field]).T]).T) for field in (plane.u, plane.v))
+    u, v = (np.ma.masked_where(blocked, interpolated(plane, values, x, y)) for values in (plane.u, plane.v))
     axes.streamplot(1e3 * x, 1e3 * y, u, v, color="white", density=(1.6, 0.9), linewidth=0.5, arrowsize=0.6)
     axes.set(xlim=1e3 * np.array(window[:2]), ylim=1e3 * np.array(window[2:]))
+
+
+def interpolated(plane, values, x, y):
+    """Values (ny, nx) of the cells at the places x (m), y (n): (n, m), linearly."""
+    along = np.array([np.interp(x, plane.x, row) for row in values])
+    return np.array([np.interp(y, plane.y, column) for column in along.T]).T
 
 
 def keep_table(figure, planes, found):

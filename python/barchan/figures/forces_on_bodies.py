@@ -22,18 +22,17 @@ def draw(run, ax=None, start=None, end=None):
     found = body_forces.mean_forces(run, start, end)
     bodies = list(dict.fromkeys(force.body for force in found))
     scale, unit = unit_of(found)
-    figure, ((along, upwards),) = style.panels(ax, 1, 2, figsize=(style.FULL_WIDTH, 2.6 + 0.28 * len(bodies)))
-    for axes, axis in ((along, "x"), (upwards, "y")):
+    figure, (panels,) = style.panels(ax, 1, 2, figsize=(style.FULL_WIDTH, 2.6 + 0.28 * len(bodies)))
+    t = run.body_columns[bodies[0].number]["t"]
+    chosen = t[in_window(t, start, end)]
+    for index, (axes, axis) in enumerate(zip(panels, "xy")):
         for force in found:
             if force.axis == axis:
                 draw_force(axes, run, force, scale, unit, len(bodies) > 1)
-        t = run.body_columns[bodies[0].number]["t"]
-        chosen = t[in_window(t, start, end)]
         axes.axvspan(chosen[0], chosen[-1], color=style.GREY, alpha=0.12, lw=0)
         axes.axhline(0, color=style.BLACK, lw=0.5)
         axes.set(xlabel="$t$ (s)", ylabel=f"{LABELS[axis]} ({unit})", xlim=(t[0], t[-1]))
         axes.legend(loc="lower left", bbox_to_anchor=(0.07, 1.0), borderaxespad=0.1)
-    for index, axes in enumerate((along, upwards)):
         style.panel_label(axes, index)
     say(figure, body_forces.sentences(run, found))
     keep_tables(figure, run, found)
@@ -58,7 +57,7 @@ def draw_force(axes, run, force, scale, unit, several):
 
 
 def keep_tables(figure, run, found):
-    """mean_forces: a line for each body; forces_on_bodies: what is drawn."""
+    """mean_forces_on_bodies: a line for each body; forces_on_bodies: what is drawn."""
     bodies = list(dict.fromkeys(force.body for force in found))
     of = {(force.body, force.of, force.axis): force for force in found}
     means = {"body": [body.number for body in bodies], "name": [body.name for body in bodies]}

@@ -23,7 +23,7 @@ def draw(run, ax=None):
         path = one.path
         places.axhspan(*(1e3 * end for end in path.ends), color=style.BODY, lw=0)
         places.plot(path.t, 1e3 * path.s, color=style.BLUE)
-        if one.t_contact == one.t_contact:
+        if np.isfinite(one.t_contact):
             at = int(np.argmin(abs(path.t - one.t_contact)))
             places.plot(path.t[at], 1e3 * path.s[at], "o", color=style.BLACK, mfc="white", ms=4)
         for (name, colour), values in zip(PLACES, path.shares.T):

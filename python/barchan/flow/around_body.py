@@ -21,7 +21,7 @@ BEHIND = 3.0    # sizes of the body within which reversed flow must begin to be 
 
 @dataclass
 class Plane:
-    """Means from `start` to `end` [s] over `frames` frames (or samples) in the cells nearest to the plane z [m].
+    """Means from `start` to `end` [s] over so many `frames`, or samples, in the cells nearest to the plane z [m].
 
     x (nx) from the middle of the body, y (ny), centres of cells; x_face, y_face; u, v (ny, nx) [m/s]; `solid` and
     `bed` (ny, nx): cells in a body, cells in grains.
@@ -150,10 +150,12 @@ def _height(plane: Plane, x0: float, x1: float) -> float:
 
 
 def time(plane: Plane) -> str:
+    """When the means are of, in words."""
     return f"t = {plane.start:.3g} s" if plane.start == plane.end else f"t = {plane.start:.3g} to {plane.end:.3g} s"
 
 
 def sentence(plane: Plane, found: Bubble) -> str:
+    """What became of the bubble, in words."""
     size, unit = plane.body.unit
     seen = f"{plane.frames} samples, {time(plane)}" if plane.frames > 1 else time(plane)
     if np.isfinite(found.length):
