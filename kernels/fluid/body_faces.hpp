@@ -96,15 +96,7 @@ struct HoldBack {
   }
 };
 
-/// u_z += f_z dt: the drive across, where it acts.
-struct DriveAcross {
-  FieldRef u_z;
-  Real drive_dt;  // [m/s]
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    u_z(i, j, k) += drive_dt;
-  }
-};
-/// After it has acted on all faces.
+/// Takes back what of the drive across the walls hold, after it has acted on all faces.
 struct HoldBackAcross {
   const BodyFace* faces;
   FieldRef u_z;

@@ -101,6 +101,15 @@ struct ContinuityResidual {
   }
 };
 
+/// u_z += f_z dt: the drive across, where it acts.
+struct DriveAcross {
+  FieldRef u_z;
+  Real drive_dt;  // [m/s]
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    u_z(i, j, k) += drive_dt;
+  }
+};
+
 /// u = u* + f dt e_x - (dt / rho) grad p. Keeps the old velocity's change as du_dt. Walls stay at
 /// rest. With bodies a push moves the water as far as c is of alpha.
 template <Fraction fraction, bool with_bodies = false>

@@ -1,11 +1,15 @@
 #include "src/bodies/make_bodies.hpp"
 
+#include <array>
 #include <cmath>
 
+#include "src/config/body_checks.hpp"
 #include "src/config/body_extent.hpp"
 
 namespace barchan {
 namespace {
+
+static_assert(kMostBodiesOfCase == kMostBodies);
 
 BodyForm form_of(const BodyConfig& body) {
   switch (body.shape) {

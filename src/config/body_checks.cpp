@@ -12,7 +12,6 @@
 namespace barchan {
 namespace {
 
-constexpr std::size_t kMostBodies = 8;
 constexpr double kFewCells = 4;  // across a body
 
 std::string key_of(std::size_t n, std::string_view key) {
@@ -101,6 +100,10 @@ bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
                          "must be below the length of the dune, {:.3g} m", body.size[0]);
 }
 
+bool is_through(const BodyExtent& extent, const Config& c, std::size_t axis) {
+  return extent.low[axis] <= 0 && extent.high[axis] >= c.size[axis];
+}
+
 void check_place(const Config& c, std::size_t n, Findings& found) {
   const BodyExtent extent = body_extent(c.bodies[n], c.size);
   for (const std::size_t axis : {0u, 2u}) {
@@ -115,11 +118,24 @@ void check_place(const Config& c, std::size_t n, Findings& found) {
                  {key_of(n, "base"), "domain.size"},
                  "must leave a part of the body in the domain: it reaches from {:.4g} to {:.4g} m",
                  extent.low[1], extent.high[1]);
-  const bool blocks = extent.low[0] <= 0 && extent.high[0] >= c.size[0] && extent.low[2] <= 0 &&
-                      extent.high[2] >= c.size[2] && extent.high[1] >= c.size[1];
-  found.error_if(blocks, {key_of(n, "shape"), "domain.size"}, "must leave water above the body");
-  if (c.bodies[n].shape != BodyShape::wave) return;
-  const double waves = c.size[0] / c.bodies[n].wavelength;
+  const bool box = c.bodies[n].shape == BodyShape::box && c.bodies[n].angle == 0;
+  const bool blocks =
+      (box || is_through(extent, c, 0)) && is_through(extent, c, 1) && is_through(extent, c, 2);
+  found.error_if(blocks, {key_of(n, "shape"), "domain.size"},
+                 "must leave water beside or above the body");
+}
+
+/// What the periods of the domain ask for: a place knows the image whose foot is nearest.
+void check_periods(const Config& c, std::size_t n, Findings& found) {
+  const BodyConfig& body = c.bodies[n];
+  if (body.shape == BodyShape::dune)
+    found.error_if(std::max(body.lee, body.size[0] - body.lee) > c.size[0] / 2,
+                   {key_of(n, "size"), key_of(n, "lee"), "domain.size"},
+                   "must not reach farther from the crest than half the length of the domain, "
+                   "{:.4g} m",
+                   c.size[0] / 2);
+  if (body.shape != BodyShape::wave) return;
+  const double waves = c.size[0] / body.wavelength;
   found.error_if(
       std::abs(waves - std::round(waves)) > 1e-6 * waves, {key_of(n, "wavelength"), "domain.size"},
       "must fit into the length of the domain, {:.4g} m, a whole number of times", c.size[0]);
@@ -144,7 +160,8 @@ void check_resolution(const Config& c, std::size_t n, Findings& found) {
 }  // namespace
 
 void check_bodies(const Config& c, Findings& found) {
-  found.error_if(c.bodies.size() > kMostBodies, {"body"}, "must be at most {} bodies", kMostBodies);
+  found.error_if(c.bodies.size() > std::size_t{kMostBodiesOfCase}, {"body"},
+                 "must be at most {} bodies", kMostBodiesOfCase);
   for (std::size_t n = 0; n < c.bodies.size(); ++n) {
     for (std::size_t before = 0; before < n; ++before)
       found.error_if(c.bodies[before].name == c.bodies[n].name, {key_of(n, "name")},
@@ -152,6 +169,7 @@ void check_bodies(const Config& c, Findings& found) {
                      c.bodies[n].name);
     if (!check_keys(c, n, found) || !check_sizes(c.bodies[n], n, found)) continue;
     check_place(c, n, found);
+    check_periods(c, n, found);
     if (c.fluid) check_resolution(c, n, found);
   }
 }

@@ -6,7 +6,9 @@
 
 namespace barchan {
 
-/// The bodies alone, with each other, and with the domain, the cells and the grains' gravity.
+inline constexpr int kMostBodiesOfCase = 8;
+
+/// The bodies alone, with each other, and with the domain and the cells.
 void check_bodies(const Config& c, Findings& found);
 
 }  // namespace barchan

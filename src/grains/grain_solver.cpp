@@ -227,9 +227,10 @@ int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
 }
 
 void GrainSolver::advance(GrainState& grains, int n, Real dt) {
-  if (n == 0 || (grains.n == 0 && !list_.partition())) return;
+  if (n == 0) return;
   on_bodies_.begin(grains, n, strongest_on_body(grains.r_max));
   on_bodies_.find(grains, list_.rebuilds());
+  if (grains.n == 0 && !list_.partition()) return;
   kick_and_drift(grains, n, dt);
   for (int s = 0; s < n;) {
     if (list_.partition()) {

@@ -1,6 +1,7 @@
 // The bodies among the grains: which grains are near them, and what grains do to them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernels/grains/body_contact.hpp"

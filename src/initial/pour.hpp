@@ -24,8 +24,8 @@ InitialGrains pour_grains(const std::vector<HeapConfig>& heaps,
                           const std::array<double, 3>& domain);
 
 /// The same heaps moved together to about what they settle to, for measurements of time: a grain
-/// touches about four others, as in a heap at rest. Overlaps are up to half a diameter.
-/// None reaches into a body.
+/// touches about four others, as in a heap at rest. Overlaps are up to half a diameter. Each grain
+/// is moved out of the body that it is deepest in.
 InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
                             const std::array<double, 3>& domain, const Bodies& bodies);
 InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,

@@ -1,6 +1,7 @@
 // Loads on the bodies, for bodies.csv.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "src/coupling/coupled_step.hpp"

@@ -127,6 +127,42 @@ def heaps(name, says, *sections, **more):
     return Entry(name, f"[output] => {text}[output]", says, base=DRY.replace(POUR, ""), **more)
 
 
+def body(name, keys, says, **more):
+    """`keys` of a body named "post"."""
+    edits = " ;; ".join(f"[[body]] {key}" for key in ['name = "post"', *keys.split("; ")])
+    return Entry(name, edits, says, **more)
+
+
+UPRIGHT, SOLID_DUNE = 'shape = "cylinder"; centre = [0.004, 0.003]; ', 'shape = "dune"; centre = [0.008, 0.003]; '
+BODIES = [
+    body("a body of no shape that we know", 'shape = "cone"', '@shape | "cylinder" | "wave"'),
+    body("a cylinder of no radius", UPRIGHT + "height = 0.003",
+         "[body.1] radius | must be above 0 with an upright cylinder"),
+    body("a cylinder with a slope", UPRIGHT + "radius = 0.0025; height = 0.003; lee = 1e-3",
+         "@lee | must be absent with an upright cylinder"),
+    body("a body across the side", 'shape = "sphere"; centre = [0.004, 0.001]; radius = 0.0025',
+         "@centre = [0.004, 0.001 | must keep the body inside the domain along z | -0.0015"),
+    body("a body above the lid", UPRIGHT + "radius = 0.0025; height = 0.003; base = 0.006",
+         "@base | must leave a part of the body in the domain"),
+    body("a body that fills the box", 'shape = "box"; height = 0.006', "@shape | must leave water beside or above"),
+    body("a body across the stream", 'shape = "box"; centre = [0.004, 0]; size = [0.003, 0]; height = 0.006',
+         "@shape | must leave water beside or above"),
+    body("posts that overlap", 'shape = "fence"; centre = [0.004, 0.003]; radius = 5e-4; height = 0.003; '
+         "length = 0.004; spacing = 1e-3", "@spacing | above the diameter of a post, 0.001 m"),
+    body("a box turned at no end", 'shape = "box"; height = 0.002; angle = 0.3', "@angle | through the whole domain"),
+    body("a dune that is all lee", SOLID_DUNE + "height = 1e-3; size = [0.005, 0.005]; lee = 0.005",
+         "@lee | below the length of the dune, 0.005 m"),
+    body("a dune in the air", SOLID_DUNE + "height = 1e-3; size = [0.005, 0.005]; lee = 0.001; base = 1e-3",
+         "@base | stands on the floor"),
+    body("a dune around the box", SOLID_DUNE + "height = 1e-3; size = [0.0085, 0.005]; lee = 0.0015",
+         "@size = [0.0085 | half the length of the domain, 0.006 m"),
+    body("a wave that does not fit", 'shape = "wave"; height = 1e-3; wavelength = 0.005',
+         "@wavelength | a whole number of times"),
+    body("a body of half a cell", UPRIGHT + "radius = 3e-4; height = 0.001",
+         "warning | cells across its smallest width", **GOOD),
+    body("a body of one row", UPRIGHT + "radius = 0.0021; height = 3e-4", "warning | rows of cells high", **GOOD),
+]
+
 FIRST = "heap]]\ncentre = [0.003, 0.003]\nradius = 0.0015"
 HEAPS = [
     heaps("two heaps and a crater", "", FIRST, "heap]]\ncentre = [0.007, 0.003]\nradius = 0.0015",
@@ -185,4 +221,4 @@ KINDS = [
 
 
 ENTRIES = {"syntax": SYNTAX, "keys": KEYS, "values": VALUES, "contradictions": CONTRADICTIONS, "kinds": KINDS,
-           "heaps": HEAPS, "starts": STARTS}
+           "heaps": HEAPS, "bodies": BODIES, "starts": STARTS}

@@ -52,6 +52,17 @@ Vec3 momentum(const FlowRun& run) {
   return sum;
 }
 
+/// On cells of this size [m].
+void run_until_steady(FlowRun& run, double cell) {
+  const double nu = run.config.fluid->kinematic_viscosity;
+  const double dt = 0.08 * cell * cell / nu;  // explicit diffusion allows 1/12
+  for (double before = -1, now = 0; !(std::abs(now - before) <= 1e-5 * now) && !std::isnan(now);) {
+    before = now;
+    for (int s = 0; s < 50; ++s) run.advance(dt);
+    now = bulk_velocity(run.fluid);
+  }
+}
+
 /// 8 rows of faces, of which three are in the floor; theta of a cell are below the fourth.
 FlowRun over_a_box(double theta, const PlaneVelocity& bulk, double gradient) {
   const double height = 0.02, h = height / 8;
@@ -144,12 +155,7 @@ double measured_permeability_along(double c, int n, double shift) {
   config.bodies = {rod};
   FlowRun run(config);
   run.start_uniform(0);
-  const double dt = 0.08 * size * size / n / n / nu;  // explicit diffusion allows 1/12
-  for (double before = -1, now = 0; !(std::abs(now - before) <= 1e-5 * now) && !std::isnan(now);) {
-    before = now;
-    for (int s = 0; s < 50; ++s) run.advance(dt);
-    now = bulk_velocity(run.fluid);
-  }
+  run_until_steady(run, size / n);
   return bulk_velocity(run.fluid) * 1000 * nu / (a * a);
 }
 
@@ -184,12 +190,7 @@ double measured_drag_across(double c, int n, double shift) {
   config.bodies = {rod};
   FlowRun run(config);
   run.start_uniform(0);
-  const double dt = 0.08 * size * size / n / n / nu;  // explicit diffusion allows 1/12
-  for (double before = -1, now = 0; !(std::abs(now - before) <= 1e-5 * now) && !std::isnan(now);) {
-    before = now;
-    for (int s = 0; s < 50; ++s) run.advance(dt);
-    now = bulk_velocity(run.fluid);
-  }
+  run_until_steady(run, size / n);
   const double drag = run.solver.body_loads()[0].force.x / run.grid.lz;
   EXPECT_NEAR(drag / (1e-2 * size * size), 1, 1e-3) << "all of the drive, once the flow is steady";
   return drag / (1000 * nu * bulk_velocity(run.fluid));

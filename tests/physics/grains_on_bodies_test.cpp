@@ -76,6 +76,30 @@ TEST(GrainsOnBodies, EachBodyGetsWhatItsGrainsGive) {
   expect_relative("a grain eight times as heavy", on[1].load.force.y, -bench.grain(3).m * kG, 1e-6);
 }
 
+void move_out(const GrainState& grains) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: move out", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x = -1e-4; });
+}
+
+// What the last step with grains gave is not given again.
+TEST(GrainsOnBodies, NothingPushesABodyOnceAllGrainsHaveLeft) {
+  Config config = with_bodies(material(0.5, 0.3), {all_shapes()[5]});
+  config.grains->boundary_x = GrainBoundaryX::exit;
+  InitialGrains g;
+  add_grain(g, 2 * kRadius, {0.005, 2e-3 + 0.999 * kRadius, 0.005});
+  GrainBench bench(config, g);
+  bench.advance(2, 5e-7);
+  EXPECT_LT(bench.solver.body_loads()[0].load.force.y, 0);
+  EXPECT_EQ(bench.solver.body_loads()[0].contacts, 1);
+  move_out(bench.state);
+  bench.solver.remove_left(bench.state);
+  ASSERT_EQ(bench.state.n, 0);
+  bench.advance(2, 5e-7);
+  EXPECT_EQ(norm(bench.solver.body_loads()[0].load.force), 0);
+  EXPECT_EQ(bench.solver.body_loads()[0].contacts, 0);
+}
+
 /// Speed down a slope after a time at rest under a tilted weight, on a box or a dune's flank.
 struct Slide {
   Real speed, spin;

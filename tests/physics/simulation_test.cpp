@@ -79,7 +79,8 @@ TEST(Simulation, RestartContinuesBitwise) {
   EXPECT_GT(std::ranges::count_if(touching, [](std::int64_t bits) { return bits != 0; }), 0);
   const auto in_parts = run(whole, scratch / "parts", middle);
   expect_same_state(at_once, in_parts);
-  for (const char* table : {"history.csv", "dune.csv", "statistics.csv", "force_map.csv"}) {
+  for (const char* table :
+       {"history.csv", "dune.csv", "bodies.csv", "statistics.csv", "force_map.csv"}) {
     const std::string text = read_text(scratch / "whole" / table);
     EXPECT_GT(text.size(), 500u) << table;
     EXPECT_EQ(text, read_text(scratch / "parts" / table)) << table;
