@@ -129,17 +129,6 @@ struct ClearInBodies {
     if (at.closed || !closed_alone) f(at.i, at.j, at.k) = 0;
   }
 };
-/// Adds up what it holds there, weighted with the height.
-struct HeightSumInBodies {
-  GridRef grid;
-  const BodyCell* cells;
-  ConstFieldRef f;
-  KOKKOS_FUNCTION void operator()(int n, Real& sum) const {
-    const BodyCell at = cells[n];
-    if (at.closed) sum += f(at.i, at.j, at.k) * grid.dy(at.j);
-  }
-};
-
 /// Closed faces, of what is not to act there.
 struct CloseBodyFaces {
   const BodyFace* faces;

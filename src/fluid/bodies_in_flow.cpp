@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "kernels/fluid/conjugate_gradients.hpp"
+#include "kernels/fluid/flow_sums.hpp"
 #include "src/fluid/body_faces.hpp"
 #include "src/fluid/pressure_solver.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -21,12 +23,11 @@ Kokkos::View<T*> to_device(const char* label, const std::vector<T>& values) {
   return view;
 }
 
-/// What the sum of the pressure in closed cells says of its mean in the others: over all cells it
-/// is zero.
+/// A sum over the cells of the water becomes the mean over them.
 struct FindMeanOfWater {
   Real* number;
   Real height;
-  KOKKOS_FUNCTION void operator()(int) const { *number = -*number / height; }
+  KOKKOS_FUNCTION void operator()(int) const { *number /= height; }
 };
 
 }  // namespace
@@ -114,14 +115,15 @@ void BodiesInFlow::hold_back_across(Field& u_z, Real drive_dt, Real dt) const {
                        HoldBackAcross{faces_.data(), u_z, drive_dt, dt});
 }
 
-void BodiesInFlow::settle(Field& p, const Tally& tally, int number) const {
-  Kokkos::parallel_reduce("bodies: mean pressure", items(n_cells()),
-                          HeightSumInBodies{grid_, cells_.data(), p}, tally.into(number));
+void BodiesInFlow::take_mean_away(Field& f, const Tally& tally, int number) const {
+  close(f);
+  sum_each_cell("bodies: mean of the water", tally, number, owned_cells(grid_),
+                HeightSum{grid_, f});
   tally.combine(ranks_of(grid_), number, 1, MPI_SUM);
-  Kokkos::parallel_for("bodies: mean pressure", items(1),
+  Kokkos::parallel_for("bodies: mean of the water", items(1),
                        FindMeanOfWater{tally.data() + number, height_of_water_});
-  for_each_cell("bodies: mean pressure", grid_, Subtract{p, tally.late(number)});
-  close(p);
+  for_each_cell("bodies: mean of the water", grid_, Subtract{f, tally.late(number)});
+  close(f);
 }
 
 void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tally,

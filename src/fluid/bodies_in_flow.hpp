@@ -44,8 +44,10 @@ class BodiesInFlow {
                  int lost);
   /// After a drive f_z dt has acted on all faces.
   void hold_back_across(Field& u_z, Real drive_dt, Real dt) const;
-  /// Pressure of zero mean in the water, zero in closed cells. `number`: room for one.
-  void settle(Field& p, const Tally& tally, int number) const;
+  /// A cell field of zero mean in the water, zero in closed cells. `number`: room for one. So are
+  /// the pressure, and its source: grains that leave give back a volume that the water of a
+  /// periodic box cannot fill, and no pressure answers what stands in closed cells.
+  void take_mean_away(Field& f, const Tally& tally, int number) const;
 
   static constexpr int kNumbersOfLoad = 6;
   /// Of a step: kNumbersOfLoad for each body, from `first` on.

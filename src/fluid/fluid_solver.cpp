@@ -183,11 +183,12 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
                   ByRegion{regions_->fraction.cells.ref(),
                            pressure_source<Fraction::variable>(u_star_, fluid, fluid.drive.x, dt),
                            of_clear_water});
+    if (bodies_) bodies_->take_mean_away(source_, numbers_, kMeanOfWater);
     solved = pressure_.solve(mobility_, regions_->fraction.cells, source_, fluid.p, tolerance_);
   }
   report_.pressure_iterations = solved.iterations;
   report_.pressure_residual = solved.residual;
-  if (bodies_) bodies_->settle(fluid.p, numbers_, kMeanOfWater);
+  if (bodies_) bodies_->take_mean_away(fluid.p, numbers_, kMeanOfWater);
   boundary_.fill(fluid.p, FieldKind::scalar);
 }
 

@@ -118,7 +118,7 @@ class FluidSolver {
     kPredictedRate = 4,  // of u* [m^2/s]
     kMobility = 6,       // what the mobility lacks to one [m]
     kHeld = 9,           // what bodies take of kPredictedRate [m^2/s] and kMobility along x, z [m]
-    kMeanOfWater = 12,   // of the pressure, where there are bodies
+    kMeanOfWater = 12,   // of the pressure or its source, where there are bodies
     kLoads               // on each body
   };
 
