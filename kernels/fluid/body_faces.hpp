@@ -129,6 +129,7 @@ struct ClearInBodies {
     if (at.closed || !closed_alone) f(at.i, at.j, at.k) = 0;
   }
 };
+
 /// Closed faces, of what is not to act there.
 struct CloseBodyFaces {
   const BodyFace* faces;
@@ -138,6 +139,7 @@ struct CloseBodyFaces {
     if (face.closed) face.of(f)(face.i, face.j, face.k) = 0;
   }
 };
+
 /// a = b in closed cells.
 struct CopyInBodies {
   const BodyCell* cells;
@@ -148,6 +150,7 @@ struct CopyInBodies {
     if (at.closed) a(at.i, at.j, at.k) = b(at.i, at.j, at.k);
   }
 };
+
 /// Adds up the solid that the fraction alpha leaves for closed cells [m^3].
 struct SolidInBodies {
   GridRef grid;

@@ -14,15 +14,6 @@ namespace barchan {
 
 namespace {
 
-template <class T>
-Kokkos::View<T*> to_device(const char* label, const std::vector<T>& values) {
-  const Kokkos::View<T*> view(label, values.size());
-  const auto host = mirror(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 /// A sum over the cells of the water becomes the mean over them.
 struct FindMeanOfWater {
   Real* number;

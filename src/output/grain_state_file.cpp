@@ -68,16 +68,6 @@ void load_entries(const CheckpointReader& file, const std::string& name, const V
 template <class T>
 using HostEntries = Kokkos::View<T*, Kokkos::HostSpace>;
 
-/// A copy on the device, of one entry at least.
-template <class T>
-Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values) {
-  const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
-  const auto host = mirror(view);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 /// Contacts [begin, end) of the file under the entries of this rank's grains; `both`: under both of
 /// their grains.
 ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, std::uint64_t begin,

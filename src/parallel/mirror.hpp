@@ -1,5 +1,9 @@
-// Arrays of the device, for the host.
+// Arrays of the device, for the host, and the other way.
 #pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "kernels/math/on_host.hpp"
 
@@ -21,6 +25,16 @@ auto host_copy(const View& view) {
   const auto host = mirror(view);
   Kokkos::deep_copy(host, view);
   return host;
+}
+
+/// A copy on the device, of one entry at least.
+template <class T>
+Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values) {
+  const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
+  const auto host = mirror(view);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(view, host);
+  return view;
 }
 
 }  // namespace barchan

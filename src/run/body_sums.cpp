@@ -67,8 +67,7 @@ void BodySums::save(CheckpointWriter& file) const {
 
 void BodySums::load(const CheckpointReader& file) {
   if (!any() || !file.has(kName)) return;
-  const auto numbers = file.array<double>(kName, file.extents(kName));
-  if (numbers.size() != 1 + 2 * kNumbers * water_.size()) return;  // of other bodies
+  const auto numbers = file.array<double>(kName, {1 + 2 * kNumbers * water_.size()});
   steps_ = static_cast<std::int64_t>(numbers[0]);
   const double* at = numbers.data() + 1;
   for (auto* loads : {&water_, &grains_})

@@ -16,15 +16,7 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-/// Laminar, without slip on the floor; a top that is a plane of symmetry.
-Config laminar(std::array<int, 3> cells, std::array<double, 3> size, double nu) {
-  Config config = flow_config(cells, size, 0);
-  config.fluid->turbulence = Turbulence::none;
-  config.fluid->kinematic_viscosity = nu;
-  config.solver.pressure_tolerance = 1e-10;
-  config.solver.max_iterations = 500;
-  return config;
-}
+constexpr double kTolerance = 1e-10;  // of the pressure
 
 BodyConfig body_of(BodyShape shape, std::array<double, 2> centre) {
   BodyConfig body;
@@ -66,7 +58,7 @@ void run_until_steady(FlowRun& run, double cell) {
 /// 8 rows of faces, of which three are in the floor; theta of a cell are below the fourth.
 FlowRun over_a_box(double theta, const PlaneVelocity& bulk, double gradient) {
   const double height = 0.02, h = height / 8;
-  Config config = laminar({3, 8, 3}, {0.01, height, 0.01}, 1e-3);
+  Config config = laminar({3, 8, 3}, {0.01, height, 0.01}, 1e-3, kTolerance);
   config.bodies = {step_over_everything((3.5 - theta) * h)};
   if (gradient > 0) config.fluid->pressure_gradient = gradient;
   if (bulk.z != 0) config.fluid->schedule = {{.time = 0, .velocity = bulk}};
@@ -121,7 +113,7 @@ TEST(BodiesInFlow, AlsoAlongZ) {
 TEST(BodiesInFlow, CouetteFlowIsExactOnStretchedRows) {
   const double nu = 1e-3, height = 0.02, speed = 0.1;
   for (const double floor : {0.0071, 0.0074, 0.0077}) {
-    Config config = laminar({3, 16, 3}, {0.01, height, 0.01}, nu);
+    Config config = laminar({3, 16, 3}, {0.01, height, 0.01}, nu, kTolerance);
     config.fluid->first_cell_height = 0.0008;
     config.fluid->top = WallFlow::no_slip;
     config.fluid->top_velocity = speed;
@@ -141,18 +133,25 @@ TEST(BodiesInFlow, CouetteFlowIsExactOnStretchedRows) {
   }
 }
 
+/// In the middle of a square of this size, shifted by `shift` across its axis.
+BodyConfig rod_along(BodyAxis axis, double radius, double size, double shift) {
+  const double across = size / 2 + shift;
+  BodyConfig rod = body_of(BodyShape::cylinder,
+                           axis == BodyAxis::x ? std::array{0.0, across} : std::array{across, 0.0});
+  rod.axis = axis;
+  rod.radius = radius;
+  rod.base = size / 2 - radius;
+  return rod;
+}
+
 /// A rod of volume fraction c in the middle of a square box of n x n cells; shifted along z by a
 /// part of a cell. Flow along it until it is steady. Returns K / a^2.
 double measured_permeability_along(double c, int n, double shift) {
   const double size = 0.01, nu = 1e-3, a = size * std::sqrt(c / pi);
-  Config config = laminar({2, n, n}, {2 * size / n, size, size}, nu);
+  Config config = laminar({2, n, n}, {2 * size / n, size, size}, nu, kTolerance);
   config.fluid->bottom = WallFlow::free_slip;
   config.fluid->pressure_gradient = 1;
-  BodyConfig rod = body_of(BodyShape::cylinder, {0, size / 2 + shift * size / n});
-  rod.axis = BodyAxis::x;
-  rod.radius = a;
-  rod.base = size / 2 - a;
-  config.bodies = {rod};
+  config.bodies = {rod_along(BodyAxis::x, a, size, shift * size / n)};
   FlowRun run(config);
   run.start_uniform(0);
   run_until_steady(run, size / n);
@@ -180,14 +179,10 @@ TEST(BodiesInFlow, AlongASquareArrayOfRodsItIsOfSecondOrder) {
 /// through the square array of them. Drag over mu U.
 double measured_drag_across(double c, int n, double shift) {
   const double size = 0.01, nu = 1e-3, a = size * std::sqrt(c / pi);
-  Config config = laminar({n, n, 1}, {size, size, size / n}, nu);
+  Config config = laminar({n, n, 1}, {size, size, size / n}, nu, kTolerance);
   config.fluid->bottom = WallFlow::free_slip;
   config.fluid->pressure_gradient = 1e-2;
-  BodyConfig rod = body_of(BodyShape::cylinder, {size / 2 + shift * size / n, 0});
-  rod.axis = BodyAxis::z;
-  rod.radius = a;
-  rod.base = size / 2 - a;
-  config.bodies = {rod};
+  config.bodies = {rod_along(BodyAxis::z, a, size, shift * size / n)};
   FlowRun run(config);
   run.start_uniform(0);
   run_until_steady(run, size / n);
@@ -225,12 +220,11 @@ Vec3 floor_stress(const FlowRun& run) {
 TEST(BodiesInFlow, ASphereOnTheFloorHasONeillsDragAndTorque) {
   const int cells = 4;
   const double r = 1e-3, nu = 1e-5, rate = 0.1, h = r / cells;
-  Config config = laminar({8 * cells, 4 * cells, 8 * cells}, {8 * r, 4 * r, 8 * r}, nu);
+  Config config = laminar({8 * cells, 4 * cells, 8 * cells}, {8 * r, 4 * r, 8 * r}, nu, 1e-6);
   config.fluid->top = WallFlow::no_slip;
   config.fluid->top_velocity = rate * 4 * r;
   config.bodies = {body_of(BodyShape::sphere, {4 * r, 4 * r})};
   config.bodies[0].radius = r;
-  config.solver.pressure_tolerance = 1e-6;
   FlowRun run(config);
   run.start([&](int, int j, int) { return rate * run.h.y(j); });
   const double dt = 0.07 * h * h / nu, time = 12 * r * r / nu;
@@ -245,7 +239,7 @@ TEST(BodiesInFlow, ASphereOnTheFloorHasONeillsDragAndTorque) {
 // Two bodies, an oblique flow. What the water's momentum lacks of what drives it is on the bodies
 // and on the floor, to round-off.
 TEST(BodiesInFlow, MomentumThatTheWaterLosesIsOnBodiesAndFloor) {
-  Config config = laminar({24, 12, 16}, {0.048, 0.024, 0.032}, 1e-5);
+  Config config = laminar({24, 12, 16}, {0.048, 0.024, 0.032}, 1e-5, kTolerance);
   config.fluid->first_cell_height = 0.0012;
   config.fluid->turbulence = Turbulence::wale;
   config.fluid->schedule = {{.time = 0, .velocity = {0.2, 0.05}}};
@@ -290,7 +284,7 @@ TEST(BodiesInFlow, ATurnedCaseHasTurnedLoads) {
       std::swap(cells[0], cells[2]), std::swap(size[0], size[2]);
       std::swap(box.centre[0], box.centre[1]), std::swap(box.size[0], box.size[1]);
     }
-    Config config = laminar(cells, size, 1e-5);
+    Config config = laminar(cells, size, 1e-5, kTolerance);
     const PlaneVelocity bulk{turned ? 0 : 0.2, turned ? 0.2 : 0};
     config.fluid->schedule = {{.time = 0, .velocity = {0.02, 0.02}},
                               {.velocity = bulk, .ramp = 0.02}};
@@ -314,7 +308,7 @@ TEST(BodiesInFlow, ATurnedCaseHasTurnedLoads) {
 }
 
 TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
-  Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5);
+  Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5, kTolerance);
   config.fluid->mean_velocity = 0.28;
   BodyConfig half = body_of(BodyShape::half_sphere, {0.0171, 0.0144});
   half.radius = 0.0097;
@@ -354,7 +348,7 @@ TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
 // A grain that leaves gives back its volume, which nothing can fill in a periodic box of water: the
 // sum of the pressure's source is not zero. What of it stands in closed cells no pressure answers.
 TEST(BodiesInFlow, AStepInWhichAGrainLeavesHasAPressure) {
-  Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5);
+  Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5, kTolerance);
   config.fluid->mean_velocity = 0.28;
   config.bodies = {body_of(BodyShape::half_sphere, {0.0171, 0.0144})};
   config.bodies[0].radius = 0.0097;

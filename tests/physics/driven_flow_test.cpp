@@ -18,15 +18,6 @@ namespace {
 
 using namespace test;
 
-Config laminar(std::array<int, 3> cells, std::array<double, 3> size, double viscosity) {
-  Config config = flow_config(cells, size, 0);
-  config.fluid->turbulence = Turbulence::none;
-  config.fluid->kinematic_viscosity = viscosity;
-  config.solver.pressure_tolerance = 1e-12;
-  config.solver.max_iterations = 500;
-  return config;
-}
-
 TEST(Drive, TargetsOfACaseAndOfASchedule) {
   FluidConfig fluid;
   EXPECT_FALSE(Drive(fluid).along_z());

@@ -112,6 +112,21 @@ for run, least in (("heaps", 3), ("after", 1), ("later", 1)):
             assert heap.attrs["names"] == "upstream\ndownstream\n", heap.attrs["names"]
 PYTHON
 
+# A post among the grains: what pushes it is the same on ranks and after a restart.
+cat heap.toml - > post.toml <<'TOML'
+[[body]]
+name = "post"
+shape = "cylinder"
+centre = [0.011, 0.006]
+radius = 0.0015
+height = 0.004
+TOML
+run 1 post.toml --out post
+run 3 post.toml --out post-parts --set time.end=0.003
+run 2 post.toml --out post-parts --restart post-parts/restart_0000000012.h5
+same grains post post-parts
+[ -s post/bodies.csv ] || fail "no table of bodies"
+
 grep -q '"grain_imbalance"' on-6/run.json || fail "run.json does not say how the work is shared"
 
 # A window that follows its dune, with grains that leave and come in.

@@ -41,6 +41,18 @@ struct FlowRun {
   }
 };
 
+/// Without a model, and solved nearly to round-off; the floor holds the water, the top is a plane
+/// of symmetry.
+inline Config laminar(std::array<int, 3> cells, std::array<double, 3> size, double viscosity,
+                      double tolerance = 1e-12) {
+  Config config = flow_config(cells, size, 0);
+  config.fluid->turbulence = Turbulence::none;
+  config.fluid->kinematic_viscosity = viscosity;
+  config.solver.pressure_tolerance = tolerance;
+  config.solver.max_iterations = 500;
+  return config;
+}
+
 /// A vortex or wave between walls of free slip, which are planes of symmetry, without a model.
 inline Config smooth_flow_config(std::array<int, 3> n, std::array<double, 3> size, double first,
                                  double viscosity) {
