@@ -1,0 +1,102 @@
+// A body among grains that are held, in a steady flow: what drives the water is on all of them.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/measured.hpp"
+
+namespace barchan {
+namespace {
+
+constexpr double kDiameter = 2e-4, kWidth = 3.2e-3, kHeight = 2e-3, kBed = 8e-4;  // [m]
+
+/// A channel with a floor, oblique to the rows of cells, and a post as high as three layers of
+/// grains.
+Config channel_with_post(Exchange exchange, double smoothing) {
+  Config c = test::water_box({8, 8, 8}, {kWidth, kHeight, kWidth});
+  c.fluid->bottom = WallFlow::no_slip;
+  c.fluid->schedule = {{.time = 0, .velocity = {0.02, 0.01}}};
+  c.grains->frozen = true;
+  c.coupling.exchange = exchange;
+  c.coupling.smoothing_length = smoothing;
+  c.solver.pressure_tolerance = 1e-10;
+  c.time.fluid_step = 2e-3;
+  c.bodies = {{.name = "post",
+               .shape = BodyShape::cylinder,
+               .centre = {1.5e-3, 1.7e-3},
+               .radius = 7e-4,
+               .height = 1.1e-3}};
+  return c;
+}
+
+/// Grains anywhere around the post and up to its surface, in a bed; they may overlap.
+InitialGrains bed_around(const BodyConfig& post) {
+  std::mt19937_64 generator(1);
+  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+  InitialGrains grains;
+  while (grains.size() < 600) {
+    const Vec3 at{kWidth * uniform(), kDiameter / 2 + (kBed - kDiameter) * uniform(),
+                  kWidth * uniform()};
+    if (std::hypot(at.x - post.centre[0], at.z - post.centre[1]) > post.radius + kDiameter / 2)
+      test::add_grain(grains, kDiameter, at);
+  }
+  return grains;
+}
+
+/// As the grains have it.
+Vec3 on_grains(const test::CoupledRun& run) {
+  Vec3 sum;
+  for (const NamedForce& force : run.forces()) {
+    if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
+    const auto values = host_copy(force.values);
+    for (std::size_t g = 0; g < values.extent(0); ++g) sum += values(g);
+  }
+  return sum;
+}
+
+Vec3 on_floor(const test::CoupledRun& run) {
+  const Grid& grid = run.state.fluid->grid;
+  const auto u = test::to_host(run.state.fluid->u.x), w = test::to_host(run.state.fluid->u.z);
+  const double per_speed = 1e-3 * grid.dx * grid.dz / (kHeight / grid.ny / 2);
+  Vec3 sum;
+  for (int k = 0; k < grid.nz; ++k)
+    for (int i = 0; i < grid.nx; ++i) sum += per_speed * Vec3{u(i, 0, k), 0, w(i, 0, k)};
+  return sum;
+}
+
+/// The same along x and along z.
+void expect_all(const std::string& what, const Vec3& force, const Vec3& drive) {
+  test::expect_relative(what + " over the drive along x", force.x / drive.x, 1, 1e-6);
+  test::expect_relative(what + " over the drive along z", force.z / drive.z, 1, 1e-6);
+}
+
+// Also what the smoothing spreads, and what the grains take from water where the post is: that the
+// post gives. By row the grains get what the water loses; other exchanges read the flow at their
+// centres.
+TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
+  for (const Exchange exchange : {Exchange::by_row, Exchange::smoothed, Exchange::interpolated}) {
+    for (const double smoothing : {0.0, 6e-4}) {
+      const Config c = channel_with_post(exchange, smoothing);
+      test::CoupledRun run(c, bed_around(c.bodies[0]));
+      run.advance(1300);
+      const FluidState& fluid = *run.state.fluid;
+      const Vec3 drive = 1000 * kWidth * kHeight * kWidth * Vec3{fluid.drive.x, 0, fluid.drive.z};
+      const Vec3 post = run.step.fluid_solver()->body_loads()[0].force;
+      const ExchangeLedger& exchanged = run.step.exchange();
+      const Vec3 taken =
+          (1 / run.step.dt()) * (exchanged.taken_from_fluid + exchanged.flow_on_solid);
+      const std::string which =
+          fmt::format("exchange {}, smoothed over {:.1f} d: ", static_cast<int>(exchange),
+                      smoothing / kDiameter);
+      expect_all(which + "what water loses", taken + on_floor(run) + post, drive);
+      if (exchange == Exchange::by_row)
+        expect_all(which + "what all get", on_grains(run) + on_floor(run) + post, drive);
+      EXPECT_GT(post.x / drive.x, 0.05);
+      EXPECT_GT(taken.x / drive.x, 0.1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace barchan
