@@ -109,6 +109,28 @@ def test_the_bubble_ends_where_the_flow_was_made_to_turn(run):
     assert run.figure("flow_around_body", start=0.0).numbers["flow_around_body"]["samples"] == [2, 2]
 
 
+def test_a_wave_has_the_mean_over_the_width_and_a_point_of_separation(run, tmp_path):
+    """u is -0.1 m/s in every other plane from 8 to 20 mm behind the crest, 0.06 m/s elsewhere: -0.02 in the mean."""
+    case = (run.path / "config.toml").read_text().split("[[body]]")[0]
+    (tmp_path / "config.toml").write_text(
+        case + '[[body]]\nname = "floor"\nshape = "wave"\ncentre = [0.06, 0]\nheight = 1e-4\nwavelength = 0.06\n')
+    shutil.copy(run.path / "fields.h5", tmp_path / "fields.h5")
+    with h5py.File(tmp_path / "fields.h5", "r+") as file:
+        x = file["grid/x"][:] - 0.06
+        for name in file:
+            for field in file[name] if name != "grid" else ():
+                values = np.full(file[name][field].shape, 1.0 if field == "alpha_f" else 0.06)
+                if field == "u":
+                    values[::2, :, (x > 0.008) & (x < 0.020)] = -0.1
+                file[name][field][:] = values
+    wave = barchan.Run(tmp_path)
+    found = bubble(mean_plane(wave, bodies_of(wave.config)[0]))
+    width = x[1] - x[0]  # u is zero three quarters of the way from 0.06 to -0.02
+    assert found.x_s == pytest.approx(x[x > 0.008][0] - 0.25 * width)
+    assert found.x_r == pytest.approx(x[x < 0.020][-1] + 0.25 * width)
+    assert "wavelengths behind the crest" in wave.figure("flow_around_body").sentences[0]
+
+
 def test_a_bubble_across_the_seam(run, tmp_path):
     """The same flow and body, both moved 28 mm down the stream, so that the flow is forward again behind the seam."""
     case = (run.path / "config.toml").read_text().replace("centre = [0.06, 0.02]", "centre = [0.088, 0.02]")

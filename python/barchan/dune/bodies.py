@@ -75,6 +75,12 @@ class Body:
         beside = 0.5 * self.spacing if self.posts % 2 == 0 else 0.0
         return x - np.sin(self.angle) * beside, z + np.cos(self.angle) * beside
 
+    @property
+    def spans(self) -> bool:
+        """Whether it is the same in every plane across the stream."""
+        endless = {"wave": True, "cylinder_z": self.length == 0, "box": self.size[1] == 0 and self.angle == 0}
+        return endless.get(self.form, False)
+
     def local(self, x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Along and across of places from the middle of the nearest image, turned with the body [m]."""
         sx, sz = x - self.centre[0], z - self.centre[1]

@@ -115,6 +115,7 @@ def keep_table(figure, planes, found):
         "body": [plane.body.number for plane in planes], "name": [plane.body.name for plane in planes],
         "z": [plane.z for plane in planes], "t_start": [plane.start for plane in planes],
         "t_end": [plane.end for plane in planes], "samples": [plane.frames for plane in planes],
-        "row": [one.row for one in found], "x_lee": [one.x_lee for one in found], "x_r": [one.x_r for one in found],
+        "row": [one.row for one in found], "x_lee": [one.x_lee for one in found], "x_s": [one.x_s for one in found],
+        "x_r": [one.x_r for one in found],
         "bubble_height": [one.height for one in found], "size": [plane.body.unit[0] for plane in planes],
         "length_over_size": [one.length / plane.body.unit[0] for plane, one in zip(planes, found)]})

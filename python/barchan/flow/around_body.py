@@ -21,7 +21,8 @@ BEHIND = 3.0    # sizes of the body within which reversed flow must begin to be 
 
 @dataclass
 class Plane:
-    """Means from `start` to `end` [s] over so many `frames`, or samples, in the cells nearest to the plane z [m].
+    """Means from `start` to `end` [s] over so many `frames`, or samples, in the cells nearest to the plane z [m], or
+    over the width as well if the body spans it.
 
     x (nx) from the middle of the body, y (ny), centres of cells; x_face, y_face; u, v (ny, nx) [m/s]; `solid` and
     `bed` (ny, nx): cells in a body, cells in grains.
@@ -48,11 +49,13 @@ class Plane:
 
 @dataclass
 class Bubble:
-    """The region of reversed mean flow behind a body. Lengths in m: x_lee, where the body ends downstream, and x_r,
-    where the flow is forward again, both from its middle; `height`, of reversed flow above the floor; `row`: "floor",
-    or "middle" for a body with water below it. NaN: there is none, or it does not end within the domain."""
+    """The region of reversed mean flow behind a body. Lengths in m: x_lee, where the body ends downstream, x_s and x_r,
+    where the flow turns back and is forward again, all from its middle; `height`, of reversed flow above the floor;
+    `row`: "floor", or "middle" for a body with water below it. NaN: there is none, or it does not end within the
+    domain."""
 
     x_lee: float
+    x_s: float
     x_r: float
     height: float
     row: str
@@ -70,8 +73,9 @@ def mean_plane(run: RunFolder, body: Body, start: float | None = None, end: floa
     with file.open() as content:
         grid = {key: content["grid"][key][:] for key in ("x", "y", "z", "x_face", "y_face")}
         k = int(np.argmin(abs(grid["z"] - z)))
-        planes = [[content[file.frames[index][1]][name][k].astype(float) for name in ("u", "v", "alpha_f")]
-                  for index in chosen]
+        across = slice(None) if body.spans else slice(k, k + 1)
+        planes = [[content[file.frames[index][1]][name][across].astype(float).mean(axis=0)
+                   for name in ("u", "v", "alpha_f")] for index in chosen]
         samples = int(content[file.frames[chosen[-1]][1]].attrs.get("n_samples", len(chosen)))
     u, v, alpha_f = np.mean(planes, axis=0)
     shift = int(np.floor((x - grid["x_face"][0]) / np.diff(grid["x_face"])[0])) - int(UPSTREAM * len(grid["x"]))
@@ -118,13 +122,18 @@ def bubble(plane: Plane) -> Bubble:
     behind = np.flatnonzero(plane.x > x_lee)
     back = behind[near[behind] < 0]
     if not len(back) or plane.x[back[0]] > x_lee + BEHIND * body.unit[0]:
-        return Bubble(x_lee, np.nan, np.nan, row)
+        return Bubble(x_lee, np.nan, np.nan, np.nan, row)
+    x_s = _turns(plane.x, near, back[0] - 1) if back[0] > behind[0] else x_lee
     ahead = behind[(behind > back[0]) & (near[behind] >= 0)]
     if not len(ahead):
-        return Bubble(x_lee, np.nan, _height(plane, x_lee, plane.x[-1]), row)
-    i = ahead[0] - 1
-    x_r = plane.x[i] - near[i] * (plane.x[i + 1] - plane.x[i]) / (near[i + 1] - near[i])
-    return Bubble(x_lee, float(x_r), _height(plane, x_lee, float(x_r)), row)
+        return Bubble(x_lee, x_s, np.nan, _height(plane, x_lee, plane.x[-1]), row)
+    x_r = _turns(plane.x, near, ahead[0] - 1)
+    return Bubble(x_lee, x_s, x_r, _height(plane, x_lee, x_r), row)
+
+
+def _turns(x: np.ndarray, u: np.ndarray, i: int) -> float:
+    """Where u is zero between places i and i + 1 [m], linearly."""
+    return float(x[i] - u[i] * (x[i + 1] - x[i]) / (u[i + 1] - u[i]))
 
 
 def _lee(plane: Plane) -> tuple[float, bool]:
@@ -160,6 +169,10 @@ def sentence(plane: Plane, found: Bubble) -> str:
     seen = f"{plane.frames} samples, {time(plane)}" if plane.frames > 1 else time(plane)
     if np.isfinite(found.length):
         where = "in the lowest row of water" if found.row == "floor" else "at half its height"
+        if plane.body.form == "wave":
+            wave = plane.body.wavelength
+            return (f"{plane.body.name}: reversed flow from {found.x_s / wave:.3f} to {found.x_r / wave:.3f} "
+                    f"wavelengths behind the crest ({where}; {seen})")
         return (f"{plane.body.name}: separation bubble of {found.length / size:.3g} {unit} behind it (x_r = "
                 f"{1e3 * found.x_r:.3g} mm from its middle, {where}; {seen})")
     if np.isfinite(found.height):
