@@ -113,7 +113,7 @@ def test_a_wave_has_the_mean_over_the_width_and_a_point_of_separation(run, tmp_p
     """u is -0.1 m/s in every other plane from 8 to 20 mm behind the crest, 0.06 m/s elsewhere: -0.02 in the mean."""
     case = (run.path / "config.toml").read_text().split("[[body]]")[0]
     (tmp_path / "config.toml").write_text(
-        case + '[[body]]\nname = "floor"\nshape = "wave"\ncentre = [0.06, 0]\nheight = 1e-4\nwavelength = 0.06\n')
+        case + '[[body]]\nname = "floor"\nshape = "wave"\ncentre = [0.06, 0]\nheight = 0.004\nwavelength = 0.06\n')
     shutil.copy(run.path / "fields.h5", tmp_path / "fields.h5")
     with h5py.File(tmp_path / "fields.h5", "r+") as file:
         x = file["grid/x"][:] - 0.06
