@@ -47,6 +47,10 @@ def draw(run, ax=None, start=None, end=None):
 
 def title(plane, found):
     size, unit = plane.body.unit
+    if plane.body.form == "wave" and np.isfinite(found.x_r):
+        wave = plane.body.wavelength
+        return (f"{plane.body.name}: reversed flow from {found.x_s / wave:.2f} to {found.x_r / wave:.2f} $\\lambda$,  "
+                f"{time(plane)}")
     length = (f"bubble of {found.length / size:.2f} ${unit}$" if np.isfinite(found.length) else
               "reversed to the end" if np.isfinite(found.height) else "no reversed flow")
     return f"{plane.body.name}: {length},  {time(plane)}"
@@ -84,7 +88,10 @@ def draw_plane(axes, run, plane, found, window, limits):
 
 
 def mark_reattachment(axes, plane, found):
-    y, mark = (0.0, "^") if found.row == "floor" else (plane.body.base + 0.5 * plane.body.tall, "o")
+    y, mark = plane.body.base + 0.5 * plane.body.tall, "o"
+    if found.row == "floor":
+        at = int(np.argmin(abs(plane.x - found.x_r)))
+        y, mark = plane.y_face[np.argmax(plane.water[:, at])], "^"
     axes.plot(1e3 * found.x_r, 1e3 * y, mark, color=style.VERMILLION, mec=style.BLACK, mew=0.5, ms=7, clip_on=False,
               zorder=5)
     axes.annotate("$x_r$", (1e3 * found.x_r, 1e3 * y), xytext=(6, 6), textcoords="offset points", color="white",

@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+"""Turbulent flow over a wavy wall and around a cube against published results (docs/validation-flow.md, "Bodies").
+Some 40 minutes on one core. BARCHAN_BODY_RUNS names a folder for the runs, which are used again."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import barchan
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+problems = []
+
+
+def measured(what, value, low, high):
+    print(f"[ measured ] {what}: {value:.4g} ({low:g} to {high:g})", flush=True)
+    if not low <= value <= high:
+        problems.append(f"{what} is {value:.4g}, not within {low:g} to {high:g}")
+
+
+def bubble_of(case, runs):
+    """The line of the figure flow_around_body about the only body of a case."""
+    folder = runs / case
+    if not (folder / "flow_average.h5").is_file():
+        subprocess.run([os.environ["BARCHAN_PROGRAM"], "run", ROOT / f"configs/validation/{case}.toml", "--out", folder],
+                       check=True, stdout=subprocess.DEVNULL)
+    numbers = barchan.Run(folder).figure("flow_around_body").numbers["flow_around_body"]
+    return {key: values[0] for key, values in numbers.items()}
+
+
+def main(runs):
+    wave = bubble_of("wavy-wall", runs)  # lengths in waves from the crest
+    measured("wavy wall: where the flow separates", wave["x_s"] / 0.02, 0.11, 0.25)
+    measured("wavy wall: where it attaches again", wave["x_r"] / 0.02, 0.55, 0.63)
+    cube = bubble_of("cube", runs)
+    measured("cube: length of the bubble behind it over its height", cube["length_over_size"], 1.4, 1.7)
+    for problem in problems:
+        print("turbulent_bodies: " + problem, file=sys.stderr)
+    return 1 if problems else 0
+
+
+kept = os.environ.get("BARCHAN_BODY_RUNS")
+with tempfile.TemporaryDirectory() as folder:
+    sys.exit(main(pathlib.Path(kept or folder)))
