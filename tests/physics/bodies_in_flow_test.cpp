@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/fluid/body_faces.hpp"
 #include "src/bodies/make_bodies.hpp"
 #include "tests/support/flow_run.hpp"
 #include "tests/support/measured.hpp"
@@ -271,6 +272,23 @@ TEST(BodiesInFlow, MomentumThatTheWaterLosesIsOnBodiesAndFloor) {
     EXPECT_LT(run.report.continuity_residual, 1e-9);
   }
   expect_below("force on bodies against the momentum that is lost, relative", worst / least, 1e-10);
+}
+
+// On rows that grow, a face across y has the water from the middle of the row below to that above.
+TEST(BodiesInFlow, FacesHaveTheVolumeOfTheirMomentum) {
+  Config config = laminar({4, 9, 5}, {0.04, 0.09, 0.05}, 1e-5);
+  config.fluid->first_cell_height = 0.004;
+  const Grid grid = make_grid(config);
+  const test::HostGrid rows(grid);
+  for (int j = 1; j < 9; ++j) {
+    const BodyFace across_x{.j = j, .axis = 0}, across_y{.j = j, .axis = 1},
+        across_z{.j = j, .axis = 2};
+    const double half_below = rows.dy(j - 1) / 2, half_above = rows.dy(j) / 2;
+    EXPECT_NEAR(across_y.volume(grid), 1e-4 * (half_below + half_above), 1e-18);
+    EXPECT_NEAR(across_x.volume(grid), 1e-4 * rows.dy(j), 1e-18);
+    EXPECT_NEAR(across_z.volume(grid), 1e-4 * rows.dy(j), 1e-18);
+    EXPECT_GT(half_above, half_below);
+  }
 }
 
 // Turned by a right angle, a case has the turned force.

@@ -31,7 +31,7 @@ sizes = [[2e-4, 200]]
 [initial]
 grains = { pour = { centre = [0.01, 0.01], radius = 0.003 } }
 CASE
-sed -e '/^sizes/d' -e 's/end = 0.02/end = 0.2/' -e 's/grains = { pour.*/grains = "heap.toml"/' heap.toml > case.toml
+sed -e '/^sizes/d' -e 's/end = 0.02/end = 0.12/' -e 's/grains = { pour.*/grains = "heap.toml"/' heap.toml > case.toml
 cat > study.toml << 'STUDY'
 [study]
 title = "few grains, rubbed"
@@ -76,7 +76,7 @@ assert [c["varied"] for c in s["cases"]] == [None, "grains.sliding_friction", "g
 # --- done is done; a longer study goes on
 sweep study.toml --no-pictures --out whole > again 2>&1
 [ "$(grep -c 'done before' again)" = 3 ] || fail "a finished study was run again: $(cat again)"
-sed -i 's/^restart.interval.*/&\ntime.end = 0.25/' study.toml
+sed -i 's/^restart.interval.*/&\ntime.end = 0.15/' study.toml
 sweep study.toml --no-pictures --out whole > longer 2>&1 || fail "the longer study ended with $?"
 [ "$(grep -c 'goes on from' longer)" = 3 ] || fail "a longer study does not go on: $(cat longer)"
 
