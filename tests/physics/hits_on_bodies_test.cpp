@@ -63,6 +63,34 @@ Vec3 direction(Uniform& uniform) {
   }
 }
 
+/// What a hit gives to the body, and what it takes from the grain: differences over the impulse,
+/// and over it times 1 mm.
+struct Balance {
+  Real impulse = 0, torque = 0, speed_after = 0;
+};
+
+Balance balance_of(Hit hit, const Body& body) {
+  const GrainKinematics before = hit.bench.grain(1);
+  Vec3 given, turned;
+  bool has_touched = false;
+  for (int step = 0; step < 20000; ++step) {
+    hit.bench.advance(4, 2e-8);
+    const BodyLoad load = hit.bench.solver.body_loads()[0].load;
+    given += Real(8e-8) * load.force;
+    turned += Real(8e-8) * load.torque;
+    if (has_touched && !touches_body(hit.bench)) break;
+    has_touched = has_touched || touches_body(hit.bench);
+  }
+  const GrainKinematics after = hit.bench.grain(1);
+  const auto momentum = [&](const GrainKinematics& k) {
+    return k.m * cross(body.from_foot(k.x), k.u) + 0.4 * k.m * k.r * k.r * k.omega;
+  };
+  const Vec3 lost = before.m * (before.u - after.u);
+  const Vec3 lost_turning = momentum(before) - momentum(after);
+  return {norm(given - lost) / norm(lost), norm(turned - lost_turning) / (norm(lost) * 1e-3),
+          norm(after.u)};
+}
+
 // Head-on against any place, edges among them: the restitution is that of the wall, a hit takes as
 // long as Hertz's without loss, and the body gets what the grain loses.
 TEST(HitsOnBodies, AGrainComesOffWithTheRestitutionOfTheWall) {
@@ -75,33 +103,36 @@ TEST(HitsOnBodies, AGrainComesOffWithTheRestitutionOfTheWall) {
       Real worst = 0, not_given = 0, not_turned = 0;
       for (int n = 0; n < 40; ++n) {
         const auto [x, normal] = place_near(body, extent, uniform);
-        Hit hit(config, x, -0.2 * normal, {}, normal);
-        const GrainKinematics before = hit.bench.grain(1);
-        Vec3 given, turned;
-        bool has_touched = false;
-        for (int step = 0; step < 20000; ++step) {
-          hit.bench.advance(4, 2e-8);
-          const BodyLoad load = hit.bench.solver.body_loads()[0].load;
-          given += Real(8e-8) * load.force;
-          turned += Real(8e-8) * load.torque;
-          if (has_touched && !touches_body(hit.bench)) break;
-          has_touched = has_touched || touches_body(hit.bench);
-        }
-        const GrainKinematics after = hit.bench.grain(1);
-        worst = std::max(worst, std::abs(norm(after.u) / 0.2 - restitution));
-        const Vec3 lost = before.m * (before.u - after.u);
-        not_given = std::max(not_given, norm(given - lost) / norm(lost));
-        const auto momentum = [&](const GrainKinematics& k) {
-          return k.m * cross(body.from_foot(k.x), k.u) + 0.4 * k.m * k.r * k.r * k.omega;
-        };
-        not_turned = std::max(
-            not_turned, norm(turned - (momentum(before) - momentum(after))) / (norm(lost) * 1e-3));
+        const Balance hit = balance_of({config, x, -0.2 * normal, {}, normal}, body);
+        worst = std::max(worst, std::abs(hit.speed_after / 0.2 - restitution));
+        not_given = std::max(not_given, hit.impulse);
+        not_turned = std::max(not_turned, hit.torque);
       }
       const std::string claim = shape.name + ", e = " + std::to_string(restitution).substr(0, 3);
       expect_below(claim + ", restitution off by", worst, 2e-4);
       expect_below(claim + ", impulse on the body off by", not_given, 1e-12);
       expect_below(claim + ", and its torque over 1 mm", not_turned, 1e-10);
     }
+  }
+}
+
+// Oblique hits of turning grains with sliding and rolling friction.
+TEST(HitsOnBodies, TheBodyGetsWhatAGrainThatSlidesAndRollsLoses) {
+  for (const BodyConfig& shape : all_shapes()) {
+    const Config config = with_bodies(material(0.5, 0.8, 0.3), {shape});
+    const BodyExtent extent = body_extent(shape, config.size);
+    const Body body = make_bodies(config).body[0];
+    Uniform uniform(11);
+    Real not_given = 0, not_turned = 0;
+    for (int n = 0; n < 5; ++n) {
+      const auto [x, normal] = place_near(body, extent, uniform);
+      const Vec3 aside = cross(normal, direction(uniform)), omega = 1000 * direction(uniform);
+      const Balance hit = balance_of({config, x, 0.1 * aside - 0.2 * normal, omega, normal}, body);
+      not_given = std::max(not_given, hit.impulse);
+      not_turned = std::max(not_turned, hit.torque);
+    }
+    expect_below(shape.name + ", oblique, impulse on the body off by", not_given, 1e-12);
+    expect_below(shape.name + ", and its torque over 1 mm", not_turned, 1e-10);
   }
 }
 
