@@ -44,9 +44,9 @@ class BodiesInFlow {
                  int lost);
   /// After a drive f_z dt has acted on all faces.
   void hold_back_across(Field& u_z, Real drive_dt, Real dt) const;
-  /// A cell field of zero mean in the water, zero in closed cells. `number`: room for one. So are
-  /// the pressure, and its source: grains that leave give back a volume that the water of a
-  /// periodic box cannot fill, and no pressure answers what stands in closed cells.
+  /// Takes the mean over the water from a cell field, and sets it to zero in closed cells;
+  /// `number`: room for one. For the pressure, and for its source: when grains leave, the sum of
+  /// the source is not zero, and a periodic box has no pressure for that.
   void take_mean_away(Field& f, const Tally& tally, int number) const;
 
   static constexpr int kNumbersOfLoad = 6;

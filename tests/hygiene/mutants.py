@@ -61,6 +61,11 @@ def read_table():
 # --- the copy of the source
 
 
+def text_of(mutant):
+    path = ROOT / mutant["file"]
+    return path.read_text() if path.is_file() else stop(f"{mutant['file']}: there is no such file")
+
+
 def spots_of(text, mutant):
     """Where a mutant changes the text of its file: (begin, end, number, wrong text)."""
     right = SPOT.sub(r"\1", mutant["text"])
@@ -204,11 +209,13 @@ def main():
     arguments = parser.parse_args()
     table = read_table()
     chosen = [m for m in table if not arguments.words or any(is_meant(m, word) for word in arguments.words)]
-    copy_source(table)
     if arguments.list:
+        for m in table:
+            list(spots_of(text_of(m), m))
         for m in chosen:
             print(f"{m['number']:3d}  {m['file']}: {m['breaks']}")
         return 0
+    copy_source(table)
     build()
     groups = groups_of_tests()
     seconds = sum(s for _, s in groups)

@@ -1,6 +1,7 @@
 // A body among grains that are held, in a steady flow: what drives the water is on all of them.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <random>
 
 #include "tests/support/coupled_run.hpp"
@@ -11,8 +12,8 @@ namespace {
 
 constexpr double kDiameter = 2e-4, kWidth = 3.2e-3, kHeight = 2e-3, kBed = 8e-4;  // [m]
 
-/// A channel with a floor, oblique to the rows of cells, and a post as high as three layers of
-/// grains.
+/// A channel with a floor, a flow oblique to the rows of cells, and a post that stands out of a bed
+/// of four layers.
 Config channel_with_post(Exchange exchange, double smoothing) {
   Config c = test::water_box({8, 8, 8}, {kWidth, kHeight, kWidth});
   c.fluid->bottom = WallFlow::no_slip;
@@ -71,9 +72,8 @@ void expect_all(const std::string& what, const Vec3& force, const Vec3& drive) {
   test::expect_relative(what + " over the drive along z", force.z / drive.z, 1, 1e-6);
 }
 
-// Also what the smoothing spreads, and what the grains take from water where the post is: that the
-// post gives. By row the grains get what the water loses; other exchanges read the flow at their
-// centres.
+// What grains take where the post is comes from the post. By row the grains get what the water
+// loses; the other exchanges give them the flow at their centres.
 TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
   for (const Exchange exchange : {Exchange::by_row, Exchange::smoothed, Exchange::interpolated}) {
     for (const double smoothing : {0.0, 6e-4}) {

@@ -280,13 +280,14 @@ TEST(BodiesInFlow, FacesHaveTheVolumeOfTheirMomentum) {
   config.fluid->first_cell_height = 0.004;
   const Grid grid = make_grid(config);
   const test::HostGrid rows(grid);
+  const GridRef on_host = rows.ref();
   for (int j = 1; j < 9; ++j) {
     const BodyFace across_x{.j = j, .axis = 0}, across_y{.j = j, .axis = 1},
         across_z{.j = j, .axis = 2};
     const double half_below = rows.dy(j - 1) / 2, half_above = rows.dy(j) / 2;
-    EXPECT_NEAR(across_y.volume(grid), 1e-4 * (half_below + half_above), 1e-18);
-    EXPECT_NEAR(across_x.volume(grid), 1e-4 * rows.dy(j), 1e-18);
-    EXPECT_NEAR(across_z.volume(grid), 1e-4 * rows.dy(j), 1e-18);
+    EXPECT_NEAR(across_y.volume(on_host), 1e-4 * (half_below + half_above), 1e-18);
+    EXPECT_NEAR(across_x.volume(on_host), 1e-4 * rows.dy(j), 1e-18);
+    EXPECT_NEAR(across_z.volume(on_host), 1e-4 * rows.dy(j), 1e-18);
     EXPECT_GT(half_above, half_below);
   }
 }

@@ -67,7 +67,8 @@ Steady steady_flow(int n) {
   };
   const int each = static_cast<int>(5 * kDiameter / kSpeed / dt);
   double before = 0, length = 1;
-  for (int part = 0; part < 20 && std::abs(length - before) > 5e-4 * length; ++part) {
+  const auto changes = [&] { return std::abs(length - before) / length; };
+  for (int part = 0; part < 20 && changes() > 5e-4; ++part) {
     before = length;
     for (int s = 0; s < each; ++s) {
       run.advance(dt);
@@ -77,6 +78,7 @@ Steady steady_flow(int n) {
     }
     length = length_of_eddies(run);
   }
+  EXPECT_LT(changes(), 5e-4) << "not steady";
   const Steady s{drag_of(run), length};
   std::printf("[ measured ] Re 40, D / h = %d: Cd %.4f, eddies %.4f D, after %.0f D/U\n", n, s.drag,
               s.length, run.fluid.time * kSpeed / kDiameter);

@@ -63,10 +63,10 @@ Vec3 direction(Uniform& uniform) {
   }
 }
 
-/// What a hit gives to the body, and what it takes from the grain: differences over the impulse,
-/// and over it times 1 mm.
+/// What a hit gives to the body against what it takes from the grain: over the impulse, and over it
+/// times 1 mm. The grain afterwards: its speed [m/s], by how much its turning changed [1/s].
 struct Balance {
-  Real impulse = 0, torque = 0, speed_after = 0;
+  Real impulse_error = 0, torque_error = 0, speed_after = 0, spun_up = 0;
 };
 
 Balance balance_of(Hit hit, const Body& body) {
@@ -81,6 +81,7 @@ Balance balance_of(Hit hit, const Body& body) {
     if (has_touched && !touches_body(hit.bench)) break;
     has_touched = has_touched || touches_body(hit.bench);
   }
+  EXPECT_TRUE(has_touched);
   const GrainKinematics after = hit.bench.grain(1);
   const auto momentum = [&](const GrainKinematics& k) {
     return k.m * cross(body.from_foot(k.x), k.u) + 0.4 * k.m * k.r * k.r * k.omega;
@@ -88,7 +89,7 @@ Balance balance_of(Hit hit, const Body& body) {
   const Vec3 lost = before.m * (before.u - after.u);
   const Vec3 lost_turning = momentum(before) - momentum(after);
   return {norm(given - lost) / norm(lost), norm(turned - lost_turning) / (norm(lost) * 1e-3),
-          norm(after.u)};
+          norm(after.u), norm(after.omega - before.omega)};
 }
 
 // Head-on against any place, edges among them: the restitution is that of the wall, a hit takes as
@@ -105,8 +106,8 @@ TEST(HitsOnBodies, AGrainComesOffWithTheRestitutionOfTheWall) {
         const auto [x, normal] = place_near(body, extent, uniform);
         const Balance hit = balance_of({config, x, -0.2 * normal, {}, normal}, body);
         worst = std::max(worst, std::abs(hit.speed_after / 0.2 - restitution));
-        not_given = std::max(not_given, hit.impulse);
-        not_turned = std::max(not_turned, hit.torque);
+        not_given = std::max(not_given, hit.impulse_error);
+        not_turned = std::max(not_turned, hit.torque_error);
       }
       const std::string claim = shape.name + ", e = " + std::to_string(restitution).substr(0, 3);
       expect_below(claim + ", restitution off by", worst, 2e-4);
@@ -123,14 +124,16 @@ TEST(HitsOnBodies, TheBodyGetsWhatAGrainThatSlidesAndRollsLoses) {
     const BodyExtent extent = body_extent(shape, config.size);
     const Body body = make_bodies(config).body[0];
     Uniform uniform(11);
-    Real not_given = 0, not_turned = 0;
+    Real not_given = 0, not_turned = 0, least_spun_up = 1e9;
     for (int n = 0; n < 5; ++n) {
       const auto [x, normal] = place_near(body, extent, uniform);
       const Vec3 aside = cross(normal, direction(uniform)), omega = 1000 * direction(uniform);
       const Balance hit = balance_of({config, x, 0.1 * aside - 0.2 * normal, omega, normal}, body);
-      not_given = std::max(not_given, hit.impulse);
-      not_turned = std::max(not_turned, hit.torque);
+      not_given = std::max(not_given, hit.impulse_error);
+      not_turned = std::max(not_turned, hit.torque_error);
+      least_spun_up = std::min(least_spun_up, hit.spun_up);
     }
+    EXPECT_GT(least_spun_up, 1) << "friction turns it";
     expect_below(shape.name + ", oblique, impulse on the body off by", not_given, 1e-12);
     expect_below(shape.name + ", and its torque over 1 mm", not_turned, 1e-10);
   }

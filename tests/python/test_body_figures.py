@@ -129,6 +129,11 @@ def test_a_wave_has_the_mean_over_the_width_and_a_point_of_separation(run, tmp_p
     assert found.x_s == pytest.approx(x[x > 0.008][0] - 0.25 * width)
     assert found.x_r == pytest.approx(x[x < 0.020][-1] + 0.25 * width)
     assert "wavelengths behind the crest" in wave.figure("flow_around_body").sentences[0]
+    with open(tmp_path / "config.toml", "a") as more:  # beside a body that does not span the width: its plane alone
+        more.write('[[body]]\nname = "post"\nshape = "cylinder"\ncentre = [0.01, 0.005]\nradius = 1e-3\n'
+                   'height = 5e-3\n')
+    waves, _ = bodies_of(barchan.Run(tmp_path).config)
+    assert set(np.unique(mean_plane(barchan.Run(tmp_path), waves).u)) <= {-0.1, 0.06}
 
 
 def test_a_bubble_across_the_seam(run, tmp_path):

@@ -78,7 +78,7 @@ class Body:
     @property
     def spans(self) -> bool:
         """Whether it is the same in every plane across the stream."""
-        endless = {"wave": True, "cylinder_z": self.length == 0, "box": self.size[1] == 0 and self.angle == 0}
+        endless = {"wave": True, "cylinder_z": self.length == 0, "box": self.size[1] == 0}
         return endless.get(self.form, False)
 
     def local(self, x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -22,7 +22,7 @@ BEHIND = 3.0    # sizes of the body within which reversed flow must begin to be 
 @dataclass
 class Plane:
     """Means from `start` to `end` [s] over so many `frames`, or samples, in the cells nearest to the plane z [m], or
-    over the width as well if the body spans it.
+    over the width as well if all bodies span it.
 
     x (nx) from the middle of the body, y (ny), centres of cells; x_face, y_face; u, v (ny, nx) [m/s]; `solid` and
     `bed` (ny, nx): cells in a body, cells in grains.
@@ -49,10 +49,10 @@ class Plane:
 
 @dataclass
 class Bubble:
-    """The region of reversed mean flow behind a body. Lengths in m: x_lee, where the body ends downstream, x_s and x_r,
-    where the flow turns back and is forward again, all from its middle; `height`, of reversed flow above the floor;
-    `row`: "floor", or "middle" for a body with water below it. NaN: there is none, or it does not end within the
-    domain."""
+    """The region of reversed mean flow behind a body. Lengths in m: x_lee, where the body ends downstream, x_s, where
+    the flow becomes reversed, and x_r, where it is forward again, all from its middle; `height`, of reversed flow above
+    the floor; `row`: "floor", or "middle" for a body with water below it. NaN: there is none, or it does not end within
+    the domain."""
 
     x_lee: float
     x_s: float
@@ -73,7 +73,7 @@ def mean_plane(run: RunFolder, body: Body, start: float | None = None, end: floa
     with file.open() as content:
         grid = {key: content["grid"][key][:] for key in ("x", "y", "z", "x_face", "y_face")}
         k = int(np.argmin(abs(grid["z"] - z)))
-        across = slice(None) if body.spans else slice(k, k + 1)
+        across = slice(None) if all(each.spans for each in bodies_of(run.config)) else slice(k, k + 1)
         planes = [[content[file.frames[index][1]][name][across].astype(float).mean(axis=0)
                    for name in ("u", "v", "alpha_f")] for index in chosen]
         samples = int(content[file.frames[chosen[-1]][1]].attrs.get("n_samples", len(chosen)))
