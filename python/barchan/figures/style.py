@@ -8,6 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from PIL import Image
 
 from barchan.errors import BarchanError
@@ -89,15 +90,19 @@ def panel_label(axes, index, colour=BLACK):
     axes.set_title(f"({chr(ord('a') + index)})", loc="left", pad=3, color=colour)
 
 
-def scale_bar(axes, length_mm, x, y, colour=BLACK):
-    """A horizontal bar of `length_mm`; the axes are in mm; x, y (its left end) in axes fractions."""
+WHITE_EDGE = [withStroke(linewidth=2.5, foreground="white")]  # of words over grains
+
+
+def scale_bar(axes, length_mm, x, y, colour=BLACK, edge=()):
+    """A horizontal bar of `length_mm`; the axes are in mm; x, y (its left end) in axes fractions; `edge`: none, or
+    WHITE_EDGE."""
     left, right = axes.get_xlim()
     span = length_mm / abs(right - left)
     axes.plot([x, x + span], [y, y], transform=axes.transAxes, color=colour, lw=2,
-              solid_capstyle="butt", clip_on=False)
+              solid_capstyle="butt", clip_on=False, path_effects=edge)
     axes.annotate(f"{length_mm:g} mm", (x + 0.5 * span, y), xycoords="axes fraction",
                   xytext=(0, 3), textcoords="offset points", ha="center", va="bottom",
-                  color=colour, fontsize=7.5)
+                  color=colour, fontsize=7.5, path_effects=edge)
 
 
 def flow_arrow(axes, x, y, colour=BLACK):

@@ -53,12 +53,13 @@ def draw(run, ax=None):
         axes.imshow(picture, extent=extent, aspect="equal", interpolation="antialiased")
         body_pictures.draw_plan(axes, bodies, named=grains is frames[0])
         axes.set(xticks=[], yticks=[], xlim=extent[:2], ylim=extent[2:])
-        axes.text(0.012, 0.95, f"$t$ = {grains.time:.3g} s", transform=axes.transAxes, va="top")
+        axes.text(0.012, 0.95, f"$t$ = {grains.time:.3g} s", transform=axes.transAxes, va="top",
+                  path_effects=style.WHITE_EDGE)
     for axes in panels[len(frames):]:
         axes.set_visible(False)
     length = style.round_length(0.25e3 * (window[1] - window[0]))
     share = length / (1e3 * (window[1] - window[0]))
-    style.scale_bar(panels[0], length, 0.985 - share, 0.06)
+    style.scale_bar(panels[0], length, 0.985 - share, 0.06, edge=style.WHITE_EDGE)
     if always_along_x(run.config):
         flow_arrow(panels[0])
     named = max(frames, key=lambda grains: len(grains.groups))
@@ -69,8 +70,8 @@ def draw(run, ax=None):
 def flow_arrow(axes):
     axes.annotate("", xy=(0.985, 0.9), xytext=(0.885, 0.9), xycoords="axes fraction",
                   arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "lw": 1.0,
-                              "shrinkA": 0, "shrinkB": 0})
-    axes.text(0.87, 0.9, "flow", transform=axes.transAxes, ha="right", va="center")
+                              "shrinkA": 0, "shrinkB": 0, "path_effects": style.WHITE_EDGE})
+    axes.text(0.87, 0.9, "flow", transform=axes.transAxes, ha="right", va="center", path_effects=style.WHITE_EDGE)
 
 
 def colour_key(figure, grid, top, groups=(), kinds=()):
