@@ -110,11 +110,11 @@ ContactHistory load_contacts(const CheckpointReader& file, const GrainState& s, 
     rolling.push_back(contact.rolling);
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
-  return {.first = to_device("contact history: first", first),
-          .partner = to_device("contact history: partner", partner),
-          .xi_t = to_device("contact history: xi_t", xi_t),
-          .rolling =
-              with_rolling ? to_device("contact history: rolling", rolling) : Kokkos::View<Vec3*>(),
+  return {.first = to_device("contact history: first", first, 1),
+          .partner = to_device("contact history: partner", partner, 1),
+          .xi_t = to_device("contact history: xi_t", xi_t, 1),
+          .rolling = with_rolling ? to_device("contact history: rolling", rolling, 1)
+                                  : Kokkos::View<Vec3*>(),
           .force = {}};
 }
 

@@ -27,10 +27,11 @@ auto host_copy(const View& view) {
   return host;
 }
 
-/// A copy on the device, of one entry at least.
+/// A copy on the device, with room for `least` entries.
 template <class T>
-Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values) {
-  const Kokkos::View<T*> view(label, std::max<std::size_t>(values.size(), 1));
+Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values,
+                           std::size_t least = 0) {
+  const Kokkos::View<T*> view(label, std::max(values.size(), least));
   const auto host = mirror(view);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(view, host);
