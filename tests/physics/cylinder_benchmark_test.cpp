@@ -36,13 +36,8 @@ struct Benchmark {
   void advance() {
     run.advance(dt);
     const int last = static_cast<int>(std::lround(kInlet / run.grid.dx));
-    const auto hold = [&](Field& f, const auto& value) {
-      const auto now = to_host(f);
-      set_field(f, run.grid,
-                [&](int i, int j, int k) { return i < last ? value(j) : now(i, j, k); });
-    };
-    hold(run.fluid.u.x, [&](int j) { return parabola(run.h.y(j)); });
-    hold(run.fluid.u.y, [](int) { return 0.; });
+    run.hold(run.fluid.u.x, last, [&](int j) { return parabola(run.h.y(j)); });
+    run.hold(run.fluid.u.y, last, [](int) { return 0.; });
     run.solver.fill_ghosts(run.fluid);
   }
   double parabola(double y) const { return 6 * bulk * y * (kHeight - y) / (kHeight * kHeight); }

@@ -61,10 +61,6 @@ Steady steady_flow(int n) {
   run.solver.flow_around_bodies(run.fluid);
   const double h = run.grid.dx, dt = std::min(0.25 * h / kSpeed, 0.08 * h * h / kNu);
   const int held = static_cast<int>(std::lround(kInlet / h));
-  const auto hold = [&](Field& f, double value) {
-    const auto now = to_host(f);
-    set_field(f, run.grid, [&](int i, int j, int k) { return i < held ? value : now(i, j, k); });
-  };
   const int each = static_cast<int>(5 * kDiameter / kSpeed / dt);
   double before = 0, length = 1;
   const auto changes = [&] { return std::abs(length - before) / length; };
@@ -72,8 +68,8 @@ Steady steady_flow(int n) {
     before = length;
     for (int s = 0; s < each; ++s) {
       run.advance(dt);
-      hold(run.fluid.u.x, kSpeed);
-      hold(run.fluid.u.y, 0);
+      run.hold(run.fluid.u.x, held, [](int) { return kSpeed; });
+      run.hold(run.fluid.u.y, held, [](int) { return 0.; });
       run.solver.fill_ghosts(run.fluid);
     }
     length = length_of_eddies(run);

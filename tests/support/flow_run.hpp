@@ -32,6 +32,14 @@ struct FlowRun {
   void start_uniform(double u_x) {
     start([=](int, int, int) { return u_x; });
   }
+  /// A component of the velocity becomes value(j) in the first columns: what a periodic box lacks
+  /// of an inlet. Ghosts are not filled.
+  template <class Value>
+  void hold(Field& component, int columns, const Value& value) {
+    const auto now = to_host(component);
+    set_field(component, grid,
+              [&](int i, int j, int k) { return i < columns ? value(j) : now(i, j, k); });
+  }
   const FluidStepReport& advance(double dt, const ExchangeOnFaces* exchange = nullptr) {
     return report = solver.advance(fluid, exchange, dt);
   }

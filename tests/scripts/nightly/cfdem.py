@@ -13,14 +13,7 @@ import beside_cfdem as beside
 import ergun_bed
 import moving_heap
 import saved_tables
-
-problems = []
-
-
-def measured(what, value, low, high):
-    print(f"[ measured ] {what}: {value:.5g} ({low:g} to {high:g})", flush=True)
-    if not low <= value <= high:
-        problems.append(f"{what} is {value:.5g}, not within {low:g} to {high:g}")
+from ranges import measured, status
 
 
 def held(name, runs):
@@ -91,8 +84,7 @@ def main():
         drops, moving = ergun(runs), heap(runs)
         if "BARCHAN_RESULTS" in os.environ:
             saved_tables.write(pathlib.Path(os.environ["BARCHAN_RESULTS"]), states, drops, *moving)
-    print("\n".join(problems) or "beside CFDEM: all within bounds")
-    return 1 if problems else 0
+    return status("beside CFDEM")
 
 
 sys.exit(main())

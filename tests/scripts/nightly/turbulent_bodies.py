@@ -9,15 +9,9 @@ import sys
 import tempfile
 
 import barchan
+from ranges import measured, status
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-problems = []
-
-
-def measured(what, value, low, high):
-    print(f"[ measured ] {what}: {value:.4g} ({low:g} to {high:g})", flush=True)
-    if not low <= value <= high:
-        problems.append(f"{what} is {value:.4g}, not within {low:g} to {high:g}")
 
 
 def bubble_of(case, runs):
@@ -37,9 +31,7 @@ def main(runs):
     measured("wavy wall: where it attaches again (published 0.58 to 0.60)", wave["x_r"] / 0.02, 0.57, 0.67)
     cube = bubble_of("cube", runs)
     measured("cube: length of the bubble behind it over its height", cube["length_over_size"], 1.4, 1.7)
-    for problem in problems:
-        print("turbulent_bodies: " + problem, file=sys.stderr)
-    return 1 if problems else 0
+    return status("turbulent bodies")
 
 
 kept = os.environ.get("BARCHAN_BODY_RUNS")
