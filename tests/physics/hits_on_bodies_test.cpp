@@ -36,8 +36,22 @@ struct Hit {
   }
 };
 
+/// A body alone, among grains of a material.
+struct Solid {
+  Config config;
+  BodyExtent extent;
+  Body body;
+
+  Solid(const BodyConfig& shape, const Material& grains)
+      : config(with_bodies(grains, {shape})),
+        extent(body_extent(shape, config.size)),
+        body(make_bodies(config).body[0]) {}
+};
+
 /// A place near the surface from where a grain soon touches it, with the normal there.
-std::pair<Vec3, Vec3> place_near(const Body& body, const BodyExtent& extent, Uniform& uniform) {
+std::pair<Vec3, Vec3> place_near(const Solid& solid, Uniform& uniform) {
+  const BodyExtent& extent = solid.extent;
+  const Body& body = solid.body;
   for (;;) {
     Vec3 x;
     const auto between = [&](double low, double high) {
@@ -97,14 +111,12 @@ Balance balance_of(Hit hit, const Body& body) {
 TEST(HitsOnBodies, AGrainComesOffWithTheRestitutionOfTheWall) {
   for (const BodyConfig& shape : all_shapes()) {
     for (const Real restitution : {1.0, 0.6}) {
-      const Config config = with_bodies(material(0, restitution), {shape});
-      const BodyExtent extent = body_extent(shape, config.size);
-      const Body body = make_bodies(config).body[0];
+      const Solid solid(shape, material(0, restitution));
       Uniform uniform(7);
       Real worst = 0, not_given = 0, not_turned = 0;
       for (int n = 0; n < 40; ++n) {
-        const auto [x, normal] = place_near(body, extent, uniform);
-        const Balance hit = balance_of({config, x, -0.2 * normal, {}, normal}, body);
+        const auto [x, normal] = place_near(solid, uniform);
+        const Balance hit = balance_of({solid.config, x, -0.2 * normal, {}, normal}, solid.body);
         worst = std::max(worst, std::abs(hit.speed_after / 0.2 - restitution));
         not_given = std::max(not_given, hit.impulse_error);
         not_turned = std::max(not_turned, hit.torque_error);
@@ -120,15 +132,14 @@ TEST(HitsOnBodies, AGrainComesOffWithTheRestitutionOfTheWall) {
 // Oblique hits of turning grains with sliding and rolling friction.
 TEST(HitsOnBodies, TheBodyGetsWhatAGrainThatSlidesAndRollsLoses) {
   for (const BodyConfig& shape : all_shapes()) {
-    const Config config = with_bodies(material(0.5, 0.8, 0.3), {shape});
-    const BodyExtent extent = body_extent(shape, config.size);
-    const Body body = make_bodies(config).body[0];
+    const Solid solid(shape, material(0.5, 0.8, 0.3));
     Uniform uniform(11);
     Real not_given = 0, not_turned = 0, least_spun_up = 1e9;
     for (int n = 0; n < 5; ++n) {
-      const auto [x, normal] = place_near(body, extent, uniform);
+      const auto [x, normal] = place_near(solid, uniform);
       const Vec3 aside = cross(normal, direction(uniform)), omega = 1000 * direction(uniform);
-      const Balance hit = balance_of({config, x, 0.1 * aside - 0.2 * normal, omega, normal}, body);
+      const Balance hit =
+          balance_of({solid.config, x, 0.1 * aside - 0.2 * normal, omega, normal}, solid.body);
       not_given = std::max(not_given, hit.impulse_error);
       not_turned = std::max(not_turned, hit.torque_error);
       least_spun_up = std::min(least_spun_up, hit.spun_up);
@@ -169,19 +180,16 @@ TEST(HitsOnBodies, AHitTakesAsLongAsHertzSays) {
 TEST(HitsOnBodies, NoHitGivesEnergy) {
   for (const BodyConfig& shape : all_shapes()) {
     for (const bool lossless : {true, false}) {
-      const Config config =
-          with_bodies(lossless ? material(0, 1) : material(0.5, 0.8, 0.1), {shape});
-      const BodyExtent extent = body_extent(shape, config.size);
-      const Body body = make_bodies(config).body[0];
+      const Solid solid(shape, lossless ? material(0, 1) : material(0.5, 0.8, 0.1));
       Uniform uniform(11);
       Real gain = 0, loss = 0;
       int hits = 0;
       for (int n = 0; n < 80; ++n) {
-        const auto [x, normal] = place_near(body, extent, uniform);
+        const auto [x, normal] = place_near(solid, uniform);
         Vec3 u = 0.2 * direction(uniform);
         if (dot(u, normal) > 0) u = -u;
         if (dot(u, normal) > -0.04) continue;
-        Hit hit(config, x, u, lossless ? Vec3{} : 1500 * direction(uniform), normal);
+        Hit hit(solid.config, x, u, lossless ? Vec3{} : 1500 * direction(uniform), normal);
         const Real before = energy(hit.bench.grain(1));
         if (!hit.leaves(2e-8)) continue;
         ++hits;

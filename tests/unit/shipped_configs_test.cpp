@@ -49,7 +49,7 @@ TEST(ShippedConfigs, LoadAndComeBack) {
   }
 }
 
-TEST(ShippedConfigs, WarnOfWhatIsMeantAlone) {
+TEST(ShippedConfigs, OnlyWarnOfWhatIsMeant) {
   bool scour_warned = false;
   for (const auto& file : shipped()) {
     const Case the_case = load_case(file);

@@ -13,7 +13,7 @@ from barchan.dune.body_forces import need_bodies
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.result import keep, say
-from barchan.flow.around_body import bubble, mean_plane, sentence, time
+from barchan.flow.around_body import bubble, in_waves, mean_plane, sentence, time
 
 MOST = 4                     # bodies that are drawn
 BEFORE, AFTER = 2.5, 7.0     # sizes of the body before and behind its middle
@@ -48,9 +48,7 @@ def draw(run, ax=None, start=None, end=None):
 def title(plane, found):
     size, unit = plane.body.unit
     if plane.body.form == "wave" and np.isfinite(found.x_r):
-        wave = plane.body.wavelength
-        return (f"{plane.body.name}: reversed flow from {found.x_s / wave:.2f} to {found.x_r / wave:.2f} $\\lambda$,  "
-                f"{time(plane)}")
+        return f"{plane.body.name}: {in_waves(plane, found)},  {time(plane)}"
     length = (f"bubble of {found.length / size:.2f} ${unit}$" if np.isfinite(found.length) else
               "reversed to the end" if np.isfinite(found.height) else "no reversed flow")
     return f"{plane.body.name}: {length},  {time(plane)}"

@@ -163,6 +163,12 @@ def time(plane: Plane) -> str:
     return f"t = {plane.start:.3g} s" if plane.start == plane.end else f"t = {plane.start:.3g} to {plane.end:.3g} s"
 
 
+def in_waves(plane: Plane, found: Bubble) -> str:
+    """Where the flow behind the crest of a wave is reversed, in words."""
+    x_s, x_r = (place / plane.body.wavelength for place in (found.x_s, found.x_r))
+    return f"reversed flow from {x_s:.3f} to {x_r:.3f} wavelengths"
+
+
 def sentence(plane: Plane, found: Bubble) -> str:
     """What became of the bubble, in words."""
     size, unit = plane.body.unit
@@ -170,9 +176,7 @@ def sentence(plane: Plane, found: Bubble) -> str:
     if np.isfinite(found.length):
         where = "in the lowest row of water" if found.row == "floor" else "at half its height"
         if plane.body.form == "wave":
-            wave = plane.body.wavelength
-            return (f"{plane.body.name}: reversed flow from {found.x_s / wave:.3f} to {found.x_r / wave:.3f} "
-                    f"wavelengths behind the crest ({where}; {seen})")
+            return f"{plane.body.name}: {in_waves(plane, found)} behind the crest ({where}; {seen})"
         return (f"{plane.body.name}: separation bubble of {found.length / size:.3g} {unit} behind it (x_r = "
                 f"{1e3 * found.x_r:.3g} mm from its middle, {where}; {seen})")
     if np.isfinite(found.height):

@@ -27,8 +27,8 @@ def bubble_of(case, runs):
 
 def main(runs):
     wave = bubble_of("wavy-wall", runs)  # in wavelengths from the crest
-    measured("wavy wall: where the flow separates (published 0.14 to 0.22)", wave["x_s"] / 0.02, 0.13, 0.22)
-    measured("wavy wall: where it attaches again (published 0.58 to 0.60)", wave["x_r"] / 0.02, 0.57, 0.67)
+    measured("wavy wall: where the flow separates (published 0.14 to 0.22)", wave["x_s"] / 0.02, 0.11, 0.25)
+    measured("wavy wall: where it attaches again (published 0.58 to 0.60)", wave["x_r"] / 0.02, 0.55, 0.63)
     cube = bubble_of("cube", runs)
     measured("cube: length of the bubble behind it over its height", cube["length_over_size"], 1.4, 1.7)
     return status("turbulent bodies")
