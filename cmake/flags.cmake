@@ -62,6 +62,10 @@ if(BARCHAN_SANITIZE)
   target_link_options(barchan_flags INTERFACE -fsanitize=${BARCHAN_SANITIZE})
   # A subscript past its row, but still inside the array, is nothing to the address sanitizer: these are.
   target_compile_definitions(barchan_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  # A read beyond the cells that a kernel wrote stays inside its array: no number is there (src/parallel/poison.hpp).
+  target_compile_definitions(barchan_flags INTERFACE BARCHAN_POISON)
+  # A read beyond the region of a kernel stays inside its array: there is no number (src/parallel/poison.hpp).
+  target_compile_definitions(barchan_flags INTERFACE BARCHAN_POISON)
   if(BARCHAN_SANITIZE MATCHES thread)
     # How OpenMP and Kokkos order the threads, in words that the thread sanitizer knows.
     add_library(barchan_sanitize OBJECT tests/support/tsan_openmp.cpp)

@@ -4,7 +4,8 @@ namespace barchan {
 
 Coupling::Coupling(const Config& config, const FluidSolver& solver, const GrainState& grains,
                    const Grid& grid)
-    : grid_(config, solver, grid, grains.r_max),
+    : keeps_volume_(config.coupling.void_fraction != VoidFraction::cfdem_faithful),
+      grid_(config, solver, grid, grains.r_max),
       fields_(solver, grid_),
       gather_(config, grains, grid_, fields_),
       deposit_(config, grains, grid_, fields_) {}
@@ -16,11 +17,15 @@ void Coupling::start(const GrainState& grains, FluidState& fluid) {
 }
 
 void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
+  fields_.lend_to_gather();
   grid_.mark_columns_of(grains);
   grid_.marks.mark_not_one(CouplingGrid::kOfFraction, grid_.grid, fluid.alpha_f);
   grid_.marks.fetch();
-  fields_.of_grains.set(grid_.columns_of_grains());
-  fields_.of_fraction.set(ColumnMap::marked(grid_.grid, grid_.marks, CouplingGrid::kOfFraction));
+  const ColumnMap of_grains = grid_.columns_of_grains();
+  fields_.of_grains.set(of_grains);
+  // Around grains that were fed since the last deposit the fraction is still one.
+  fields_.of_fraction.set(
+      ColumnMap::marked(grid_.grid, grid_.marks, CouplingGrid::kOfFraction).united(of_grains));
   gather_.undo_smoothing(fluid);
   deposit_.solid_of_momentum_cells(grains, fluid);
   gather_(fluid, grains, dt, sums_);
@@ -29,6 +34,7 @@ void Coupling::gather(const FluidState& fluid, GrainState& grains, Real dt) {
 void Coupling::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   deposit_(grains, fluid, dt, sums_);
   ledger_ = sums_.ledger(ranks_of(grid_.grid), dt);
+  ledger_.keeps_volume = keeps_volume_;
 }
 
 }  // namespace barchan

@@ -25,6 +25,7 @@ class Coupling {
   const ExchangeLedger& ledger() const { return ledger_; }
 
  private:
+  bool keeps_volume_;
   CouplingGrid grid_;
   CouplingFields fields_;
   Gather gather_;

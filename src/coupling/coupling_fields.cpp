@@ -1,5 +1,7 @@
 #include "src/coupling/coupling_fields.hpp"
 
+#include "src/parallel/poison.hpp"
+
 namespace barchan {
 
 CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
@@ -7,6 +9,8 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
       of_fraction(at.grid),
       smoothed(at.grid),
       of_flow(at.grid),
+      deposited(at.grid),
+      of_impulse(at.grid),
       on_faces{make_faces("exchange impulse", at.grid)} {
   on_faces.regions = &of_flow;
   of_grains.set({}), of_fraction.set({});  // none yet
@@ -27,6 +31,24 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
   on_faces.conductance_x = Field("coupling: conductance between rows, x", at.grid);
   on_faces.conductance_z = Field("coupling: conductance between rows, z", at.grid);
   solid_x = on_faces.conductance_x, solid_z = on_faces.conductance_z;
+}
+
+void CouplingFields::lend_to_gather() const {
+  poison(pressure_on_faces);
+  poison(convective);
+  poison(pressure_in_cells.x, pressure_in_cells.y, pressure_in_cells.z);
+  poison(on_faces.impulse);
+  poison(on_faces.conductance_x, on_faces.conductance_z, alpha_before_smoothing);
+}
+
+void CouplingFields::lend_to_deposit() const {
+  poison(impulse_in_cells.x, impulse_in_cells.y, impulse_in_cells.z);
+  poison(on_faces.impulse);
+  poison(on_faces.conductance_x, on_faces.conductance_z);
+}
+
+void CouplingFields::give_back() const {
+  poison_finite(impulse_in_cells.x, impulse_in_cells.y, impulse_in_cells.z);
 }
 
 }  // namespace barchan

@@ -13,6 +13,11 @@ struct CouplingFields {
   CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
   CouplingFields(const CouplingFields&) = delete;
 
+  /// Nothing that was written before is read any more; poison.hpp.
+  void lend_to_gather() const;
+  void lend_to_deposit() const;
+  void give_back() const;
+
   // Gather, smoothed [Pa]; force per volume of grain on faces [N/m^3].
   Field smoothed_pressure;
   FaceVector pressure_on_faces, stress_on_faces;
@@ -38,6 +43,9 @@ struct CouplingFields {
   NearGrains of_grains, of_fraction;
   Region smoothed;
   FlowRegions of_flow;
+  // And those that grains give to; those whose impulse goes to the faces of `of_flow.exchange`,
+  // unless by row.
+  Region deposited, of_impulse;
 
   // Kept through the fluid step.
   Field alpha_before_smoothing;  // set by the gather, within of_flow; empty without

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/parallel/poison.hpp"
 #include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
@@ -20,6 +21,19 @@ struct OneBeyond {
   FieldRef fraction;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     fraction(i, j, k) = region.has(i, j, k) ? fraction(i, j, k) : Real(1);
+  }
+};
+
+/// Beyond the cells that grains give to there are no sums.
+struct ZeroBeyond {
+  RegionRef deposited;
+  DecodeDeposit decode;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
+    if (deposited.has(i, j, k)) {
+      decode(i, j, k);
+    } else {
+      decode.density(i, j, k) = 0;
+    }
   }
 };
 
@@ -51,7 +65,8 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
   add_totals(of_grain, grains, fluid, sums);
   find_cells();
   bound_sums(sums);
-  clear(fields_.of_flow.exchange);
+  fields_.lend_to_deposit();
+  clear(fields_.deposited);
   using Launch = DepositGrains<kOnHost ? 128 : 1>;
   Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(grains.n)),
                        Launch{.of_grain = of_grain,
@@ -65,6 +80,7 @@ void Deposit::operator()(const GrainState& grains, FluidState& fluid, Real dt,
   } else {
     spread_to_faces(sums);
   }
+  fields_.give_back();
 }
 
 void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid) {
@@ -76,13 +92,14 @@ void Deposit::solid_of_momentum_cells(const GrainState& grains, const FluidState
   halo_.scatter_add(deposits_.sum);
   for (const auto& [quantity, field] : {std::pair{Deposits::kSolidX, &fields_.solid_x},
                                         std::pair{Deposits::kSolidZ, &fields_.solid_z}}) {
-    decode(quantity, deposits_.volume, cells, *field);
+    decode(quantity, deposits_.volume, cells, cells, *field);
   }
   grid_.boundary.fill_scalars(cells, fields_.solid_x, fields_.solid_z);
 }
 
 /// Where the sums are zero that grains are then added to; the ghosts are added to their owners.
 void Deposit::clear(const Region& cells) {
+  poison(deposits_.sum);
   const Grid& grid = grid_.grid;
   const ClearDeposits set_zero{grid, deposits_};
   for_each_cell("coupling: clear deposits", cells, set_zero);
@@ -113,8 +130,10 @@ void Deposit::find_cells() {
                                 .in_blocks()
                                 .united(grid_.bodies ? grid_.bodies->columns() : ColumnMap{});
   fields_.of_flow.fraction.set(of_flow);
-  const bool spreads = config_.exchange == Exchange::smoothed;
-  fields_.of_flow.exchange.set(spreads ? of_flow : of_grains.grown(1).in_blocks());
+  const ColumnMap deposited = of_grains.grown(1).in_blocks();
+  fields_.deposited.set(deposited);
+  fields_.of_flow.exchange.set(config_.exchange == Exchange::smoothed ? of_flow : deposited);
+  if (!grid_.by_row) fields_.of_impulse.set(fields_.of_flow.exchange.columns().grown(1));
   if (grid_.smoothing_length == 0) return;
   Field& before_smoothing = fields_.alpha_before_smoothing;
   const Region& around = fields_.of_flow.fraction.around;  // of whose faces both sides are read
@@ -142,14 +161,12 @@ void Deposit::add_totals(const ExchangeOfGrain& of_grain, const GrainState& grai
 void Deposit::bound_sums(const ExchangeSums& sums) {
   const auto totals = sums.get<GrainTotals>(ExchangeSums::kTotals);
   deposits_.conductance = fixed_point_for(totals.beta_dt * (kDividedOffsets * kDividedOffsets / 4));
-  // Rows exchange no more than by twice the fastest velocity along x and z.
-  const Real fastest = sums.get(ExchangeSums::kFastest);
-  deposits_.impulse = fixed_point_for(totals.size + 4 * fastest * totals.beta_dt);
+  deposits_.impulse = fixed_point_for(sums.largest_exchange());
 }
 
 void Deposit::update_fraction(FluidState& fluid, const ExchangeSums& sums) {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
-  decode(Deposits::kVolume, deposits_.volume, fields_.smoothed, fluid.alpha_f);
+  decode(Deposits::kVolume, deposits_.volume, fields_.deposited, fields_.smoothed, fluid.alpha_f);
   grid_.raise_to_kept(fluid.alpha_f, fields_.smoothed);
   grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
   sum_each_cell("coupling: solid fraction to fluid fraction", sums, ExchangeSums::kDepositedVolume,
@@ -178,16 +195,17 @@ void Deposit::rows_to_faces(const ExchangeSums& sums) {
 
 /// The same of an exchange that goes to cells, and is smoothed with them.
 void Deposit::spread_to_faces(const ExchangeSums& sums) {
-  const Region& cells = fields_.of_flow.exchange;
+  const Region& cells = fields_.of_impulse;
   CellVector& impulse = fields_.impulse_in_cells;
   for (const auto& [quantity, field] :
        {std::pair{Deposits::kImpulseX, &impulse.x}, std::pair{Deposits::kImpulseY, &impulse.y},
         std::pair{Deposits::kImpulseZ, &impulse.z}}) {
-    decode(quantity, deposits_.impulse, cells, *field);
+    decode(quantity, deposits_.impulse, fields_.deposited, cells, *field);
     if (config_.exchange == Exchange::smoothed) grid_.smoother.solve(*field, fields_.smoothed);
   }
   grid_.fill_ghosts(impulse, cells);
-  sum_vector("coupling: spread to faces", sums, ExchangeSums::kTakenFromFluid, cells,
+  sum_vector("coupling: spread to faces", sums, ExchangeSums::kTakenFromFluid,
+             fields_.of_flow.exchange,
              SpreadToFaces{.grid = grid_.grid,
                            .impulse_x = impulse.x,
                            .impulse_y = impulse.y,
@@ -195,9 +213,9 @@ void Deposit::spread_to_faces(const ExchangeSums& sums) {
                            .given = fields_.on_faces.impulse});
 }
 
-/// One quantity as a density in the cells of a region.
-void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& cells,
-                     Field& density) const {
+/// One quantity as a density in the cells of a region; zero where the grains gave nothing.
+void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& deposited,
+                     const Region& cells, Field& density) const {
   DecodeDeposit functor{.grid = grid_.grid,
                         .deposits = deposits_,
                         .point = point,
@@ -206,7 +224,7 @@ void Deposit::decode(Deposits::Quantity quantity, const FixedPoint& point, const
   if (quantity == Deposits::kVolume && config_.void_fraction == VoidFraction::cfdem_faithful) {
     functor.most = kMaxSolid;
   }
-  for_each_cell("coupling: decode deposit", cells, functor);
+  for_each_cell("coupling: decode deposit", cells, ZeroBeyond{deposited.ref(), functor});
 }
 
 }  // namespace barchan

@@ -31,8 +31,8 @@ class Deposit {
   void update_fraction(FluidState& fluid, const ExchangeSums& sums);
   void rows_to_faces(const ExchangeSums& sums);
   void spread_to_faces(const ExchangeSums& sums);
-  void decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& cells,
-              Field& density) const;
+  void decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& deposited,
+              const Region& cells, Field& density) const;
 
   CouplingConfig config_;
   const CouplingGrid& grid_;

@@ -11,6 +11,9 @@ namespace barchan {
 
 namespace {
 
+/// Of what is exchanged. Rounding leaves 1e-16 to 1e-12.
+constexpr double kClosed = 1e-9;
+
 double relative(const Vec3& difference, const Vec3& reference) {
   const double size = norm(reference);
   return size > 0 ? norm(difference) / size : norm(difference);
@@ -23,6 +26,11 @@ void ExchangeSums::combine_totals(MPI_Comm ranks) const {
   combine(ranks, kFastest, 1, MPI_MAX);
 }
 
+Real ExchangeSums::largest_exchange() const {
+  const auto totals = get<GrainTotals>(kTotals);
+  return totals.size + 4 * get(kFastest) * totals.beta_dt;
+}
+
 ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
   combine(ranks, kPressureOnSolid, kSums - kPressureOnSolid, MPI_SUM);
   fetch();
@@ -31,6 +39,7 @@ ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
           .deposited_volume = get(kDepositedVolume) - get(kVolumeInBodies),
           .given_to_grains = totals.impulse,
           .taken_from_fluid = get<Vec3>(kTakenFromFluid),
+          .largest_exchange = largest_exchange(),
           .flow_on_solid = dt * (get<Vec3>(kPressureOnSolid) + get<Vec3>(kStressOnSolid)),
           .flow_on_grains = dt * get<Vec3>(kForceOnGrains)};
 }
@@ -44,7 +53,25 @@ void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
         "grains inside and left do not add up to those at the start and fed: {} + {} is not {}",
         counts[0], counts[1], came));
   }
+  expect_closed(step);
   add(step);
+}
+
+/// What is not finite is told by the checks of the state, which know where.
+void Ledger::expect_closed(const ExchangeLedger& step) {
+  const auto expect = [](const char* what, double off, double of, const char* unit) {
+    if (!(off > kClosed * of)) return;
+    throw std::runtime_error(
+        fmt::format("{} is off by {:.3g} of {:.3g} {} in this step: nothing of this run can be "
+                    "trusted. This is "
+                    "a fault of the program; please report it with the case",
+                    what, off, of, unit));
+  };
+  if (step.keeps_volume)
+    expect("the volume of the grains in the cells of the flow",
+           std::abs(step.deposited_volume - step.grain_volume), step.grain_volume, "m3");
+  expect("the momentum that the water gives to the grains",
+         norm(step.taken_from_fluid - step.given_to_grains), step.largest_exchange, "N s");
 }
 
 void Ledger::add(const ExchangeLedger& step) {

@@ -15,8 +15,10 @@ struct ExchangeLedger {
   Real grain_volume = 0, deposited_volume = 0;  // [m^3], before and after the smoothing
   Vec3 given_to_grains;                         // drag and added mass over the grain steps [N s]
   Vec3 taken_from_fluid;                        // its deposit on the faces [N s]
-  Vec3 flow_on_solid;   // pressure gradient and stress: what the solid fraction takes [N s]
-  Vec3 flow_on_grains;  // the same on the grains [N s]
+  Real largest_exchange = 0;  // bound of the sizes of what is given and taken, added up [N s]
+  bool keeps_volume = true;   // the void fraction model drops none
+  Vec3 flow_on_solid;         // pressure gradient and stress: what the solid fraction takes [N s]
+  Vec3 flow_on_grains;        // the same on the grains [N s]
 };
 
 /// Sums of a step over cells and grains, on the device until the step needs them.
@@ -36,6 +38,9 @@ struct ExchangeSums : Tally {
 
   /// What grains give, and the fastest flow, over all ranks.
   void combine_totals(MPI_Comm ranks) const;
+  /// A bound of what all cells together get, each component by its size [N s]. By row grains
+  /// exchange no more than by twice the fastest velocity along x and z.
+  Real largest_exchange() const;
   /// Of a step of dt [s], over all ranks.
   ExchangeLedger ledger(MPI_Comm ranks, Real dt) const;
 };
@@ -44,12 +49,14 @@ struct ExchangeSums : Tally {
 class Ledger {
  public:
   Ledger() { add({}); }
-  /// After each coupled step. Throws std::runtime_error if a grain is unaccounted for.
+  /// After each coupled step. Throws std::runtime_error if a grain is unaccounted for, or more
+  /// volume or momentum than rounding leaves.
   void close_step(const ExchangeLedger& step, const GrainState& grains);
   /// Names and values for run.json; momentum along x, y, z [N s], mismatches relative.
   const std::map<std::string, double>& entries() const { return entries_; }
 
  private:
+  static void expect_closed(const ExchangeLedger& step);
   void add(const ExchangeLedger& step);
 
   std::map<std::string, double> entries_;

@@ -77,11 +77,12 @@ Smoother::Smoother(const Grid& grid, std::shared_ptr<const PlaneFft> whole,
                    const EvenExtension& even, Real length)
     : grid_(grid), even_(even), length_(length), whole_fft_(std::move(whole)) {
   if (length == 0) return;
-  const auto cells = [&](Real spacing) {
-    return static_cast<int>(
-        std::ceil(std::log(kTolerance) / std::log(decay_per_cell(spacing, length))));
+  const auto cells = [&](Real spacing, int all) {
+    const Real decay = decay_per_cell(spacing, length);
+    if (decay == 1) return all;
+    return static_cast<int>(std::min<Real>(all, std::ceil(std::log(kTolerance) / std::log(decay))));
   };
-  reach_ = std::max(cells(grid.dx), cells(grid.dz));
+  reach_ = std::max(cells(grid.dx, grid.nx_all), cells(grid.dz, grid.nz_all));
   const HostGrid rows = grid.on_host();
   for (int j = 0; j < grid.ny; ++j) decay_.push_back(decay_per_cell(rows.dy(j), length));
 }

@@ -10,6 +10,7 @@
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
 #include "src/bodies/make_bodies.hpp"
+#include "src/parallel/poison.hpp"
 #include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
@@ -64,6 +65,9 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fracti
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
   report_ = {};
+  poison(u_star_);
+  poison(flux_);
+  poison(mobility_.x, mobility_.z, source_);  // mobility_.y is zero on the walls, once and for all
   const bool knows_where = exchange != nullptr && exchange->regions != nullptr;
   const bool bodies_alone = bodies_ && is_clear_ && exchange == nullptr;
   regions_ = knows_where ? exchange->regions : bodies_alone ? &bodies_->regions() : &everywhere_;

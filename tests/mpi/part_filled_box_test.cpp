@@ -1,0 +1,153 @@
+// Every way in which grains and flow meet, in a box that the grains do not fill: what is read
+// beyond the cells around them is no number (src/parallel/poison.hpp). On 1 and 2 ranks.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "src/base/atomic_file.hpp"
+#include "src/parallel/poison.hpp"
+#include "src/run/simulation.hpp"
+#include "tests/support/coupled_case.hpp"
+#include "tests/support/same_state.hpp"
+#include "tests/support/shared_folder.hpp"
+
+namespace barchan {
+namespace {
+
+bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
+
+/// What is around the grains, by name.
+struct Surroundings {
+  const char* name;
+  void (*set)(Config&);
+};
+const Surroundings kSurroundings[] = {
+    {"periodic", [](Config& c) { c.grains->boundary_x = GrainBoundaryX::periodic; }},
+    {"walls",
+     [](Config& c) {
+       c.grains->boundary_x = GrainBoundaryX::wall;
+       c.grains->boundary_z = GrainBoundaryZ::wall;
+       c.initial.pour->centre = {0.0393, 0.0007};  // in a corner
+     }},
+    {"fed",  // one at the outlet leaves while others come in
+     [](Config& c) {
+       c.fluid->mean_velocity = 0.8;
+       c.time.end = 24 * c.time.fluid_step;
+       c.grains->feed = FeedConfig{.rate = 8000, .x = 3e-3, .height = 5e-4};
+       c.initial.pour->centre = {0.0393, 0.0102};
+     }},
+    {"post",
+     [](Config& c) {
+       c.bodies = {{.name = "post",
+                    .shape = BodyShape::cylinder,
+                    .centre = {0.0212, 0.0101},
+                    .radius = 4e-4,
+                    .height = 0.004}};
+     }},
+    {"all forces", [](Config& c) {
+       c.fluid->top = WallFlow::free_slip;
+       c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+     }}};
+
+struct Case {
+  Exchange exchange;
+  VoidFraction void_fraction;
+  Real smoothing_length;  // [m]
+  const Surroundings& around;
+
+  std::string name() const {
+    const char* const exchanges[] = {"by row", "interpolated", "smoothed"};
+    const char* const fractions[] = {"divided", "cfdem_faithful", "centre"};
+    return fmt::format("{}, {}, {} m, {}", exchanges[static_cast<int>(exchange)],
+                       fractions[static_cast<int>(void_fraction)], smoothing_length, around.name);
+  }
+};
+
+/// A dozen grains about the middle of a wide channel, where ranks meet; 8 steps of the flow.
+Config config_of(const Case& at) {
+  Config c = test::coupled_config();
+  c.size = {0.040, 0.006, 0.020};
+  c.fluid->cells = {40, 14, 20};
+  c.grains->sizes = {{2e-4, 12}};
+  c.initial.pour->centre = {0.0202, 0.0101};
+  c.initial.pour->radius = 6e-4;
+  c.coupling.exchange = at.exchange;
+  c.coupling.void_fraction = at.void_fraction;
+  c.coupling.smoothing_length = at.smoothing_length;
+  c.time.grain_step = 2.5e-5;
+  c.grains->material.youngs_modulus = c.grains->wall.youngs_modulus = 5e4;
+  c.time.end = 8 * c.time.fluid_step;
+  at.around.set(c);
+  c.output = {};
+  c.output.dune_interval = 0;
+  return c;
+}
+
+/// To the end of `config`; returns the last restart file.
+std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
+                          const std::optional<std::filesystem::path>& restart = {}) {
+  report::start(true);
+  Simulation simulation(config, {.folder = folder, .restart = restart}, {});
+  EXPECT_EQ(simulation.run(), Outcome::done);
+  report::stop_log();
+  MPI_Barrier(MPI_COMM_WORLD);
+  return *simulation.last_restart();
+}
+
+void expect_closed(const std::filesystem::path& folder, const Case& at) {
+  const auto json = nlohmann::json::parse(read_text(folder / "run.json"));
+  const auto& ledger = json.at("ledger");
+  EXPECT_GT(std::abs(ledger.at("impulse_given_to_grains_x").get<double>()), 1e-12);
+  EXPECT_LT(ledger.at("largest_exchange_mismatch"), 1e-9);
+  if (at.void_fraction != VoidFraction::cfdem_faithful) {
+    EXPECT_LT(ledger.at("largest_volume_mismatch"), 1e-9);
+  }
+  if (std::string(at.around.name) != "fed") return;
+  EXPECT_GT(json.at("grains_left"), 0);
+  EXPECT_GT(json.at("grains_fed"), 0);
+}
+
+void whole_and_in_two_pieces(const Case& at) {
+  SCOPED_TRACE(at.name());
+  const test::SharedFolder folder;
+  const Config whole = config_of(at);
+  Config half = whole;
+  half.time.end = whole.time.end / 2;
+  const auto at_once = run(whole, folder.path() / "whole");
+  const auto middle = run(half, folder.path() / "parts");
+  const auto in_parts = run(whole, folder.path() / "parts", middle);
+  if (!is_first()) return;
+  expect_closed(folder.path() / "whole", at);
+  test::expect_same_state(at_once, in_parts);
+}
+
+/// Every option with every other one takes two minutes, which is for the night; in the short choice
+/// all pairs of exchange with anything else occur.
+std::vector<Case> cases(bool all) {
+  std::vector<Case> found;
+  int n = 0;
+  for (const Surroundings& around : kSurroundings) {
+    for (const Real length : {0.0, 6e-4}) {
+      for (const auto points :
+           {VoidFraction::divided, VoidFraction::cfdem_faithful, VoidFraction::centre}) {
+        for (const auto exchange : {Exchange::by_row, Exchange::interpolated, Exchange::smoothed}) {
+          if (all || n++ % 4 == 0) found.push_back({exchange, points, length, around});
+        }
+      }
+    }
+  }
+  return found;
+}
+
+TEST(PartFilledBox, LedgerClosesAndARestartKeepsTheBits) {
+  if (rank_count(MPI_COMM_WORLD) > 2) GTEST_SKIP() << "on 1 and 2 ranks";
+  poisons_lent_memory = true;
+  const auto all = cases(std::getenv("BARCHAN_ALL_OPTIONS") != nullptr);
+  for (const Case& at : all) whole_and_in_two_pieces(at);
+  if (is_first()) std::printf("[ measured ] %zu cases, three runs each\n", all.size());
+  poisons_lent_memory = false;
+}
+
+}  // namespace
+}  // namespace barchan
