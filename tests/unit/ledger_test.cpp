@@ -14,7 +14,9 @@ TEST(Ledger, AStepThatDoesNotCloseEndsTheRun) {
                               .deposited_volume = 1e-9 * (1 + 1e-12),
                               .given_to_grains = {2e-9, 0, 0},
                               .taken_from_fluid = {2e-9, 1e-21, 0},
-                              .largest_exchange = 3e-9};
+                              .largest_exchange = 3e-9,
+                              .flow_on_solid = {},
+                              .flow_on_grains = {}};
   const auto throws = [&none](const ExchangeLedger& step) {
     try {
       Ledger().close_step(step, none);
