@@ -21,6 +21,8 @@ at_once = 2
 threads = 1
 [set]
 restart.interval = 1e-3
+grains.sliding_friction = 0.5
+grains.restitution = 0.1
 [vary]
 grains.sliding_friction = [0.5, 0.6]
 grains.restitution = [0.1, 0.5]
