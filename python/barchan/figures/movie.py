@@ -6,6 +6,7 @@ of more than MOST frames (PICTURES without ffmpeg) is thinned evenly, so that it
 multimedia view of Fig. 10 of Lima et al. (2022).
 """
 
+import io
 import shutil
 import subprocess
 
@@ -18,12 +19,13 @@ from PIL import Image
 from barchan.dune.bodies import bodies_of
 from barchan.dune.current import always_along_x
 from barchan.dune.tracks import known_grains
-from barchan.errors import BarchanError, MissingData
+from barchan.errors import MissingData
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.grain_image import by_group, top_view
 from barchan.figures.result import Told, write_numbers
 from barchan.figures.topviews import colour_key, frame_window
+from barchan.io import writing
 from barchan.io.frames import FrameFile, Grains
 from barchan.io.tables import thin
 
@@ -147,14 +149,23 @@ class Scene:
 
 def film(path, pictures, program, count):
     """H.264 by ffmpeg, beside and renamed; None when this ffmpeg cannot."""
-    part = path.with_name("movie.part.mp4")
     rate = max(2, min(RATE, round(count / SHORTEST)))
-    process, first = None, next(pictures)
+    first = next(pictures)
     size = f"{first.shape[1]}x{first.shape[0]}"
     command = [program, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
                "-r", str(rate), "-i", "-", "-an", "-c:v", "libx264", "-crf", "24", "-maxrate",
                str(LARGEST_RATE), "-bufsize", str(2 * LARGEST_RATE), "-pix_fmt", "yuv420p",
-               "-movflags", "+faststart", str(part)]
+               "-movflags", "+faststart", "-f", "mp4"]
+    try:
+        with writing.replacing(path) as beside:
+            encode([*command, str(beside)], first, pictures)
+    except (subprocess.CalledProcessError, FileNotFoundError):
+        return None
+    return [path]
+
+
+def encode(command, first, pictures):
+    """CalledProcessError where the program cannot."""
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
     try:
         process.stdin.write(first.tobytes())
@@ -163,24 +174,21 @@ def film(path, pictures, program, count):
         process.stdin.close()
     except BrokenPipeError:  # it has ended early, see its status
         pass
-    if process.wait() == 0 and part.exists():
-        part.replace(path)
-        return [path]
-    part.unlink(missing_ok=True)
-    return None
+    if process.wait():
+        raise subprocess.CalledProcessError(process.returncode, command)
 
 
 def numbered(folder, pictures, groups):
     """PNG files of one palette; those of an earlier, longer run go."""
-    if folder.exists() and not folder.is_dir():
-        raise BarchanError(f"cannot write pictures: {folder} is a file")
-    folder.mkdir(exist_ok=True)
-    for old in folder.glob("[0-9][0-9][0-9][0-9].png"):
-        old.unlink()
-    few_colours = palette(groups)
+    writing.folder(folder)
+    few_colours, names = palette(groups), set()
     for number, picture in enumerate(pictures):
         few = Image.fromarray(picture).quantize(palette=few_colours, dither=Image.Dither.NONE)
-        few.save(folder / f"{number:04d}.png", optimize=True)
+        encoded = io.BytesIO()
+        few.save(encoded, format="png", optimize=True)
+        writing.write(folder / f"{number:04d}.png", encoded.getvalue())
+        names.add(f"{number:04d}.png")
+    writing.only(folder, "[0-9][0-9][0-9][0-9].png", names)
     return [folder]
 
 

@@ -80,7 +80,7 @@ class StudyFolder:
             self.title = study.get("title") or self.path.resolve().name
             self.cases = [self._case(entry) for entry in study["cases"] if entry.get("realisation", 1) == 1]
             self._add_realisations(entry for entry in study["cases"] if entry.get("realisation", 1) > 1)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise BarchanError(f"cannot read {self.path / NAME}: {error}") from error
         except (KeyError, TypeError, AttributeError) as error:
             raise BarchanError(f"{self.path / NAME} does not list its cases as a study does") from error

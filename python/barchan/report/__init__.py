@@ -6,7 +6,6 @@ tables and grains.h5, as far as they are there. All text from the run is escaped
 
 import json
 import math
-import os
 import re
 import shlex
 from datetime import datetime
@@ -16,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
+from barchan.io.writing import write
 from barchan.report import curves as curve_figures
 from barchan.report import grains as grain_pictures
 from barchan.report import health as health_checks
@@ -45,9 +45,7 @@ def write_files(run):
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
     path = run.path / "report.html"
-    beside = path.with_name("report.html.part")
-    beside.write_text(page, encoding="utf-8")
-    os.replace(beside, path)
+    write(path, page)
     return [path]
 
 

@@ -10,16 +10,19 @@ import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from barchan.errors import BarchanError
+
 SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
 ENSEMBLE_KEYS = ("realisations", "cases")
 REALISATION = "initial.realisation"
 
 
-class StudyError(Exception):
+class StudyError(BarchanError):
     """A sentence for the user."""
 
 
+LONGEST_NAME = 200  # letters of a run's name: files of it and of its pictures have longer ones
 MOST_CASES = 10_000  # each is checked before the first one runs
 MOST_REALISATIONS = 100
 
@@ -234,6 +237,9 @@ def read_study(path, options):
     realisations, cases = ensemble_of(cases, table.get("ensemble", {}), path)
     names = [case.run_name for case in cases]
     for name in names:
+        if len(name) > LONGEST_NAME:
+            raise StudyError(f"{path}: a case has a name of {len(name)} letters, of at most {LONGEST_NAME} "
+                             f'({name[:30]}...): give it a shorter one, [[case]] name = "..."')
         if names.count(name) > 1:
             raise StudyError(f'{path}: two cases are named "{name}"')
     for name, given in (("--at-once", options.at_once), ("--threads", options.threads)):
