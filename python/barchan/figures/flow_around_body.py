@@ -14,6 +14,7 @@ from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.result import keep, say
 from barchan.flow.around_body import bubble, in_waves, mean_plane, sentence, time
+from barchan.io.study_folder import plain
 
 MOST = 4                     # bodies that are drawn
 BEFORE, AFTER = 2.5, 7.0     # sizes of the body before and behind its middle
@@ -48,10 +49,10 @@ def draw(run, ax=None, start=None, end=None):
 def title(plane, found):
     size, unit = plane.body.unit
     if plane.body.form == "wave" and np.isfinite(found.x_r):
-        return f"{plane.body.name}: {in_waves(plane, found)},  {time(plane)}"
+        return f"{plain(plane.body.name)}: {in_waves(plane, found)},  {time(plane)}"
     length = (f"bubble of {found.length / size:.2f} ${unit}$" if np.isfinite(found.length) else
               "reversed to the end" if np.isfinite(found.height) else "no reversed flow")
-    return f"{plane.body.name}: {length},  {time(plane)}"
+    return f"{plain(plane.body.name)}: {length},  {time(plane)}"
 
 
 def view(plane, found):

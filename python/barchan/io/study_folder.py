@@ -40,16 +40,21 @@ class Case:
     @property
     def label(self) -> str:
         """What distinguishes it, for a legend."""
-        return self.name if self.varied is None else self.label_in(self.varied)
+        return plain(self.name) if self.varied is None else self.label_in(self.varied)
 
     def label_in(self, key: str) -> str:
         """The same in the series of a key."""
-        return self.name if key == BY_NAME else f"{symbol(key)} = {shown(self.values.get(key))}"
+        return plain(self.name) if key == BY_NAME else f"{symbol(key)} = {plain(shown(self.values.get(key)))}"
 
 
 def symbol(key: str) -> str:
     """The name of a configuration key in a figure."""
-    return SYMBOLS.get(key) or key.rpartition(".")[2].replace("_", " ")
+    return SYMBOLS.get(key) or plain(key.rpartition(".")[2].replace("_", " "))
+
+
+def plain(text: str) -> str:
+    """The user's words, for matplotlib: dollars in them begin no formula, and a legend leaves nothing out."""
+    return "\u200b" * text.startswith("_") + text.replace("$", "\\$")
 
 
 def shown(value: object) -> str:
