@@ -31,6 +31,7 @@ from barchan.io.tables import thin
 
 WIDTH, DPI = 6.4, 120         # [in], pixels per inch
 AROUND = 0.95                 # [in], for the colour bar below and time, scale, flow above
+TALLEST = 10.0                # [in], of the grains
 MOST, PICTURES = 750, 150     # frames
 RATE = 25                     # frames per second; fewer for runs of few frames
 SHORTEST = 8.0                # [s] of film
@@ -117,7 +118,7 @@ class Scene:
     """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
 
     def __init__(self, window, top, named, along_x, bodies=()):
-        ratio = (window[3] - window[2]) / (window[1] - window[0])
+        ratio = min((window[3] - window[2]) / (window[1] - window[0]), TALLEST / WIDTH)
         height = WIDTH * ratio + AROUND
         even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
         self.window, self.top, self.bodies = window, top, bodies

@@ -25,6 +25,7 @@ VELOCITY_MAP = "cividis"
 FORCE_MAP = "coolwarm"  # Moreland (2009): zero is grey, so that white is left for "no data"
 
 FULL_WIDTH = 7.1  # [in], two columns of a journal page
+TALLEST = 50.0    # [in]: what is much wider across the stream than along it is drawn narrower
 DPI = 150
 LARGEST_PNG = 250_000  # [bytes]; above it the picture is stored with a palette
 
@@ -71,6 +72,7 @@ def panels(ax, rows=1, columns=1, **options):
     if ax is None:
         layout = {name: options.pop(name) for name in ("figsize", "layout") if name in options}
         figure = Figure(**layout)
+        figure.set_figheight(min(figure.get_figheight(), TALLEST))
         return figure, figure.subplots(rows, columns, squeeze=False, **options)
     given = np.array(ax, dtype=object).ravel()
     if len(given) != rows * columns:

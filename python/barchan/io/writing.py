@@ -30,7 +30,7 @@ def write(path: Path, content: str | bytes) -> None:
     """The whole of a file: a reader, or a kill at any moment, sees the old content or the new one."""
     with replacing(path) as beside:
         with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), "wb") as file:
-            file.write(content.encode() if isinstance(content, str) else content)
+            file.write(content.encode(errors="replace") if isinstance(content, str) else content)
 
 
 def appending(path: Path) -> TextIO:
