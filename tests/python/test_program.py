@@ -2,7 +2,9 @@
 
 import os
 import stat
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import barchan
@@ -52,9 +54,14 @@ def test_sweep_returns_the_study(launcher, tmp_path):
 
 
 def test_check_returns_the_case(launcher, capsys):
-    launcher(prints="[time]\nend = 2.0\n", says="warning: thick rows")
+    """As `barchan check` does without options: it refuses what that refuses."""
+    launcher(prints="# case.toml\n\n[time]\nend = 2.0\n\n# What follows from it\n\n  memory  about 3 MB\n",
+             says="warning: thick rows")
     assert barchan.check("case.toml", time__end=2.0) == {"time": {"end": 2.0}}
-    assert launcher.words() == ["check", "--resolved-only", "case.toml", "--set", "time.end=2.0"]
+    assert launcher.words() == ["check", "case.toml", "--set", "time.end=2.0"]
+    assert capsys.readouterr().out == ""
+    barchan.check("case.toml", report=True)
+    assert "about 3 MB" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("status, kind", [(1, barchan.RunFailed), (2, barchan.BadInput), (3, barchan.RunStopped)])
@@ -68,6 +75,15 @@ def test_exceptions_say_what_the_program_says(launcher, status, kind):
 def test_an_override_needs_its_section(launcher):
     with pytest.raises(barchan.BadInput, match="section__key"):
         barchan.check("case.toml", end=2.0)
+
+
+def test_overrides_reach_every_key(launcher):
+    barchan.check("case.toml", grains__feed__rate=50, fluid__cells=np.array([4, 5, 6]), case__notes="two\nlines",
+                  initial__fluid=Path("a.h5"), body=[{"name": "pile", "centre": (0.1, 0.2)}])
+    assert launcher.words()[3::2] == ["grains.feed.rate=50", "fluid.cells=[4, 5, 6]", 'case.notes="two\\nlines"',
+                                      'initial.fluid="a.h5"', 'body=[{"name" = "pile", "centre" = [0.1, 0.2]}]']
+    with pytest.raises(barchan.BadInput, match="time__end: a case cannot have a value of type NoneType"):
+        barchan.check("case.toml", time__end=None)
 
 
 def test_a_program_that_is_not_there(monkeypatch):

@@ -3,6 +3,7 @@
 import datetime
 import difflib
 import itertools
+import json
 import math
 import os
 import re
@@ -66,15 +67,22 @@ class Study:
 
 
 def as_toml(value):
+    """On one line. TypeError for what TOML does not have."""
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, (str, Path)):  # the escapes of JSON are among those of TOML
+        return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (datetime.date, datetime.time)):
         return value.isoformat()
-    if isinstance(value, list):
-        return "[" + ", ".join(as_toml(one) for one in value) + "]"
-    return repr(value)
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(as_toml, value)) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{as_toml(str(key))} = {as_toml(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise TypeError(f"a case cannot have a value of type {type(value).__name__}")
 
 
 def flatten(table, above=""):

@@ -38,16 +38,17 @@ def resolved(program, study, case):
     command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
-        raise StudyError(f"case {case.run_name}: {checked.stderr.strip()} {ended_by(checked.returncode)}".rstrip())
+        raise StudyError(f"case {case.run_name}: {why(checked.returncode, checked.stderr.strip())}")
     return tomllib.loads(checked.stdout)
 
 
-def ended_by(status):
-    """How a program ended, where that needs a word: by a signal."""
+def why(status, said):
+    """What a program said before it failed, and the signal that has ended it, if one has."""
     try:
-        return f"ended by {signal.Signals(-status).name}"
+        end = f"ended by {signal.Signals(-status).name}"
     except ValueError:
-        return ""
+        end = "" if said else f"ended with {status}"
+    return ": ".join(filter(None, (said, end)))
 
 
 def chosen_of(study, patterns):
@@ -124,9 +125,9 @@ class Running:
         return f"{self.case.run_name} {reached(self.folder):.2f} s"
 
     def complaint(self):
-        """The signal that has ended the program, or the last line that it wrote."""
+        """The last line that the program wrote, and the signal that has ended it."""
         lines = text_of(self.folder / "sweep.txt").strip().splitlines()
-        return ended_by(self.process.returncode) or (lines[-1] if lines else "no output")
+        return why(self.process.returncode, lines[-1] if lines else "")
 
 
 class Sweep:
@@ -174,8 +175,8 @@ class Sweep:
         if self.stopping:
             say(f"stopped; the same command goes on: {len(self.chosen)} cases in {self.study.out}")
             return 3
-        for name, why in self.failed.items():
-            say(f"failed: {name}: {why}")
+        for name, reason in self.failed.items():
+            say(f"failed: {name}: {reason}")
         left_out = len(self.study.cases) - len(self.chosen)
         others = f"{left_out} others not asked for, " * bool(left_out)
         say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done{self.rate()}, {others}"
@@ -186,9 +187,9 @@ class Sweep:
         """How many runs an hour were computed, precursor cases included; nothing before the first has ended."""
         return f", {3600 * self.finished / (time.monotonic() - self.started):.3g} runs an hour" * bool(self.finished)
 
-    def fails(self, case, why):
-        self.failed[case.run_name] = why
-        say(f"{case.run_name}: failed: {why}")
+    def fails(self, case, reason):
+        self.failed[case.run_name] = reason
+        say(f"{case.run_name}: failed: {reason}")
 
     def start(self, case):
         """First what the case starts from, alone: two cases must not compute the same start."""
@@ -210,7 +211,7 @@ class Sweep:
             if self.stopping:
                 return
             if starts.returncode != 0:
-                self.fails(case, f"what it starts from, see {folder / 'sweep.txt'} {ended_by(starts.returncode)}".rstrip())
+                self.fails(case, why(starts.returncode, f"what it starts from, see {folder / 'sweep.txt'}"))
                 return
         self.running.append(Running(self.program, self.study, case, restart, self.study.threads, self.overwrite))
         say(f"{case.run_name}: {'goes on from ' + restart.name if restart else 'started'}")
