@@ -12,7 +12,8 @@ from matplotlib.text import Text
 import barchan
 from barchan.figures import registry, result, scour
 
-HOSTILE = "_N$d_{$"  # one dollar too many makes mathtext fail, two make a formula; a legend leaves out what begins with _
+# Two dollars make a formula, which mathtext cannot read or reads; a legend leaves out what begins with _.
+HOSTILE = "_N$d_{$"
 TITLE = "cost $5_{ and 10$"
 
 

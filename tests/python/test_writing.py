@@ -30,8 +30,8 @@ def calls_that_write(path):
         name = getattr(node.func, "attr", getattr(node.func, "id", ""))
         modes = [word.value for word in [*node.args[1:], *(key.value for key in node.keywords if key.arg == "mode")]
                  if isinstance(word, ast.Constant) and isinstance(word.value, str)]
-        if name in OPENING or (name in ("open", "File") and any(set(mode) & set("wax+") for mode in modes)) or \
-                (name in ("replace", "remove") and getattr(node.func, "value", None) and ast.unparse(node.func.value) == "os"):
+        opens = name in ("open", "File") and any(set(mode) & set("wax+") for mode in modes)
+        if name in OPENING or opens or ast.unparse(node.func) in ("os.replace", "os.remove"):
             yield f"{path.relative_to(PACKAGE)}:{node.lineno} {ast.unparse(node)[:60]}"
 
 
