@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fake_runs import ROOT
 
 import barchan
+from barchan.io.tables import read_table
 
 LAUNCHER = """#!/bin/sh
 printf '%s\\n' "$@" > "$0.words"
@@ -90,3 +92,13 @@ def test_a_program_that_is_not_there(monkeypatch):
     monkeypatch.setenv("BARCHAN", "/nowhere/barchan")
     with pytest.raises(barchan.BarchanError, match="cannot start /nowhere/barchan"):
         barchan.check("case.toml")
+
+
+def test_folders_are_called_as_those_of_the_program(launcher, tmp_path):
+    table = read_table(ROOT / "tests/reference/run_names.csv")
+    rows = list(zip(*table.columns.values())) + [tuple(table.columns)]
+    assert len(rows) > 10
+    for file, name in rows:
+        (tmp_path / "runs" / name).mkdir(parents=True, exist_ok=True)
+        assert barchan.run(tmp_path / file).path == Path("runs") / name
+        assert launcher.words()[2:4] == ["--out", f"runs/{name}"]

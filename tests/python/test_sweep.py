@@ -1,6 +1,7 @@
 """A study over folders that hold anything, and programs that end by a signal: sentences, and the other cases go on."""
 
 import datetime
+import os
 import tomllib
 from pathlib import Path
 
@@ -27,6 +28,7 @@ echo '{"status": "done", "simulated_seconds": 1.0}' > "$2/run.json"
 def study(tmp_path, monkeypatch):
     """main() of a study of the cases `one` and `two` in the folder out."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sweep.signal, "signal", lambda *_: None)  # a Ctrl-C is for pytest
     program = tmp_path / "program"
     program.write_text(PROGRAM)
     program.chmod(0o755)
@@ -81,6 +83,16 @@ def test_a_folder_that_cannot_be_made_is_of_its_case_alone(study, tmp_path, caps
     assert study() == 1
     assert "failed: one: cannot write to out/one: it is a file" in capsys.readouterr().out
     assert (status_of(tmp_path, "one"), status_of(tmp_path, "two")) == ("failed", "done")
+
+
+def test_a_pipe_in_place_of_a_lock_is_not_waited_for(study, tmp_path):
+    (tmp_path / "out/one").mkdir(parents=True)
+    os.mkfifo(tmp_path / "out/one/.barchan.lock")
+    os.mkfifo(tmp_path / "out/one/run.json")
+    (tmp_path / "out/one/config.toml").write_text("[time]\nend = 1.0\n")
+    program = (tmp_path / "program").read_text()
+    (tmp_path / "program").write_text(program.replace("echo '{", "rm -f \"$2/run.json\"; echo '{"))
+    assert study() == 0
 
 
 @pytest.mark.parametrize("what, status, words", [

@@ -166,7 +166,8 @@ def study(tmp_path):
     return [str(program), str(tmp_path / "study.toml"), "--out", str(tmp_path / "home/out"), "--no-pictures"]
 
 
-def test_files_of_a_study_are_not_written_through_links(tmp_path, capsys):
+def test_files_of_a_study_are_not_written_through_links(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(sweep.signal, "signal", lambda *_: None)  # a Ctrl-C is for pytest
     words, folder, victims = study(tmp_path), tmp_path / "home/out", tmp_path / "victims"
     folder.mkdir(parents=True)
     victims.mkdir()

@@ -11,6 +11,7 @@ from typing import Any
 from barchan.errors import BadInput, BarchanError, RunFailed, RunStopped
 from barchan.api.run import Run
 from barchan.api.study import Study
+from barchan.io.study_folder import run_name
 from barchan.studies.spec import as_toml
 
 DERIVED = "\n# What follows from it\n"  # of the output of check: before it stands the case as TOML
@@ -54,7 +55,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
-    folder = Path(out) if out is not None else Path("runs") / Path(case).stem
+    folder = Path(out) if out is not None else Path("runs") / run_name(case)
     words = ["run", str(case), "--out", str(folder), *_settings(overrides)]
     for name, value in (("--threads", threads), ("--ranks", ranks), ("--restart", restart)):
         words += [name, str(value)] if value is not None else []
@@ -65,7 +66,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
 def sweep(study: str | Path, out: str | Path | None = None, at_once: int | None = None,
           threads: int | None = None) -> Study:
     """Computes what a study still lacks and returns its Study. Raises as `run`."""
-    folder = Path(out) if out is not None else Path("runs") / Path(study).stem
+    folder = Path(out) if out is not None else Path("runs") / run_name(study)
     words = ["sweep", str(study), "--out", str(folder)]
     for name, value in (("--at-once", at_once), ("--threads", threads)):
         words += [name, str(value)] if value is not None else []

@@ -52,6 +52,13 @@ def symbol(key: str) -> str:
     return SYMBOLS.get(key) or plain(key.rpartition(".")[2].replace("_", " "))
 
 
+def run_name(file: str | Path) -> str:
+    """What a case or a study is called by its file, and so its folder in runs/: as case_name of src/base/words.hpp."""
+    name = Path(file).name
+    stem = name[:dot] if (dot := name.rfind(".")) > 0 else name
+    return name if stem in (".", "..") else stem
+
+
 def plain(text: str) -> str:
     """The user's words, for matplotlib: dollars in them begin no formula, and a legend leaves nothing out."""
     return "\u200b" * text.startswith("_") + text.replace("$", "\\$")

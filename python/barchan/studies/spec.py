@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from barchan.errors import BarchanError
+from barchan.io.study_folder import run_name
 
 SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
@@ -261,5 +262,5 @@ def read_study(path, options):
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
     return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,
-                 out=Path(options.out or Path("runs") / path.stem), cases=cases,
+                 out=Path(options.out or Path("runs") / run_name(path)), cases=cases,
                  realisations=realisations, keys=keys)

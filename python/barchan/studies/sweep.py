@@ -303,7 +303,8 @@ def check_nobody_runs(folders):
     """A case that somebody runs by hand must not be run beside it: StudyError with who does."""
     for folder in folders:
         try:
-            with open(folder / ".barchan.lock") as handle:
+            # A pipe of that name is not waited for.
+            with open(os.open(folder / ".barchan.lock", os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)) as handle:
                 holder = handle.readline().strip() or "another process"
                 fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except FileNotFoundError:
