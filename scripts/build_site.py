@@ -15,6 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "build/site-pages"
 SITE = ROOT / "build/site"
+NEW = ROOT / "build/site-new"  # takes its place when it is whole
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensions/MathEvents.js", "jax/input/TeX",
@@ -93,7 +94,8 @@ def main():
         sys.exit("MkDocs or a part of it is missing: ./barchan setup --docs")
     gather()
     python_path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
-    made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", ROOT / "mkdocs.yml"],
+    made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", ROOT / "mkdocs.yml",
+                           "--site-dir", NEW],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           cwd=PAGES,  # in ROOT the API's reader takes the launcher for the package
                           env={**os.environ, "PYTHONPATH": python_path}, check=False)
@@ -102,9 +104,11 @@ def main():
     if made.returncode:
         return 1
     # For pages opened as files, which may not fetch it.
-    index = json.dumps(json.loads((SITE / "search/search_index.json").read_text()))
-    (SITE / "search_index.js").write_text(
+    index = json.dumps(json.loads((NEW / "search/search_index.json").read_text()))
+    (NEW / "search_index.js").write_text(
         f'if (location.protocol === "file:") window.__search = {{ index: Promise.resolve({index}) }};\n')
+    shutil.rmtree(SITE, ignore_errors=True)
+    NEW.rename(SITE)
     print(f"the site is in {SITE.relative_to(ROOT)}: open {SITE / 'index.html'}")
     return 0
 

@@ -16,18 +16,20 @@ esac
 mkdir -p "$(dirname "$1")"
 prefix="$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
-# The prefix is repaired and checked where it will live, because its path goes into programs; until
-# the last line succeeds it counts as half made.
+# The new prefix is made and proven beside the old one, of which programs that are built need the run time: that goes
+# only when this is whole. Nothing in it names the place where it lies.
 scratch="$(mktemp -d)"
-finished=no
+beside=""
 cleanup() {
-  rm -rf "$scratch"
-  [ "$finished" = yes ] || rm -rf "$prefix"
+  if [ -n "$beside" ] && [ -e "$beside/old" ] && [ ! -e "$prefix" ]; then mv -T "$beside/old" "$prefix"; fi
+  rm -rf "$scratch" ${beside:+"$beside"}
 }
 trap cleanup EXIT
-trap 'exit 130' INT TERM
+trap 'exit 130' INT TERM HUP
+beside="$(mktemp -d "$prefix.new.XXXXXX")" || die "cannot write to $(dirname "$prefix")."
+made="$beside/kokkos"
 
-# EvenExtension that this machine's own apt is set to, those with the suite of this system first (third
+# The mirrors that this machine's own apt is set to, those with the suite of this system first (third
 # parties and security updates have suites of other names); works before the first apt-get update too.
 list_mirrors() {
   local codename
@@ -70,7 +72,7 @@ apt_depends_kokkos() {
 
 repair() {
   local targets libdir name loader
-  targets="$(find "$prefix/usr/lib" -name KokkosTargets.cmake)"
+  targets="$(find "$made/usr/lib" -name KokkosTargets.cmake)"
   [ -n "$targets" ] || { echo "no KokkosTargets.cmake in the packages" >&2; return 1; }
   libdir="$(dirname "$(dirname "$(dirname "$targets")")")"
   # 1. The include path is absolute (made for an installation at /).
@@ -81,7 +83,7 @@ repair() {
     [ -e "$libdir/$name" ] || ar rc "$libdir/$name"
   done
   # 3. Programs that link Kokkos run with the run time in this prefix.
-  loader="$(cd "$prefix" && find runtime/usr/lib -maxdepth 2 -name 'ld-linux*.so.*' | head -n 1)"
+  loader="$(cd "$made" && find runtime/usr/lib -maxdepth 2 -name 'ld-linux*.so.*' | head -n 1)"
   [ -n "$loader" ] || { echo "no dynamic linker in the packages" >&2; return 1; }
   cat >> "$targets" <<REPAIR
 
@@ -108,15 +110,15 @@ obtain() {
 }
 
 obtain || die "could not get Kokkos (libkokkos-dev of Debian unstable) from this machine's apt mirror; is the network up? Or install Kokkos 4.6 or newer and set Kokkos_ROOT."
-rm -rf "$prefix"
-mkdir -p "$prefix"
+mkdir -p "$made"
 for package in "$scratch"/packages/*.deb; do
   case "$(basename "$package")" in
-    libkokkos*) dpkg -x "$package" "$prefix" ;;
-    *) dpkg -x "$package" "$prefix/runtime" ;;  # apart, so that only programs are sent there, not the linker
+    libkokkos*) dpkg -x "$package" "$made" ;;
+    *) dpkg -x "$package" "$made/runtime" ;;  # apart, so that only programs are sent there, not the linker
   esac
 done
 repair || die "the Kokkos packages of Debian unstable are not laid out as expected."
-env -u Kokkos_ROOT -u Kokkos_DIR BARCHAN_DEPS="$(dirname "$prefix")" "$here/probe_kokkos.sh" > "$scratch/log" 2>&1 ||
+env -u Kokkos_ROOT -u Kokkos_DIR BARCHAN_DEPS="$beside" "$here/probe_kokkos.sh" > "$scratch/log" 2>&1 ||
   { tail -n 15 "$scratch/log" >&2; die "the unpacked Kokkos does not build a small program."; }
-finished=yes
+if [ -e "$prefix" ]; then mv -T "$prefix" "$beside/old"; fi
+mv -T "$made" "$prefix"

@@ -1,7 +1,7 @@
 # What set-up and build say while they take their time; read in by the launcher and by scripts/setup.sh. `speaker` is
 # who speaks.
 # shellcheck shell=bash
-say() { echo "${speaker:?}: $*" >&2; }
+say() { (trap '' PIPE && echo "${speaker:?}: $*" >&2) || true; }  # that nobody can read it costs nothing
 die() {  # die STATUS MESSAGE
   local status=$1
   shift

@@ -93,6 +93,9 @@ system_kokkos_is_new_enough() {  # what apt would install: 4.6 or newer?
 provide_kokkos() {
   local found
   if ! found="$("$root/scripts/probe_kokkos.sh" 2> "$deps/kokkos.log")"; then
+    # CMake's words for a compiler that is not there, or that compiles nothing: another Kokkos would not help.
+    ! grep -qE "CMAKE_CXX_COMPILER not set|able to compile a simple test program" "$deps/kokkos.log" ||
+      die 1 "no C++ compiler that works: CXX='${CXX:-}' (see $deps/kokkos.log)."
     [ -z "${Kokkos_ROOT:-}${Kokkos_DIR:-}" ] ||
       die 1 "the Kokkos in Kokkos_ROOT='${Kokkos_ROOT:-$Kokkos_DIR}' does not build a small program (see $deps/kokkos.log)."
     [ "$has_apt" = yes ] || die 1 "Kokkos 4.6 or newer was not found; set Kokkos_ROOT."

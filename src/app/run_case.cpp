@@ -4,6 +4,7 @@
 
 #include "src/app/memory.hpp"
 #include "src/app/starts.hpp"
+#include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/validate.hpp"
@@ -191,7 +192,7 @@ void run_one(const Case& the_case, const RunOptions& options, bool overwrite) {
 }  // namespace
 
 fs::path run_folder(const CommandLine& line) {
-  return line.out.value_or(fs::path("runs") / line.file.stem());
+  return line.out.value_or(fs::path("runs") / case_name(line.file));
 }
 
 int run_command(const CommandLine& line) {

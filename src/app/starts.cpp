@@ -6,6 +6,7 @@
 #include <map>
 
 #include "src/base/errors.hpp"
+#include "src/base/words.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
@@ -60,7 +61,7 @@ StartCase start_case(const Case& source, const fs::path& beside, int realisation
                   .earlier = {}};
   const Config &first = start.first.config, &config = start.realised.config;
   const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
-  start.folder = beside / (first.file.stem().string() + other);
+  start.folder = beside / (case_name(first.file) + other);
   start.earlier = earlier_run(config, start.folder);
   return start;
 }

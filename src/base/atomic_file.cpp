@@ -60,7 +60,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
 }
 
 void append_text(const std::filesystem::path& path, std::string_view text) {
-  Descriptor(path, O_WRONLY | O_CREAT | O_APPEND).write(text, path);
+  Descriptor(path, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW).write(text, path);
 }
 
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -75,6 +75,9 @@ std::string not_a_file(const std::filesystem::path& path) {
   if (path.empty()) return "no name was given";
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
+  std::error_code ignored;
+  if (!std::filesystem::exists(status) && std::filesystem::is_symlink(path, ignored))
+    return "it is a link that leads nowhere";
   if (status.type() == std::filesystem::file_type::not_found)
     return std::generic_category().message(ENOENT);
   if (error) return error.message();

@@ -23,8 +23,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view text);
 /// Throws std::runtime_error naming the file and the reason.
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Adds `text` to the end of `path`; it is on its way to the disk when the call returns. Throws
-/// std::runtime_error naming the file and the reason.
+/// Adds `text` to the end of `path`, which must be no link; it is on its way to the disk when the
+/// call returns. Throws std::runtime_error naming the file and the reason.
 void append_text(const std::filesystem::path& path, std::string_view text);
 
 /// Why `path` is not a file to read, "No such file or directory" or the like; empty if it is one.

@@ -79,6 +79,8 @@ void start(bool quiet, int rank) {
 void log_to(const std::filesystem::path& file, bool append) {
   if (state().silent) return;
   stop_log();
+  // What another has put there as a link would lead our lines elsewhere.
+  if (std::filesystem::is_symlink(file)) remove_name(file);
   state().log.open(file, std::ios::binary | (append ? std::ios::app : std::ios::trunc));
   if (!state().log.is_open()) cannot("write", file);
 }

@@ -86,6 +86,7 @@ std::string nearest_file(const std::filesystem::path& path) {
   std::vector<std::string> stems;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     if (stems.size() >= kMost) break;
+    if (at->path().filename() == path.filename()) continue;  // a link that leads nowhere
     if (at->path().extension() == path.extension()) stems.push_back(at->path().stem().string());
   }
   std::ranges::sort(stems);  // not in the order of the disk
@@ -93,6 +94,11 @@ std::string nearest_file(const std::filesystem::path& path) {
   if (close.empty()) return {};
   const fs::path meant = path.parent_path() / fs::path(close).concat(path.extension().string());
   return fmt::format(" (did you mean {}?)", meant.string());
+}
+
+std::string case_name(const std::filesystem::path& file) {
+  const std::filesystem::path stem = file.stem();
+  return (stem == "." || stem == ".." ? file.filename() : stem).string();
 }
 
 std::string printable(std::string_view text, std::size_t longest) {

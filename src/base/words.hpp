@@ -20,6 +20,11 @@ std::string did_you_mean(std::string_view close);
 /// not there, whose name is nearest; empty if none is near enough.
 std::string nearest_file(const std::filesystem::path& path);
 
+/// What a case is called by its file, and so its run folder by default: the name of the file
+/// without its last ending. The launcher (default_run_dir) and Python (run_name) have the same
+/// rule.
+std::string case_name(const std::filesystem::path& file);
+
 /// Text with what a terminal would obey or could not show spelt out: control characters and bytes
 /// that are not UTF-8 as \n, \x1b, \xff; `longest` bytes at most, then "...".
 std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);

@@ -36,7 +36,7 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
   std::error_code ignored;
   if (const std::string why = not_a_file(path); why.empty()) {
     start = path;
-  } else if (fs::exists(path, ignored)) {
+  } else if (fs::exists(path, ignored) || fs::is_symlink(path, ignored)) {
     reading.report_error(key, fmt::format("must be a file to read: {}: {}", path.string(), why));
   } else {
     reading.report_error(key, fmt::format("must be a file that exists; there is no {}{}",

@@ -5,6 +5,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
+#include "src/base/words.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/io/checkpoint.hpp"
@@ -44,7 +45,7 @@ void check_start(const std::string& key, const std::string& source, const fs::pa
                     source, what, folder.string()));
   };
   if (start.extension() == ".toml") {
-    const fs::path results = fs::absolute(folder).parent_path() / start.stem();
+    const fs::path results = fs::absolute(folder).parent_path() / case_name(start);
     if (same_folder(results, folder))
       lost("the results of that case go to the folder of this one,");
   } else if (!start.extension().empty() && is_result_name(start.filename()) &&

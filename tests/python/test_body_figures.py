@@ -1,6 +1,7 @@
 """Pictures of runs with bodies, the forces on them, and the flow around them."""
 
 import json
+import re
 import shutil
 
 import h5py
@@ -9,6 +10,8 @@ import numpy as np
 import pytest
 from fake_runs import fake
 from matplotlib.colors import to_rgb
+from matplotlib.patches import Polygon
+from PIL import Image
 
 import barchan
 from barchan.dune.bodies import bodies_of
@@ -192,3 +195,41 @@ def test_the_table_of_forces(run):
     assert table.index.names == ["body", "t"] and len(table.loc[1]) == 161
     assert table.attrs["units"]["grain_torque_z"] == "N m"
     assert table.loc[0].force_x[4:].mean() == pytest.approx(fake_run.FORCES[0], rel=0.04)
+
+
+@pytest.fixture(params=[(5e-9, 1.2e-8), (1e-6, 5e-6)], ids=["1,000,001 posts", "2,401 posts"])
+def fine_fence(request, tmp_path):
+    """The run with posts so fine that no picture can show them, 5 mm tall."""
+    folder, (radius, spacing) = tmp_path / "run", request.param
+    shutil.copytree(fake("--bodies"), folder)
+    text = (folder / "config.toml").read_text()
+    head, _, fence = text.partition('name = "fence"')
+    for key, value in (("radius", radius), ("spacing", spacing), ("height", 5e-3)):
+        fence = re.sub(f"{key} = .*", f"{key} = {value}", fence)
+    (folder / "config.toml").write_text(f'{head}name = "fence"{fence}')
+    return barchan.Run(folder)
+
+
+def test_a_fence_of_very_many_posts_is_one_outline(fine_fence):
+    fence = bodies_of(fine_fence.config)[1]
+    assert fence.posts > 2000
+    outline, = fence.plan()
+    half = 0.5 * (fence.posts - 1) * fence.spacing + fence.radius
+    assert fence.reach == pytest.approx((0.08 - fence.radius, 0.08 + fence.radius, 0.02 - half, 0.02 + half), rel=1e-9)
+    for name in ("topviews", "height_map", "midplane", "flow_around_body", "forces_on_bodies", "obstacles"):
+        figure = fine_fence.figure(name)
+        assert len([one for axes in figure.axes for one in axes.patches if isinstance(one, Polygon)]) < 50
+        assert max(figure.get_size_inches()) < 3 * style.FULL_WIDTH
+    assert len(to_script(pack(fine_fence)[0])) < 100_000
+
+
+def test_the_picture_of_a_domain_that_is_much_wider_than_long_is_bounded(tmp_path):
+    z = np.linspace(0, 40, 1000)
+    grains = Grains(0.0, np.arange(1000), np.stack([0 * z + 0.005, 0 * z + 1e-4, z], axis=1), np.full(1000, 2e-4))
+    picture = top_view(grains, (0, 0.01, 0, 40), 1000, 2e-3)
+    assert 3900 < picture.shape[0] <= 4000 and picture.shape[1] < 10
+    assert top_view(grains, (0, 0.01, 50, 90), 1000, 2e-3).shape[0] == 4000
+    figure, _ = style.panels(None, figsize=(style.FULL_WIDTH, 500))
+    style.save(figure, tmp_path, "tall", "")
+    with Image.open(tmp_path / "tall.png") as saved:
+        assert saved.height == round(style.DPI * style.TALLEST)

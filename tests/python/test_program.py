@@ -2,10 +2,14 @@
 
 import os
 import stat
+from pathlib import Path
 
+import numpy as np
 import pytest
+from fake_runs import ROOT
 
 import barchan
+from barchan.io.tables import read_table
 
 LAUNCHER = """#!/bin/sh
 printf '%s\\n' "$@" > "$0.words"
@@ -52,9 +56,14 @@ def test_sweep_returns_the_study(launcher, tmp_path):
 
 
 def test_check_returns_the_case(launcher, capsys):
-    launcher(prints="[time]\nend = 2.0\n", says="warning: thick rows")
+    """As `barchan check` does without options: it refuses what that refuses."""
+    launcher(prints="# case.toml\n\n[time]\nend = 2.0\n\n# What follows from it\n\n  memory  about 3 MB\n",
+             says="warning: thick rows")
     assert barchan.check("case.toml", time__end=2.0) == {"time": {"end": 2.0}}
-    assert launcher.words() == ["check", "--resolved-only", "case.toml", "--set", "time.end=2.0"]
+    assert launcher.words() == ["check", "case.toml", "--set", "time.end=2.0"]
+    assert capsys.readouterr().out == ""
+    barchan.check("case.toml", report=True)
+    assert "about 3 MB" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("status, kind", [(1, barchan.RunFailed), (2, barchan.BadInput), (3, barchan.RunStopped)])
@@ -70,7 +79,26 @@ def test_an_override_needs_its_section(launcher):
         barchan.check("case.toml", end=2.0)
 
 
+def test_overrides_reach_every_key(launcher):
+    barchan.check("case.toml", grains__feed__rate=50, fluid__cells=np.array([4, 5, 6]), case__notes="two\nlines",
+                  initial__fluid=Path("a.h5"), body=[{"name": "pile", "centre": (0.1, 0.2)}])
+    assert launcher.words()[3::2] == ["grains.feed.rate=50", "fluid.cells=[4, 5, 6]", 'case.notes="two\\nlines"',
+                                      'initial.fluid="a.h5"', 'body=[{"name" = "pile", "centre" = [0.1, 0.2]}]']
+    with pytest.raises(barchan.BadInput, match="time__end: a case cannot have a value of type NoneType"):
+        barchan.check("case.toml", time__end=None)
+
+
 def test_a_program_that_is_not_there(monkeypatch):
     monkeypatch.setenv("BARCHAN", "/nowhere/barchan")
     with pytest.raises(barchan.BarchanError, match="cannot start /nowhere/barchan"):
         barchan.check("case.toml")
+
+
+def test_folders_are_called_as_those_of_the_program(launcher, tmp_path):
+    table = read_table(ROOT / "tests/reference/run_names.csv")
+    rows = list(zip(*table.columns.values())) + [tuple(table.columns)]
+    assert len(rows) > 10
+    for file, name in rows:
+        (tmp_path / "runs" / name).mkdir(parents=True, exist_ok=True)
+        assert barchan.run(tmp_path / file).path == Path("runs") / name
+        assert launcher.words()[2:4] == ["--out", f"runs/{name}"]

@@ -29,6 +29,12 @@ expect 0 "usage: ./barchan test" test --help
 expect 0 "usage: ./barchan bench" bench --help
 expect 2 "unknown option '--test'" setup --test
 
+status=0
+said="$(BARCHAN_PRESET=nonsense "$root/barchan" check case.toml 2>&1)" || status=$?
+[ "$status" -eq 2 ] && [[ $said == "barchan: BARCHAN_PRESET: there is no preset 'nonsense'; there are release, "* ]] &&
+  [ "$(wc -l <<< "$said")" -eq 1 ] || fail "a preset that is not there: exit code $status: $said"
+for left in "$root"/build/nonsense*; do [ ! -e "$left" ] || fail "a preset that is not there leaves $left"; done
+
 # What the program says of an option is what the launcher says.
 "$root/barchan" run --help > said 2>&1 || fail "run --help: $(cat said)"
 dry="$("$root/barchan" --help | sed -n 's/^ *--dry-run *//p')"
@@ -89,6 +95,11 @@ if "${as_other[@]}" other/build/release/barchan --version > said 2>&1; then
     fail "a build in the checkout of another user: exit code $status: $(cat said)"
 fi
 chmod -R u+w other
+
+# A compiler that is not there: said at once, without a new Kokkos from elsewhere.
+mkdir -p deps/kokkos
+BARCHAN_DEPS="$PWD/deps" CXX=/nonexistent/c++ expect 1 "no C++ compiler that works: CXX='/nonexistent/c++'" setup
+[ -d deps/kokkos ] || fail "a set-up without a compiler has removed the Kokkos there was"
 
 expect 0 "nothing to do" setup --tests
 start="$(date +%s%N)"

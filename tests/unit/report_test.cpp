@@ -69,6 +69,21 @@ TEST(Report, TheLogIsContinuedOrReplaced) {
   EXPECT_EQ(read_text(folder / "log.txt"), "line\n");
 }
 
+TEST(Report, TheLogOfAForeignFolderLeadsNowhereElse) {
+  const TemporaryFolder folder;
+  for (const bool append : {true, false}) {
+    write_atomically(folder / "precious", "text");
+    std::filesystem::create_symlink(folder / "precious", folder / "log.txt");
+    heard([&] {
+      report::log_to(folder / "log.txt", append);
+      report::info("line");
+    });
+    EXPECT_EQ(read_text(folder / "precious"), "text");
+    EXPECT_EQ(read_text(folder / "log.txt"), "line\n");
+    std::filesystem::remove(folder / "log.txt");
+  }
+}
+
 TEST(Progress, ShowsWhatARunHas) {
   Progress p{.t = 2.5, .t_start = 0, .t_end = 10};
   EXPECT_EQ(format_progress(p, -1), "t 2.5 s  25.0 %");

@@ -11,8 +11,10 @@ from typing import Any
 from barchan.errors import BadInput, BarchanError, RunFailed, RunStopped
 from barchan.api.run import Run
 from barchan.api.study import Study
+from barchan.io.study_folder import run_name
 from barchan.studies.spec import as_toml
 
+DERIVED = "\n# What follows from it\n"  # of the output of check: before it stands the case as TOML
 LAUNCHER = Path(__file__).resolve().parents[3] / "barchan"  # of the repository, where the package lies in it
 
 
@@ -35,11 +37,14 @@ def program() -> str:
 def check(case: str | Path, report: bool = False, **overrides: Any) -> dict[str, Any]:
     """The case with every default, {section: {key: value}}. report: also prints derived numbers, cost and warnings.
 
-    overrides: section__key=value, such as grains__sliding_friction=0.4. Raises BadInput with the program's message.
+    overrides: section__key=value, such as grains__sliding_friction=0.4 or grains__feed__rate=50; lists of sections as
+    a whole, body=[{"name": "pile", ...}]. Raises BadInput with the message of `barchan check`, which takes some
+    seconds: it times the case.
     """
+    said = _call(["check", str(case), *_settings(overrides)])
     if report:
-        print(_call(["check", str(case), *_settings(overrides)]), end="")
-    return tomllib.loads(_call(["check", "--resolved-only", str(case), *_settings(overrides)]))
+        print(said, end="")
+    return tomllib.loads(said.partition(DERIVED)[0])
 
 
 def run(case: str | Path, out: str | Path | None = None, threads: int | None = None, ranks: int | None = None,
@@ -50,7 +55,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
-    folder = Path(out) if out is not None else Path("runs") / Path(case).stem
+    folder = Path(out) if out is not None else Path("runs") / run_name(case)
     words = ["run", str(case), "--out", str(folder), *_settings(overrides)]
     for name, value in (("--threads", threads), ("--ranks", ranks), ("--restart", restart)):
         words += [name, str(value)] if value is not None else []
@@ -61,7 +66,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
 def sweep(study: str | Path, out: str | Path | None = None, at_once: int | None = None,
           threads: int | None = None) -> Study:
     """Computes what a study still lacks and returns its Study. Raises as `run`."""
-    folder = Path(out) if out is not None else Path("runs") / Path(study).stem
+    folder = Path(out) if out is not None else Path("runs") / run_name(study)
     words = ["sweep", str(study), "--out", str(folder)]
     for name, value in (("--at-once", at_once), ("--threads", threads)):
         words += [name, str(value)] if value is not None else []
@@ -72,10 +77,12 @@ def sweep(study: str | Path, out: str | Path | None = None, at_once: int | None 
 def _settings(overrides: dict[str, Any]) -> list[str]:
     words = []
     for name, value in overrides.items():
-        section, separator, key = name.partition("__")
-        if not separator:
+        if "__" not in name and not isinstance(value, (list, dict)):
             raise BadInput(f"{name}: name a key as section__key, such as grains__sliding_friction=0.4")
-        words += ["--set", f"{section}.{key}={as_toml(list(value) if isinstance(value, tuple) else value)}"]
+        try:
+            words += ["--set", f"{name.replace('__', '.')}={as_toml(value)}"]
+        except TypeError as error:
+            raise BadInput(f"{name}: {error}") from error
     return words
 
 

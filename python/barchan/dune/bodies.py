@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 POINTS = 181  # of an outline: a round one has a corner every 2 degrees
+MOST_POSTS = 200  # with outlines of their own; no picture shows more
 
 
 @dataclass(frozen=True)
@@ -206,13 +207,18 @@ class Body:
                 np.where(inside, self.base + high, np.nan))
 
     def plan(self, y: float | None = None) -> list[np.ndarray]:
-        """Outlines (n, 2) in x and z [m] at the height y above the floor; None: where it is widest."""
+        """Outlines (n, 2) in x and z [m] at the height y above the floor; None: where it is widest.
+
+        Of a fence one for each post, or one around all if they are more than MOST_POSTS.
+        """
         up = (self.widest if y is None else y) - self.base
         if self.form == "wave":
             return self._stripes(up)
         if not (self.form == "dune" or -1e-12 <= up <= self.tall * (1 + 1e-12)):
             return []
         r, (a, b) = self.radius, (0.5 * self.size[0], 0.5 * self.size[1])
+        if self.posts > MOST_POSTS:
+            return [self._rectangle(r, r + 0.5 * self.spacing * (self.posts - 1))]
         if self.form in ("cylinder", "fence"):
             circle = _ring(r, r)
             across = self.spacing * (np.arange(self.posts) - 0.5 * (self.posts - 1))

@@ -4,6 +4,7 @@ from matplotlib.patches import Polygon
 
 from barchan.dune.bodies import bodies_of
 from barchan.figures import style
+from barchan.io.study_folder import plain
 
 
 def in_window(window, config):
@@ -29,7 +30,7 @@ def draw_plan(axes, bodies, named=False, **options):
             x, shift, side = 0.5 * (x0 + x1), (0, 2), "center"
             if x1 > 0.9 * body.domain[0]:  # else the name would run out of the picture
                 x, shift, side = x0, (-3, -8), "right"
-            axes.annotate(body.name, (1e3 * x, 1e3 * z0), xytext=shift, textcoords="offset points", ha=side,
+            axes.annotate(plain(body.name), (1e3 * x, 1e3 * z0), xytext=shift, textcoords="offset points", ha=side,
                           va="bottom", fontsize=7, color=style.BODY_EDGE)
 
 

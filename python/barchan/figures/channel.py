@@ -13,6 +13,7 @@ from barchan.errors import MissingData
 from barchan.figures import profiles, style
 from barchan.figures.result import keep_cases
 from barchan.flow import wall_units
+from barchan.io.study_folder import plain
 from barchan.io.tables import Table
 
 TOLERANCE = 0.05   # of u_star, and so of U^+
@@ -42,7 +43,7 @@ def read_channels(study):
 def label(case):
     cells = case.run.config.get("fluid", {}).get("cells")
     if case.varied in (None, "fluid.cells") and cells:
-        return " x ".join(map(str, cells)) + " cells"
+        return plain(" x ".join(map(str, cells))) + " cells"
     return case.label
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from barchan.dune.composition import REGIONS, composition
 from barchan.figures import style
 from barchan.figures.result import keep, say
+from barchan.io.study_folder import plain
 
 TITLES = {"surface": "surface", "crest": "crest", "horns": "horns"}
 
@@ -18,7 +19,7 @@ def draw(run, ax=None):
     whole = found.share("dune")
     for index, (axes, (region, title)) in enumerate(zip(panels, TITLES.items())):
         for number, (name, colour) in enumerate(zip(found.kinds, style.GROUPS)):
-            axes.plot(found.t, 100 * found.share(region)[:, number], color=colour, label=name,
+            axes.plot(found.t, 100 * found.share(region)[:, number], color=colour, label=plain(name),
                       marker=style.mark_if_few(found.t), ms=3)
             axes.plot(found.t, 100 * whole[:, number], color=colour, lw=0.8, ls=(0, (4, 1.5)))
         axes.set(xlabel="$t$ (s)", ylim=(0, 100), ylabel=f"grains of the {title} (%)")

@@ -14,9 +14,11 @@ from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.result import keep, say
 from barchan.flow.around_body import bubble, in_waves, mean_plane, sentence, time
+from barchan.io.study_folder import plain
 
 MOST = 4                     # bodies that are drawn
 BEFORE, AFTER = 2.5, 7.0     # sizes of the body before and behind its middle
+STEEPEST = 1.5               # height over length of a panel
 LINES = 160                  # points of the lattice for streamlines along x
 
 
@@ -48,10 +50,10 @@ def draw(run, ax=None, start=None, end=None):
 def title(plane, found):
     size, unit = plane.body.unit
     if plane.body.form == "wave" and np.isfinite(found.x_r):
-        return f"{plane.body.name}: {in_waves(plane, found)},  {time(plane)}"
+        return f"{plain(plane.body.name)}: {in_waves(plane, found)},  {time(plane)}"
     length = (f"bubble of {found.length / size:.2f} ${unit}$" if np.isfinite(found.length) else
               "reversed to the end" if np.isfinite(found.height) else "no reversed flow")
-    return f"{plane.body.name}: {length},  {time(plane)}"
+    return f"{plain(plane.body.name)}: {length},  {time(plane)}"
 
 
 def view(plane, found):
@@ -63,7 +65,9 @@ def view(plane, found):
     reached = found.x_r if np.isfinite(found.x_r) else 0.0
     x0 = max(plane.x_face[0], ends[0] - BEFORE * size)
     x1 = min(plane.x_face[-1], max(ends[1] + AFTER * size, reached + 2 * size))
-    return x0, x1, 0.0, min(plane.y_face[-1], max(1.8 * plane.body.top, 0.16 * (x1 - x0)))
+    top = min(plane.y_face[-1], max(1.8 * plane.body.top, 0.16 * (x1 - x0)))
+    more = max(0.0, 0.5 * (top / STEEPEST - (x1 - x0)))  # on either side of a body that is thin and tall
+    return max(plane.x_face[0], x0 - more), min(plane.x_face[-1], x1 + more), 0.0, top
 
 
 def draw_plane(axes, run, plane, found, window, limits):
@@ -99,7 +103,7 @@ def mark_reattachment(axes, plane, found):
 def draw_streamlines(axes, plane, window):
     """On an even lattice; none in bodies and grains."""
     x = np.linspace(window[0], window[1], LINES)
-    y = np.linspace(0, window[3], max(24, int(LINES * window[3] / (window[1] - window[0]))))
+    y = np.linspace(0, window[3], int(np.clip(LINES * window[3] / (window[1] - window[0]), 24, 5 * LINES)))
     rows = np.clip(np.searchsorted(plane.y_face, y) - 1, 0, len(plane.y) - 1)
     columns = np.clip(np.searchsorted(plane.x_face, x) - 1, 0, len(plane.x) - 1)
     blocked = ~plane.water[np.ix_(rows, columns)]

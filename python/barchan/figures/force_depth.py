@@ -9,8 +9,8 @@ from barchan.errors import MissingData
 from barchan.dune.force_depth import EDGES, PARTS, of_run
 from barchan.figures import style
 from barchan.figures.result import keep_cases, say
+from barchan.io.study_folder import plain
 from barchan.stats import spread
-
 
 
 def draw(study, ax=None, start=None, end=None):
@@ -27,7 +27,7 @@ def draw(study, ax=None, start=None, end=None):
                       f"({total.count})")
         for part, axes in zip(PARTS, panels):
             means, fluctuations = (np.nanmean([run[part][which] for run in runs], axis=0) for which in (0, 1))
-            axes.plot(middle, means, marker="o", ms=2.5, label=name)
+            axes.plot(middle, means, marker="o", ms=2.5, label=plain(name))
             rows += [(name, part, *line) for line in zip(EDGES[:-1], EDGES[1:], means, fluctuations)]
     for index, (part, axes) in enumerate(zip(PARTS, panels)):
         axes.axhline(0, color=style.GREY, lw=0.6)

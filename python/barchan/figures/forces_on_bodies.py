@@ -11,6 +11,7 @@ from barchan.dune import body_forces
 from barchan.dune.body_forces import OF_GRAINS, OF_WATER
 from barchan.figures import style
 from barchan.figures.result import keep, say
+from barchan.io.study_folder import plain
 from barchan.io.tables import thin
 from barchan.stats import in_window
 
@@ -49,7 +50,7 @@ def unit_of(found):
 def draw_force(axes, run, force, scale, unit, several):
     table = run.body_columns[force.body.number]
     rows = thin(len(table["t"]))
-    name = f"{force.body.name}, {force.of}" if several else force.of
+    name = f"{plain(force.body.name)}, {force.of}" if several else force.of
     colour = COLOURS[force.body.number % len(COLOURS)]
     axes.plot(table["t"][rows], scale * table[body_forces.column(force.of, force.axis)][rows], color=colour,
               ls="-" if force.of == OF_WATER else (0, (4, 1.5)), lw=1.0, alpha=1.0 if force.of == OF_WATER else 0.7,

@@ -13,6 +13,7 @@ from matplotlib.colors import to_rgb
 from barchan.dune.bodies import tops
 from barchan.figures.style import BODY, GROUPS, HEIGHT_MAP
 
+MOST_ROWS = 4000  # of a picture; one of a domain that is much wider than long is coarser
 LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
 
 
@@ -67,9 +68,10 @@ def by_group(group):
 
 
 def top_view(grains, window, width, top, bodies=()):
-    """RGB picture (rows, width, 3) of the window = (x0, x1, z0, z1) [m], coloured by kind or heap if there are several.
+    """RGB picture (rows, columns, 3), at most `width` columns, of the window = (x0, x1, z0, z1) [m].
 
-    Else by height: colours run from 0 to `top` [m]. The first row is z0. Bodies are seen where no grain lies on them.
+    Coloured by kind or heap if there are several, else by height: colours run from 0 to `top` [m]. The first row is z0.
+    Bodies are seen where no grain lies on them.
     """
     colours = by_height(grains.x, grains.d, top) if grains.group is None else by_group(grains.group)
     return coloured_view(grains.x, grains.d, colours, window, width, bodies)
@@ -80,9 +82,9 @@ def coloured_view(x, d, colours, window, width, bodies=()):
     inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
               & (x[:, 2] < window[3]))
     x, d, colours = x[inside], d[inside], colours[inside]
-    pixel = (window[1] - window[0]) / width
+    pixel = max((window[1] - window[0]) / width, (window[3] - window[2]) / MOST_ROWS)
     if len(d) == 0:
-        picture = np.ones((max(1, round((window[3] - window[2]) / pixel)), width, 3))
+        picture = np.ones([max(1, round((high - low) / pixel)) for low, high in (window[2:], window[:2])] + [3])
         return with_bodies(picture, 0.0, bodies, window, 1)
     visible = ~hidden(x, d)
     x, d, colours = x[visible], d[visible], colours[visible]

@@ -6,6 +6,7 @@ of more than MOST frames (PICTURES without ffmpeg) is thinned evenly, so that it
 multimedia view of Fig. 10 of Lima et al. (2022).
 """
 
+import io
 import shutil
 import subprocess
 
@@ -18,17 +19,19 @@ from PIL import Image
 from barchan.dune.bodies import bodies_of
 from barchan.dune.current import always_along_x
 from barchan.dune.tracks import known_grains
-from barchan.errors import BarchanError, MissingData
+from barchan.errors import MissingData
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.grain_image import by_group, top_view
 from barchan.figures.result import Told, write_numbers
 from barchan.figures.topviews import colour_key, frame_window
+from barchan.io import writing
 from barchan.io.frames import FrameFile, Grains
 from barchan.io.tables import thin
 
 WIDTH, DPI = 6.4, 120         # [in], pixels per inch
 AROUND = 0.95                 # [in], for the colour bar below and time, scale, flow above
+TALLEST = 10.0                # [in], of the grains
 MOST, PICTURES = 750, 150     # frames
 RATE = 25                     # frames per second; fewer for runs of few frames
 SHORTEST = 8.0                # [s] of film
@@ -115,7 +118,7 @@ class Scene:
     """A figure whose picture and time are replaced; even numbers of pixels, as film wants."""
 
     def __init__(self, window, top, named, along_x, bodies=()):
-        ratio = (window[3] - window[2]) / (window[1] - window[0])
+        ratio = min((window[3] - window[2]) / (window[1] - window[0]), TALLEST / WIDTH)
         height = WIDTH * ratio + AROUND
         even = [2 * round(0.5 * DPI * inches) / DPI for inches in (WIDTH, height)]
         self.window, self.top, self.bodies = window, top, bodies
@@ -147,14 +150,23 @@ class Scene:
 
 def film(path, pictures, program, count):
     """H.264 by ffmpeg, beside and renamed; None when this ffmpeg cannot."""
-    part = path.with_name("movie.part.mp4")
     rate = max(2, min(RATE, round(count / SHORTEST)))
-    process, first = None, next(pictures)
+    first = next(pictures)
     size = f"{first.shape[1]}x{first.shape[0]}"
     command = [program, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
                "-r", str(rate), "-i", "-", "-an", "-c:v", "libx264", "-crf", "24", "-maxrate",
                str(LARGEST_RATE), "-bufsize", str(2 * LARGEST_RATE), "-pix_fmt", "yuv420p",
-               "-movflags", "+faststart", str(part)]
+               "-movflags", "+faststart", "-f", "mp4"]
+    try:
+        with writing.replacing(path) as beside:
+            encode([*command, str(beside)], first, pictures)
+    except (subprocess.CalledProcessError, FileNotFoundError):
+        return None
+    return [path]
+
+
+def encode(command, first, pictures):
+    """CalledProcessError where the program cannot."""
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
     try:
         process.stdin.write(first.tobytes())
@@ -163,24 +175,21 @@ def film(path, pictures, program, count):
         process.stdin.close()
     except BrokenPipeError:  # it has ended early, see its status
         pass
-    if process.wait() == 0 and part.exists():
-        part.replace(path)
-        return [path]
-    part.unlink(missing_ok=True)
-    return None
+    if process.wait():
+        raise subprocess.CalledProcessError(process.returncode, command)
 
 
 def numbered(folder, pictures, groups):
     """PNG files of one palette; those of an earlier, longer run go."""
-    if folder.exists() and not folder.is_dir():
-        raise BarchanError(f"cannot write pictures: {folder} is a file")
-    folder.mkdir(exist_ok=True)
-    for old in folder.glob("[0-9][0-9][0-9][0-9].png"):
-        old.unlink()
-    few_colours = palette(groups)
+    writing.folder(folder)
+    few_colours, names = palette(groups), set()
     for number, picture in enumerate(pictures):
         few = Image.fromarray(picture).quantize(palette=few_colours, dither=Image.Dither.NONE)
-        few.save(folder / f"{number:04d}.png", optimize=True)
+        encoded = io.BytesIO()
+        few.save(encoded, format="png", optimize=True)
+        writing.write(folder / f"{number:04d}.png", encoded.getvalue())
+        names.add(f"{number:04d}.png")
+    writing.only(folder, "[0-9][0-9][0-9][0-9].png", names)
     return [folder]
 
 

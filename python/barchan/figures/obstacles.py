@@ -10,6 +10,7 @@ import numpy as np
 from barchan.dune import obstacles as dune_obstacles
 from barchan.figures import style
 from barchan.figures.result import keep, publish, say
+from barchan.io.study_folder import plain
 
 MOST = 4
 PLACES = (("upstream", style.BLUE), ("around", style.ORANGE), ("downstream", style.GREEN))
@@ -31,7 +32,7 @@ def draw(run, ax=None):
         places.set(ylabel="$s$ from the obstacle (mm)", xlim=(path.t[0], path.t[-1]))
         shares.set(ylabel="grains (%)", ylim=(-3, 103), xlim=(path.t[0], path.t[-1]))
         shares.legend(loc="center left")
-        places.set_title(f"{one.dune}, {one.obstacle}: {one.outcome}", pad=3)
+        places.set_title(plain(f"{one.dune}, {one.obstacle}: {one.outcome}"), pad=3)
         for column, axes in enumerate((places, shares)):
             style.panel_label(axes, 2 * row + column)
     for axes in grid[-1]:

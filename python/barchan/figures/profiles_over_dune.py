@@ -20,6 +20,7 @@ from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.figures.result import keep
 from barchan.io.flow_average import FlowAverage
+from barchan.io.study_folder import plain
 from barchan.flow.over_dune import friction_velocity, profiles_at
 
 STATIONS = (0.0, 0.25, 0.5, 0.75, 1.15)  # x / L
@@ -81,7 +82,7 @@ def draw_figure(run, average, outline, profiles, scales):
     handles, _ = panels[0].get_legend_handles_labels()
     style.legend_outside(figure, handles, -0.25, ncols=len(handles))
     outline_axes.set_title(
-        f"{run.title}: mean of {average.start:.3g} s to {average.end:.3g} s, $U_\\delta$ = "
+        f"{plain(run.title)}: mean of {average.start:.3g} s to {average.end:.3g} s, $U_\\delta$ = "
         f"{scales['U_delta']:.3g} m/s, $u_*$ = {1e3 * scales['u_star']:.3g} mm/s, "
         f"$L$ = {1e3 * outline.length:.3g} mm", fontsize=7.5, pad=4)
     return figure

@@ -2,7 +2,6 @@
 
 import json
 import math
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from barchan.io import writing
+from barchan.io.run_folder import json_of
 from barchan.io.study_folder import shown
 from barchan.io.tables import thin
 
@@ -53,12 +54,10 @@ def publish(figure: Any, table: str, columns: Mapping[str, Sequence]) -> None:
 def write_numbers(result: Any, folder: Path) -> None:
     """Each table of a figure as folder/figures_data/TABLE.csv; results as folder/TABLE.csv, and in run.json by name."""
     tables = getattr(result, "numbers", {})
-    if tables:
-        (folder / "figures_data").mkdir(exist_ok=True)
     for name, columns in tables.items():
-        (folder / "figures_data" / f"{name}.csv").write_text(csv_text(columns))
+        writing.write(writing.folder(folder / "figures_data") / f"{name}.csv", csv_text(columns))
     for name, columns in getattr(result, "results", {}).items():
-        (folder / f"{name}.csv").write_text(csv_text(columns))
+        writing.write(folder / f"{name}.csv", csv_text(columns))
         add_to_summary(folder / "run.json", name, [dict(zip(columns, row)) for row in zip(*columns.values())])
 
 
@@ -70,17 +69,12 @@ def csv_text(columns: Mapping[str, Sequence]) -> str:
 
 def add_to_summary(path: Path, name: str, rows: list[dict[str, Any]]) -> None:
     """An entry of run.json, in which numbers that are not finite are null. A run that goes on keeps its own."""
-    try:
-        summary = json.loads(path.read_text())
-    except (OSError, ValueError):
-        return
-    if not isinstance(summary, dict) or summary.get("status") == "running":
+    summary = json_of(path)
+    if not summary or summary.get("status") == "running":
         return
     known = [{key: None if isinstance(value, float) and not math.isfinite(value) else value
               for key, value in row.items()} for row in rows]
-    beside = path.with_name(path.name + ".part")
-    beside.write_text(json.dumps(summary | {name: known}, indent=2, ensure_ascii=False) + "\n")
-    os.replace(beside, path)
+    writing.write(path, json.dumps(summary | {name: known}, indent=2, ensure_ascii=False) + "\n")
 
 
 def cell(value: Any) -> str:

@@ -15,6 +15,7 @@ from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.forces_on_bodies import COLOURS
 from barchan.figures.result import keep, say
+from barchan.io.study_folder import plain
 from barchan.io.tables import thin
 
 MOST = 400  # frames
@@ -38,7 +39,7 @@ def draw(run, ax=None):
     figure, ((depths, plan),) = style.panels(ax, 1, 2, figsize=(style.FULL_WIDTH, 2.6), width_ratios=(1, 1.3))
     for body, found in histories.items():
         t, share = [one.t for one in found], [one.depth / diameter(body) for one in found]
-        depths.plot(t, share, color=COLOURS[body.number % len(COLOURS)], marker=style.mark_if_few(t), label=body.name)
+        depths.plot(t, share, color=COLOURS[body.number % len(COLOURS)], marker=style.mark_if_few(t), label=plain(body.name))
     depths.axhline(0, color=style.BLACK, lw=0.5)
     depths.set(xlabel="$t$ (s)", ylabel="scour depth $/D$")
     if len(times) > 1:

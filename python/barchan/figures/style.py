@@ -2,8 +2,6 @@
 
 import io
 import logging
-import os
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,6 +10,7 @@ from matplotlib.patheffects import withStroke
 from PIL import Image
 
 from barchan.errors import BarchanError
+from barchan.io.writing import write
 
 # Okabe & Ito (2008), "Color universal design": told apart with any colour vision.
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
@@ -26,6 +25,7 @@ VELOCITY_MAP = "cividis"
 FORCE_MAP = "coolwarm"  # Moreland (2009): zero is grey, so that white is left for "no data"
 
 FULL_WIDTH = 7.1  # [in], two columns of a journal page
+TALLEST = 50.0    # [in]: what is much wider across the stream than along it is drawn narrower
 DPI = 150
 LARGEST_PNG = 250_000  # [bytes]; above it the picture is stored with a palette
 
@@ -72,6 +72,7 @@ def panels(ax, rows=1, columns=1, **options):
     if ax is None:
         layout = {name: options.pop(name) for name in ("figsize", "layout") if name in options}
         figure = Figure(**layout)
+        figure.set_figheight(min(figure.get_figheight(), TALLEST))
         return figure, figure.subplots(rows, columns, squeeze=False, **options)
     given = np.array(ax, dtype=object).ravel()
     if len(given) != rows * columns:
@@ -158,13 +159,13 @@ def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
     if encoded.tell() > largest:
         encoded = _with_palette(encoded, _colour_maps(figure))
     paths = [folder / f"{name}.png"]
-    _replace(paths[0], encoded.getvalue())
+    write(paths[0], encoded.getvalue())
     if pdf:
         figure.set_layout_engine("none")  # panels stay where the PNG file has them
         document = io.BytesIO()
         figure.savefig(document, format="pdf", dpi=3 * DPI, metadata={"Title": f"{title}: {name}"})
         paths.append(folder / f"{name}.pdf")
-        _replace(paths[1], document.getvalue())
+        write(paths[1], document.getvalue())
     return paths
 
 
@@ -189,9 +190,3 @@ def _with_palette(encoded, colour_maps):
     result = io.BytesIO()
     smaller.save(result, format="png", optimize=True, dpi=(DPI, DPI))
     return result
-
-
-def _replace(path: Path, content: bytes):
-    beside = path.with_name(path.name + ".part")
-    beside.write_bytes(content)
-    os.replace(beside, path)

@@ -14,6 +14,7 @@ from barchan.errors import MissingData
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
 from barchan.figures.grain_image import top_view
+from barchan.io.study_folder import plain
 
 FINER = 1.5  # pixels of the picture per pixel of the PNG, for the PDF
 
@@ -85,6 +86,6 @@ def colour_key(figure, grid, top, groups=(), kinds=()):
     name = "kind of the grain" if kinds else "heap that a grain came from"
     bar.set_label(name if groups else "height above the wall (mm)")
     if groups:
-        bar.set_ticks(range(len(groups)), labels=groups)
+        bar.set_ticks(range(len(groups)), labels=[plain(group) for group in groups])
         bar.ax.tick_params(length=0)
     bar.outline.set_linewidth(0.6)

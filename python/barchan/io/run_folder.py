@@ -17,6 +17,31 @@ from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
 
 
+def text_of(path: Path) -> str:
+    """A text file of a run; "" where there is no file that can be read."""
+    try:
+        return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+    except OSError:
+        return ""
+
+
+def json_of(path: Path) -> dict[str, Any]:
+    """The object that a file holds; {} where it holds none."""
+    try:
+        found = json.loads(text_of(path))
+    except (ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def toml_of(text: str) -> dict[str, Any]:
+    """{} for what is not TOML."""
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return {}
+
+
 class RunFolder:
     """The files of a run; each is read when it is first asked for."""
 
@@ -107,23 +132,15 @@ class RunFolder:
     @cached_property
     def config(self) -> dict[str, Any]:
         """The resolved case, {section: {key: value}}; {} where no file has it."""
-        path = self.path / "config.toml"
-        text = path.read_text(errors="replace") if path.exists() else ""
+        text = text_of(self.path / "config.toml")
         for file in () if text else (self.grain_file, self.field_file):
             text = text or (file.config_text if file else "")
-        try:
-            return tomllib.loads(text)
-        except tomllib.TOMLDecodeError:
-            return {}
+        return toml_of(text)
 
     @cached_property
     def summary(self) -> dict[str, Any]:
         """run.json: status, times, rates, largest values; {} where there is none."""
-        try:
-            summary = json.loads((self.path / "run.json").read_text())
-        except (OSError, ValueError):
-            return {}
-        return summary if isinstance(summary, dict) else {}
+        return json_of(self.path / "run.json")
 
     @cached_property
     def domain(self) -> tuple[float, float, float] | None:

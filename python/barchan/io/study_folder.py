@@ -40,16 +40,28 @@ class Case:
     @property
     def label(self) -> str:
         """What distinguishes it, for a legend."""
-        return self.name if self.varied is None else self.label_in(self.varied)
+        return plain(self.name) if self.varied is None else self.label_in(self.varied)
 
     def label_in(self, key: str) -> str:
         """The same in the series of a key."""
-        return self.name if key == BY_NAME else f"{symbol(key)} = {shown(self.values.get(key))}"
+        return plain(self.name) if key == BY_NAME else f"{symbol(key)} = {plain(shown(self.values.get(key)))}"
 
 
 def symbol(key: str) -> str:
     """The name of a configuration key in a figure."""
-    return SYMBOLS.get(key) or key.rpartition(".")[2].replace("_", " ")
+    return SYMBOLS.get(key) or plain(key.rpartition(".")[2].replace("_", " "))
+
+
+def run_name(file: str | Path) -> str:
+    """What a case or a study is called by its file, and so its folder in runs/: as case_name of src/base/words.hpp."""
+    name = Path(file).name
+    stem = name[:dot] if (dot := name.rfind(".")) > 0 else name
+    return name if stem in (".", "..") else stem
+
+
+def plain(text: str) -> str:
+    """The user's words, for matplotlib: dollars in them begin no formula, and a legend leaves nothing out."""
+    return "\u200b" * text.startswith("_") + text.replace("$", "\\$")
 
 
 def shown(value: object) -> str:
@@ -80,7 +92,7 @@ class StudyFolder:
             self.title = study.get("title") or self.path.resolve().name
             self.cases = [self._case(entry) for entry in study["cases"] if entry.get("realisation", 1) == 1]
             self._add_realisations(entry for entry in study["cases"] if entry.get("realisation", 1) > 1)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise BarchanError(f"cannot read {self.path / NAME}: {error}") from error
         except (KeyError, TypeError, AttributeError) as error:
             raise BarchanError(f"{self.path / NAME} does not list its cases as a study does") from error

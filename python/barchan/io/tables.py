@@ -53,7 +53,7 @@ def _numbers(cells: list[str]) -> np.ndarray:
 
 def read_columns(path: Path) -> dict[str, np.ndarray]:
     """Columns of a run's CSV by name, as floats; lines that are cut short are left out. {} for no file or no line."""
-    lines = path.read_text(errors="replace").splitlines() if path.exists() else []
+    lines = path.read_text(errors="replace").splitlines() if path.is_file() else []
     if not lines:
         return {}
     names = [name.strip() for name in lines[0].split(",")]

@@ -6,12 +6,15 @@ cannot describe, is hexahedra. Values are not copied: they are links to the file
 """
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from barchan.errors import MissingData
+from barchan.io import writing
 from barchan.io.frames import FrameFile
 from barchan.io.hdf5 import Group, h5py
 from barchan.io.run_folder import RunFolder
@@ -27,10 +30,11 @@ def write(run: RunFolder) -> list[Path]:
     kinds = [(kind, file) for kind, file in (("grains", run.grain_file), ("fields", run.field_file)) if file]
     if not kinds:
         raise MissingData("needs grains.h5 or fields.h5 with at least one frame")
-    folder.mkdir(exist_ok=True)
-    for old in folder.glob("*.hdf*"):
-        old.unlink()
-    return [_write_series(folder, kind, file) for kind, file in kinds]
+    writing.folder(folder)
+    series = [_write_series(folder, kind, file) for kind, file in kinds]
+    named = {entry["name"] for one in series for entry in json.loads(one.read_text())["files"]}
+    writing.only(folder, "*.hdf*", named | {one.name for one in series})
+    return series
 
 
 def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
@@ -42,7 +46,7 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
             _write_mesh(mesh, root["grid"])
         for time, name in file.frames:
             path = folder / f"{kind}_{name.removeprefix('frame_')}.hdf"
-            with h5py.File(path, "w") as out:
+            with _new_file(path) as out:
                 top = out.create_group("VTKHDF")
                 top.attrs["Version"], top.attrs["Type"] = [1, 0], np.bytes_("UnstructuredGrid")
                 top["FieldData/TimeValue"] = np.array([time])
@@ -52,8 +56,14 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
                     _add_fields(top, root[name], f"../{file.path.name}", name, mesh.name)
             entries.append({"name": path.name, "time": time})
     series = folder / f"{kind}.hdf.series"
-    series.write_text(json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
+    writing.write(series, json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
     return series
+
+
+@contextmanager
+def _new_file(path: Path) -> Iterator[Any]:
+    with writing.replacing(path) as beside, h5py.File(beside, "x") as out:
+        yield out
 
 
 def _write_cells(group: Any, n_points: int, corners: np.ndarray, kind: int) -> None:
@@ -83,7 +93,7 @@ def _write_mesh(path: Path, grid: Group) -> None:
     number = np.arange(len(points)).reshape(len(z), len(y), len(x))
     corners = [number[k:k - 1 or None, j:j - 1 or None, i:i - 1 or None].reshape(-1)
                for k in (0, 1) for j, i in ((0, 0), (0, 1), (1, 1), (1, 0))]
-    with h5py.File(path, "w") as out:
+    with _new_file(path) as out:
         out.create_dataset("Points", data=points, **SMALL)
         _write_cells(out, len(points), np.stack(corners, axis=1), HEXAHEDRON)
 

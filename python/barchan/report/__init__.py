@@ -4,9 +4,7 @@ Its parts: page.html, .css and .js beside this file; numbers from run.json, conf
 tables and grains.h5, as far as they are there. All text from the run is escaped.
 """
 
-import json
 import math
-import os
 import re
 import shlex
 from datetime import datetime
@@ -16,11 +14,14 @@ from pathlib import Path
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
+from barchan.io.run_folder import json_of, text_of
+from barchan.io.writing import write
 from barchan.report import curves as curve_figures
 from barchan.report import grains as grain_pictures
 from barchan.report import health as health_checks
 
 HERE = Path(__file__).parent
+TEXTS = ("title", "status", "message", "version", "git_hash", "backend", "device")  # of run.json
 MARKS = {health_checks.OK: ("ok", "✓"), health_checks.LOOK: ("look", "!"),
          health_checks.UNKNOWN: ("none", "–")}
 PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "list": "neighbour lists",
@@ -45,9 +46,7 @@ def write_files(run):
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
     path = run.path / "report.html"
-    beside = path.with_name("report.html.part")
-    beside.write_text(page, encoding="utf-8")
-    os.replace(beside, path)
+    write(path, page)
     return [path]
 
 
@@ -56,16 +55,19 @@ def template(ending):
 
 
 def read_summary(run):
-    """run.json, {} when it is not there or not whole."""
-    try:
-        summary = json.loads((run.path / "run.json").read_text(errors="replace"))
-    except (OSError, ValueError):
-        return {}
-    return summary if isinstance(summary, dict) else {}
+    """run.json, {} when it is not there or not whole; of a foreign one what is no number or text is left out."""
+    def numbers(table):
+        return {name: value if value is None or math.isfinite(value) else None for name, value in table.items()
+                if value is None or type(value) in (int, float)}
+
+    summary = json_of(run.path / "run.json")
+    tables = {name: numbers(value) for name, value in summary.items() if isinstance(value, dict)}
+    texts = {name: str(summary[name]) for name in TEXTS if summary.get(name)}
+    return numbers(summary) | tables | texts
 
 
 def title(run, summary):
-    return str(summary.get("title") or run.title)
+    return summary.get("title") or str(run.title)
 
 
 def packed_grains(run):
@@ -105,8 +107,9 @@ def header(run, summary):
 
 
 def date(path):
-    """Of a file; a copy of a run may have lost it."""
-    return f"{datetime.fromtimestamp(path.stat().st_mtime):%Y-%m-%d %H:%M}" if path.exists() else None
+    """Of a file or link; a copy of a run may have lost it."""
+    there = path.exists() or path.is_symlink()
+    return f"{datetime.fromtimestamp(path.lstat().st_mtime):%Y-%m-%d %H:%M}" if there else None
 
 
 def duration(seconds):
@@ -139,8 +142,7 @@ def health(found):
 
 def derived(run):
     """The derived numbers and warnings at the head of log.txt, or a few from the configuration."""
-    path = run.path / "log.txt"
-    lines = path.read_text(errors="replace").splitlines() if path.exists() else []
+    lines = text_of(run.path / "log.txt").splitlines()
     matches = (re.match(r"  (\S.*?)\s{2,}(\S.*)$", line) for line in lines)
     rows = [match.groups() for match in matches if match]
     warnings = dict.fromkeys(line.partition(": ")[2] for line in lines if line.startswith("warning: "))
@@ -229,13 +231,12 @@ def rates(summary):
     steps, wall = summary.get("steps"), summary.get("wall_seconds")
     return table([("grains × grain steps", per_second("grain_steps_per_second")),
                   ("cells × fluid steps", per_second("cell_steps_per_second")),
-                  ("wall time per step", f"{1e3 * sum((summary.get('phases') or {}).values()):.3g} ms"
+                  ("wall time per step", f"{1e3 * sum(filter(None, summary['phases'].values())):.3g} ms"
                    if steps and wall and summary.get("phases") else None)])
 
 
 def config(run):
-    path = run.path / "config.toml"
-    text = path.read_text(errors="replace") if path.exists() else ""
+    text = text_of(run.path / "config.toml")
     for file in (run.field_file,) if not text else ():
         text = file.config_text if file else ""
     return f"<pre>{escape(text)}</pre>" if text else '<p class="quiet">Not recorded.</p>'
@@ -247,13 +248,20 @@ def files(run):
     for path in sorted(run.path.iterdir()):
         if path.name.startswith("report.html"):
             continue
-        if path.is_dir():
-            rows.append((path.name + "/", f"{sum(1 for _ in path.iterdir())} files", date(path)))
-        else:
-            rows.append((path.name, size(path.stat().st_size), date(path)))
+        try:
+            rows.append((path.name + "/" * (path.is_dir() and not path.is_symlink()), amount(path), date(path)))
+        except OSError:  # gone since, as the temporary file of a run
+            continue
     body = "".join(f"<tr><th>{escape(name)}</th><td>{amount}</td><td>{when}</td></tr>"
                    for name, amount, when in rows)
     return f'<table class="files">{body}</table>'
+
+
+def amount(path):
+    """How much is there; where a link leads is another matter."""
+    if path.is_symlink():
+        return "link"
+    return f"{sum(1 for _ in path.iterdir())} files" if path.is_dir() else size(path.lstat().st_size)
 
 
 def size(n_bytes):
@@ -265,12 +273,13 @@ def size(n_bytes):
 
 
 def commands(run, summary):
-    folder = shlex.quote(str(run.path))
+    folder, again = (shlex.quote("./" * name.startswith("-") + name) for name in (str(run.path), f"{run.path}-again"))
     commit, _, changed = str(summary.get("git_hash", "")).partition("-")
-    threads = f" --threads {summary['threads']}" if "threads" in summary else ""
+    count = summary.get("threads")
+    threads = f" --threads {count}" if type(count) is int and count > 0 else ""
     lines = [f"git checkout {commit}" + ("    # and changes that were not committed" if changed else "")] \
         if re.fullmatch(r"[0-9a-f]{7,40}", commit) else []
-    lines += [f"./barchan run {folder}/config.toml --out {shlex.quote(str(run.path) + '-again')}{threads}",
+    lines += [f"./barchan run {folder}/config.toml --out {again}{threads}",
               f"./barchan plot {folder}", f"./barchan plot {folder} report"]
     start = {key: value for key, value in run.config.get("initial", {}).items()
              if isinstance(value, str) and value.endswith((".toml", ".h5", ".csv"))}

@@ -3,6 +3,7 @@
 import datetime
 import difflib
 import itertools
+import json
 import math
 import os
 import re
@@ -10,16 +11,20 @@ import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from barchan.errors import BarchanError
+from barchan.io.study_folder import run_name
+
 SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
 ENSEMBLE_KEYS = ("realisations", "cases")
 REALISATION = "initial.realisation"
 
 
-class StudyError(Exception):
+class StudyError(BarchanError):
     """A sentence for the user."""
 
 
+LONGEST_NAME = 200  # letters of a run's name: files of it and of its pictures have longer ones
 MOST_CASES = 10_000  # each is checked before the first one runs
 MOST_REALISATIONS = 100
 
@@ -63,15 +68,22 @@ class Study:
 
 
 def as_toml(value):
+    """On one line. TypeError for what TOML does not have."""
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, (str, Path)):  # the escapes of JSON are among those of TOML
+        return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (datetime.date, datetime.time)):
         return value.isoformat()
-    if isinstance(value, list):
-        return "[" + ", ".join(as_toml(one) for one in value) + "]"
-    return repr(value)
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(as_toml, value)) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{as_toml(str(key))} = {as_toml(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise TypeError(f"a case cannot have a value of type {type(value).__name__}")
 
 
 def flatten(table, above=""):
@@ -234,6 +246,9 @@ def read_study(path, options):
     realisations, cases = ensemble_of(cases, table.get("ensemble", {}), path)
     names = [case.run_name for case in cases]
     for name in names:
+        if len(name) > LONGEST_NAME:
+            raise StudyError(f"{path}: a case has a name of {len(name)} letters, of at most {LONGEST_NAME} "
+                             f'({name[:30]}...): give it a shorter one, [[case]] name = "..."')
         if names.count(name) > 1:
             raise StudyError(f'{path}: two cases are named "{name}"')
     for name, given in (("--at-once", options.at_once), ("--threads", options.threads)):
@@ -247,5 +262,5 @@ def read_study(path, options):
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
     return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,
-                 out=Path(options.out or Path("runs") / path.stem), cases=cases,
+                 out=Path(options.out or Path("runs") / run_name(path)), cases=cases,
                  realisations=realisations, keys=keys)

@@ -10,7 +10,7 @@ import argparse
 import ctypes
 import fcntl
 import fnmatch
-import json
+import math
 import os
 import signal
 import subprocess
@@ -19,6 +19,10 @@ import time
 import tomllib
 from pathlib import Path
 
+from barchan.errors import BarchanError
+from barchan.io import writing
+from barchan.io.run_folder import json_of, text_of, toml_of
+from barchan.io.writing import appending
 from barchan.studies.spec import StudyError, read_study, unknown
 from barchan.studies.table import write_table
 
@@ -34,8 +38,17 @@ def resolved(program, study, case):
     command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
-        raise StudyError(f"case {case.run_name}: {checked.stderr.strip()}")
+        raise StudyError(f"case {case.run_name}: {why(checked.returncode, checked.stderr.strip())}")
     return tomllib.loads(checked.stdout)
+
+
+def why(status, said):
+    """What a program said before it failed, and the signal that has ended it, if one has."""
+    try:
+        end = f"ended by {signal.Signals(-status).name}"
+    except ValueError:
+        end = "" if said else f"ended with {status}"
+    return ": ".join(filter(None, (said, end)))
 
 
 def chosen_of(study, patterns):
@@ -60,18 +73,15 @@ def one_thread():
     return {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
 
 
-def read_json(path):
-    try:
-        return json.loads(path.read_text())
-    except (OSError, ValueError):
-        return {}
+def reached(folder):
+    """The time that a run has come to [s]."""
+    time_there = json_of(folder / "run.json").get("simulated_seconds")
+    return float(time_there) if isinstance(time_there, (int, float)) and math.isfinite(time_there) else 0.0
 
 
-def read_config(folder):
-    try:
-        return tomllib.loads((folder / "config.toml").read_text())
-    except (OSError, tomllib.TOMLDecodeError):
-        return {}
+def without_end(config):
+    times = config.get("time")
+    return {**config, "time": {**times, "end": 0}} if isinstance(times, dict) else config
 
 
 def newest_restart(folder):
@@ -84,14 +94,10 @@ def state_of(folder, config):
 
     A run counts as the same when its configuration is, the end time apart: a study may be made longer.
     """
-    there = read_config(folder)
-    same = bool(there) and {**there, "time": {**there["time"], "end": 0}} == \
-        {**config, "time": {**config["time"], "end": 0}}
-    if not same:
+    if without_end(toml_of(text_of(folder / "config.toml"))) != without_end(config):
         return "new", None
-    summary = read_json(folder / "run.json")
-    reached = summary.get("simulated_seconds", 0.0)
-    if summary.get("status") == "done" and reached >= config["time"]["end"] * (1 - 1e-9):
+    done = json_of(folder / "run.json").get("status") == "done"
+    if done and reached(folder) >= config["time"]["end"] * (1 - 1e-9):
         return "done", None
     restart = newest_restart(folder)
     return ("continue", restart) if restart else ("new", None)
@@ -109,21 +115,19 @@ class Running:
         elif overwrite:
             command.append("--overwrite")
         environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false"}
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with open(self.folder / "sweep.txt", "a") as log:
+        with appending(self.folder / "sweep.txt") as log:
             # A group of its own: a Ctrl-C reaches it once, through us.
             self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                             env=environment, start_new_session=True,
                                             preexec_fn=end_with_parent)
 
     def progress(self):
-        summary = read_json(self.folder / "run.json")
-        return f"{self.case.run_name} {summary.get('simulated_seconds', 0.0):.2f} s"
+        return f"{self.case.run_name} {reached(self.folder):.2f} s"
 
     def complaint(self):
-        """The last line that the program wrote."""
-        lines = (self.folder / "sweep.txt").read_text(errors="replace").strip().splitlines()
-        return lines[-1] if lines else "no output"
+        """The last line that the program wrote, and the signal that has ended it."""
+        lines = text_of(self.folder / "sweep.txt").strip().splitlines()
+        return why(self.process.returncode, lines[-1] if lines else "")
 
 
 class Sweep:
@@ -155,7 +159,11 @@ class Sweep:
         self.tabulate()
         while (waiting or self.running) and not (self.stopping and not self.running):
             while waiting and len(self.running) < self.study.at_once and not self.stopping:
-                self.start(waiting.pop(0))
+                case = waiting.pop(0)
+                try:
+                    self.start(case)
+                except (BarchanError, OSError) as error:
+                    self.fails(case, error)
             self.watch()
             time.sleep(0.2)
         self.tabulate()
@@ -167,8 +175,8 @@ class Sweep:
         if self.stopping:
             say(f"stopped; the same command goes on: {len(self.chosen)} cases in {self.study.out}")
             return 3
-        for name, why in self.failed.items():
-            say(f"failed: {name}: {why}")
+        for name, reason in self.failed.items():
+            say(f"failed: {name}: {reason}")
         left_out = len(self.study.cases) - len(self.chosen)
         others = f"{left_out} others not asked for, " * bool(left_out)
         say(f"{len(self.chosen) - len(self.failed)} of {len(self.chosen)} cases done{self.rate()}, {others}"
@@ -179,16 +187,19 @@ class Sweep:
         """How many runs an hour were computed, precursor cases included; nothing before the first has ended."""
         return f", {3600 * self.finished / (time.monotonic() - self.started):.3g} runs an hour" * bool(self.finished)
 
+    def fails(self, case, reason):
+        self.failed[case.run_name] = reason
+        say(f"{case.run_name}: failed: {reason}")
+
     def start(self, case):
         """First what the case starts from, alone: two cases must not compute the same start."""
-        folder = self.study.out / case.run_name
-        folder.mkdir(parents=True, exist_ok=True)
+        folder = writing.folder(self.study.out / case.run_name)
         _, restart = state_of(folder, self.configs[case.run_name])
         if restart is None:
             command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
             threads = os.environ.get("OMP_NUM_THREADS", str(self.study.threads * self.study.at_once))
-            with open(folder / "sweep.txt", "a") as log:
+            with appending(folder / "sweep.txt") as log:
                 starts = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                           env={**os.environ, "OMP_NUM_THREADS": threads},
                                           start_new_session=True, preexec_fn=end_with_parent)
@@ -200,7 +211,7 @@ class Sweep:
             if self.stopping:
                 return
             if starts.returncode != 0:
-                self.failed[case.run_name] = f"what it starts from, see {folder / 'sweep.txt'}"
+                self.fails(case, why(starts.returncode, f"what it starts from, see {folder / 'sweep.txt'}"))
                 return
         self.running.append(Running(self.program, self.study, case, restart, self.study.threads, self.overwrite))
         say(f"{case.run_name}: {'goes on from ' + restart.name if restart else 'started'}")
@@ -216,8 +227,7 @@ class Sweep:
                 if self.draw:
                     draw_figures(one.folder)
             elif status != 3:
-                self.failed[one.case.run_name] = one.complaint()
-                say(f"{one.case.run_name}: failed: {one.complaint()}")
+                self.fails(one.case, one.complaint())
             self.tabulate()
         if self.running and time.monotonic() - self.said > 30:
             self.said = time.monotonic()
@@ -227,16 +237,15 @@ class Sweep:
         """The time left, from what the cases have come forward since the start."""
         names = [case.run_name for case in self.chosen]
         ends = [self.configs[name]["time"]["end"] for name in names]
-        reached = sum(min(read_json(self.study.out / name / "run.json").get("simulated_seconds", 0.0), end)
-                      for name, end in zip(names, ends))
-        if not hasattr(self, "reached_first"):
-            self.reached_first, self.began = reached, time.time()
+        come = sum(min(reached(self.study.out / name), end) for name, end in zip(names, ends))
+        if not hasattr(self, "come_first"):
+            self.come_first, self.began = come, time.time()
             return ""
-        done = reached - self.reached_first
+        done = come - self.come_first
         if done <= 0:
             return ""
-        seconds = (sum(ends) - reached) * (time.time() - self.began) / done
-        return f"; {reached:.1f} of {sum(ends):g} s in all, about {seconds / 60:.0f} min left"
+        seconds = (sum(ends) - come) * (time.time() - self.began) / done
+        return f"; {come:.1f} of {sum(ends):g} s in all, about {seconds / 60:.0f} min left"
 
     def tabulate(self):
         write_table(self.study, self.failed, {case.run_name: self.status(case) for case in self.study.cases})
@@ -278,9 +287,11 @@ def lock(folder):
     """Two sweeps in one folder would overwrite each other's runs."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        handle = open(folder / ".lock", "w")
+        handle = appending(folder / ".lock")
     except OSError as error:
-        raise StudyError(f"cannot write results to {folder}: {error.strerror}; take another --out") from error
+        raise StudyError(f"cannot write to {folder}: {error.strerror}; take another --out") from error
+    except BarchanError as error:
+        raise StudyError(f"{error}; take another --out") from error
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
@@ -292,7 +303,8 @@ def check_nobody_runs(folders):
     """A case that somebody runs by hand must not be run beside it: StudyError with who does."""
     for folder in folders:
         try:
-            with open(folder / ".barchan.lock") as handle:
+            # A pipe of that name is not waited for.
+            with open(os.open(folder / ".barchan.lock", os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)) as handle:
                 holder = handle.readline().strip() or "another process"
                 fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except FileNotFoundError:
@@ -315,11 +327,15 @@ def main(arguments):
             return 0
         held = lock(study.out)
         check_nobody_runs(study.out / case.run_name for case in chosen)
-    except StudyError as error:
+    except BarchanError as error:
         print(error, file=sys.stderr)
         return 2
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, sweep.stop)
-    with held:
-        return sweep.run()
+    try:
+        with held:
+            return sweep.run()
+    except OSError as error:
+        print(f"cannot write {error.filename or study.out}: {error.strerror}", file=sys.stderr)
+        return 1
 

@@ -4,19 +4,13 @@ import csv
 import io
 import json
 import math
-import os
 
 from barchan.io import horn_lengths
+from barchan.io.writing import write
 from barchan.stats import spread
 
 DUNE_COLUMNS = ("t", "W", "L", "H", "Cx", "Cz", "horn_left", "horn_right", "celerity", "n_grains", "n_lost",
                 *map(horn_lengths.name, horn_lengths.SIDES))
-
-
-def replace(path, text):
-    beside = path.with_name(path.name + ".tmp")
-    beside.write_text(text)
-    os.replace(beside, path)
 
 
 def last_of_main_dune(folder):
@@ -29,7 +23,7 @@ def last_of_main_dune(folder):
         columns = {name: [float(row[name]) for row in of_main] for name in rows[0]}
         steady = horn_lengths.medians(columns)
         return of_main[-1] | {name: f"{values[-1]:.9g}" for name, values in steady.items()}
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError):
         return {}
 
 
@@ -44,17 +38,17 @@ def write_table(study, failed, status):
     cases = [{"name": case.run_name, "folder": case.run_name, "case": case.name,
               "realisation": case.realisation, "varied": case.varied, "values": case.values}
              for case in study.cases]
-    replace(study.out / "study.json",
-            json.dumps({"title": study.title, "base": str(study.base), "cases": cases}, indent=1) + "\n")
+    write(study.out / "study.json",
+          json.dumps({"title": study.title, "base": str(study.base), "cases": cases}, indent=1) + "\n")
     last = {case.run_name: last_of_main_dune(study.out / case.run_name) for case in study.cases}
     which = ["realisation"] * (study.realisations > 1)
     rows = [["case", *which, *study.keys, "status", *DUNE_COLUMNS]]
     rows += [[case.name, *(getattr(case, name) for name in which), *(case.values.get(key, "") for key in study.keys),
               status[case.run_name], *(last[case.run_name].get(column, "") for column in DUNE_COLUMNS)]
              for case in study.cases]
-    replace(study.out / "study.csv", as_csv(rows))
+    write(study.out / "study.csv", as_csv(rows))
     if study.realisations > 1:
-        replace(study.out / "ensemble.csv", as_csv(ensemble_rows(study, status, last)))
+        write(study.out / "ensemble.csv", as_csv(ensemble_rows(study, status, last)))
 
 
 def ensemble_rows(study, status, last):

@@ -1,0 +1,123 @@
+"""A study over folders that hold anything, and programs that end by a signal: sentences, and the other cases go on."""
+
+import datetime
+import os
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from barchan.studies import sweep
+from barchan.studies.spec import as_toml
+
+# Does as it is told by files beside it; a run leaves a folder as a run does.
+PROGRAM = """#!/bin/sh
+here=$(dirname "$0")
+[ ! -e "$here/$1-is-killed" ] || kill -KILL $$
+[ "$1" != check ] || { echo '[time]'; echo 'end = 1.0'; exit; }
+case "$* " in *--starts-only*) exit ;; esac
+[ ! -e "$here/case-is-killed" ] || { echo half a line; kill -KILL $$; }
+while [ "$1" != --out ]; do shift; done
+printf '[time]\\nend = 1.0\\n' > "$2/config.toml"
+echo '{"status": "done", "simulated_seconds": 1.0}' > "$2/run.json"
+"""
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """main() of a study of the cases `one` and `two` in the folder out."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sweep.signal, "signal", lambda *_: None)  # a Ctrl-C is for pytest
+    program = tmp_path / "program"
+    program.write_text(PROGRAM)
+    program.chmod(0o755)
+    (tmp_path / "case.toml").write_text("[time]\nend = 1.0\n")
+
+    def main(*names, more=""):
+        cases = "".join(f'[[case]]\nname = "{name}"\n' for name in names or ("one", "two"))
+        (tmp_path / "study.toml").write_text(f'[study]\nbase = "case.toml"\n{more}\n{cases}')
+        return sweep.main([str(program), "study.toml", "--out", "out", "--no-pictures"])
+    return main
+
+
+def status_of(folder, name):
+    lines = (folder / "out/study.csv").read_text().splitlines()
+    return next(line.split(",")[1] for line in lines if line.startswith(f"{name},"))
+
+
+def test_cases_that_are_done_are_not_run_again(study, capsys):
+    assert study() == 0
+    assert "2 of 2 cases done" in capsys.readouterr().out
+    assert study() == 0
+    assert capsys.readouterr().out.count("done before") == 2
+
+
+@pytest.mark.parametrize("file, text", [
+    ("config.toml", "[fluid]\ncells = [1, 1, 1]\n"), ("config.toml", "time = 3\n"), ("config.toml", "\udcff"),
+    ("config.toml", "a = " + 5000 * "["), ("run.json", "[1]"), ("run.json", "null"), ("run.json", 5000 * "["),
+    ("run.json", '{"status": ["done"], "simulated_seconds": "1"}'), ("run.json", '{"simulated_seconds": NaN}'),
+    ("dune.csv", "t,dune\n1,0,3\n")])
+def test_folders_with_anything_in_them(study, tmp_path, file, text, capsys):
+    folder = tmp_path / "out/one"
+    folder.mkdir(parents=True)
+    if file != "config.toml":
+        (folder / "config.toml").write_text("[time]\nend = 1.0\n")
+    (folder / file).write_text(text, errors="surrogateescape")
+    assert study() == 0
+    assert "one: to be run" in capsys.readouterr().out
+    assert status_of(tmp_path, "one") == "done"
+
+
+def test_a_name_that_no_folder_can_have(study, tmp_path, capsys):
+    assert study("one", 300 * "x") == 2
+    assert f"a case has a name of 300 letters, of at most 200 ({30 * 'x'}...): give" in capsys.readouterr().err
+    assert study("one", more=f'[grid]\ncase.title = ["{250 * "y"}"]') == 2
+    assert not (tmp_path / "out").exists()
+    assert study(200 * "x") == 0
+
+
+def test_a_folder_that_cannot_be_made_is_of_its_case_alone(study, tmp_path, capsys):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/one").write_text("a file")
+    assert study() == 1
+    assert "failed: one: cannot write to out/one: it is a file" in capsys.readouterr().out
+    assert (status_of(tmp_path, "one"), status_of(tmp_path, "two")) == ("failed", "done")
+
+
+def test_a_pipe_in_place_of_a_lock_is_not_waited_for(study, tmp_path):
+    (tmp_path / "out/one").mkdir(parents=True)
+    os.mkfifo(tmp_path / "out/one/.barchan.lock")
+    os.mkfifo(tmp_path / "out/one/run.json")
+    (tmp_path / "out/one/config.toml").write_text("[time]\nend = 1.0\n")
+    program = (tmp_path / "program").read_text()
+    (tmp_path / "program").write_text(program.replace("echo '{", "rm -f \"$2/run.json\"; echo '{"))
+    assert study() == 0
+
+
+@pytest.mark.parametrize("what, status, words", [
+    ("check", 2, "case one: ended by SIGKILL\n"),
+    ("run", 1, "one: what it starts from, see out/one/sweep.txt: ended by "),
+    ("case", 1, "failed: one: half a line: ended by SIGKILL\n")])
+def test_a_signal_has_a_name(study, tmp_path, what, status, words, capsys):
+    (tmp_path / f"{what}-is-killed").touch()
+    assert study() == status
+    said = capsys.readouterr()
+    assert words in said.err + said.out
+
+
+@pytest.mark.parametrize("value", [
+    'two\nlines, a "quote", a \\, \x7f and \x00', [1, 2.5, True], {"a b": [{"c": "d"}], "e": 1e-300},
+    datetime.date(2026, 1, 31)])
+def test_values_are_written_on_one_line_and_read_again(value):
+    line = f"value = {as_toml(value)}"
+    assert "\n" not in line and tomllib.loads(line) == {"value": value}
+
+
+def test_values_of_other_kinds_are_those_of_toml():
+    assert as_toml(np.array([[1, 2], [3, 4]])) == "[[1, 2], [3, 4]]"
+    assert as_toml((np.float32(0.5), np.int64(3), np.bool_(True))) == "[0.5, 3, true]"
+    assert as_toml(Path("a/b.toml")) == '"a/b.toml"'
+    for value in (None, object(), {1, 2}, 1j):
+        with pytest.raises(TypeError, match="a case cannot have a value of type"):
+            as_toml(value)
