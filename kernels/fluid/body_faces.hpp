@@ -15,6 +15,22 @@ KOKKOS_INLINE_FUNCTION Vec3 face_middle(const BasicGrid<Rows>& grid, int axis, i
           axis == 2 ? grid.z_face(k) : grid.z_centre(k)};
 }
 
+/// Whether a face is closed: its middle lies in a body or on its surface. Round-off, as part of a
+/// cell, must not decide that: a body often ends just where cells do.
+template <class Rows>
+KOKKOS_INLINE_FUNCTION bool is_closed_by(const Bodies& bodies, const BasicGrid<Rows>& grid,
+                                         int axis, int i, int j, int k) {
+  const Real size = Kokkos::min(Kokkos::min(grid.dx, grid.dy(j)), grid.dz);
+  const Vec3 middle = face_middle(grid, axis, i, j, k);
+  return !(bodies.nearest(middle).surface.distance >= Real(1e-6) * size);
+}
+
+/// The distance from bodies at which a cell of row j holds water on any mesh [m].
+template <class Rows>
+KOKKOS_INLINE_FUNCTION Real far_from_bodies(const BasicGrid<Rows>& grid, int j) {
+  return 2 * Kokkos::max(Kokkos::max(grid.dx, grid.dy(j)), grid.dz);
+}
+
 /// The share of the way from a, which is in the water, to b, which is not, that lies in the water.
 KOKKOS_INLINE_FUNCTION Real share_in_water(const Bodies& bodies, const Vec3& a, const Vec3& b) {
   Real water = 0, solid = 1;

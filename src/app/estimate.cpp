@@ -76,8 +76,9 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   if (!config.grains) return {};
   if (planned.grains) return *planned.grains;
   const Config& pours = planned.poured_in;
+  InitialGrains poured = checked_grains(pours, {});  // throws as the run would
   // What loses no energy does not settle.
-  if (loses_no_energy(*config.grains)) return checked_grains(pours, {});
+  if (loses_no_energy(*config.grains)) return poured;
   return packed_grains(poured_heaps(pours), pours.size, make_bodies(pours));
 }
 

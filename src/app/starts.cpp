@@ -10,6 +10,7 @@
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
+#include "src/fluid/passage.hpp"
 #include "src/initial/initial_state.hpp"
 
 namespace barchan {
@@ -74,6 +75,7 @@ std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& fold
 
 PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
+  check_passage(config);
   if (!config.grains) return {};
   if (const auto heaps = poured_heaps(config); !heaps.empty()) {
     PlannedGrains planned;

@@ -36,7 +36,7 @@ struct PlannedGrains {
 
 /// Reads the table or the results that initial.grains names, and checks that the grains fit the
 /// case as a run does. Of a start that has no results yet: what that one starts with. Throws
-/// InputError.
+/// InputError, also if bodies leave the flow no way.
 PlannedGrains planned_grains(const Case& the_case, const std::filesystem::path& folder);
 
 }  // namespace barchan

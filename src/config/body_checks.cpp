@@ -7,12 +7,14 @@
 
 #include "src/config/body_extent.hpp"
 #include "src/config/keys.hpp"
+#include "src/config/names.hpp"
 #include "src/config/values.hpp"
 
 namespace barchan {
 namespace {
 
-constexpr double kFewCells = 4;  // across a body
+constexpr double kFewCells = 4;    // across a body
+constexpr int kMostPosts = 10000;  // of a fence: far more than a flow or a picture can show
 
 std::string key_of(std::size_t n, std::string_view key) {
   return fmt::format("body.{}.{}", n + 1, key);
@@ -56,14 +58,14 @@ bool check_keys(const Config& c, std::size_t n, Findings& found) {
   const auto holds = [](const std::vector<std::string_view>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  Config alone, plain;
-  alone.bodies = {c.bodies[n]};
+  Config plain;
   plain.bodies = {BodyConfig{}};
   bool well = true;
   for (const Section& section : sections()) {
     if (section.name != "body") continue;
     for (const Key& key : section.keys) {
-      const bool given = key.text(alone) != key.text(plain), needed = holds(shape.needs, key.name);
+      const bool given = key.text(c, n) != key.text(plain, 0),
+                 needed = holds(shape.needs, key.name);
       if (needed)
         well = !found.error_if(!given, {key_of(n, key.name), key_of(n, "shape")},
                                "must be above 0 with {}", words_for(c.bodies[n])) &&
@@ -85,10 +87,15 @@ bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
     return !found.error_if(body.angle != 0 && (body.size[0] == 0 || body.size[1] == 0),
                            {key_of(n, "angle"), key_of(n, "size")},
                            "must be absent for a box through the whole domain");
-  if (body.shape == BodyShape::fence)
+  if (body.shape == BodyShape::fence) {
+    const double posts = 1 + body.length / body.spacing;
     return !found.error_if(body.spacing <= 2 * body.radius,
                            {key_of(n, "spacing"), key_of(n, "radius")},
-                           "must be above the diameter of a post, {:.3g} m", 2 * body.radius);
+                           "must be above the diameter of a post, {:.3g} m", 2 * body.radius) &&
+           !found.error_if(posts > kMostPosts, {key_of(n, "spacing"), key_of(n, "length")},
+                           "must be at least {:.3g} m: a fence has at most {} posts",
+                           body.length / (kMostPosts - 1), kMostPosts);
+  }
   if (body.shape != BodyShape::dune) return true;
   if (found.error_if(body.base > 0, {key_of(n, "base"), key_of(n, "shape")},
                      "must be at most 0 with shape = \"dune\", which stands on the floor"))
@@ -160,9 +167,8 @@ void check_resolution(const Config& c, std::size_t n, Findings& found) {
 }  // namespace
 
 void check_bodies(const Config& c, Findings& found) {
-  found.error_if(c.bodies.size() > std::size_t{kMostBodiesOfCase}, {"body"},
-                 "must be at most {} bodies", kMostBodiesOfCase);
   for (std::size_t n = 0; n < c.bodies.size(); ++n) {
+    check_name(c.bodies[n].name, {key_of(n, "name")}, found);
     for (std::size_t before = 0; before < n; ++before)
       found.error_if(c.bodies[before].name == c.bodies[n].name, {key_of(n, "name")},
                      "must be another one: \"{}\" is the name of an earlier body",

@@ -6,8 +6,6 @@
 
 namespace barchan {
 
-inline constexpr int kMostBodiesOfCase = 8;
-
 /// The bodies alone, with each other, and with the domain and the cells.
 void check_bodies(const Config& c, Findings& found);
 

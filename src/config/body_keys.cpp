@@ -8,7 +8,8 @@ void add_bodies(Sections& all) {
   Section& section = all.emplace_back(Section{
       .name = "body",
       .meaning = "Solids at rest in the flow and among the grains, at most eight; each shape takes "
-                 "some of the keys"});
+                 "some of the keys",
+      .most = kMostBodiesOfCase});
   auto key = repeated_keys(section, [](auto& c) { return &c.bodies; });
   using B = BodyConfig;
   key("name", &B::name, at_most(60), "", "what it is called in tables, files and pictures",

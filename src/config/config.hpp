@@ -265,6 +265,10 @@ struct SolverConfig {
   bool operator==(const SolverConfig&) const = default;
 };
 
+/// As many as a case may have: kernels hold tables of the first two, a grain the number of its heap
+/// in a byte, of which one value is none.
+inline constexpr int kMostKinds = 4, kMostBodiesOfCase = 8, kMostHeaps = 255;
+
 struct Config {
   std::filesystem::path file;  // where it came from
   std::string title;           // [case] title

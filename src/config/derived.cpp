@@ -127,6 +127,7 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
   n.cell_ratio = std::min({flow.dx, flow.dy_first, flow.dz}) / n.d_mean;
   n.floor_ratio = flow.dy_first / n.d_mean;
   n.column_ratio = flow.dx / n.d_mean;
+  n.width_ratio = std::min(flow.dx, flow.dz) / n.d_mean;
   if (top <= 0 || top >= config.size[1]) return;
   const auto faces = row_faces(row_spacing(config));
   const auto above = std::upper_bound(faces.begin(), faces.end(), top);

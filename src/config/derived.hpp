@@ -86,6 +86,7 @@ struct GrainNumbers {
   double cell_ratio = 0;    // smallest cell length over the mean diameter; 0 without cells
   double floor_ratio = 0;   // height of the lowest row over it
   double column_ratio = 0;  // length of a cell along x over it
+  double width_ratio = 0;   // the smaller of its lengths along x and z over it
   double top = 0;           // [m] highest point of the grains; 0: not known
   double top_ratio = 0;     // height of the row there over the mean diameter
   bool as_poured = false;   // they are still to settle

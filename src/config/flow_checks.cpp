@@ -22,8 +22,6 @@ void check_entry(const FlowTarget& entry, std::size_t number, const Config& c, F
                  {"fluid.schedule", "fluid.schedule.period", "time.fluid_step"},
                  "must have a period of at least {:.3g} s, {} fluid steps, in entry {}", shortest,
                  kStepsOfPeriod, number);
-  found.warning_if(entry.time >= c.time.end, {"fluid.schedule", "time.end"},
-                   "has entry {} at {:.6g} s, after the end of the run", number, entry.time);
 }
 
 /// An entry with the one before it.
@@ -40,11 +38,35 @@ void check_order(const FlowTarget& before, const FlowTarget& entry, std::size_t 
                  "must end the ramp of entry {} at the time of the next, {:.6g} s; it lasts until "
                  "{:.6g} s",
                  number - 1, entry.time, until);
-  found.warning_if(entry.ramp == 0 && entry.velocity != before.velocity,
-                   {"fluid.schedule", "fluid.schedule.ramp"},
-                   "changes the flow in one step in entry {}: the pressure that does it pushes "
+}
+
+/// Entries that ask for the same warning, of which there may be thousands.
+struct Entries {
+  std::size_t first = 0, count = 0;  // numbers count from 1
+  void add(bool one, std::size_t number) {
+    if (one && count++ == 0) first = number;
+  }
+  std::string words() const {
+    return count > 1 ? fmt::format("entry {} and {} more", first, count - 1)
+                     : fmt::format("entry {}", first);
+  }
+};
+
+void warn_of_entries(const Config& c, Findings& found) {
+  const std::vector<FlowTarget>& schedule = c.fluid->schedule;
+  Entries late, sudden;
+  for (std::size_t n = 0; n < schedule.size(); ++n) {
+    const FlowTarget& entry = schedule[n];
+    late.add(entry.time >= c.time.end, n + 1);
+    sudden.add(n > 0 && entry.ramp == 0 && entry.velocity != schedule[n - 1].velocity, n + 1);
+  }
+  found.warning_if(late.count > 0, {"fluid.schedule", "time.end"},
+                   "has {} at {:.6g} s, after the end of the run", late.words(),
+                   late.count > 0 ? schedule[late.first - 1].time : 0);
+  found.warning_if(sudden.count > 0, {"fluid.schedule", "fluid.schedule.ramp"},
+                   "changes the flow in one step in {}: the pressure that does it pushes "
                    "grains as well; give it a ramp",
-                   number);
+                   sudden.words());
 }
 
 }  // namespace
@@ -64,6 +86,7 @@ void check_schedule(const Config& c, Findings& found) {
     check_entry(schedule[n], n + 1, c, found);
     if (n > 0) check_order(schedule[n - 1], schedule[n], n + 1, found);
   }
+  warn_of_entries(c, found);
 }
 
 void check_flow_at_start(const Config& c, Findings& found) {

@@ -40,6 +40,12 @@ PlaneVelocity wanted_velocity(const std::vector<FlowTarget>& schedule,
   return wanted;
 }
 
+bool goes_along(const std::vector<FlowTarget>& schedule) {
+  return std::ranges::any_of(schedule, [](const FlowTarget& entry) {
+    return entry.velocity.x != 0 || entry.amplitude.x != 0;
+  });
+}
+
 bool goes_across(const std::vector<FlowTarget>& schedule) {
   return std::ranges::any_of(schedule, [](const FlowTarget& entry) {
     return entry.velocity.z != 0 || entry.amplitude.z != 0;

@@ -22,7 +22,8 @@ PlaneVelocity velocity_at_start(const std::vector<FlowTarget>& schedule);
 PlaneVelocity wanted_velocity(const std::vector<FlowTarget>& schedule,
                               const PlaneVelocity& at_start, double t);
 
-/// Whether it ever wants a flow along z.
+/// Whether it ever wants a flow along x, along z.
+bool goes_along(const std::vector<FlowTarget>& schedule);
 bool goes_across(const std::vector<FlowTarget>& schedule);
 
 /// Largest value that `size`, a norm of velocities, has at any time.

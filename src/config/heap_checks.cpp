@@ -10,6 +10,7 @@
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
+#include "src/config/names.hpp"
 
 namespace barchan {
 namespace {
@@ -101,8 +102,7 @@ bool check_kind(const Config& c, std::size_t n, Findings& found) {
 void check_names(const std::vector<HeapConfig>& heaps, Findings& found) {
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     const HeapKeys key{fmt::format("initial.heap.{}", n + 1)};
-    found.error_if(heaps[n].name.find('\n') != std::string::npos, {key("name")},
-                   "must be one line");
+    check_name(heaps[n].name, {key("name")}, found);
     const auto same = [&](const HeapConfig& other) { return other.name == heaps[n].name; };
     found.error_if(std::find_if(heaps.begin(), heaps.begin() + static_cast<std::ptrdiff_t>(n),
                                 same) != heaps.begin() + static_cast<std::ptrdiff_t>(n),
@@ -140,8 +140,6 @@ void check_heaps(const Config& c, Findings& found) {
   bool known = true;
   for (std::size_t n = 0; n < c.initial.heaps.size(); ++n) known = check_kind(c, n, found) && known;
   if (!known) return;
-  found.error_if(heaps.size() > std::numeric_limits<std::uint8_t>::max(), {"initial.heap"},
-                 "must be at most 255 heaps");
   const std::vector<SizeClass> sizes = sizes_of(heaps);
   constexpr int kMost = std::numeric_limits<int>::max();  // what a run can number
   found.error_if(!pour && count_of(sizes) > kMost, {"initial.heap"},

@@ -20,6 +20,17 @@ auto* value_of(T* parent) {
   }
 }
 
+/// The struct with the members, of a Config; in a section that may be written many times, of its
+/// nth entry.
+template <class Get, class C>
+auto* parent_of(const Get& get, C& config, std::size_t entry) {
+  if constexpr (requires { get(config, entry); }) {
+    return get(config, entry);
+  } else {
+    return value_of(get(config));
+  }
+}
+
 /// Adds keys to a section, one a call. `Get`: from a Config to a pointer to the struct with the
 /// members, nullptr where that is absent, or to the std::optional of it: then the section is there
 /// when the file has it.
@@ -54,15 +65,16 @@ class Keys {
          .required = (rule & required) != 0,
          .fixed_by_restart = (rule & fixed_by_restart) != 0,
          .read =
-             [get = get_, member, range](const Node& node, Config& config) {
+             [get = get_, member, range](const Node& node, Config& config, std::size_t entry) {
                Plain<T> value{};
                Mismatch mismatch = convert(node, value);
                if (!mismatch) mismatch = check(value, range);
-               if (!mismatch) value_of(get(config))->*member = value;
+               if (!mismatch) parent_of(get, config, entry)->*member = value;
                return mismatch;
              },
-         .text = [get = get_, member](const Config& config) -> std::optional<std::string> {
-           const Struct* parent = value_of(get(config));
+         .text = [get = get_, member](const Config& config,
+                                      std::size_t entry) -> std::optional<std::string> {
+           const Struct* parent = parent_of(get, config, entry);
            if (parent == nullptr) return {};
            return optional_text(parent->*member);
          }});
@@ -80,16 +92,13 @@ auto repeated_keys(Section& section, List list) {
   section.append = [list](Config& c) {
     if (auto* entries = list(c); entries != nullptr) entries->emplace_back();
   };
-  section.each = [list](const Config& c) {
-    std::vector<Config> alone;
+  section.count = [list](const Config& c) {
     const auto* entries = list(c);
-    if (entries == nullptr) return alone;
-    for (const auto& entry : *entries) list(alone.emplace_back(c))->assign(1, entry);
-    return alone;
+    return entries != nullptr ? entries->size() : 0;
   };
-  return Keys(section, [list](auto& c) {
+  return Keys(section, [list](auto& c, std::size_t entry) {
     auto* entries = list(c);
-    return entries != nullptr && !entries->empty() ? &entries->back() : nullptr;
+    return entries != nullptr && entry < entries->size() ? entries->data() + entry : nullptr;
   });
 }
 

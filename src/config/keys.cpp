@@ -193,7 +193,8 @@ void add_heaps(Sections& all) {
   Section& section = all.emplace_back(Section{
       .name = "initial.heap",
       .meaning = "Several heaps and beds instead of `pour`, poured in this order; each grain "
-                 "keeps the number of its heap"});
+                 "keeps the number of its heap",
+      .most = kMostHeaps});
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.heaps; });
   using H = HeapConfig;
   key("name", &H::name, at_most(60), "", "in result files and pictures");
@@ -259,7 +260,7 @@ void add_statistics(Sections& all) {
 void add_solver(Sections& all) {
   Keys key(add(all, "solver", "The equation of the pressure"), [](auto& c) { return &c.solver; });
   using S = SolverConfig;
-  key("pressure_tolerance", &S::pressure_tolerance, above(0).below(1), "",
+  key("pressure_tolerance", &S::pressure_tolerance, at_least(1e-14).below(1), "",
       "residual over right-hand side (2-norms) at which iterations stop");
   key("max_iterations", &S::max_iterations, at_least(1), "", "of the conjugate gradients a step");
   key("preconditioner", &S::preconditioner,

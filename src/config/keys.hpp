@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +23,10 @@ struct Key {
   bool fixed_by_restart = false;  // what the numbers of a restart file mean depends on it
 
   /// Sets the member; what the value must be if it is not that, the member is left alone then.
-  std::function<Mismatch(const Node&, Config&)> read;
+  /// `entry`: which one, of a section that may be written many times.
+  std::function<Mismatch(const Node&, Config&, std::size_t entry)> read;
   /// The value as TOML; nothing if it, or its section, is absent.
-  std::function<std::optional<std::string>(const Config&)> text;
+  std::function<std::optional<std::string>(const Config&, std::size_t entry)> text;
 
   std::string dotted() const { return section + "." + name; }
 };
@@ -39,10 +41,11 @@ struct Section {
   std::function<void(Config&, bool in_file)> prepare = {};
   std::vector<Key> keys = {};
 
-  /// Of a section that may be written many times, [[name]]: adds an entry of defaults to its list,
-  /// whose last entry the keys read; and the configuration with each entry alone.
+  /// Of a section that may be written many times, [[name]]: adds an entry of defaults to its list;
+  /// how many there are; how many there may be.
   std::function<void(Config&)> append = {};
-  std::function<std::vector<Config>(const Config&)> each = {};
+  std::function<std::size_t(const Config&)> count = {};
+  std::size_t most = std::numeric_limits<std::size_t>::max();
   bool repeated() const { return append != nullptr; }
 };
 

@@ -22,7 +22,7 @@ std::string domain_of(const Key& key) {
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
   if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
-  const std::string value = key.text(defaults).value_or("");
+  const std::string value = key.text(defaults, 0).value_or("");
   const bool none = value.empty() || value == "\"\"" || value == "[]";
   return none ? "none" : "`" + value + "`";
 }

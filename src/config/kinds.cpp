@@ -79,7 +79,9 @@ void check_pairs(const GrainConfig& grains, Findings& found) {
                    a);
     found.error_if(!pairs.insert({a, b}).second, key,
                    "must be another pair each time; two are \"{}\", \"{}\"", a, b);
-    found.error_if(!pair.restitution && !pair.sliding_friction && !pair.rolling_friction, {section},
+    found.error_if(!pair.restitution && !pair.sliding_friction && !pair.rolling_friction,
+                   {section, section + ".restitution", section + ".sliding_friction",
+                    section + ".rolling_friction"},
                    "of \"{}\", \"{}\" must say restitution, sliding_friction or rolling_friction",
                    a, b);
   }
@@ -145,8 +147,6 @@ void check_kinds(const GrainConfig& grains, Findings& found) {
   found.error_if(grains.kinds.empty() && !grains.pairs.empty(), {"grains.pair", "grains.kind"},
                  "must be absent without [[grains.kind]]");
   if (grains.kinds.empty()) return;
-  found.error_if(grains.kinds.size() > kMostKinds, {"grains.kind"}, "must be at most {} sections",
-                 kMostKinds);
   check_names(grains, found);
   check_use(grains, found);
   check_pairs(grains, found);

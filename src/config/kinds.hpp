@@ -10,9 +10,6 @@
 
 namespace barchan {
 
-/// As many kinds as a case may have.
-inline constexpr int kMostKinds = 4;
-
 /// The kinds of a case; of a case without [[grains.kind]] that of [grains], without a name.
 std::vector<KindConfig> all_kinds(const GrainConfig& grains);
 

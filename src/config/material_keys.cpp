@@ -18,7 +18,8 @@ void add_kinds(Sections& all) {
       Section{.name = "grains.kind",
               .meaning = "Grains of several kinds, at most four; what a kind leaves out is as in "
                          "`[grains]`",
-              .like = "grains"});
+              .like = "grains",
+              .most = kMostKinds});
   const auto list = [](auto& c) { return c.grains ? &c.grains->kinds : nullptr; };
   auto key = repeated_keys(section, list);
   using K = KindConfig;
@@ -26,9 +27,9 @@ void add_kinds(Sections& all) {
       required_and_fixed);
   key("density", &K::density, between(1e-6, 1e9), "kg/m3", "density of the grains",
       fixed_by_restart);
-  add_material(section, [list](auto& c) {
+  add_material(section, [list](auto& c, std::size_t entry) {
     auto* kinds = list(c);
-    return kinds != nullptr && !kinds->empty() ? &kinds->back().material : nullptr;
+    return kinds != nullptr && entry < kinds->size() ? &(*kinds)[entry].material : nullptr;
   });
   key("sizes", &K::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the grains of this kind to pour");
@@ -46,7 +47,8 @@ void add_pairs(Sections& all) {
   Section& section = all.emplace_back(
       Section{.name = "grains.pair",
               .meaning = "Contacts of two kinds with each other; what is not given is the "
-                         "geometric mean of both kinds"});
+                         "geometric mean of both kinds",
+              .most = kMostKinds * (kMostKinds - 1) / 2});
   auto key = repeated_keys(section, [](auto& c) { return c.grains ? &c.grains->pairs : nullptr; });
   using P = PairConfig;
   key("kinds", &P::kinds, "names of the two kinds", required);

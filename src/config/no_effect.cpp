@@ -75,8 +75,8 @@ void check_effects(const Config& c, Findings& found) {
     for (const Key& key : section.keys) {
       for (const Need& need : kNeeds) {
         if (need.key != section.name && need.key != key.dotted()) continue;
-        const auto text = key.text(c);
-        found.error_if(text && text != key.text(unchanged) && !need.met(c),
+        const auto text = key.text(c, 0);
+        found.error_if(text && text != key.text(unchanged, 0) && !need.met(c),
                        {key.dotted(), std::string(need.rests_on)}, "{}", need.message);
       }
     }

@@ -127,15 +127,16 @@ Config ConfigReader::read() {
   Config config;
   config.file = file_;
   for (const Section& section : table_) read(section, config);
-  find_unknown("", tree_);
+  find_unknown("", tree_, names_in(""));
   for (const Section& section : table_) {
     const Node* node = tree_.find(section.name);
     if (node == nullptr) continue;
+    const std::vector<std::string> known = names_in(section.name);
     const auto* list = std::get_if<NodeArray>(&node->value);
     if (section.repeated() && list != nullptr) {
-      for (const Node& entry : *list) find_unknown(section.name, entry);
+      for (const Node& entry : *list) find_unknown(section.name, entry, known);
     } else {
-      find_unknown(section.name, *node);
+      find_unknown(section.name, *node, known);
     }
   }
   return config;
@@ -151,7 +152,7 @@ void ConfigReader::read(const Section& section, Config& config) {
   if (node != nullptr && !is_table && !section.keys.empty()) {
     report_error(section.name, fmt::format("must be a section, [{}]", section.name));
   }
-  if (is_table) read_keys(section, *node, config);
+  if (is_table) read_keys(section, *node, config, 0);
 }
 
 /// A section that may be written many times.
@@ -161,13 +162,16 @@ void ConfigReader::read_list(const Section& section, const Node& node, Config& c
     return report_error(section.name,
                         fmt::format("must be sections, [[{}]] for each of them", section.name));
   }
-  for (const Node& entry : *list) {
+  if (list->size() > section.most)
+    report_error(section.name, fmt::format("must be at most {} sections", section.most));
+  for (std::size_t n = 0; n < std::min(list->size(), section.most); ++n) {
     section.append(config);
-    read_keys(section, entry, config);
+    read_keys(section, (*list)[n], config, n);
   }
 }
 
-void ConfigReader::read_keys(const Section& section, const Node& table, Config& config) {
+void ConfigReader::read_keys(const Section& section, const Node& table, Config& config,
+                             std::size_t entry) {
   const auto bad = [&](const Key& key, const Node* value, const std::string& message) {
     report_at(value, &table, key.dotted(), message);
     bad_.insert(key.dotted());
@@ -177,7 +181,7 @@ void ConfigReader::read_keys(const Section& section, const Node& table, Config& 
     if (value == nullptr) {
       if (key.required) bad(key, nullptr, "required key is missing");
     } else if (value->table() == nullptr || !is_section(key.dotted())) {
-      if (const Mismatch mismatch = key.read(*value, config)) {
+      if (const Mismatch mismatch = key.read(*value, config, entry)) {
         const std::string gone = removal(key.dotted(), toml_text(*value));
         bad(key, value, gone.empty() ? "must be " + *mismatch : gone);
       }
@@ -225,9 +229,9 @@ bool ConfigReader::is_bad(const std::string& dotted) const {
   return false;
 }
 
-void ConfigReader::find_unknown(const std::string& section, const Node& node) {
+void ConfigReader::find_unknown(const std::string& section, const Node& node,
+                                const std::vector<std::string>& known) {
   if (node.table() == nullptr) return;
-  const std::vector<std::string> known = names_in(section);
   for (const auto& [name, value] : *node.table()) {
     if (contains(known, name)) continue;
     const bool table = section.empty() && value.table() != nullptr;

@@ -50,14 +50,15 @@ class ConfigReader {
  private:
   void read(const Section& section, Config& config);
   void read_list(const Section& section, const Node& node, Config& config);
-  void read_keys(const Section& section, const Node& table, Config& config);
+  void read_keys(const Section& section, const Node& table, Config& config, std::size_t entry);
   void report_at(const Node* node, const Node* around, const std::string& dotted,
                  const std::string& message);
   void add_problem(const Location& where, const std::string& dotted, bool is_section,
                    const Node* node, const std::string& message);
   std::vector<std::string> names_in(const std::string& path) const;
   bool is_section(const std::string& dotted) const;
-  void find_unknown(const std::string& section, const Node& node);
+  void find_unknown(const std::string& section, const Node& node,
+                    const std::vector<std::string>& known);
   std::string hint(const std::string& section, std::string_view keys);
   std::string suggestion(const std::string& section, const std::string& name, bool table);
 

@@ -11,9 +11,10 @@ namespace {
 
 /// The value of a key; of a section that is there many times, those of all of them.
 std::optional<std::string> text_of(const Section& section, const Key& key, const Config& config) {
-  if (!section.repeated()) return key.text(config);
+  if (!section.repeated()) return key.text(config, 0);
   std::vector<std::string> texts;
-  for (const Config& one : section.each(config)) texts.push_back(key.text(one).value_or("absent"));
+  for (std::size_t n = 0; n < section.count(config); ++n)
+    texts.push_back(key.text(config, n).value_or("absent"));
   if (texts.empty()) return {};
   return fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -46,18 +47,19 @@ std::string title_of(const Section& section) {
 
 std::string to_toml(const Config& config, const Sections& table) {
   std::string text;
-  const auto add = [&text](const Section& section, const std::string& title, const Config& c) {
+  const auto add = [&](const Section& section, const std::string& title, std::size_t entry) {
     std::string lines;
     for (const Key& key : section.keys) {
-      if (const auto value = key.text(c)) lines += fmt::format("{} = {}\n", key.name, *value);
+      if (const auto value = key.text(config, entry))
+        lines += fmt::format("{} = {}\n", key.name, *value);
     }
     if (!lines.empty()) text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", title, lines);
   };
   for (const Section& section : table) {
     if (section.repeated()) {
-      for (const Config& one : section.each(config)) add(section, title_of(section), one);
+      for (std::size_t n = 0; n < section.count(config); ++n) add(section, title_of(section), n);
     } else {
-      add(section, title_of(section), config);
+      add(section, title_of(section), 0);
     }
   }
   return text;

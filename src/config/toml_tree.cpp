@@ -50,30 +50,52 @@ Node convert(const toml::node& from, const Location& where) {
 
 constexpr int kMaxParts = 16;  // of a dotted key; ours have four
 
+/// What is left of `text` after the string or comment that it begins with, by the grammar of TOML
+/// 1.0; all of it, if it begins with none.
+std::string_view after_string(std::string_view text) {
+  const char quote = text.front();
+  if (quote != '#' && quote != '"' && quote != '\'') return text;
+  const std::size_t line = std::min(text.find('\n'), text.size());
+  if (quote == '#') return text.substr(line);
+  const bool many_lines = text.starts_with(quote == '"' ? "\"\"\"" : "'''");
+  const std::string end(many_lines ? 3 : 1, quote);
+  const std::size_t last = many_lines ? text.size() : line;
+  for (std::size_t at = end.size(); at < last; ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (text.substr(at).starts_with(end)) {
+      at += end.size();
+      for (int more = 0; many_lines && more < 2 && text.substr(at).starts_with(quote); ++more) ++at;
+      return text.substr(at);
+    }
+  }
+  return text.substr(last);
+}
+
 /// What keeps `text`, which stands in `name`, from the parser: bytes that are no text, or names
 /// nested so deep that they could only exhaust the stack.
 std::optional<Problem> unfit(std::string_view text, const std::string& name) {
-  int line = 1, points = 0;  // points in a row that join parts of a key, in this line
-  char until = 0;            // the end of a string or a comment
-  for (const char c : text) {
-    if (c == '\0') {
-      return Problem{{name, line},
-                     "not TOML: it holds a NUL byte: it is not text, or text of another encoding; "
-                     "save it as UTF-8"};
+  const auto problem_at = [&](std::string_view rest, const char* what) {
+    const auto before = text.substr(0, text.size() - rest.size());
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    return Problem{{name, static_cast<int>(line)}, fmt::format("not TOML: {}", what)};
+  };
+  if (const std::size_t nul = text.find('\0'); nul != text.npos)
+    return problem_at(text.substr(nul),
+                      "it holds a NUL byte: it is not text, or text of another encoding; save it "
+                      "as UTF-8");
+  int points = 0;  // in a row, that join parts of a key
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view behind = after_string(rest);
+    if (behind.size() < rest.size()) {
+      rest = behind;
+      continue;
     }
-    if (c == '\n') {
-      ++line;
-      points = 0;
-      until = 0;
-    } else if (until != 0) {
-      if (c == until) until = 0;
-    } else if (c == '"' || c == '\'' || c == '#') {
-      until = c == '#' ? '\n' : c;
-    } else if (c == '=' || c == ',' || c == '[' || c == '{') {
-      points = 0;
-    } else if (c == '.' && ++points >= kMaxParts) {
-      return Problem{{name, line}, "not TOML: a key of so many parts cannot be meant"};
-    }
+    const char c = rest.front();
+    if (c == '.' && ++points >= kMaxParts)
+      return problem_at(rest, "a key of so many parts cannot be meant");
+    if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') points = 0;
+    rest.remove_prefix(1);
   }
   return {};
 }

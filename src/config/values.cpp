@@ -17,18 +17,24 @@ Mismatch take(const Node& node, T& value, const char* expected) {
   return {};
 }
 
-/// A value as one would write it in a file.
+constexpr std::size_t kLongestShown = 60;  // bytes of a value
+
+/// A value as one would write it in a file; of a long list as much as is shown.
 struct Printer {
   std::string operator()(const NodeTable& table) const {
     std::vector<std::string> entries;
     for (const auto& [key, node] : table) {
+      if (entries.size() > kLongestShown) break;
       entries.push_back(fmt::format("{} = {}", key, std::visit(*this, node.value)));
     }
     return fmt::format("{{ {} }}", fmt::join(entries, ", "));
   }
   std::string operator()(const NodeArray& array) const {
     std::vector<std::string> elements;
-    for (const Node& node : array) elements.push_back(std::visit(*this, node.value));
+    for (const Node& node : array) {
+      if (elements.size() > kLongestShown) break;
+      elements.push_back(std::visit(*this, node.value));
+    }
     return fmt::format("[{}]", fmt::join(elements, ", "));
   }
   std::string operator()(const DateOrTime& date) const { return date.text; }
@@ -194,9 +200,8 @@ std::string all_forces() {
 }
 
 std::string toml_text(const Node& node) {
-  constexpr std::size_t longest = 60;
   const std::string text = std::visit(Printer{}, node.value);
-  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+  return text.size() <= kLongestShown ? text : text.substr(0, kLongestShown - 3) + "...";
 }
 
 Mismatch check(double value, const Range& r) {

@@ -11,9 +11,6 @@ namespace barchan {
 
 namespace {
 
-// Of a cell. A body often ends just where cells do: round-off must not decide there.
-constexpr Real kOnSurface = 1e-6;
-
 using HostValues = Field::Storage::host_mirror_type;
 Real& at(const HostValues& f, int i, int j, int k) { return f(i + 1, j + 1, k + 1); }
 
@@ -53,7 +50,6 @@ class FaceFinder {
       for (int j = 0; j < grid_.ny; ++j)
         for (int i = 0; i < grid_.nx; ++i) action(i, j, k);
   }
-  Real smallest_size(int j) const { return std::min({grid_.dx, grid_.dy(j), grid_.dz}); }
   Real distance(const Vec3& x) const { return bodies_.nearest(x).surface.distance; }
   Vec3 centre(int i, int j, int k) const {
     return {grid_.x_centre(i), grid_.y_centre(j), grid_.z_centre(k)};
@@ -70,11 +66,10 @@ class FaceFinder {
   /// 1 on open faces; walls of the domain stay 0.
   void close_inside() {
     each_cell([&](int i, int j, int k) {
-      const Real size = smallest_size(j);
       for (int axis = 0; axis < 3; ++axis) {
         const bool is_wall = axis == 1 && j == 0;
-        const bool opens = distance(face_middle(grid_, axis, i, j, k)) >= kOnSurface * size;
-        at(host_[static_cast<std::size_t>(axis)], i, j, k) = opens && !is_wall ? 1 : 0;
+        const bool opens = !is_wall && !is_closed_by(bodies_, grid_, axis, i, j, k);
+        at(host_[static_cast<std::size_t>(axis)], i, j, k) = opens ? 1 : 0;
       }
     });
     to_device();
@@ -87,8 +82,8 @@ class FaceFinder {
     most = max_over(ranks_of(cells_), most);
     const auto sources = mirror(reached_.storage);
     each_cell([&](int i, int j, int k) {
-      const Real far = 2 * std::max({grid_.dx, grid_.dy(j), grid_.dz});
-      at(sources, i, j, k) = distance(centre(i, j, k)) >= std::min(far, most / 2) ? 1 : 0;
+      const Real far = std::min(far_from_bodies(grid_, j), most / 2);
+      at(sources, i, j, k) = distance(centre(i, j, k)) >= far ? 1 : 0;
     });
     Kokkos::deep_copy(reached_.storage, sources);
     Field after("bodies: reached next", cells_);

@@ -29,11 +29,17 @@ class Drive {
   Vec2 target(Real t, const Vec2& at_start) const;
   /// The force per mass over a step of dt [m/s^2].
   Vec2 force(const FluidState& fluid, const DrivenFlow& flow, Real dt) const;
+  /// Throws StateError, on all ranks, if for some steps now no force has brought the flow nearer to
+  /// the bulk velocity that is wanted of it.
+  void check(Real t, const Vec2& wanted, const Vec2& bulk);
 
  private:
   Real gradient_x_ = 0;  // the force of a given gradient [m/s^2]
   std::vector<FlowTarget> schedule_;
   bool along_z_ = false;
+  Real small_ = 0;   // difference that does not count [m/s]
+  Real missed_ = 0;  // share of the wanted velocity that the last step lacked
+  int in_vain_ = 0;  // steps in a row
 };
 
 }  // namespace barchan

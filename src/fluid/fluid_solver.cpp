@@ -86,6 +86,7 @@ FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* e
   fluid.has_history = true;
   fluid.dt_previous = dt;
   fluid.time += dt;
+  drive_.check(fluid.time, report_.wanted, report_.bulk_velocity);
   return report_;
 }
 

@@ -117,12 +117,18 @@ void check_inside(const InitialGrains& grains, const Config& config, const std::
   }
 }
 
+PeriodicBox box_of(const Config& config) {
+  const bool z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  return {is_periodic_x(config) ? config.size[0] : 0, z ? config.size[2] : 0};
+}
+
 /// Refuses two grains at one place: what they would do to each other has no direction.
-void check_apart(const InitialGrains& grains, const std::string& source) {
+void check_apart(const InitialGrains& grains, const PeriodicBox& box, const std::string& source) {
   std::vector<std::size_t> order(grains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto place = [&](std::size_t g) {
-    return std::array{grains.x[g].x, grains.x[g].y, grains.x[g].z};
+    const Vec3 x = box.wrap(grains.x[g]);
+    return std::array{x.x, x.y, x.z};
   };
   std::ranges::sort(order, {}, place);
   const auto same = std::ranges::adjacent_find(order, {}, place);
@@ -175,9 +181,10 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   check_inside(grains, config, source);
   cut_craters(config.initial.craters, grains);
   if (grains.size() == 0) throw InputError("initial.crater leaves no grains");
-  check_apart(grains, source);
+  check_apart(grains, box_of(config), source);
   check_outside_bodies(grains, config, source);
-  if (!config.grains->frozen) check_overlaps(grains, config.grains->max_overlap, source);
+  if (!config.grains->frozen)
+    check_overlaps(grains, box_of(config), config.grains->max_overlap, source);
   return grains;
 }
 

@@ -13,11 +13,13 @@
 namespace barchan {
 namespace {
 
-/// A grain with the slab across x that its centre lies in; slabs are one largest diameter wide.
+/// A grain, or its image beyond the upper side of a periodic direction, with the slab across x that
+/// its centre lies in; slabs are one largest diameter wide.
 struct InSlab {
   std::int64_t slab;
   double z;
   std::size_t grain;
+  bool beyond_x, beyond_z;
 };
 
 struct Deepest {
@@ -28,11 +30,13 @@ struct Deepest {
 
 class Search {
  public:
-  explicit Search(const InitialGrains& grains)
-      : grains_(grains), width_(std::ranges::max(grains.diameter)) {
+  Search(const InitialGrains& grains, const PeriodicBox& box)
+      : grains_(grains), box_(box), width_(std::ranges::max(grains.diameter)) {
     for (std::size_t g = 0; g < grains.size(); ++g) {
-      const auto slab = static_cast<std::int64_t>(std::floor(grains.x[g].x / width_));
-      order_.push_back({slab, grains.x[g].z, g});
+      const bool x = box.lx > 0 && grains.x[g].x<width_, z = box.lz> 0 && grains.x[g].z < width_;
+      for (const bool beyond_x : {false, true})
+        for (const bool beyond_z : {false, true})
+          if ((x || !beyond_x) && (z || !beyond_z)) add(g, beyond_x, beyond_z);
     }
     std::ranges::sort(order_, {}, key);
   }
@@ -42,12 +46,12 @@ class Search {
     Deepest found;
     for (auto at = order_.begin(); at != order_.end(); ++at) {
       for (auto other = at + 1; other != order_.end() && is_near(*at, *other); ++other)
-        look_at(at->grain, other->grain, most, found);
+        look_at(*at, *other, most, found);
       const auto next = std::pair(at->slab + 1, at->z - width_);
       for (auto other = std::ranges::lower_bound(order_, next, {}, key);
            other != order_.end() && other->slab == at->slab + 1 && other->z <= at->z + width_;
            ++other)
-        look_at(at->grain, other->grain, most, found);
+        look_at(*at, *other, most, found);
     }
     return found;
   }
@@ -59,22 +63,34 @@ class Search {
     return a.slab == b.slab && b.z <= a.z + width_;
   }
 
-  void look_at(std::size_t a, std::size_t b, double most, Deepest& found) const {
+  void add(std::size_t g, bool beyond_x, bool beyond_z) {
+    const double x = grains_.x[g].x + (beyond_x ? box_.lx : 0);
+    const double z = grains_.x[g].z + (beyond_z ? box_.lz : 0);
+    order_.push_back({static_cast<std::int64_t>(std::floor(x / width_)), z, g, beyond_x, beyond_z});
+  }
+
+  void look_at(const InSlab& one, const InSlab& other, double most, Deepest& found) const {
+    const bool known = (one.beyond_x && other.beyond_x) || (one.beyond_z && other.beyond_z);
+    const std::size_t a = one.grain, b = other.grain;
+    if (known || a == b) return;
     const double mean = 0.5 * (grains_.diameter[a] + grains_.diameter[b]);
-    const double overlap = 1 - norm(grains_.x[a] - grains_.x[b]) / mean;
+    const double apart = norm(box_.nearest_image(grains_.x[a] - grains_.x[b]));
+    const double overlap = 1 - apart / mean;
     if (overlap > most) ++found.count;
     if (overlap > found.overlap) found = {overlap, a, b, found.count};
   }
 
   const InitialGrains& grains_;
+  PeriodicBox box_;
   double width_;
   std::vector<InSlab> order_;
 };
 
 }  // namespace
 
-void check_overlaps(const InitialGrains& grains, double most, const std::string& source) {
-  const Deepest found = Search(grains).deepest(most);
+void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double most,
+                    const std::string& source) {
+  const Deepest found = Search(grains, box).deepest(most);
   if (found.overlap <= most) return;
   const auto [first, second] = std::minmax(grains.id[found.a], grains.id[found.b]);
   throw InputError(fmt::format(

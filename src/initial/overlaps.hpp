@@ -10,8 +10,9 @@ namespace barchan {
 
 /// Refuses the grains of `source` if two of them overlap by more than `most` of their mean diameter
 /// (grains.max_overlap): the run would stop at once, or they would fly apart. Throws InputError
-/// with the deepest overlap. Images beyond periodic sides are not looked at.
-void check_overlaps(const InitialGrains& grains, double most, const std::string& source);
+/// with the deepest overlap. The grains lie in the box, a length of 0 is not periodic.
+void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double most,
+                    const std::string& source);
 
 /// Refuses the grains of `source` if the centre of one lies in a body, or, where grains move, if
 /// one reaches into it by more than grains.max_overlap of its diameter. Throws InputError with

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -62,6 +63,21 @@ struct Heap {
     return bodies.n > 0 && bodies.nearest(centre + x).surface.distance < diameter / 2;
   }
 
+  /// Half the width of the heap of height `top` at the height y [m], of the foot for a bed.
+  double half_x_at(double y, double top) const {
+    return shape == HeapShape::bed ? half_x : half_x * std::max(0.0, 1 - y / top);
+  }
+  double half_z_at(double y, double top) const {
+    return shape == HeapShape::cone ? half_x_at(y, top) : half_z;
+  }
+  /// About the number of sites of the heap of height `top`.
+  double count_below(double top, double spacing) const {
+    const double foot =
+        shape == HeapShape::cone ? std::numbers::pi * half_x * half_x : 4 * half_x * half_z;
+    const double mean = shape == HeapShape::cone ? 1.0 / 3 : shape == HeapShape::ridge ? 0.5 : 1;
+    return mean * foot * top * std::numbers::sqrt2 / std::pow(spacing, 3);
+  }
+
   double below_slope(double r, double y) const { return r < half_x ? y / (1 - r / half_x) : -1; }
 };
 
@@ -70,21 +86,54 @@ struct Site {
   double height;  // of the smallest heap through it [m]
 };
 
+/// Where grains may stand: a close packing, stretched along the floor for a thin bed or ridge.
+struct Lattice {
+  double spacing;
+  double stretch_x = 1, stretch_z = 1;
+  double layer() const { return spacing * std::sqrt(2.0 / 3.0); }
+  double x() const { return stretch_x * spacing; }
+  double z() const { return stretch_z * (spacing * std::sqrt(3.0) / 2); }
+};
+
+/// Columns of a lattice on either side of the middle of a foot, and then some.
+int columns(double half, double apart) { return static_cast<int>(half / apart) + 2; }
+
 /// Sites of the lattice that lie in the heap of height `top`.
-std::vector<Site> sites_below(double top, const Heap& heap, double spacing) {
-  const double layer = spacing * std::sqrt(2.0 / 3.0), row = spacing * std::sqrt(3.0) / 2;
-  const int n_x = static_cast<int>(heap.half_x / spacing) + 2,
-            n_z = static_cast<int>(heap.half_z / row) + 2;
+std::vector<Site> sites_below(double top, const Heap& heap, const Lattice& lattice) {
+  const double spacing = lattice.spacing;
   std::vector<Site> sites;
-  for (int j = 0; spacing / 2 + layer * j < top; ++j) {
+  for (int j = 0; spacing / 2 + lattice.layer() * j < top; ++j) {
+    const double y = spacing / 2 + lattice.layer() * j;
+    const int n_x = columns(heap.half_x_at(y, top), lattice.x());
+    const int n_z = columns(heap.half_z_at(y, top), lattice.z());
     for (int k = -n_z; k <= n_z; ++k) {
       for (int i = -n_x; i <= n_x; ++i) {
-        const Vec3 x{spacing * (i + 0.5 * ((k + j) & 1)), spacing / 2 + layer * j,
-                     row * (k + (j & 1) / 3.0)};
+        const Vec3 x{lattice.x() * (i + 0.5 * ((k + j) & 1)), y, lattice.z() * (k + (j & 1) / 3.0)};
         const double height = heap.height_through(x, spacing);
         if (height >= 0 && height <= top && !heap.in_body(x, spacing)) sites.push_back({x, height});
       }
     }
+  }
+  return sites;
+}
+
+/// Sites for n grains that are few for their foot: from its middle outward over a cone or a ridge,
+/// anywhere on the floor of a bed, in each case some more than n and not all that there are.
+std::vector<Site> sites_of_thin(std::size_t n, const Heap& heap, double spacing, double highest) {
+  constexpr double kMore = 16;  // sites for a grain
+  const double wanted = kMore * static_cast<double>(n);
+  Lattice lattice{spacing};
+  const bool bed = heap.shape == HeapShape::bed;
+  const double along = 2 * heap.half_x / lattice.x(), across = 2 * heap.half_z / lattice.z();
+  const double rows = std::min(across, bed ? std::max(std::sqrt(wanted), wanted / along) : wanted);
+  if (heap.shape != HeapShape::cone) lattice.stretch_z = across / rows;
+  if (bed) lattice.stretch_x = std::max(1.0, along * rows / wanted);
+  std::vector<Site> sites;
+  double reach = 2 * spacing;  // of the lowest layer, from the middle
+  for (double top = 0; sites.size() < n && top <= highest; reach *= 1.4) {
+    const bool sloped = !bed && reach < 0.9 * heap.half_x;
+    top = sloped ? spacing / 2 / (1 - reach / heap.half_x) : std::max(spacing, 1.5 * top);
+    sites = sites_below(top, heap, lattice);
   }
   return sites;
 }
@@ -102,11 +151,14 @@ std::vector<SizeClass> shuffled(const std::vector<SizeClass>& sizes, std::mt1993
 std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::size_t n,
                                const std::array<double, 3>& domain, std::mt19937_64& generator) {
   const double spacing = poured_spacing(config.sizes);
+  const double highest = 1e3 * domain[1];
+  const double first = 1.2 * poured_height(config, domain) + 2 * spacing;
   std::vector<Site> sites;
-  const double estimate = poured_height(config, domain);
-  for (double top = 1.2 * estimate + 2 * spacing; sites.size() < n; top *= 1.5) {
-    sites = sites_below(top, heap, spacing);
-    if (top > 1e3 * domain[1]) break;
+  if (heap.count_below(first, spacing) > 1e6 + 30 * static_cast<double>(n)) {
+    sites = sites_of_thin(n, heap, spacing, highest);
+  } else {
+    for (double top = first; sites.size() < n && top <= highest; top *= 1.5)
+      sites = sites_below(top, heap, {spacing});
   }
   if (heap.shape != HeapShape::cone) shuffle(sites, generator);  // its last layer: gaps anywhere
   std::stable_sort(sites.begin(), sites.end(),

@@ -147,6 +147,13 @@ BODIES = [
     body("a body that fills the box", 'shape = "box"; height = 0.006', "@shape | must leave water beside or above"),
     body("a body across the stream", 'shape = "box"; centre = [0.004, 0]; size = [0.003, 0]; height = 0.006',
          "@shape | must leave water beside or above"),
+    body("two bodies that close the channel together",
+         'shape = "box"; centre = [0.004, 0.0015]; size = [0.002, 0.003]; height = 0.006 ;; '
+         'fields_interval = 5e-4 => fields_interval = 5e-4\n[[body]]\nname = "other"\nshape = "box"\n'
+         'centre = [0.004, 0.0045]\nsize = [0.002, 0.003]\nheight = 0.006',
+         "case.toml | [[body]] must leave water beside or above | along x"),
+    body("a wave up to the lid", 'shape = "wave"; height = 0.002; wavelength = 0.006; base = 0.005',
+         "case.toml | [[body]] must leave water beside or above | along x"),
     body("posts that overlap", 'shape = "fence"; centre = [0.004, 0.003]; radius = 5e-4; height = 0.003; '
          "length = 0.004; spacing = 1e-3", "@spacing | above the diameter of a post, 0.001 m"),
     body("a box turned at no end", 'shape = "box"; height = 0.002; angle = 0.3', "@angle | through the whole domain"),

@@ -61,8 +61,8 @@ bool change(const Key& key, Config& config) {
     std::vector<Problem> problems;
     const Node tree = parse_toml("value = " + value, "sample", problems);
     Config changed = config;
-    if (!problems.empty() || key.read(*tree.find("value"), changed)) continue;
-    if (key.text(changed) == key.text(config)) continue;
+    if (!problems.empty() || key.read(*tree.find("value"), changed, 0)) continue;
+    if (key.text(changed, 0) == key.text(config, 0)) continue;
     config = changed;
     return true;
   }
@@ -91,7 +91,7 @@ TEST(ConfigKeys, ARestartKeepsWhatItsNumbersRestOn) {
     ASSERT_TRUE(change(key, after));
     const Lines conflicts = restart_conflicts(after, before), changed = changed_keys(after, before);
     ASSERT_EQ(conflicts.size() + changed.size(), 1u);
-    const std::string now = *key.text(after), was = key.text(before).value_or("absent");
+    const std::string now = *key.text(after, 0), was = key.text(before, 0).value_or("absent");
     if (key.fixed_by_restart) {
       fixed.push_back(key.dotted());
       EXPECT_EQ(conflicts[0], key.dotted() + " = " + now + ": it was written with " + was);
@@ -142,7 +142,7 @@ TEST(ConfigKeys, RangesRefuseWhatTheySay) {
       if (key.type.starts_with("array of 2")) node.value = NodeArray{node, node};
       if (key.type.starts_with("array of 3")) node.value = NodeArray{node, node, node};
       Config config = full_case();
-      return key.read(node, config);
+      return key.read(node, config, 0);
     };
     const auto [min, max, above_min, below_max] = key.range;
     EXPECT_EQ(refused(min).has_value(), above_min);

@@ -201,6 +201,48 @@ TEST(ConfigValidate, WarnsOfWhatWillDisappoint) {
                    "leaves nothing but its last state"));
 }
 
+// The velocities of report 42: in a Couette flow of a viscous liquid.
+TEST(ConfigValidate, ShortStepsInAViscousLiquidPushGrains) {
+  const auto text = [](const char* nu, const char* dt, const char* more) {
+    return fmt::format(
+        "[time]\nend = 1.2\nfluid_step = {}\ngrain_step = 1e-6\n[domain]\nsize = [6e-3, 6e-3, "
+        "6e-3]\n[fluid]\ncells = [6, 48, 6]\nturbulence = \"none\"\ntop = \"no_slip\"\n"
+        "kinematic_viscosity = {}\ntop_velocity = 0.06\n[grains]\ndensity = 1000.1\nsizes = "
+        "[[0.2e-3, 10]]\n[initial]\ngrains = {{ pour = {{ centre = [3e-3, 3e-3], radius = 1e-3 }} "
+        "}}\n{}",
+        dt, nu, more);
+  };
+  const char* words = "alpha_time_derivative pushes the grains about";
+  EXPECT_TRUE(says(warnings(text("1e-4", "3e-5", "")), words));
+  EXPECT_FALSE(says(warnings(text("1e-5", "2.5e-4", "")), words));
+  EXPECT_FALSE(says(warnings(text("1e-6", "3e-5", "")), words)) << "grains are slow to follow";
+  EXPECT_FALSE(
+      says(warnings(text("1e-4", "3e-5", "[coupling]\nalpha_time_derivative = false\n")), words));
+}
+
+TEST(ConfigValidate, WhatTheMethodsCannotDoIsRefused) {
+  EXPECT_TRUE(
+      says(problems(coupled_case(), {"fluid.cells=[96, 1, 25]", "fluid.first_cell_height=0"}),
+           "must be at least 2 rows high with grains"));
+  EXPECT_TRUE(says(problems(coupled_case(), {"coupling.smoothing_length=0.11"}),
+                   "must be at most 0.1 m, the longest side of the domain"));
+  EXPECT_TRUE(says(problems(coupled_case(), {"solver.pressure_tolerance=1e-17"}),
+                   "must be at least 1e-14 and below 1"));
+  const std::string fence =
+      "[[body]]\nname = \"f\"\nshape = \"fence\"\nradius = 1e-12\nspacing = 2.1e-12\nlength = "
+      "0.005\nheight = 0.002\ncentre = [0.05, 0.02]\n";
+  EXPECT_EQ(problems(fluid_case(fence)).front(),
+            "case.toml:11: [body.1] spacing = 2.1e-12: must be at least 5e-07 m: a fence has at "
+            "most 10000 posts");
+  for (const char* name : {"=HYPERLINK(1)", "a,b", "", "a\\nb"})
+    EXPECT_TRUE(says(problems(fluid_case(fmt::format(
+                         "[[body]]\nname = \"{}\"\nshape = \"sphere\"\nradius = 1e-3\ncentre = "
+                         "[0.05, 0.02]\n",
+                         name))),
+                     "must be one line without"))
+        << name;
+}
+
 TEST(ConfigValidate, FirstRowFitsTheHeight) {
   refused(fluid_case("first_cell_height = 1e-3\n"),
           "case.toml:7: [fluid] first_cell_height = 0.001: must be at most Ly / ny = 0.0008333 m: "
@@ -246,6 +288,7 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
   const std::pair<std::string, std::string> unwise[] = {
       {"fluid.first_cell_height=2.1e-4", "makes the lowest row 1.05 mean grain diameters: too"},
       {"fluid.cells=[64, 30, 25]", "makes cells 7.8 mean grain diameters long: a dune has a step"},
+      {"fluid.cells=[96, 30, 101]", "makes cells 1.98 mean grain diameters narrow: below 2 each"},
       {"coupling.void_fraction=centre", "smallest cell 0.80 mean grain diameters; this exchange"},
       {"fluid.first_cell_height=3.2e-5", "rows thinner than a sixth of the largest grain"},
       {"coupling.smoothing_length=0", "alpha_f is then noisy"},
@@ -264,8 +307,8 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
   for (const auto& [assignment, words] : unwise) {
     EXPECT_TRUE(says(warnings(coupled_case(), {assignment}), words)) << assignment;
   }
-  for (const char* wise :
-       {"grains.boundary_x=periodic", "time.end=0.3", "output.grains_interval=1"}) {
+  for (const char* wise : {"fluid.cells=[96, 30, 99]", "grains.boundary_x=periodic", "time.end=0.3",
+                           "output.grains_interval=1"}) {
     EXPECT_EQ(warnings(coupled_case(), {wise}), Lines{}) << wise;
   }
 }

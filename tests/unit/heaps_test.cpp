@@ -152,6 +152,13 @@ TEST(Heaps, MistakesAreToldAtTheirLine) {
   told("radius = 0.006", "radius = 0.006\nname = \"heap 1\"",
        "case.toml:13: [initial.heap.2] name = \"heap 1\": must be another one: \"heap 1\" is the "
        "name of an earlier heap");
+  for (const char* name : {"=1+1", "+1", "a,b", "a;b", "a\\nb", "a\\\"b", " a"})
+    told(
+        "radius = 0.006", fmt::format("radius = 0.006\nname = \"{}\"", name),
+        fmt::format("case.toml:13: [initial.heap.2] name = \"{}\": must be one line without \",\", "
+                    "\";\" and quotes, and must not begin with \"=\", \"+\", \"-\", \"@\" or a "
+                    "space",
+                    name));
   told("radius = 0.006", "radius = 0.006\ndrop_height = 0.025",
        "case.toml:12: [initial.heap.2] radius = 0.006: must be larger: the heap would reach about "
        "0.025 m, above the domain");

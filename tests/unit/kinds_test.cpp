@@ -89,6 +89,8 @@ TEST(Kinds, MistakesAreToldWhereTheyAre) {
   tells(glass + "[[grains.pair]]\nkinds = [\"glass\", \"glas\"]\nrestitution = 0.5\n",
         "case.toml:13: [grains.pair.1] kinds = [\"glass\", \"glas\"]: must be names of "
         "[[grains.kind]]; \"glas\" is none (did you mean \"glass\"?)");
+  tells(glass + sand + "[[grains.pair]]\nkinds = [\"sand\", \"glass\"]\nrestitution = 0.0\n",
+        "case.toml:16: [grains.pair] restitution = 0.0: must be above 0 and at most 1");
   tells(glass + sand + "[[grains.pair]]\nkinds = [\"sand\", \"sand\"]\nrestitution = 0.5\n",
         "case.toml:15: [grains.pair.1] kinds = [\"sand\", \"sand\"]: must be two kinds; contacts "
         "of \"sand\" with itself are those of its [[grains.kind]]");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <random>
 
 #include "src/initial/initial_state.hpp"
@@ -58,6 +59,39 @@ TEST(Pour, ABedCoversTheFloorEvenly) {
   for (const int quarter : quarters) EXPECT_NEAR(quarter, 250, 25);
 }
 
+// A lattice of every site of the floor took 25 s and 8 GB.
+TEST(Pour, FewGrainsOfAWideFootTakeAsLittle) {
+  const std::array<double, 3> domain{0.05, 0.02, 0.05};
+  for (const std::int64_t n : {10, 3000}) {
+    const std::vector<SizeClass> sizes = {{2e-6, n}};
+    for (const HeapShape shape : {HeapShape::bed, HeapShape::ridge, HeapShape::cone}) {
+      HeapConfig heap;
+      heap.shape = shape;
+      heap.centre = {0.025, 0.025};
+      heap.radius = 0.02;
+      heap.sizes = sizes;
+      const InitialGrains grains = pour_grains({heap}, domain);
+      ASSERT_EQ(grains.size(), static_cast<std::size_t>(n));
+      EXPECT_NO_THROW(check_overlaps(grains, {0.05, 0.05}, 1e-6, "heap"));
+      double from_crest = 0, z_low = 1, z_high = 0, x_low = 1, x_high = 0;
+      for (const Vec3& x : grains.x) {
+        EXPECT_NEAR(x.y, 1.01e-6, 1e-8) << "a single layer";
+        from_crest = std::max(from_crest,
+                              std::hypot(x.x - 0.025, shape == HeapShape::cone ? x.z - 0.025 : 0));
+        x_low = std::min(x_low, x.x), x_high = std::max(x_high, x.x);
+        z_low = std::min(z_low, x.z), z_high = std::max(z_high, x.z);
+      }
+      // Of a bed and a ridge anywhere, of a cone a hexagonal patch around its axis.
+      const bool bed = shape == HeapShape::bed, cone = shape == HeapShape::cone;
+      const double spread = n == 10 ? 0.02 : 0.045;
+      const double patch = std::sqrt(static_cast<double>(n) * std::sqrt(0.75) / std::numbers::pi);
+      EXPECT_TRUE(cone || z_high - z_low > spread) << z_high - z_low;
+      EXPECT_TRUE(!bed || x_high - x_low > spread) << x_high - x_low;
+      EXPECT_LT(std::abs(from_crest - (bed ? from_crest : cone ? 2.02e-6 * patch : 1e-6)), 1.6e-6);
+    }
+  }
+}
+
 TEST(Pour, TheSeedDecides) {
   const std::array<double, 3> size{0.02, 0.02, 0.012};
   const InitialGrains a = pour_grains({as_heap(kPour, kSizes)}, size),
@@ -107,22 +141,23 @@ TEST(InitialState, GrainsOutsideAreRefused) {
   EXPECT_THROW(placed({0.05, 0.03, 0.02}, GrainBoundaryX::periodic), std::runtime_error);
 }
 
-/// The message about grains at random places in a cube of `length`, and the deepest overlap by all
-/// pairs.
-std::pair<std::string, double> crowd(int n, double length, double most) {
+/// The message about grains at random places in a cube of `length`, periodic along x and z if that
+/// is asked for, and the deepest overlap by all pairs.
+std::pair<std::string, double> crowd(int n, double length, double most, bool periodic = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(0, length), size(1e-4, 3e-4);
   InitialGrains grains;
   for (int g = 0; g < n; ++g)
     grains.add(100 + g, size(random), {place(random), place(random), place(random)}, {}, {});
+  const PeriodicBox box = periodic ? PeriodicBox{length, length} : PeriodicBox{};
   double deepest = 0;
   for (std::size_t a = 0; a < grains.size(); ++a) {
     for (std::size_t b = a + 1; b < grains.size(); ++b) {
       const double mean = (grains.diameter[a] + grains.diameter[b]) / 2;
-      deepest = std::max(deepest, 1 - norm(grains.x[a] - grains.x[b]) / mean);
+      deepest = std::max(deepest, 1 - norm(box.nearest_image(grains.x[a] - grains.x[b])) / mean);
     }
   }
-  return {message_of([&] { check_overlaps(grains, most, "heap.csv"); }), deepest};
+  return {message_of([&] { check_overlaps(grains, box, most, "heap.csv"); }), deepest};
 }
 
 TEST(InitialState, TheDeepestOverlapOfAllPairsIsTold) {
@@ -135,14 +170,35 @@ TEST(InitialState, TheDeepestOverlapOfAllPairsIsTold) {
   }
 }
 
+TEST(InitialState, OverlapsThroughPeriodicSidesCountOnce) {
+  for (const double length : {1e-3, 1.2e-3, 2e-3}) {
+    const auto [told, deepest] = crowd(100, length, 0.01, true);
+    EXPECT_TRUE(contains(told, fmt::format("overlap by {:.3g} %", 100 * deepest))) << told;
+    EXPECT_EQ(crowd(100, length, deepest + 1e-9, true).first, "");
+    EXPECT_FALSE(contains(crowd(100, length, deepest - 1e-9, true).first, "pairs"));
+  }
+  // Through each side and each of the four edges.
+  for (const Vec3& x : {Vec3{0, 1, 5}, Vec3{5, 1, 0}, Vec3{0, 1, 0}, Vec3{0, 1, 10}}) {
+    InitialGrains grains;
+    const Vec3 other{x.x == 0 ? 10.0 : x.x, 1, x.z == 0 ? 10.0 : x.z == 10 ? 0 : x.z};
+    grains.add(1, 2e-4, 1e-3 * x, {}, {});
+    grains.add(2, 2e-4, 1e-3 * other, {}, {});
+    EXPECT_TRUE(contains(message_of([&] {
+                           check_overlaps(grains, {1e-2, 1e-2}, 0.1, "heap.csv");
+                         }),
+                         "grains 1 and 2 overlap by 100 %"));
+    EXPECT_EQ(message_of([&] { check_overlaps(grains, {}, 0.1, "heap.csv"); }), "");
+  }
+}
+
 TEST(InitialState, OverlapsAreToldWithTheirGrains) {
   InitialGrains grains;
   grains.add(7, 2e-4, {1e-3, 1e-3, 1e-3}, {}, {});
   grains.add(9, 2e-4, {1e-3, 1e-3, 1.15e-3}, {}, {});
-  EXPECT_EQ(message_of([&] { check_overlaps(grains, 0.1, "heap.csv"); }),
+  EXPECT_EQ(message_of([&] { check_overlaps(grains, {}, 0.1, "heap.csv"); }),
             "heap.csv: grains 7 and 9 overlap by 25 % of their mean diameter at the start, which "
             "is more than grains.max_overlap, 10 %");
-  EXPECT_EQ(message_of([&] { check_overlaps(grains, 0.3, "heap.csv"); }), "");
+  EXPECT_EQ(message_of([&] { check_overlaps(grains, {}, 0.3, "heap.csv"); }), "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "src/config/keys_page.hpp"
 #include "src/config/reading.hpp"
 #include "src/config/resolved.hpp"
+#include "tests/support/config_problems.hpp"
 
 namespace barchan {
 namespace {
@@ -67,6 +68,21 @@ TEST(RepeatedSection, EachMistakeIsToldWhereItIs) {
   read("[size]\ndiameter = 2e-4\n", problems);
   EXPECT_EQ(problems, (std::vector<std::string>{
                           "case.toml:1: [size]: must be sections, [[size]] for each of them"}));
+}
+
+// Of 3,000 each was compared with all before it: 4,498,501 problems.
+TEST(RepeatedSection, TooManyAreOneProblem) {
+  for (const std::string name : {"initial.heap", "body", "grains.kind", "grains.pair"}) {
+    std::string text = test::grain_case();
+    if (name == "initial.heap") text.erase(text.find("grains = {"), text.find("}") + 3);
+    for (int n = 0; n < 3000; ++n)
+      text += "[[" + name + "]]\nname = \"a\"\nkinds = [\"a\", \"a\"]\n";
+    const test::Lines lines = test::problems(text);
+    const auto most = std::ranges::count_if(lines, [&](const std::string& line) {
+      return line.find("must be at most ") != std::string::npos;
+    });
+    EXPECT_EQ(most, 1) << name;
+  }
 }
 
 TEST(RepeatedSection, ARestartComparesAllOfThem) {

@@ -1,0 +1,13 @@
+// Names that a case gives to heaps and bodies.
+#pragma once
+
+#include <string>
+
+#include "src/config/findings.hpp"
+
+namespace barchan {
+
+/// One cell of a table, also of one that a spreadsheet opens, where it must be no formula.
+void check_name(const std::string& name, const Keys& keys, Findings& found);
+
+}  // namespace barchan
