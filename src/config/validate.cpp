@@ -138,7 +138,7 @@ void check_interval(const Config& c, const char* key, double interval, Findings&
   found.warning_if(steps > 1 && interval <= c.time.end && !is_whole(steps),
                    {key, "time.fluid_step"},
                    "is no multiple of fluid_step, {:.6g} s: each time is that of the first step at "
-                   "or after it; the nearest multiple is {:.6g} s",
+                   "or after a multiple of it; the nearest that is one is {:.6g} s",
                    step, std::round(steps) * step);
 }
 
