@@ -31,15 +31,31 @@ KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3&
   out(p, 2) = static_cast<T>(v.z);
 }
 
-/// Position [m], diameter [m], velocity [m/s] and spin [rad/s] of each grain.
+/// Stores the image of a position within the box, from 0 to below its extents also as a T.
+template <class T>
+KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3& x,
+                                  const PeriodicBox& box) {
+  store(out, p, box.wrap(x));
+  if (box.lx > 0 && out(p, 0) >= box.lx) out(p, 0) = 0;
+  if (box.lz > 0 && out(p, 2) >= box.lz) out(p, 2) = 0;
+}
+
+/// Positions [m] of the grains.
+template <class T>
+struct FramePositions {
+  Kokkos::View<const GrainKinematics*> grains;
+  PeriodicBox box;
+  FrameVectors<T> x;
+  KOKKOS_FUNCTION void operator()(int p) const { store(x, p, grains(p).x, box); }
+};
+
+/// Diameter [m], velocity [m/s] and spin [rad/s] of each grain.
 struct FrameArrays {
   Kokkos::View<const GrainKinematics*> grains;
-  FrameVectors<double> x;
   Kokkos::View<double*> d;
   FrameVectors<float> u, omega;
   KOKKOS_FUNCTION void operator()(int p) const {
     const GrainKinematics grain = grains(p);
-    store(x, p, grain.x);
     d(p) = 2.0 * grain.r;
     store(u, p, grain.u);
     store(omega, p, grain.omega);

@@ -4,6 +4,7 @@ import math
 import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,11 @@ def student_t(p: float, freedom: int) -> float:
         if abs(step) <= 1e-15 * angle:
             break
     return math.sqrt(freedom) * math.tan(angle)
+
+
+def within(t: Any, start: float, end: float) -> Any:
+    """Which times t [s] are from start to end, however their ten digits were rounded."""
+    return (t >= start * (1 - 1e-9)) & (t <= end * (1 + 1e-9))
 
 
 def in_window(t: np.ndarray, start: float | None, end: float | None) -> np.ndarray:

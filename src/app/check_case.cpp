@@ -37,6 +37,9 @@ int run_check(const CommandLine& line, std::ostream& out) {
   const Config& config = the_case.config;
   if (line.resolved_only) {
     out << to_toml(config);
+    if (!line.out) return 0;
+    if (const auto changed = earlier_run(the_case, *line.out).changed)
+      out << "# " << kChangedInput << changed->string() << '\n';
     return 0;
   }
   const std::filesystem::path folder = run_folder(line);

@@ -1,5 +1,6 @@
 #include "src/app/run_case.hpp"
 
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "src/app/memory.hpp"
@@ -10,6 +11,7 @@
 #include "src/config/validate.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/run/case_inputs.hpp"
 #include "src/run/simulation.hpp"
 #include "src/run/watchdog.hpp"
 
@@ -78,15 +80,15 @@ std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
   }
 }
 
-/// Results of another configuration in the folder of a start: nobody asked for their end, so they
-/// stay under another name.
-void set_aside(const fs::path& folder) {
+/// Results of another start in its folder: nobody asked for their end, so they stay under another
+/// name.
+void set_aside(const fs::path& folder, const EarlierRun& earlier) {
   check_on_root([&] {
     fs::path kept = folder;
     for (int n = 1; fs::exists(kept); ++n) kept = fmt::format("{}.old{}", folder.string(), n);
     fs::rename(folder, kept);
     fs::remove(FolderLock::file_in(kept));  // ours, which would find it no more
-    report::info("{} has results of another configuration: they are now in {}", folder.string(),
+    report::info("{} has results {}: they are now in {}", folder.string(), earlier.difference(),
                  kept.string());
   });
 }
@@ -100,12 +102,12 @@ void make_start(const Case& source, const fs::path& beside, int realisation) {
     const auto& [first, realised, folder, earlier] = start_case(source, beside, realisation);
     // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
-    if (broadcast(!earlier.same && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
-      set_aside(folder);
+    if (broadcast(!earlier.same() && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
+      set_aside(folder, earlier);
       continue;
     }
     report::info("first the case it starts from: {} -> {}", first.config.title, folder.string());
-    auto restart = earlier.same ? earlier.restart : std::nullopt;
+    auto restart = earlier.same() ? earlier.restart : std::nullopt;
     if (!restart &&
         realised.config.time.end > first.config.time.end)  // the same flow some time later
       restart = start_file(source, beside, realisation - 1);
@@ -136,7 +138,20 @@ InitialFiles start_files(const Case& the_case, const fs::path& folder) {
   InitialFiles files;
   if (config.fluid) files.fluid = file(initial.fluid, the_case.flow_start);
   if (config.grains) files.grains = file(initial.grains, the_case.grain_start);
+  const nlohmann::json inputs = as_input([&] { return inputs_to_record(the_case, folder); });
+  if (!inputs.is_null())
+    files.record = inputs.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
   return files;
+}
+
+/// What goes on began from the old content, and so do its results.
+void tell_changed_input(const Case& the_case, const std::string& record) {
+  const auto recorded =
+      record.empty() ? nlohmann::json() : nlohmann::json::parse(record, nullptr, false);
+  if (const auto changed = as_input([&] { return changed_input(recorded, the_case); })) {
+    report::warn("{} has changed: the run goes on from what began with its earlier content",
+                 changed->string());
+  }
 }
 
 /// A case in a folder that this process has locked.
@@ -157,6 +172,7 @@ void run_locked(const Case& the_case, const RunOptions& options) {
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation = as_input([&] { return Simulation(config, options, files); });
   simulation.open_folder();
+  if (options.restart) tell_changed_input(the_case, simulation.inputs());
   show_numbers(config, sizes);
   try {
     if (simulation.run() == Outcome::stopped) throw Stopped{};
@@ -179,7 +195,7 @@ void run_one(const Case& the_case, const RunOptions& options, bool overwrite) {
                                  folder.string(), FolderLock::holder_of(folder)));
   }
   if (!options.restart && !overwrite) {
-    const EarlierRun earlier = earlier_run(config, folder);
+    const EarlierRun earlier = earlier_run(the_case, folder);
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) {
       report::info("done before; --overwrite computes it again");
       return;

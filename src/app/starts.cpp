@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
+#include "src/config/resolved.hpp"
 #include "src/fluid/passage.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/initial/overlaps.hpp"
+#include "src/io/seal.hpp"
+#include "src/run/case_inputs.hpp"
 
 namespace barchan {
 
@@ -38,7 +43,7 @@ void add_missing(const Case& the_case, const fs::path& folder, std::vector<Start
     const bool known = std::ranges::any_of(
         missing, [&](const StartCase& other) { return other.folder == start.folder; });
     if (known || start.earlier.done()) return;
-    if (!start.earlier.same) add_missing(start.realised, start.folder, missing);
+    if (!start.earlier.same()) add_missing(start.realised, start.folder, missing);
     missing.push_back(std::move(start));
   };
   if (config.fluid) add(the_case.flow_start);
@@ -63,8 +68,24 @@ StartCase start_case(const Case& source, const fs::path& beside, int realisation
   const Config &first = start.first.config, &config = start.realised.config;
   const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
   start.folder = beside / (case_name(first.file) + other);
-  start.earlier = earlier_run(config, start.folder);
+  start.earlier = earlier_run(start.realised, start.folder);
   return start;
+}
+
+nlohmann::json inputs_to_record(const Case& the_case, const fs::path& folder) {
+  nlohmann::json inputs;
+  for (const auto& [key, file, source] : inputs_of(the_case)) {
+    if (!source) {
+      inputs[key] = content_key(file);
+      continue;
+    }
+    const StartCase start =
+        start_case(*source, folder_beside(folder), the_case.config.initial.realisation);
+    inputs[key] = recorded_inputs(start.folder);
+    if (!inputs[key].is_object()) inputs[key] = inputs_to_record(start.realised, start.folder);
+    inputs[key]["config"] = to_toml(start.realised.config);
+  }
+  return inputs;
 }
 
 std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& folder) {
@@ -73,7 +94,10 @@ std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& fold
   return missing;
 }
 
-PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
+namespace {
+
+/// What a run starts with, before its feed is looked at.
+PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   check_passage(config);
   if (!config.grains) return {};
@@ -97,6 +121,16 @@ PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
     take_kinds(*planned.grains, *config.grains, source.string());
   }
   check_sizes(planned.sizes, config, source);
+  return planned;
+}
+
+}  // namespace
+
+PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
+  PlannedGrains planned = grains_of(the_case, folder);
+  if (planned.sizes.empty()) return planned;
+  const auto [least, most] = std::ranges::minmax(planned.sizes, {}, &SizeClass::diameter);
+  check_feed_places(the_case.config, least.diameter, most.diameter);
   return planned;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct StartCase {
 
 /// A start in a realisation. Its folder is in `beside`, that of the run.
 StartCase start_case(const Case& source, const std::filesystem::path& beside, int realisation);
+
+/// What recorded_inputs() gives of a run that begins now in `folder`: of a start what that one
+/// began from, if it says so.
+nlohmann::json inputs_to_record(const Case& the_case, const std::filesystem::path& folder);
 
 /// The starts whose results are missing, in the order in which a run in `folder` would make them.
 std::vector<StartCase> missing_starts(const Case& the_case, const std::filesystem::path& folder);

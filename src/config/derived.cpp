@@ -12,9 +12,11 @@
 namespace barchan {
 namespace {
 
+constexpr double kRoundOff = 1e-9;  // of a quotient
+
 /// Smallest whole number >= x, forgiving what division of decimal steps leaves
 /// (100.00000000000001).
-double ceil_tolerant(double x) { return std::ceil(x - 1e-9 * std::max(1.0, x)); }
+double ceil_tolerant(double x) { return std::ceil(x - kRoundOff * std::max(1.0, x)); }
 
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
@@ -154,6 +156,10 @@ bool is_periodic_x(const Config& config) {
 double half_seam_strip(const Config& config) {
   const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
   return follows ? config.size[0] / config.fluid->cells[0] : 0;
+}
+
+bool is_whole(double quotient) {
+  return std::abs(quotient - std::round(quotient)) <= kRoundOff * std::max(1.0, quotient);
 }
 
 std::int64_t fluid_steps(const TimeConfig& time) {

@@ -22,6 +22,8 @@ bool is_periodic_x(const Config& config);
 /// cell [m]; 0 without such a window. Needs [grains].
 double half_seam_strip(const Config& config);
 
+/// True of a quotient of two times that is a whole number, but for what division leaves.
+bool is_whole(double quotient);
 /// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
 std::int64_t fluid_steps(const TimeConfig& time);
 /// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.

@@ -235,12 +235,15 @@ Config config_as_written(std::string_view resolved, const fs::path& file) {
   return ConfigReader(resolved, file).read();
 }
 
+bool says(std::string_view resolved, const Config& config) {
+  ConfigReader reading(resolved, config.file);
+  return reading.read() == config && !reading.has_bad_keys();
+}
+
 bool is_written_in(const fs::path& file, const Config& config) {
   std::vector<Problem> unreadable;
   const auto text = text_of(file, unreadable);
-  if (!text) return false;
-  ConfigReader reading(*text, config.file);
-  return reading.read() == config && !reading.has_bad_keys();
+  return text && says(*text, config);
 }
 
 }  // namespace barchan

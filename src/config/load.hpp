@@ -53,7 +53,10 @@ Config load_config_text(std::string_view text, const std::filesystem::path& file
 /// checked nor followed to the files it names, which may be gone.
 Config config_as_written(std::string_view resolved, const std::filesystem::path& file);
 
-/// True if `file`, a config.toml, says exactly `config`, in whatever words.
+/// True if a resolved text says exactly `config`, in whatever words; keys that it lacks, as of an
+/// earlier version, count as their defaults.
+bool says(std::string_view resolved, const Config& config);
+/// The same of `file`, a config.toml.
 bool is_written_in(const std::filesystem::path& file, const Config& config);
 
 }  // namespace barchan

@@ -132,10 +132,21 @@ void check_initial(const Config& c, Findings& found) {
                  "must say where the [grains] start: a file or {{ pour = {{...}} }}");
 }
 
+/// Of what is written, or sampled, at an interval: the steps are what they are.
+void check_interval(const Config& c, const char* key, double interval, Findings& found) {
+  const double step = c.time.fluid_step, steps = interval / step;
+  found.warning_if(steps > 1 && interval <= c.time.end && !is_whole(steps),
+                   {key, "time.fluid_step"},
+                   "is no multiple of fluid_step, {:.6g} s: each time is that of the first step at "
+                   "or after a multiple of it; the nearest that is one is {:.6g} s",
+                   step, std::round(steps) * step);
+}
+
 void check_output(const Config& c, Findings& found) {
   using O = OutputConfig;
-  const auto check = [&](const char* key, double O::*member) {
+  const auto check = [&](const char* key, double O::*member, bool is_written = true) {
     const double interval = c.output.*member;
+    if (is_written && interval != O{}.*member) check_interval(c, key, interval, found);
     found.warning_if(interval > 0 && interval < c.time.fluid_step * (1 - 1e-9), {key},
                      "is shorter than a fluid step; written after every step");
     // The default may be longer than a short run.
@@ -143,10 +154,10 @@ void check_output(const Config& c, Findings& found) {
                      "is longer than the run, {:.6g} s; only the start is written", c.time.end);
   };
   check("output.history_interval", &O::history_interval);
-  check("output.dune_interval", &O::dune_interval);
-  check("output.grains_interval", &O::grains_interval);
-  check("output.fields_interval", &O::fields_interval);
-  check("output.tracks_interval", &O::tracks_interval);
+  check("output.dune_interval", &O::dune_interval, c.grains.has_value());
+  check("output.grains_interval", &O::grains_interval, c.grains.has_value());
+  check("output.fields_interval", &O::fields_interval, c.fluid.has_value());
+  check("output.tracks_interval", &O::tracks_interval, c.grains.has_value());
   const O& o = c.output;
   const bool grains =
       c.grains && (o.dune_interval > 0 || o.grains_interval > 0 || o.tracks_interval > 0);
@@ -164,6 +175,7 @@ void check_statistics(const Config& c, Findings& found) {
                  "must be absent without a [grains] section");
   found.error_if(c.statistics->start >= c.time.end, {"statistics.start", "time.end"},
                  "must be before the end, {:.6g} s", c.time.end);
+  check_interval(c, "statistics.interval", c.statistics->interval, found);
 }
 
 }  // namespace

@@ -43,16 +43,11 @@ std::vector<Row> of_all_ranks(MPI_Comm ranks, const std::vector<Row>& mine) {
 /// The bodies to choose from, and the first number that no grain has.
 void look_at_start(GrainState& grains) {
   const auto kin = host_copy(grains.kin);
-  const auto id = host_copy(grains.id);
   const auto kind = host_copy(grains.kind);
   std::vector<GrainBody> bodies;
-  std::int64_t last = 0;
-  for (int g = 0; g < grains.n; ++g) {
+  for (int g = 0; g < grains.n; ++g)
     bodies.push_back({.r = kin(g).r, .m = kin(g).m, .kind = kind.size() > 0 ? kind(g) : Real(0)});
-    last = std::max(last, id(g));
-  }
-  all_reduce(grains.ranks, std::span(&last, 1), MPI_MAX);
-  grains.feed.next_id = std::max(last, grains.n_initial) + 1;  // some may have left already
+  grains.feed.next_id = std::max(grains.last_id, grains.n_initial) + 1;
   grains.feed.bodies = of_all_ranks(grains.ranks, bodies);
   std::ranges::sort(grains.feed.bodies);
 }

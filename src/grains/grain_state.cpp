@@ -77,6 +77,8 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
   GrainState s = make_grain_entries(n, ranks);
   s.n_initial = n_all;
+  s.last_id = initial.last_id;
+  for (const std::int64_t one : initial.id) s.last_id = std::max(s.last_id, one);
 
   if (!initial.heap.empty()) add_heaps(s, initial.heap_names);
 

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -81,11 +82,17 @@ struct GrainState {
   Real r_max = 0, r_min = 0;                             // [m], of the initial grains of all ranks
   Real sauter_diameter = 0;                              // sum d^3 / sum d^2 of the same [m]
   std::int64_t n_initial = 0;                            // grains at t = 0, of all ranks
+  std::int64_t last_id = 0;                              // the largest before any were fed
   std::int64_t n_left = 0;                               // left through the outlet, on this rank
   FeedState feed;                                        // grains that come in
   // Of a window that follows its dune, where its ends meet [m]; not a number: not placed yet.
   Real seam_x = Kokkos::Experimental::quiet_NaN_v<Real>;
 };
+
+/// The largest number that a grain has or had.
+inline std::int64_t last_id(const GrainState& grains) {
+  return std::max(grains.last_id, grains.feed.next_id - 1);
+}
 
 /// Entries for n grains of this rank, to be filled.
 GrainState make_grain_entries(int n, MPI_Comm ranks);

@@ -20,6 +20,7 @@ struct InitialGrains {
   std::vector<std::uint8_t> kind = {}, heap = {};
   std::vector<std::string> kind_names = {};  // of a file that has kinds
   std::vector<std::string> heap_names = {};  // may be empty: a table has none
+  std::int64_t last_id = 0;                  // the largest of these and of grains that have left
 
   std::size_t size() const { return id.size(); }
   int kind_of(std::size_t g) const { return kind.empty() ? 0 : kind[g]; }

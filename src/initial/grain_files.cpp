@@ -10,6 +10,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
+#include "src/config/derived.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/load.hpp"
 #include "src/grains/grain_state.hpp"
@@ -69,6 +70,14 @@ std::uint8_t as_kind(std::int64_t kind, const std::filesystem::path& file) {
                                        file.string(), kind, kMostKinds - 1));
 }
 
+/// Grains beyond a side that is periodic in the case that wrote them: here it may be none.
+void wrap_as_written(InitialGrains& grains, const Provenance& origin,
+                     const std::filesystem::path& file) {
+  if (origin.config.empty()) return;
+  const Config written = config_as_written(origin.config, file);
+  if (written.grains) wrap(grains, written);
+}
+
 InitialGrains read_last_frame(const Hdf5File& file) {
   const auto frames = list_frames(file);
   if (frames.empty()) {
@@ -93,12 +102,16 @@ InitialGrains read_last_frame(const Hdf5File& file) {
     grains.heap = as_heaps(file.read<std::int64_t>(heap, {n}), file.path());
     grains.heap_names = lines_of(file.attribute<std::string>(heap, "names"));
   }
+  if (file.has_attribute(frames.back().name, "last_id"))
+    grains.last_id = file.attribute<std::int64_t>(frames.back().name, "last_id");
+  wrap_as_written(grains, read_provenance(file), file.path());
   return grains;
 }
 
 InitialGrains read_restart(const std::filesystem::path& path) {
   const CheckpointReader file(path);
   InitialGrains grains;
+  if (file.has("grains/last_id")) grains.last_id = file.integer("grains/last_id");
   const auto id = file.array<std::int64_t>("grains/id");
   const std::size_t n = id.size();
   constexpr std::uint64_t width = checkpoint_detail::Stored<GrainKinematics>::count;
@@ -118,6 +131,7 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     grains.heap = as_heaps(file.array<std::int64_t>("grains/heap", {n}), path);
     grains.heap_names = lines_of(file.text("grains/heap_names"));
   }
+  wrap_as_written(grains, file.provenance(), path);
   return grains;
 }
 
@@ -128,6 +142,17 @@ InitialGrains read_hdf5(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+void wrap(InitialGrains& grains, const Config& config) {
+  const auto into = [](double& x, double length) {
+    if (x < 0 && x >= -length) x += length;
+    if (x > length && x <= 2 * length) x -= length;
+  };
+  for (Vec3& x : grains.x) {
+    if (is_periodic_x(config)) into(x.x, config.size[0]);
+    if (config.grains->boundary_z == GrainBoundaryZ::periodic) into(x.z, config.size[2]);
+  }
+}
 
 InitialGrains read_grains(const std::filesystem::path& file) {
   if (file.extension() == ".csv") return parse_grains_csv(read_text(file), file.string());

@@ -22,7 +22,44 @@ namespace {
 
 constexpr std::array<std::string_view, 13> kColumns{
     "id", "diameter", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "kind", "heap"};
-constexpr std::size_t kNRequired = 5, kKind = 11, kHeap = 12;
+constexpr std::size_t kNRequired = 5, kDiameter = 1, kKind = 11, kHeap = 12;
+
+/// Other titles of columns: those of tables that the Python package writes, and of radii.
+struct OtherTitle {
+  std::string_view title, column;
+  double factor = 1;
+};
+constexpr std::array<OtherTitle, 9> kOtherTitles{{{"d", "diameter"},
+                                                  {"radius", "diameter", 2},
+                                                  {"r", "diameter", 2},
+                                                  {"u", "vx"},
+                                                  {"v", "vy"},
+                                                  {"w", "vz"},
+                                                  {"omega_x", "wx"},
+                                                  {"omega_y", "wy"},
+                                                  {"omega_z", "wz"}}};
+
+/// A column of the file: which one it is, and what its numbers are multiplied by.
+struct TitledColumn {
+  std::size_t column = kColumns.size();  // as now: of none of them
+  double factor = 1;
+};
+
+/// What a run has computed of a grain, not what it starts with.
+bool is_result(std::string_view title) { return title == "dune" || title.starts_with("force_"); }
+
+/// Of a title among those of its header: other titles stand for a column that has none of its own.
+std::optional<TitledColumn> column_of(std::string_view title,
+                                      const std::vector<std::string_view>& header) {
+  if (is_result(title)) return TitledColumn{};
+  double factor = 1;
+  const auto other = std::ranges::find(kOtherTitles, title, &OtherTitle::title);
+  if (other != kOtherTitles.end() && std::ranges::count(header, other->column) == 0)
+    title = other->column, factor = other->factor;
+  const auto found = std::ranges::find(kColumns, title);
+  if (found == kColumns.end()) return {};
+  return TitledColumn{static_cast<std::size_t>(found - kColumns.begin()), factor};
+}
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -49,8 +86,7 @@ class CsvReader {
     check_text();
     if (!next_line())
       fail("it is empty; needed is a header, id,diameter,x,y,z, and a line a grain");
-    read_header();
-    while (next_line()) read_row();
+    for (bool row = read_header() || next_line(); row; row = next_line()) read_row();
     if (grains_.size() == 0) fail("it has a header but no grains");
     return std::move(grains_);
   }
@@ -69,6 +105,7 @@ class CsvReader {
       ++line_number_;
       line_ = trimmed(take(rest_, '\n'));
       if (!line_.empty() && line_.front() != '#') return true;
+      if (!line_.empty()) comment_ = trimmed(line_.substr(1));
     }
     return false;
   }
@@ -101,16 +138,17 @@ class CsvReader {
     return {};
   }
 
-  void split_line() {
+  void split_line() { split(line_); }
+  void split(std::string_view rest) {
     fields_.clear();
-    std::string_view rest = line_;
     for (bool more = true; more;) {
       more = rest.find(',') != rest.npos;
       fields_.push_back(trimmed(take(rest, ',')));
     }
   }
 
-  void read_header() {
+  /// True if it stood in a comment, as numpy writes it: the line read last is a row.
+  bool read_header() {
     constexpr const char* needed =
         "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz,kind,heap";
     if (const std::string marks = other_separator(); !marks.empty()) {
@@ -120,26 +158,31 @@ class CsvReader {
     const bool any_letter = std::any_of(line_.begin(), line_.end(), [](unsigned char c) {
       return std::isalpha(c) != 0 && c != 'e' && c != 'E';
     });
-    if (!any_letter) fail("the header is missing; {}", needed);
-    split_line();
+    split(any_letter ? line_ : comment_);
+    if (!any_letter && !std::ranges::all_of(fields_, [&](auto title) {
+          return column_of(title, fields_).has_value();
+        }))
+      fail("the header is missing; {}", needed);
     for (const std::string_view title : fields_) {
       if (title.empty()) fail("column {} has no name", order_.size() + 1);
-      const auto found = std::find(kColumns.begin(), kColumns.end(), title);
-      if (found == kColumns.end()) {
+      const auto found = column_of(title, fields_);
+      if (!found) {
         fail("unknown column \"{}\" in the header{}; {}", printable(title, 60), suggestion(title),
              needed);
       }
-      const auto column = static_cast<std::size_t>(found - kColumns.begin());
-      if (std::find(order_.begin(), order_.end(), column) != order_.end()) {
-        fail("column \"{}\" appears twice", title);
-      }
-      order_.push_back(column);
+      if (has(found->column)) fail("column \"{}\" appears twice", kColumns[found->column]);
+      order_.push_back(*found);
     }
     for (std::size_t column = 0; column < kNRequired; ++column) {
-      if (std::find(order_.begin(), order_.end(), column) == order_.end()) {
+      if (!has(column))
         fail("column \"{}\" is missing; needed are id,diameter,x,y,z", kColumns[column]);
-      }
     }
+    return !any_letter;
+  }
+
+  bool has(std::size_t column) const {
+    return column < kColumns.size() &&
+           std::ranges::count(order_, column, &TitledColumn::column) > 0;
   }
 
   /// The column that a title in capitals, with its unit or misspelt was meant for.
@@ -147,7 +190,8 @@ class CsvReader {
     const std::vector<std::string> names(kColumns.begin(), kColumns.end());
     const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
     std::string close = nearest(word, names);
-    if (word == "radius" || word == "r" || word == "d") close = "diameter";
+    if (word == "radius" || word == "r" || word == "d")
+      close = word == title ? "diameter" : std::string(word);
     return did_you_mean(close);
   }
 
@@ -158,17 +202,17 @@ class CsvReader {
     split_line();
     const std::size_t n_fields = fields_.size();
     for (std::size_t f = 0; f < std::min(n_fields, order_.size()); ++f) {
-      const auto column = order_[f];
+      const auto [column, factor] = order_[f];
       if (column == 0) {
-        id = number<std::int64_t>(fields_[f], column);
+        id = whole_number(fields_[f]);
       } else if (column == kKind) {
         add_kind(fields_[f]);
       } else if (column == kHeap) {
         heap = number<std::int64_t>(fields_[f], column);
         if (*heap < -1 || *heap > 254)
           fail("heap = {}: must be from 0 to 254, or -1: of none", *heap);
-      } else {
-        value[column] = number<double>(fields_[f], column);
+      } else if (column < kColumns.size()) {
+        value[column] = factor * number<double>(fields_[f], column);
       }
     }
     if (n_fields != order_.size()) {
@@ -176,11 +220,11 @@ class CsvReader {
       fail("{} values, but the header has {} columns{}", n_fields, order_.size(),
            twice ? "; are there decimal commas? Decimals need a point" : "");
     }
-    if (value[1] <= 0) fail("diameter = {}: must be above 0", value[1]);
+    if (value[kDiameter] <= 0) fail("diameter = {}: must be above 0", value[kDiameter]);
     const auto [earlier, is_new] = line_of_.emplace(id, line_number_);
     if (!is_new) fail("id {} was used before, in line {}", id, earlier->second);
-    grains_.add(id, value[1], {value[2], value[3], value[4]}, {value[5], value[6], value[7]},
-                {value[8], value[9], value[10]});
+    grains_.add(id, value[kDiameter], {value[2], value[3], value[4]},
+                {value[5], value[6], value[7]}, {value[8], value[9], value[10]});
     if (heap) grains_.heap.push_back(static_cast<std::uint8_t>(*heap));  // -1: kNoHeap
   }
 
@@ -193,6 +237,18 @@ class CsvReader {
       fail("kind = \"{}\": there are too many kinds", printable(name, 60));
     if (std::cmp_equal(at, names.size())) names.emplace_back(name);
     grains_.kind.push_back(static_cast<std::uint8_t>(at));
+  }
+
+  /// An id; numpy writes 1.000000000000000000e+00.
+  std::int64_t whole_number(std::string_view field) const {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const bool real = field.find_first_of(".eE") != field.npos && error == std::errc() &&
+                      stop == field.data() + field.size();
+    constexpr double exact = 9007199254740992;  // 2^53: larger ones may have been rounded
+    if (real && std::abs(value) < exact && value == std::floor(value))
+      return static_cast<std::int64_t>(value);
+    return number<std::int64_t>(field, 0);
   }
 
   template <class T>
@@ -215,10 +271,10 @@ class CsvReader {
     return value;
   }
 
-  std::string_view rest_, name_, line_;
+  std::string_view rest_, name_, line_, comment_;  // the last one
   std::size_t line_number_ = 0;
   std::vector<std::string_view> fields_;                   // of the line
-  std::vector<std::size_t> order_;                         // column of each field of a row
+  std::vector<TitledColumn> order_;                        // of each field of a row
   std::unordered_map<std::int64_t, std::size_t> line_of_;  // of each id
   InitialGrains grains_;
 };

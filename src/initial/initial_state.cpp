@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -73,19 +74,6 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
   return fluid;
 }
 
-/// Grains that left through a periodic side since the file's last list rebuild come back on the
-/// other; what would have to move by more than the domain is left for check_inside.
-void wrap(InitialGrains& grains, const Config& config) {
-  const auto into = [](double& x, double length) {
-    if (x < 0 && x >= -length) x += length;
-    if (x > length && x <= 2 * length) x -= length;
-  };
-  for (Vec3& x : grains.x) {
-    if (is_periodic_x(config)) into(x.x, config.size[0]);
-    if (config.grains->boundary_z == GrainBoundaryZ::periodic) into(x.z, config.size[2]);
-  }
-}
-
 /// The smallest and the largest grain of each kind.
 std::vector<SizeClass> extreme_sizes(const InitialGrains& grains) {
   std::map<int, std::pair<double, double>> of_kind;
@@ -140,9 +128,22 @@ void check_apart(const InitialGrains& grains, const PeriodicBox& box, const std:
 
 }  // namespace
 
+namespace {
+
+/// Tables of the Python package have the numbers of the kinds.
+std::string name_of_number(const std::string& name, const GrainConfig& config) {
+  const std::vector<std::string> names = names_of_kinds(config);
+  const bool digit = name.size() == 1 && name.front() >= '0' && name.front() <= '9';
+  const std::size_t number = digit ? static_cast<std::size_t>(name.front() - '0') : names.size();
+  return kind_of_name(config, name) < 0 && number < names.size() ? names[number] : name;
+}
+
+}  // namespace
+
 void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source) {
   std::vector<std::string> theirs = grains.kind_names;
   if (grains.kind.empty()) theirs = {""};
+  for (std::string& name : theirs) name = name_of_number(name, config);
   if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
     throw InputError(fmt::format("{}: it must {}", source, problem));
   const std::size_t n_kinds = all_kinds(config).size();
@@ -164,6 +165,15 @@ void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
   }
 }
 
+void check_free_ids(const Config& config, std::int64_t last, const std::string& source) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+  if (!config.grains->feed || last <= most) return;
+  throw InputError(
+      fmt::format("{}: a grain has the id {}: with [grains.feed] it must be at most {}, for grains "
+                  "that come in have the ids after it",
+                  source, last, most));
+}
+
 std::string source_of_grains(const Config& config, const std::filesystem::path& file) {
   if (config.initial.pour) return "initial.grains.pour";
   return config.initial.heaps.empty() ? file.string() : "initial.heap";
@@ -175,6 +185,8 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
       heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size, make_bodies(config));
   const std::string source = source_of_grains(config, file);
   if (grains.size() == 0) throw InputError(source + " holds no grains");
+  grains.last_id = std::max(grains.last_id, std::ranges::max(grains.id));
+  check_free_ids(config, grains.last_id, source);
   if (heaps.empty()) take_kinds(grains, *config.grains, source);
   check_sizes(extreme_sizes(grains), config, source);
   wrap(grains, config);

@@ -12,6 +12,7 @@ namespace barchan {
 /// Files that the initial state comes from, once every .toml has become a restart file.
 struct InitialFiles {
   std::filesystem::path fluid, grains;  // empty: not from a file
+  std::string record{};                 // of their content (src/run/case_inputs.hpp)
 };
 
 /// Makes the kinds of grains that come from `source`, which has them in an order of its own, those
@@ -22,6 +23,10 @@ void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::str
 /// they came from `source`.
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
                  const std::string& source);
+
+/// Refuses numbers of grains so large that those of [grains.feed] would find none behind them.
+/// `last`: the largest. Throws InputError, which says that they came from `source`.
+void check_free_ids(const Config& config, std::int64_t last, const std::string& source);
 
 /// Where a case's grains come from, for messages: the key that pours them, or the `file`.
 std::string source_of_grains(const Config& config, const std::filesystem::path& file);

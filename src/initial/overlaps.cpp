@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/grains/body_contact.hpp"
 #include "src/base/errors.hpp"
 #include "src/bodies/make_bodies.hpp"
 
@@ -86,6 +87,19 @@ class Search {
   std::vector<InSlab> order_;
 };
 
+/// True if a grain overlaps a body wherever along z the feed puts it.
+bool in_bodies_everywhere(const FeedConfig& feed, double lz, double r, const Bodies& bodies) {
+  auto [from, to] = feed.across;
+  if (from == to) to = from + lz;
+  const int n = static_cast<int>(std::clamp(std::ceil((to - from) / (r / 4)), 1.0, 1e5));
+  const double between = (to - from) / n;
+  for (int k = 0; k <= n; ++k) {
+    const Vec3 x{feed.x + r, feed.height + r, from + k * between};
+    if (!(deepest_in(bodies, x, r) > between / 2)) return false;  // nor are those beside it
+  }
+  return true;
+}
+
 }  // namespace
 
 void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double most,
@@ -123,6 +137,19 @@ void check_outside_bodies(const InitialGrains& grains, const Config& config,
         config.grains->frozen ? "" : " (grains.max_overlap)", grains.id[deepest], x.x, x.y, x.z,
         100 * overlap, b + 1, b + 1));
   }
+}
+
+void check_feed_places(const Config& config, double d_min, double d_max) {
+  if (config.bodies.empty() || !config.grains || !config.grains->feed) return;
+  if (config.grains->boundary_x == GrainBoundaryX::follow) return;  // its places move
+  const FeedConfig& feed = *config.grains->feed;
+  const Bodies bodies = make_bodies(config);
+  for (const double d : {d_min, d_max})
+    if (!in_bodies_everywhere(feed, config.size[2], d / 2, bodies)) return;
+  throw InputError(fmt::format(
+      "[grains.feed] x = {:.6g}, height = {:.6g}: no grain could come in: all across the stream a "
+      "body is in its place; move the one or the other (grains.feed.across, body.1.centre)",
+      feed.x, feed.height));
 }
 
 }  // namespace barchan

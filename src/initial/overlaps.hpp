@@ -20,4 +20,8 @@ void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double 
 void check_outside_bodies(const InitialGrains& grains, const Config& config,
                           const std::string& source);
 
+/// Refuses a feed none of whose places is free of bodies, neither for the smallest grain nor for
+/// the largest; diameters in [m]. Throws InputError.
+void check_feed_places(const Config& config, double d_min, double d_max);
+
 }  // namespace barchan

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "src/base/atomic_file.hpp"
+#include "src/base/same_time.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -92,9 +92,7 @@ void FrameFile::write_description() const {
 }
 
 void FrameFile::drop_after(double t) {
-  const auto late = [last = t + 1e-9 * std::max(1.0, std::abs(t))](const FrameInfo& frame) {
-    return frame.t > last;
-  };
+  const auto late = [t](const FrameInfo& frame) { return frame.t > last_same_time(t); };
   if (std::erase_if(frames_, late) == 0) return;
   made_ = !frames_.empty();
   if (!made_) {  // the next frame begins a new file

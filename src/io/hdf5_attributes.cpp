@@ -99,16 +99,20 @@ template std::string Hdf5File::attribute(const std::string&, const std::string&)
 namespace {
 
 using Member = std::string Provenance::*;
-constexpr std::array<std::pair<const char*, Member>, 5> origin{{{"title", &Provenance::title},
+constexpr std::array<std::pair<const char*, Member>, 6> origin{{{"title", &Provenance::title},
                                                                 {"config", &Provenance::config},
                                                                 {"version", &Provenance::version},
                                                                 {"git_hash", &Provenance::git_hash},
-                                                                {"backend", &Provenance::backend}}};
+                                                                {"backend", &Provenance::backend},
+                                                                {"inputs", &Provenance::inputs}}};
 
 }  // namespace
 
 void write_provenance(Hdf5File& file, const Provenance& provenance) {
-  for (const auto& [name, member] : origin) file.set_attribute("/", name, provenance.*member);
+  for (const auto& [name, member] : origin) {
+    if (member != &Provenance::inputs || !provenance.inputs.empty())
+      file.set_attribute("/", name, provenance.*member);
+  }
 }
 
 Provenance read_provenance(const Hdf5File& file) {

@@ -149,6 +149,7 @@ struct Provenance {
   std::string version{};  // of Barchan
   std::string git_hash{};
   std::string backend{};  // Kokkos backend and device
+  std::string inputs{};   // what the run began from (src/run/case_inputs.hpp); empty: no files
 };
 
 /// As attributes of the file's root. Throws Hdf5Error.

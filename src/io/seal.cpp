@@ -18,13 +18,13 @@ namespace {
 constexpr std::string_view kMark =
     "sealed by barchan, length and CRC-32 of what follows 512 bytes: ";
 
-/// The seal of all behind its room: a line of text, with zeros up to the room.
-std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
+/// Length and CRC-32 of all from the byte `begin` on.
+std::string content_from(std::size_t begin, std::ifstream& in, const std::filesystem::path& file) {
   std::vector<char> block(std::size_t{1} << 20);
   std::uint64_t length = 0;
   uLong crc = 0;
   in.clear();
-  in.seekg(static_cast<std::streamoff>(kSealBytes));
+  in.seekg(static_cast<std::streamoff>(begin));
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     const auto got = static_cast<std::size_t>(in.gcount());
@@ -32,7 +32,12 @@ std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
     length += got;
   }
   if (in.bad()) cannot("read", file);
-  std::string text = fmt::format("{}{} {:08x}\n", kMark, length, crc);
+  return fmt::format("{} {:08x}", length, crc);
+}
+
+/// The seal of all behind its room: a line of text, with zeros up to the room.
+std::string seal_of(std::ifstream& in, const std::filesystem::path& file) {
+  std::string text = fmt::format("{}{}\n", kMark, content_from(kSealBytes, in, file));
   text.resize(kSealBytes, '\0');
   return text;
 }
@@ -75,6 +80,14 @@ std::string broken_seal(const std::filesystem::path& file) {
                        kSealBytes + length);
   }
   return "it is damaged: its checksum is not that of what was written";
+}
+
+std::string content_key(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) cannot("read", file);
+  const std::string start = start_of(in, kSealBytes);
+  if (!start.starts_with(kMark)) return content_from(0, in, file);
+  return start.substr(kMark.size(), start.find('\n') - kMark.size());
 }
 
 }  // namespace barchan

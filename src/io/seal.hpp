@@ -25,4 +25,8 @@ void seal(const std::filesystem::path& file);
 /// if it cannot be read.
 std::string broken_seal(const std::filesystem::path& file);
 
+/// Length and CRC-32 of a file, which tell its content from any other; of a sealed file those in
+/// its seal, as of all that was sealed. Throws std::runtime_error if it cannot be read.
+std::string content_key(const std::filesystem::path& file);
+
 }  // namespace barchan

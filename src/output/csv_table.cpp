@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "src/base/atomic_file.hpp"
+#include "src/base/same_time.hpp"
 
 namespace barchan {
 
@@ -27,8 +27,8 @@ void cut_table(const fs::path& file, const std::string& header, double t) {
   std::string kept = header + "\n", line;
   std::getline(lines, line);
   const auto columns = std::count(header.begin(), header.end(), ',');
-  const double last = t + 1e-9 * std::max(1.0, std::abs(t));  // times have ten digits in the table
-  while (std::getline(lines, line) && !lines.eof()) {         // at the end: not written to its own
+  const double last = last_same_time(t);
+  while (std::getline(lines, line) && !lines.eof()) {  // at the end: not written to its own
     double line_time = 0;
     const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), line_time);
     const bool whole = std::count(line.begin(), line.end(), ',') == columns;

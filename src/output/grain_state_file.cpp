@@ -186,6 +186,16 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   save_of_every_rank(file, "contacts/of_rank", s.ranks, static_cast<std::int64_t>(pairs.size()));
 }
 
+/// Of a file of an earlier version at least that of the grains in it: others may have left.
+std::int64_t last_id_in(const CheckpointReader& file, const GrainState& s) {
+  if (file.has("grains/last_id")) return file.integer("grains/last_id");
+  std::int64_t last = s.n_initial;
+  const auto id = host_copy(s.id);
+  for (int g = 0; g < s.n; ++g) last = std::max(last, id(g));
+  all_reduce(s.ranks, std::span(&last, 1), MPI_MAX);
+  return last;
+}
+
 }  // namespace
 
 void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList& list) {
@@ -205,6 +215,7 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
   file.scalar("grains/r_min", s.r_min);
   file.scalar("grains/sauter_diameter", s.sauter_diameter);
   file.scalar("grains/n_initial", s.n_initial);
+  file.scalar("grains/last_id", last_id(s));
   file.scalar("grains/n_left", sum_over(s.ranks, s.n_left));
   save_feed(file, s.feed);
   if (std::isfinite(s.seam_x)) file.scalar("grains/seam_x", s.seam_x);
@@ -232,6 +243,7 @@ void load_grains(const CheckpointReader& file, GrainState& s, NeighborList& list
   for_each_saved_array(s, [&](const std::string& name, const auto& array) {
     load_entries(file, name, first_entries(array, s.n), entries.begin, n_all);
   });
+  s.last_id = last_id_in(file, s);
   const bool rolls = list.with_rolling, both = rank_count(s.ranks) > 1;
   const std::uint64_t n_contacts = entries_of(file, "contacts/first");
   const auto piece = my_piece(file, "contacts/of_rank", n_contacts, s.ranks);

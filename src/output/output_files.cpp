@@ -98,20 +98,23 @@ void write_numbers(Hdf5File& file, const std::string& name, int n,
 }
 
 /// Appends all of the grains: id, x and d in double precision, the others in single precision.
-void append_grains(FrameFile& frames, const GrainState& grains, double t, std::int64_t step,
-                   std::span<const NamedForce> forces, const OutputFiles::DuneLabels& dunes) {
+void append_grains(FrameFile& frames, const GrainState& grains, const PeriodicBox& box, double t,
+                   std::int64_t step, std::span<const NamedForce> forces,
+                   const OutputFiles::DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
   const Hyperslab entries = slab_of_entries(n, grains.ranks);
   const Entries range(0, grains.n);
   const FrameArrays split{.grains = grains.kin,
-                          .x = FrameVectors<double>("output: x", n),
                           .d = Kokkos::View<double*>("output: d", n),
                           .u = FrameVectors<float>("output: u", n),
                           .omega = FrameVectors<float>("output: omega", n)};
   Kokkos::parallel_for("output: split grains", range, split);
+  const FramePositions<double> places{grains.kin, box, FrameVectors<double>("output: x", n)};
+  Kokkos::parallel_for("output: positions", range, places);
   frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
+    file.set_attribute(group, "last_id", last_id(grains));
     write_entries(file, group + "/id", ids_of(grains), "1", entries);
-    write_entries(file, group + "/x", split.x, "m", entries);
+    write_entries(file, group + "/x", places.x, "m", entries);
     write_entries(file, group + "/d", split.d, "m", entries);
     write_entries(file, group + "/u", split.u, "m/s", entries);
     write_entries(file, group + "/omega", split.omega, "rad/s", entries);
@@ -159,10 +162,12 @@ void append_flow(FrameFile& frames, const FluidState& fluid, double t, std::int6
 }  // namespace
 
 OutputFiles::OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
-                         std::optional<double> restart_time, MPI_Comm communicator)
+                         std::optional<double> restart_time, MPI_Comm communicator,
+                         const PeriodicBox& box)
     : folder_(folder),
       provenance_(provenance),
       communicator_(communicator),
+      box_(box),
       fields_(folder / "fields.h5", provenance, restart_time, communicator, fields_xdmf),
       grains_(folder / "grains.h5", provenance, restart_time, communicator, grains_xdmf),
       tracks_(folder / "tracks.h5", provenance, restart_time, communicator) {}
@@ -194,7 +199,7 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   if (grains != nullptr) {
     FrameFile file = anew("failure_grains", grains_xdmf);
     const NamedForce contacts{"force_contact", grains->contact_force};
-    append_grains(file, *grains, t, step, std::span(&contacts, 1), {});
+    append_grains(file, *grains, {}, t, step, std::span(&contacts, 1), {});
     names.emplace_back("failure_grains.xdmf");
   }
   if (fluid != nullptr) {
@@ -209,20 +214,18 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
                                const DuneLabels& dunes) {
   const auto n = static_cast<std::size_t>(grains.n);
   const Hyperslab entries = slab_of_entries(n, grains.ranks);
-  const FrameVectors<float> x("output: track", n);
-  const auto kin = grains.kin;
-  Kokkos::parallel_for(
-      "output: positions", Entries(0, grains.n), KOKKOS_LAMBDA(int g) { store(x, g, kin(g).x); });
+  const FramePositions<float> places{grains.kin, box_, FrameVectors<float>("output: track", n)};
+  Kokkos::parallel_for("output: positions", Entries(0, grains.n), places);
   tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
     write_entries(file, group + "/id", ids_of(grains), "1", entries);
     write_labels(file, group, dunes, entries);
-    write_entries(file, group + "/x", x, "m", entries);
+    write_entries(file, group + "/x", places.x, "m", entries);
   });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
                                std::span<const NamedForce> forces, const DuneLabels& dunes) {
-  append_grains(grains_, grains, t, step, forces, dunes);
+  append_grains(grains_, grains, box_, t, step, forces, dunes);
 }
 
 }  // namespace barchan

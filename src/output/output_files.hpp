@@ -29,9 +29,11 @@ struct NamedField {
 class OutputFiles {
  public:
   /// `restart_time` empty: a new run, files of an earlier one are replaced at the first frame.
-  /// Otherwise frames later than it are dropped and numbering goes on.
+  /// Otherwise frames later than it are dropped and numbering goes on. Positions are written as the
+  /// images within `box`, but where something has gone wrong.
   OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
-              std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF);
+              std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF,
+              const PeriodicBox& box = {});
 
   /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
   /// Upper faces are read from the ghost layer, which must be valid.
@@ -65,6 +67,7 @@ class OutputFiles {
   std::filesystem::path folder_;
   Provenance provenance_;
   MPI_Comm communicator_;
+  PeriodicBox box_;
   FrameFile fields_, grains_, tracks_;
 };
 

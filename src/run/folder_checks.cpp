@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/run/case_inputs.hpp"
 #include "src/run/run_folder.hpp"
 
 namespace barchan {
@@ -102,11 +104,17 @@ void check_results_go_on(const fs::path& folder) {
   }
 }
 
-EarlierRun earlier_run(const Config& config, const fs::path& folder) {
+std::string EarlierRun::difference() const {
+  if (!same_config) return "of another configuration";
+  return changed ? fmt::format("from another content of {}", changed->string()) : "";
+}
+
+EarlierRun earlier_run(const Case& the_case, const fs::path& folder) {
   EarlierRun earlier;
   earlier.status = status_in(folder / "run.json");
-  earlier.same = is_written_in(folder / "config.toml", config);
   earlier.restart = latest_checkpoint(folder);
+  earlier.same_config = is_written_in(folder / "config.toml", the_case.config);
+  earlier.changed = as_input([&] { return changed_input(recorded_inputs(folder), the_case); });
   return earlier;
 }
 
@@ -126,9 +134,9 @@ void check_overwrites_nothing(const EarlierRun& earlier, const fs::path& folder)
   const std::string go_on =
       earlier.restart ? fmt::format("go on with --restart {}, ", earlier.restart->string()) : "";
   throw InputError(
-      fmt::format("{} holds {} run{}: {}begin again with --overwrite, or take another --out",
+      fmt::format("{} holds {} run{}{}: {}begin again with --overwrite, or take another --out",
                   folder.string(), earlier.status == "done" ? "a finished" : "an unfinished",
-                  earlier.same ? "" : " of another configuration", go_on));
+                  earlier.same() ? "" : " ", earlier.difference(), go_on));
 }
 
 }  // namespace barchan

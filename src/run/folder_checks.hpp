@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "src/config/config.hpp"
+#include "src/config/load.hpp"
 
 namespace barchan {
 
@@ -24,12 +24,16 @@ void check_results_go_on(const std::filesystem::path& folder);
 /// A run whose results are in a folder.
 struct EarlierRun {
   std::string status;                            // as in run.json, empty: there is none
-  bool same = false;                             // of exactly this configuration
+  bool same_config = false;                      // of exactly this configuration
+  std::optional<std::filesystem::path> changed;  // a file that it began from, with another content
   std::optional<std::filesystem::path> restart;  // its last restart file
-  bool done() const { return status == "done" && same && restart; }
+  bool same() const { return same_config && !changed; }
+  bool done() const { return status == "done" && same() && restart; }
   bool is_worth_keeping() const { return status == "done" || restart; }
+  /// What it has that the case has not, as in "of another configuration"; empty: nothing.
+  std::string difference() const;
 };
-EarlierRun earlier_run(const Config& config, const std::filesystem::path& folder);
+EarlierRun earlier_run(const Case& the_case, const std::filesystem::path& folder);
 /// Throws InputError if a new run in `folder` would remove an earlier one that is worth keeping.
 void check_overwrites_nothing(const EarlierRun& earlier, const std::filesystem::path& folder);
 

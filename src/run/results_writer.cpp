@@ -11,6 +11,7 @@
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/run/case_inputs.hpp"
 #include "src/run/history_table.hpp"
 #include "src/run/watchdog.hpp"
 
@@ -33,6 +34,11 @@ double volume_flow(const GrainState& grains, bool along_x) {
   return sum_over(grains.ranks, flow);
 }
 
+PeriodicBox box_of(const RunState& run) {
+  const NeighborList* list = run.coupled_step.neighbor_list();
+  return list != nullptr ? list->box() : PeriodicBox();
+}
+
 }  // namespace
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
@@ -41,9 +47,14 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
       diagnostics_(diagnostics),
       accounts_(accounts),
       folder_(prepare_folder(folder, run.restart_time, run.ranks)),
-      output_(folder, run.provenance, run.restart_time, run.ranks) {
+      output_(folder, run.provenance, run.restart_time, run.ranks, box_of(run)) {
   if (rank_of(run.ranks) != 0) return;
   report::log_to(folder_ / "log.txt", run.restart_time.has_value());
+  if (run.provenance.inputs.empty()) {
+    remove_name(folder_ / kInputsFile);
+  } else {
+    write_atomically(folder_ / kInputsFile, run.provenance.inputs + "\n");
+  }
   write_atomically(folder_ / "config.toml", run.provenance.config);
 }
 
@@ -130,6 +141,9 @@ void ResultsWriter::write_history() {
   }
   if (rank_of(run_.ranks) == 0) append_record(folder_, row);
   accounts_.interval = {};
+  const std::string unfed = unfed_grains(run_);
+  rows_unfed_ = unfed.empty() ? 0 : rows_unfed_ + 1;
+  if (rows_unfed_ == 2) report::warn("{}", unfed);
 }
 
 void ResultsWriter::write_bodies() {

@@ -39,6 +39,7 @@ class ResultsWriter {
   std::filesystem::path folder_;
   OutputFiles output_;
   WallClock::time_point last_restart_ = WallClock::now();
+  int rows_unfed_ = 0;  // of history.csv, one after the other
 };
 
 }  // namespace barchan

@@ -64,6 +64,17 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
 
 }  // namespace
 
+std::string unfed_grains(const RunState& run) {
+  if (!run.state.grains || !run.config.grains->feed) return {};
+  const FeedState& feed = run.state.grains->feed;
+  const std::int64_t waiting = n_waiting(feed);
+  if (feed.n_fed > 0 || waiting == 0) return {};
+  return fmt::format(
+      "[grains.feed] has brought in no grain so far: {} wait, and all places that were tried, at x "
+      "= {:.6g} m, height = {:.6g} m, are taken by grains or bodies",
+      waiting, run.config.grains->feed->x, run.config.grains->feed->height);
+}
+
 void FluidStepSums::add(const FluidStepReport& report, double fluid_step, const Vec3& impulse) {
   ++steps;
   iterations += report.pressure_iterations;

@@ -22,6 +22,9 @@ struct FluidStepSums {
   }
 };
 
+/// What is wrong with a feed for whose grains there has been no place; empty: nothing.
+std::string unfed_grains(const RunState& run);
+
 /// Sums, extremes and rates for history.csv, the progress line and run.json.
 struct RunAccounts {
   FluidStepSums interval, all;        // since the last row of history.csv; since begin()

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "src/config/derived.hpp"
+
 namespace barchan {
 
 /// Time in fluid steps.
@@ -14,12 +16,17 @@ struct RunClock {
 
   double time() const { return static_cast<double>(step) * fluid_step; }  // [s]
   std::int64_t steps_done() const { return step - start; }
-  /// True at the start of a case and every `interval` [s] (a whole number of steps, at least one);
-  /// never if that is 0.
+  /// True at the start of a case and at the first step at or after each multiple of `interval` [s],
+  /// or at every step if that is shorter; never if it is 0.
   bool due(double interval) const {
     if (!(interval > 0)) return false;
-    const double steps = std::min(interval / fluid_step, 1e18);
-    return step % std::max<std::int64_t>(1, std::llround(steps)) == 0;
+    if (step == 0) return true;
+    const double steps = std::max(1.0, std::min(interval / fluid_step, 1e18));
+    if (is_whole(steps)) return step % std::llround(steps) == 0;
+    const auto passed = [steps](std::int64_t n) {  // a millionth of a step is rounding
+      return std::floor((static_cast<double>(n) + 1e-6) / steps);
+    };
+    return passed(step) > passed(step - 1);
   }
 };
 

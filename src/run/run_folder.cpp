@@ -16,6 +16,7 @@
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/run/case_inputs.hpp"
 #include "src/run/history_table.hpp"
 
 namespace barchan {
@@ -24,27 +25,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultNames[] = {"config.toml",
-                                        "run.json",
-                                        kHistoryTable.file,
-                                        kDuneTable.file,
-                                        kHeapTable.file,
-                                        kBodyTable.file,
-                                        "encounters.csv",
-                                        "fields.h5",
-                                        "fields.xdmf",
-                                        "grains.h5",
-                                        "grains.xdmf",
-                                        "tracks.h5",
-                                        "log.txt",
-                                        "statistics.csv",
-                                        "flow_average.h5",
-                                        "flow_average.xdmf",
-                                        "force_map.csv",
-                                        "failure_grains.h5",
-                                        "failure_grains.xdmf",
-                                        "failure_fields.h5",
-                                        "failure_fields.xdmf"};
+constexpr const char* kResultNames[] = {"config.toml",       kInputsFile,
+                                        "run.json",          kHistoryTable.file,
+                                        kDuneTable.file,     kHeapTable.file,
+                                        kBodyTable.file,     "encounters.csv",
+                                        "fields.h5",         "fields.xdmf",
+                                        "grains.h5",         "grains.xdmf",
+                                        "tracks.h5",         "log.txt",
+                                        "statistics.csv",    "flow_average.h5",
+                                        "flow_average.xdmf", "force_map.csv",
+                                        "failure_grains.h5", "failure_grains.xdmf",
+                                        "failure_fields.h5", "failure_fields.xdmf"};
 
 /// Tables that not every run has.
 template <class Record>

@@ -8,6 +8,7 @@
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/initial/overlaps.hpp"
 #include "src/output/grain_state_file.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -52,12 +53,14 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
       changed_config(restart ? changes_since(*restart, config) : std::vector<std::string>()),
       state(first_state(config, restart, files, ranks, pencils.get())),
       coupled_step(config, state) {
+  provenance.inputs = restart != nullptr ? restart->provenance().inputs : files.record;
   if (restart != nullptr) {
     go_on_from(*restart);
   } else {
     coupled_step.start(state);
   }
   count_grains();
+  if (restart != nullptr && config.grains && config.grains->feed) check_feed(restart->path());
   clock.start = clock.step;
 }
 
@@ -87,6 +90,18 @@ void RunState::go_on_from(const CheckpointReader& file) {
     throw InputError(fmt::format("cannot restart from {}: its time {:.6g} s is not that of step {}",
                                  file.path().string(), *restart_time, clock.step));
   }
+}
+
+/// The feed may be new since the file was written.
+void RunState::check_feed(const std::filesystem::path& file) const {
+  const GrainState& grains = *state.grains;
+  check_free_ids(config, last_id(grains), file.string());
+  check_feed_places(config, 2 * grains.r_min, 2 * grains.r_max);
+  const bool no_body = grains.feed.next_id == 0 ? n_grains == 0 : grains.feed.bodies.empty();
+  if (no_body && config.grains->feed->amount == FeedAmount::given)
+    throw InputError(
+        file.string() +
+        ": grains.feed.amount = \"given\": no grains are left whose sizes it could take");
 }
 
 void RunState::advance() {

@@ -36,6 +36,7 @@ struct RunState {
 
  private:
   void go_on_from(const CheckpointReader& file);
+  void check_feed(const std::filesystem::path& file) const;
   void count_grains();
 };
 

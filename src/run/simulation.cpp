@@ -65,7 +65,7 @@ void Simulation::follow_first_dune(const std::string& source) {
 void Simulation::open_folder() {
   results_.emplace(options_.folder, run_, diagnostics_, accounts_);
   if (!run_.restart_time) return;
-  report::info("going on from {} at t = {:.4f} s", options_.restart->string(), run_.clock.time());
+  report::info("going on from {} at t = {:.6g} s", options_.restart->string(), run_.clock.time());
   if (!run_.changed_config.empty())
     report::info("changed since: {}", fmt::join(run_.changed_config, ", "));
 }
@@ -98,7 +98,8 @@ Outcome Simulation::loop() {
   }
   progress_.finish();
   results_->write_restart();
-  results_->write_summary(stopped.empty() ? "done" : "stopped", stopped);
+  results_->write_summary(stopped.empty() ? "done" : "stopped",
+                          stopped.empty() ? unfed_grains(run_) : stopped);
   if (stopped.empty()) return Outcome::done;
   report::info("{}; go on with --restart {}", stopped, last_restart()->string());
   return Outcome::stopped;

@@ -31,6 +31,8 @@ class Simulation {
   /// The last restart file written, or the one the run went on from; if any.
   std::optional<std::filesystem::path> last_restart() const;
   const SystemState& state() const { return run_.state; }
+  /// What the run began from, as in Provenance.
+  const std::string& inputs() const { return run_.provenance.inputs; }
 
  private:
   void follow_first_dune(const std::string& source);

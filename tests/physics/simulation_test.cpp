@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "src/base/atomic_file.hpp"
+#include "src/initial/grain_files.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/run/simulation.hpp"
@@ -136,6 +138,33 @@ TEST(Simulation, AFeedBeginsAtARestartToo) {
   const CheckpointReader last(run(config, scratch / "run", middle));
   EXPECT_GT(last.integer("feed/n_fed"), 0);
   EXPECT_DOUBLE_EQ(last.real("feed/due"), 2000 * 20 * config.time.fluid_step);
+}
+
+/// The grain with the largest number leaves before the feed begins; its number is not given again,
+/// nor are those of fed grains by a case that starts from the end.
+TEST(Simulation, ANumberIsNeverGivenTwice) {
+  const TemporaryFolder scratch;
+  std::ofstream(scratch / "grains.csv") << "id,diameter,x,y,z,vx\n"
+                                           "1,2e-4,0.006,0.001,0.003,0\n"
+                                           "2,2e-4,0.006,0.002,0.003,0\n"
+                                           "50,2e-4,0.0115,0.003,0.003,0.1\n";
+  Config config = coupled_config();
+  config.fluid.reset();
+  config.initial = {};
+  config.initial.grains = scratch / "grains.csv";
+  config.grains->gravity = {0, 0, 0};
+  config.time.end = 40 * config.time.fluid_step;
+  const InitialFiles table{.fluid = {}, .grains = config.initial.grains};
+  Simulation first(config, {.folder = scratch / "run", .restart = {}}, table);
+  first.run();
+  ASSERT_EQ(first.state().grains->n, 2) << "one is meant to leave";
+  config.grains->feed = FeedConfig{.rate = 1000, .x = 2e-3, .height = 2e-3};
+  config.time.end *= 2;
+  const auto last = run(config, scratch / "run", first.last_restart());
+  const auto numbers = CheckpointReader(last).array<std::int64_t>("grains/id");
+  EXPECT_EQ(std::ranges::max(numbers), 60) << "10 were fed";
+  EXPECT_EQ(std::ranges::count_if(numbers, [](auto id) { return id > 2 && id <= 50; }), 0);
+  EXPECT_EQ(read_grains(last).last_id, 60);
 }
 
 TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {

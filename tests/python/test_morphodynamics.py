@@ -12,7 +12,7 @@ from barchan.dune import fluxes, slopes, transport
 from barchan.dune.shape import Bed, main_dune
 from barchan.dune.surface import Surface
 from barchan.io.frames import Grains
-from barchan.stats import over_the_last_second, window
+from barchan.stats import over_the_last_second, window, within
 
 D, PHI = 2e-4, 0.55
 SIZE = (0.06, 0.01, 0.012)
@@ -47,6 +47,12 @@ def dune_of(grains, crest_x, L=0.0):
     return main_dune(grains, BED, {name: np.array([value]) for name, value in (
         ("t", 0.0), ("W", 0.0), ("L", L), ("H", 0.0), ("crest_x", crest_x % SIZE[0]), ("horn_left", 0.0),
         ("horn_right", 0.0))})
+
+
+def test_a_window_is_exact_to_the_step():
+    for step in (1e-10, 1e-15, 1 / 3):
+        t = np.array([float(f"{n * step:.10g}") for n in range(6)])
+        assert list(np.nonzero(within(t, step, 3 * step))[0]) == [1, 2, 3], step
 
 
 def triangle(stoss, slip, top, flat=0.0):

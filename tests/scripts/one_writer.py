@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import h5py
+
 import faults
 
 ROOT = Path(__file__).parents[2]
@@ -184,6 +186,65 @@ def keeps_the_older_start(work):
         faults.fail("a start without its last state was taken for one that is done")
 
 
+def run_here(folder, name, *options):
+    return subprocess.run([faults.PROGRAM, "run", folder / f"{name}.toml", "--out", folder / "runs" / name, *options],
+                          env=faults.ENVIRONMENT, capture_output=True, text=True, timeout=120)
+
+
+def takes_for_done(folder, name):
+    done = run_here(folder, name)
+    if done.returncode != 0 or "done before" not in done.stdout + done.stderr:
+        faults.fail(f"{name} was not taken for done: {done.stdout}{done.stderr}")
+
+
+def grains_at(folder, name):
+    with h5py.File(faults.last_restart(folder / "runs" / name)) as file:
+        return file["grains/kin"][:]
+
+
+def notices_what_it_came_from(work):
+    """Results of an edited table, of an edited start, and of a start that starts from one, are not those of now."""
+    folder = work / "inputs"
+    folder.mkdir()
+    shared = SHARED.format(end=0.002, step=GRAIN_STEP) + GRAINS
+    (folder / "heap.toml").write_text(shared + POURED)
+    for name, start in dict(table="grains.csv", dune="heap.toml", third="dune.toml").items():
+        (folder / f"{name}.toml").write_text(shared + f'[initial]\ngrains = "{start}"\n')
+    table, heap = folder / "grains.csv", folder / "heap.toml"
+    table.write_text("id,diameter,x,y,z\n1,2e-4,0.006,0.001,0.003\n")
+    for name in ("table", "third"):
+        faults.expect(run_here(folder, name), 0)
+        before = content(folder / "runs" / name)
+        takes_for_done(folder, name)
+        if content(folder / "runs" / name) != before:
+            faults.fail(f"the finished run {name} was not left as it is")
+    old = {name: grains_at(folder, name) for name in ("table", "third")}
+
+    table.write_text(table.read_text().replace("0.001", "0.002"))
+    faults.expect(run_here(folder, "table"), 2, f"holds a finished run from another content of {table}: go on with",
+                  "begin again with --overwrite")
+    last = faults.last_restart(folder / "runs/table")
+    longer = ("--set", "time.end=0.003", "--restart", last)
+    goes_on = run_here(folder, "table", *longer)
+    faults.expect(goes_on, 0)
+    if f"{table} has changed" not in goes_on.stdout + goes_on.stderr:
+        faults.fail(f"a restart did not tell of the table: {goes_on.stdout}{goes_on.stderr}")
+    faults.expect(run_here(folder, "table", *longer[:2]), 2, f"from another content of {table}")
+    faults.expect(run_here(folder, "table", "--overwrite"), 0)
+    if abs(grains_at(folder, "table")[0, 1] - old["table"][0, 1] - 0.001) > 1e-9:
+        faults.fail("the run did not begin from the edited table")
+
+    heap.write_text(heap.read_text().replace("200", "150"))
+    faults.expect(run_here(folder, "third"), 2, f"holds a finished run from another content of {heap}")
+    done = run_here(folder, "third", "--overwrite")
+    faults.expect(done, 0)
+    if len(grains_at(folder, "third")) != 150 or not (folder / "runs/heap.old1").is_dir():
+        faults.fail(f"the edited heap did not reach the third case: {done.stdout}")
+    (folder / "runs/third/config.inputs.json").unlink()  # as of an earlier version: nothing is known
+    heap.write_text(heap.read_text().replace("150", "200"))
+    takes_for_done(folder, "third")
+
+
 def survives_a_fight(work):
     """Two at once want a folder, one of them is killed, and again, until one says that it is done."""
     n, killed, refused = int(os.environ.get("BARCHAN_KILLS", "4")), 0, 0
@@ -220,6 +281,7 @@ def main(work):
     leaves_files_of_others(work)
     shares_starts(work)
     keeps_the_older_start(work)
+    notices_what_it_came_from(work)
     survives_a_fight(work)
 
 

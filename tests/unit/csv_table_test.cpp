@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -43,6 +44,20 @@ TEST(CsvTable, AColumnIsOneLine) {
                              kWeather.line({.t = 2}) + "2.5,1\n");
   cut_table(file, kWeather.header(), 1.5);
   EXPECT_EQ(read_text(file), kWeather.header() + "\n" + kWeather.line({.t = 1}));
+}
+
+/// What follows the time of a restart goes, however short the steps are; what was rounded stays.
+TEST(CsvTable, IsCutToTheStep) {
+  const TemporaryFolder folder;
+  const auto file = folder / kWeather.file;
+  for (const double step : {1e-10, 1e-15, 1.0 / 3, 1e3 / 3}) {
+    std::string text = kWeather.header() + "\n";
+    for (int n = 0; n < 20; ++n) text += kWeather.line({.t = n * step});
+    write_atomically(file, text);
+    cut_table(file, kWeather.header(), 10 * step);
+    const std::string kept = read_text(file);
+    EXPECT_EQ(std::ranges::count(kept, '\n'), 1 + 11) << step << ": 0 to 10";
+  }
 }
 
 TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {

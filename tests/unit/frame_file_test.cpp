@@ -90,6 +90,18 @@ TEST(FrameFile, ANewRunReplacesTheFile) {
   EXPECT_EQ(sound_times(folder / "a.h5"), std::vector<double>{7});
 }
 
+TEST(FrameFile, ARestartDropsLaterFramesOfShortSteps) {
+  const TemporaryFolder folder;
+  constexpr double step = 1e-10;
+  {
+    FrameFile file = open(folder / "a.h5", {});
+    for (int k = 0; k < 6; ++k) file.append(k * step, k, {}, [](Hdf5File&, const std::string&) {});
+  }
+  const FrameFile file = open(folder / "a.h5", 3 * step);
+  ASSERT_EQ(file.frames().size(), 4u);
+  EXPECT_EQ(file.frames().back().step, 3);
+}
+
 TEST(FrameFile, ARestartDropsLaterFramesAndNumbersOn) {
   const TemporaryFolder folder;
   {

@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <set>
 
+#include "src/initial/initial_state.hpp"
+#include "src/initial/overlaps.hpp"
+#include "src/output/feed_state_file.hpp"
+#include "src/run/run_accounts.hpp"
 #include "tests/support/coupled_run.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
@@ -167,6 +173,86 @@ TEST(GrainFeed, AsManyComeBackAsLeave) {
   }
   for (const GrainBody& body : run.state.grains->feed.waiting) sizes.insert(2 * body.r);
   EXPECT_EQ(sizes, sizes_before);
+}
+
+/// Also that of a grain that has left.
+TEST(GrainFeed, NumbersGoOnFromTheLastThatWasGiven) {
+  Config c = fed_case(FeedAmount::given, 4000);
+  InitialGrains few = some_grains(8);
+  few.last_id = 50;
+  CoupledRun run(c, few);
+  run.advance(1);
+  ASSERT_EQ(run.state.grains->feed.n_fed, 1);
+  EXPECT_TRUE(diameters(*run.state.grains).contains(51));
+  EXPECT_EQ(last_id(*run.state.grains), 51);
+}
+
+TEST(GrainFeed, RefusesNumbersThatLeaveNoneFree) {
+  const Config c = fed_case(FeedAmount::given, 4000);
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+  const auto said = [&](const Config& config, std::int64_t last) {
+    return message_of([&] { check_free_ids(config, last, "heap.csv"); });
+  };
+  EXPECT_EQ(said(c, most), "");
+  EXPECT_EQ(said(c, most + 1),
+            "heap.csv: a grain has the id 4611686018427387904: with [grains.feed] it must be at "
+            "most 4611686018427387903, for grains that come in have the ids after it");
+  Config unfed = c;
+  unfed.grains->feed.reset();
+  EXPECT_EQ(said(unfed, most + 1), "");
+}
+
+/// As of a run that all grains had left before its feed began: the feed has no bodies to choose
+/// from, and gives back what leaves.
+TEST(GrainFeed, AFeedWithoutBodiesComesBackFromItsRestartFile) {
+  const TemporaryFolder folder;
+  CheckpointWriter writer(folder.path(), 5, {});
+  FeedState feed;
+  feed.next_id = 9;
+  feed.waiting = {{1e-4, 1e-9, 0}};
+  save_feed(writer, feed);
+  const FeedState back = load_feed(CheckpointReader(writer.commit(1)));
+  EXPECT_EQ(back.next_id, 9);
+  EXPECT_EQ(back.waiting.size(), 1u);
+  EXPECT_TRUE(back.bodies.empty());
+}
+
+/// A box across the whole width at the place where grains come in, or with a gap beside it.
+TEST(GrainFeed, IsRefusedWhereABodyTakesAllItsPlaces) {
+  Config c = fed_case(FeedAmount::given, 1000);
+  c.bodies = {{.name = "step",
+               .shape = BodyShape::box,
+               .centre = {1e-3, 2e-3},
+               .height = 1e-3,
+               .size = {1e-3, 4e-3}}};
+  const auto said = [&] { return message_of([&] { check_feed_places(c, kSmall, kLarge); }); };
+  EXPECT_NE(said().find("no grain could come in: all across the stream a body is in its place"),
+            std::string::npos)
+      << said();
+  c.bodies[0].size[1] = 3.6e-3;  // it leaves 0.2 mm on each side: enough for the small ones
+  EXPECT_EQ(said(), "");
+  c.grains->feed->across = {1e-3, 3e-3};
+  EXPECT_NE(said(), "");
+  c.grains->feed->height = 1e-3;
+  EXPECT_EQ(said(), "") << "on top of it";
+}
+
+TEST(GrainFeed, ThatBringsInNothingIsTold) {
+  Config c = fed_case(FeedAmount::given, 4000);
+  c.grains->gravity = {0, 0, 0};
+  c.grains->feed->across = {2e-3, 2.0001e-3};
+  InitialGrains grains = some_grains(8);
+  test::add_grain(grains, kLarge, {1e-3 + kLarge / 2, kLarge / 2, 2e-3});
+  SystemState state;
+  state.grains = make_grain_state(grains, 2500);
+  RunState run(c, nullptr, std::move(state));
+  EXPECT_EQ(unfed_grains(run), "");
+  for (int step = 0; step < 10; ++step) run.advance();
+  EXPECT_NE(unfed_grains(run).find("has brought in no grain so far: 10 wait"), std::string::npos)
+      << unfed_grains(run);
+  carry_on(*run.state.grains, 1e-3);
+  run.advance();
+  EXPECT_EQ(unfed_grains(run), "");
 }
 
 GrainKinematics grain_of(const GrainState& grains, std::int64_t id) {

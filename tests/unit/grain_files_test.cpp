@@ -54,6 +54,36 @@ TEST(GrainFiles, ColumnsInAnyOrderWithVelocityAndSpin) {
   EXPECT_EQ(grains.omega[0].z, 9.0);
 }
 
+/// As run.grains().to_csv() writes it: titles in the order of the arrays in a frame.
+TEST(GrainFiles, TableOfThePythonPackage) {
+  const auto grains = parse(
+      "id,d,dune,force_total_x,force_total_y,force_total_z,kind,omega_x,omega_y,omega_z,u,v,w,x,y,"
+      "z\n"
+      "7,0.0002,-1,1e-9,2e-9,,1,4,5,6,0.1,0.2,0.3,0.01,0.02,0.03\n");
+  ASSERT_EQ(grains.size(), 1u);
+  EXPECT_EQ(grains.id[0], 7);
+  EXPECT_EQ(grains.diameter[0], 2e-4);
+  EXPECT_EQ(grains.x[0].z, 0.03);
+  EXPECT_EQ(grains.u[0].y, 0.2);
+  EXPECT_EQ(grains.omega[0].x, 4);
+  EXPECT_EQ(grains.kind_names, std::vector<std::string>{"1"});
+}
+
+TEST(GrainFiles, TableOfNumpy) {
+  const auto grains = parse(
+      "# of a notebook\n# id,radius,x,y,z\n"
+      "1.000000000000000000e+00,1.0e-04,1.0e-02,2.0e-02,3.0e-02\n"
+      "2.000000000000000000e+00,1.5e-04,1.0e-02,2.0e-02,4.0e-02\n");
+  ASSERT_EQ(grains.size(), 2u);
+  EXPECT_EQ(grains.id[1], 2);
+  EXPECT_EQ(grains.diameter[1], 3e-4) << "twice the radius";
+  EXPECT_EQ(grains.x[1].z, 0.04);
+  EXPECT_EQ(problem("# id,radius,x,y\n1,1,1,1\n"),
+            "heap.csv:2: column \"z\" is missing; needed are id,diameter,x,y,z");
+  EXPECT_EQ(problem("# id,radius,x,y,z\n9.1e15,1,1,1,1\n"),
+            "heap.csv:2: id = \"9.1e15\": must be a whole number");
+}
+
 TEST(GrainFiles, LikelyCausesAreNamed) {
   const auto says = [](const std::string& text, const std::string& words) {
     const std::string told = problem(text);
@@ -168,6 +198,40 @@ TEST(GrainFiles, TheLastFrameOfAResult) {
   state.n = 2;
   output.write_grains(state, 0.1, 10);
   expect_two_grains(read_grains(folder / "grains.h5"));
+}
+
+/// Beyond a side that was periodic there; where it is an outlet the grain would be outside.
+TEST(GrainFiles, PositionsAreWithinTheBoxThatWroteThem) {
+  const TemporaryFolder folder;
+  const Provenance origin{
+      .config =
+          "[domain]\nsize = [0.5, 1, 0.4]\n[grains]\nboundary_x = \"periodic\"\n"
+          "boundary_z = \"periodic\"\n"};
+  InitialGrains g;
+  g.add(1, 2e-4, {-1e-5, 0.5, 0.40001});
+  const GrainState state = make_grain_state(g, 2500);
+  CheckpointWriter writer(folder.path(), 5, origin);
+  writer.array("grains/id", state.id);
+  writer.array("grains/kin", state.kin);
+  OutputFiles(folder.path(), origin).write_grains(state, 0, 0);
+  for (const auto& file : {writer.commit(1), folder / "grains.h5"}) {
+    const InitialGrains read = read_grains(file);
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_DOUBLE_EQ(read.x[0].x, 0.49999) << file;
+    EXPECT_NEAR(read.x[0].z, 1e-5, 1e-15) << file;
+  }
+}
+
+/// A number is not given again when its grain has left: files know the last one.
+TEST(GrainFiles, KeepTheLastNumber) {
+  const TemporaryFolder folder;
+  GrainState state = two_grains();
+  state.last_id = 90;
+  OutputFiles(folder.path(), {}).write_grains(state, 0, 0);
+  EXPECT_EQ(read_grains(folder / "grains.h5").last_id, 90);
+  state.feed.next_id = 95;
+  EXPECT_EQ(last_id(state), 94);
+  EXPECT_EQ(two_grains().last_id, 70);
 }
 
 TEST(GrainFiles, ARestartFile) {

@@ -206,6 +206,36 @@ TEST(Output, TracksAreIdsAndPositions) {
   }
 }
 
+/// Between two rebuilds of the list a grain may be beyond a periodic side. In a file it is within,
+/// also where single precision would round it to the end.
+TEST(Output, PositionsAreWithinThePeriod) {
+  const TemporaryFolder folder;
+  constexpr double lx = 0.012, lz = 0.006;
+  const GrainState grains = make_grains(4);
+  const auto kin = mirror(grains.kin);
+  kin(0).x = {-8e-6, 1e-3, lz + 4e-6};
+  kin(1).x = {lx, 1e-3, lz * (1 - 1e-12)};
+  kin(2).x = {lx * (1 - 1e-12), 1e-3, -1e-30};
+  kin(3).x = {0.003, -1e-5, 0.002};
+  Kokkos::deep_copy(grains.kin, kin);
+  OutputFiles output(folder.path(), {}, {}, MPI_COMM_SELF, {.lx = lx, .lz = lz});
+  output.write_grains(grains, 0, 0);
+  output.write_tracks(grains, 0, 0);
+  for (const char* name : {"grains.h5", "tracks.h5"}) {
+    const Hdf5File file(folder / name, Hdf5File::Mode::read);
+    const auto x = file.read<double>("frame_000000/x", {4, 3});
+    for (std::size_t g = 0; g < 4; ++g) {
+      EXPECT_GE(x[3 * g], 0) << name << ", grain " << g;
+      EXPECT_LT(x[3 * g], lx) << name << ", grain " << g;
+      EXPECT_GE(x[3 * g + 2], 0) << name << ", grain " << g;
+      EXPECT_LT(x[3 * g + 2], lz) << name << ", grain " << g;
+    }
+    EXPECT_NEAR(x[0], lx - 8e-6, 1e-9);
+    EXPECT_NEAR(x[2], 4e-6, 1e-9);
+    EXPECT_NEAR(x[10], -1e-5, 1e-12) << "below the floor is no side";
+  }
+}
+
 TEST(Output, ARestartGoesOnWithFilesAndDescriptions) {
   const TemporaryFolder folder;
   {

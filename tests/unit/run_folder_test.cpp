@@ -13,6 +13,8 @@
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/heap_shares.hpp"
+#include "src/io/seal.hpp"
+#include "src/run/case_inputs.hpp"
 #include "src/run/history_table.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/file_size_limit.hpp"
@@ -257,10 +259,11 @@ TEST_F(OutFolder, IsOfARunIfItHoldsResults) {
 }
 
 TEST_F(OutFolder, KeepsARunThatTookTime) {
-  const Config config = load_config_text(test::grain_case(), folder_ / "case.toml");
+  const Case the_case = load_case_text(test::grain_case(), folder_ / "case.toml");
+  const Config& config = the_case.config;
   const auto kept = [&] {
     return message_of(
-        [&] { check_overwrites_nothing(earlier_run(config, folder_ / "out"), folder_ / "out"); });
+        [&] { check_overwrites_nothing(earlier_run(the_case, folder_ / "out"), folder_ / "out"); });
   };
   write("out/config.toml", to_toml(config));
   write_summary(folder_ / "out", {{"status", "failed"}});
@@ -268,10 +271,45 @@ TEST_F(OutFolder, KeepsARunThatTookTime) {
   write("out/restart_0000000100.h5");
   EXPECT_NE(kept().find("holds an unfinished run: go on with --restart"), std::string::npos);
   write_summary(folder_ / "out", {{"status", "done"}});
-  EXPECT_TRUE(earlier_run(config, folder_ / "out").done());
+  EXPECT_TRUE(earlier_run(the_case, folder_ / "out").done());
   write("out/config.toml", "[case]\n");
   EXPECT_NE(kept().find("holds a finished run of another configuration"), std::string::npos);
-  EXPECT_FALSE(earlier_run(config, folder_ / "out").done());
+  EXPECT_FALSE(earlier_run(the_case, folder_ / "out").done());
+}
+
+/// Inputs count by their content; one of a case also by that of what it starts from.
+TEST_F(OutFolder, IsOfOtherResultsWhenAnInputHasChanged) {
+  write("heap.csv", "id,diameter,x,y,z\n1,2e-4,0,0,0\n");
+  const auto text = [](const std::string& start) {
+    return "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[grains]\n[initial]\ngrains = "
+           "\"" +
+           start + "\"\n";
+  };
+  write("heap.toml", text("heap.csv"));
+  const Case the_case = load_case_text(text("heap.toml"), folder_ / "case.toml");
+  const auto changed = [&](const nlohmann::json& recorded) {
+    const auto file = changed_input(recorded, the_case);
+    return file ? file->filename().string() : "";
+  };
+  nlohmann::json recorded;
+  EXPECT_EQ(changed(recorded), "") << "nothing is known";
+  recorded["initial.grains"] = {{"config", to_toml(the_case.grain_start->config)},
+                                {"initial.grains", content_key(folder_ / "heap.csv")}};
+  EXPECT_EQ(changed(recorded), "");
+  EXPECT_EQ(changed({{"initial.grains", {{"config", "[case]\n"}}}}), "heap.toml");
+  EXPECT_EQ(changed(nlohmann::json::object()), "heap.toml") << "it began from something else";
+  EXPECT_EQ(changed("damaged"), "heap.toml");
+
+  write("out/config.toml", to_toml(the_case.config));
+  write("out/config.inputs.json", recorded.dump());
+  write("out/restart_0000000100.h5");
+  write_summary(folder_ / "out", {{"status", "done"}});
+  EXPECT_TRUE(earlier_run(the_case, folder_ / "out").done());
+  write("heap.csv", "id,diameter,x,y,z\n1,2e-4,0,1,0\n");  // of the same length
+  EXPECT_EQ(changed(recorded), "heap.csv");
+  const EarlierRun other = earlier_run(the_case, folder_ / "out");
+  EXPECT_FALSE(other.done());
+  EXPECT_EQ(other.difference(), "from another content of " + (folder_ / "heap.csv").string());
 }
 
 TEST_F(OutFolder, HoldsTablesAndFramesThatARestartGoesOnWith) {

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import MissingData
+from barchan.stats import within
 
 FORCES = ("force_drag", "force_pressure_gradient", "force_stress")
 PARTS = ("upstream", "crest", "downstream")
@@ -24,7 +25,7 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
         raise MissingData("needs grains.h5 with forces (output.grain_forces = true)")
     last = file.times[-1]
     start, end = last / 3 if start is None else start, last if end is None else end
-    inside = [name for time, name in file.frames if start - 1e-9 <= time <= end + 1e-9]
+    inside = [name for time, name in file.frames if within(time, start, end)]
     if not inside:
         raise MissingData(f"needs a frame with forces between t = {start:g} s and {end:g} s")
     with file.open() as content:

@@ -17,6 +17,7 @@ from barchan.errors import MissingData
 from barchan.io.frames import FrameFile, Grains
 from barchan.io.run_folder import RunFolder
 from barchan.io.tables import read_columns
+from barchan.stats import within
 
 COLUMNS = ("r_min", "r_max", "phi_min", "phi_max", "n", "F_x", "F_y", "F_z")
 PHI_BIN = 10.0
@@ -64,7 +65,7 @@ def over_frames(run: RunFolder, start: float | None, end: float | None) -> Force
     first, last = file.times[[0, -1]]
     start = 0.5 * (first + last) if start is None else start
     end = last if end is None else end
-    inside = [name for time, name in file.frames if start - 1e-9 <= time <= end + 1e-9]
+    inside = [name for time, name in file.frames if within(time, start, end)]
     if not inside:
         raise MissingData(f"needs a frame with forces between t = {start:g} s and {end:g} s")
     samples = [sample for sample in (read_sample(run, file, name) for name in inside) if sample]
@@ -119,7 +120,7 @@ def outline(run: RunFolder, start: float | None, end: float | None,
     """
     source = tracks(run)
     frames = [i for i, t in enumerate(source.times)
-              if start is None or end is None or start - 1e-9 <= t <= end + 1e-9]
+              if start is None or end is None or within(t, start, end)]
     frames = frames[::-(-len(frames) // most) or 1]
     maps: list[np.ndarray] = []
     edges = np.empty(0)

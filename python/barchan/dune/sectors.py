@@ -11,6 +11,7 @@ from barchan.dune import forces as force_average
 from barchan.dune.horns import find_horns, in_sectors
 from barchan.dune.tracks import tracks
 from barchan.errors import MissingData
+from barchan.stats import within
 
 SECTORS = ((105, 160), (210, 260))         # of the paper's text on its Fig. 11
 STRONG_SECTORS = ((100, 160), (210, 260))  # where the paper sees the strongest F_x
@@ -83,7 +84,7 @@ def dune_shape(run: Any, forces: force_average.ForceMap) -> tuple[float, float, 
     main = run.main_dune_columns
     inside = np.ones(len(main["t"]), bool)
     if forces.start is not None and forces.end is not None:
-        inside = (main["t"] >= forces.start - 1e-9) & (main["t"] <= forces.end + 1e-9)
+        inside = within(main["t"], forces.start, forces.end)
     if not inside.any():
         raise MissingData(f"needs dune.csv between t = {forces.start:g} s and {forces.end:g} s")
     crest = main["crest_x"][inside] - main["Cx"][inside]

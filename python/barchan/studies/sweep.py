@@ -26,6 +26,7 @@ from barchan.io.writing import appending
 from barchan.studies.spec import StudyError, read_study, unknown
 from barchan.studies.table import write_table
 
+CHANGED = "# changed since: "  # as the program says it
 PACKAGE = Path(__file__).resolve().parents[2]  # the folder in which the package lies
 
 
@@ -34,12 +35,16 @@ def say(text):
 
 
 def resolved(program, study, case):
-    """The case with every default filled in, as a dictionary; StudyError with the program's sentences."""
-    command = [program, "check", "--resolved-only", str(study.base), *case.set_options()]
+    """The case with every default filled in, as a dictionary, and the file whose content has changed since its folder's
+    results began from it, or None; StudyError with the program's sentences.
+    """
+    command = [program, "check", "--resolved-only", str(study.base), *case.set_options(),
+               "--out", str(study.out / case.run_name)]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
         raise StudyError(f"case {case.run_name}: {why(checked.returncode, checked.stderr.strip())}")
-    return tomllib.loads(checked.stdout)
+    *_, last = checked.stdout.splitlines()
+    return tomllib.loads(checked.stdout), last.removeprefix(CHANGED) if last.startswith(CHANGED) else None
 
 
 def why(status, said):
@@ -89,12 +94,13 @@ def newest_restart(folder):
     return files[-1] if files else None
 
 
-def state_of(folder, config):
+def state_of(folder, config, changed=None):
     """("done", None), ("continue", restart file) or ("new", None): what is left to do for a case.
 
-    A run counts as the same when its configuration is, the end time apart: a study may be made longer.
+    A run counts as the same when its configuration is, the end time apart (a study may be made longer), and no file
+    that it began from has `changed`.
     """
-    if without_end(toml_of(text_of(folder / "config.toml"))) != without_end(config):
+    if changed or without_end(toml_of(text_of(folder / "config.toml"))) != without_end(config):
         return "new", None
     done = json_of(folder / "run.json").get("status") == "done"
     if done and reached(folder) >= config["time"]["end"] * (1 - 1e-9):
@@ -138,7 +144,9 @@ class Sweep:
         self.overwrite = overwrite
         self.running, self.failed, self.stopping = [], {}, False
         self.finished, self.started = 0, time.monotonic()
-        self.configs = {case.run_name: resolved(program, study, case) for case in study.cases}
+        found = {case.run_name: resolved(program, study, case) for case in study.cases}
+        self.configs = {name: config for name, (config, _) in found.items()}
+        self.changed = {name: file for name, (_, file) in found.items()}  # until it has run again
         self.said = time.monotonic()
         self.began = time.time()
 
@@ -152,8 +160,10 @@ class Sweep:
     def run(self):
         waiting = []
         for case in self.chosen:
-            what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
-            say(f"{case.run_name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}")
+            what, _ = self.state(case)
+            changed = self.changed[case.run_name]
+            say(f"{case.run_name}: {dict(done='done before', new='to be run').get(what, 'to be continued')}"
+                + f", {changed} has changed" * bool(changed))
             if what != "done":
                 waiting.append(case)
         self.tabulate()
@@ -170,6 +180,9 @@ class Sweep:
         if self.draw and not self.stopping:
             draw_figures(self.study.out)
         return self.verdict()
+
+    def state(self, case):
+        return state_of(self.study.out / case.run_name, self.configs[case.run_name], self.changed[case.run_name])
 
     def verdict(self):
         if self.stopping:
@@ -194,7 +207,7 @@ class Sweep:
     def start(self, case):
         """First what the case starts from, alone: two cases must not compute the same start."""
         folder = writing.folder(self.study.out / case.run_name)
-        _, restart = state_of(folder, self.configs[case.run_name])
+        _, restart = self.state(case)
         if restart is None:
             command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
@@ -221,6 +234,8 @@ class Sweep:
         for one in [one for one in self.running if one.process.poll() is not None]:
             self.running.remove(one)
             status = one.process.returncode
+            if status in (0, 3):
+                self.changed[one.case.run_name] = None
             if status == 0:
                 self.finished += 1
                 say(f"{one.case.run_name}: done")
@@ -255,7 +270,7 @@ class Sweep:
             return "failed"
         if any(one.case is case for one in self.running):
             return "running"
-        what, _ = state_of(self.study.out / case.run_name, self.configs[case.run_name])
+        what, _ = self.state(case)
         return {"done": "done", "continue": "unfinished", "new": "waiting"}[what]
 
 
