@@ -5,6 +5,7 @@
 
 #include "src/app/memory.hpp"
 #include "src/app/starts.hpp"
+#include "src/base/stop_request.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
@@ -23,6 +24,13 @@ namespace {
 
 /// The case was stopped on request, or one that it starts from.
 struct Stopped {};
+
+/// Where there is no state yet that a restart file could hold.
+void end_if_asked() {
+  if (!any_rank(stop_signal != 0, MPI_COMM_WORLD)) return;
+  report::info("stopped on request; the same command goes on");
+  throw Stopped{};
+}
 
 /// What follows from the case, and what looks wrong in it.
 void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
@@ -75,6 +83,8 @@ std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
     if (!told)
       report::info("{} is being computed by {}; waiting", folder.string(),
                    FolderLock::holder_of(folder));
+    catch_stop_signals();
+    end_if_asked();
     Watchdog::heartbeat("waiting for a case that another process runs");
     std::this_thread::sleep_for(500ms);
   }
@@ -166,6 +176,7 @@ void run_locked(const Case& the_case, const RunOptions& options) {
   });
   const InitialFiles files =
       options.restart ? InitialFiles{} : start_files(the_case, options.folder);
+  end_if_asked();
   report::stop_log();
   report::info("{}", config.title);
   Watchdog::heartbeat("setting up");

@@ -29,10 +29,9 @@ inline void note_stop_signal(int signal) {
   }
 }
 
-/// From now on SIGINT, SIGTERM and SIGHUP only leave a note. A SIGHUP that is ignored (nohup) stays
-/// so.
+/// From now on SIGINT, SIGTERM and SIGHUP only leave a note, which stays: a case that is run before
+/// the one that was asked for must not use it up. A SIGHUP that is ignored (nohup) stays so.
 inline void catch_stop_signals() {
-  stop_signal = 0;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const auto before = std::signal(signal, note_stop_signal);
     if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);

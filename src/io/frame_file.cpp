@@ -15,25 +15,39 @@ namespace barchan {
 
 namespace {
 
-constexpr std::string_view kFramePrefix = "frame_";
+constexpr std::string_view kFrame = "frame_000000", kGroup = "frame_group_000";
+constexpr int kGroupSize = Hdf5File::kGroupLinks;
+constexpr int kMostFrames = 1000 * kGroupSize;
 
-/// Number of a frame's group; -1 for any other name.
-int frame_number(const std::string& name) {
+std::string name_of(int frame) {
+  const std::string name = fmt::format("frame_{:06}", frame);
+  return frame < kGroupSize ? name : fmt::format("frame_group_{:03}/{}", frame / kGroupSize, name);
+}
+
+std::string_view letters_of(std::string_view sample) { return sample.substr(0, sample.find('0')); }
+
+/// Number in a name as `sample`, where each digit is 0; -1 for any other name.
+int number_in(std::string_view name, std::string_view sample) {
   int number = -1;
-  if (!name.starts_with(kFramePrefix)) return -1;
+  if (!name.starts_with(letters_of(sample))) return -1;
   const char* end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + kFramePrefix.size(), end, number);
+  const auto [stop, error] = std::from_chars(name.data() + letters_of(sample).size(), end, number);
   return error == std::errc() && stop == end ? number : -1;
 }
 
-/// True for a name that one wrong bit may have made of a frame's: the frame must not be missed.
-bool is_nearly_a_frame(const std::string& name) {
-  constexpr std::string_view sample = "frame_000000";
+int frame_number(std::string_view path) {
+  const auto slash = path.find('/');
+  return number_in(slash == std::string_view::npos ? path : path.substr(slash + 1), kFrame);
+}
+
+/// True for a name that one wrong bit may have made of a frame's or a group's, which must not be
+/// missed.
+bool is_nearly(std::string_view sample, const std::string& name) {
   if (name.size() != sample.size()) return false;
   std::size_t right = 0;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool digit = name[i] >= '0' && name[i] <= '9';
-    if (i < kFramePrefix.size() ? name[i] == sample[i] : digit) ++right;
+    if (sample[i] != '0' ? name[i] == sample[i] : digit) ++right;
   }
   return right == name.size() - 1;
 }
@@ -57,10 +71,18 @@ FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
 
 std::vector<FrameInfo> list_frames(const Hdf5File& file) {
   std::vector<std::pair<int, std::string>> names;
-  for (const auto& name : file.children()) {
-    if (const int number = frame_number(name); number >= 0) names.emplace_back(number, name);
-    if (is_nearly_a_frame(name)) refuse(file, "\"" + name + "\" is not the name of a frame");
-  }
+  const auto collect = [&](const std::string& group) {  // returns the groups of frames in it
+    std::vector<std::string> groups;
+    for (const auto& name : file.children(group.empty() ? "/" : group)) {
+      const std::string path = group.empty() ? name : group + "/" + name;
+      if (const int number = frame_number(name); number >= 0) names.emplace_back(number, path);
+      if (number_in(name, kGroup) >= 0) groups.push_back(name);
+      if (is_nearly(kFrame, name) || (group.empty() && is_nearly(kGroup, name)))
+        refuse(file, "\"" + path + "\" is not the name of a frame");
+    }
+    return groups;
+  };
+  for (const auto& group : collect("")) collect(group);
   std::sort(names.begin(), names.end());  // by number, also beyond 999999
   std::vector<FrameInfo> frames;
   for (const auto& [number, name] : names) frames.push_back(read_frame(file, name));
@@ -77,9 +99,14 @@ FrameFile::FrameFile(std::filesystem::path path, Provenance provenance,
       communicator_(communicator),
       describe_(describe) {
   if (!restart_time || !std::filesystem::exists(path_)) return;
-  frames_ = list_frames(Hdf5File(path_, Hdf5File::Mode::read, communicator_));
+  bool has_room = false;
+  {
+    const Hdf5File file(path_, Hdf5File::Mode::read, communicator_);
+    frames_ = list_frames(file);
+    has_room = file.has_room();
+  }
   made_ = true;
-  drop_after(*restart_time);
+  bring_up_to_date(*restart_time, has_room);
   if (frames_.empty()) return;
   next_ = frame_number(frames_.back().name) + 1;
   write_description();  // frames may have been dropped
@@ -91,9 +118,9 @@ void FrameFile::write_description() const {
   write_atomically(beside, describe_(path_.filename().string(), frames_));
 }
 
-void FrameFile::drop_after(double t) {
+void FrameFile::bring_up_to_date(double t, bool has_room) {
   const auto late = [t](const FrameInfo& frame) { return frame.t > last_same_time(t); };
-  if (std::erase_if(frames_, late) == 0) return;
+  if (std::erase_if(frames_, late) == 0 && has_room) return;
   made_ = !frames_.empty();
   if (!made_) {  // the next frame begins a new file
     if (rank_of(communicator_) == 0) std::filesystem::remove(path_);
@@ -104,9 +131,14 @@ void FrameFile::drop_after(double t) {
     const Hdf5File old(path_, Hdf5File::Mode::read, communicator_);
     write_provenance(file, provenance_);
     for (const auto& name : old.children()) {
-      if (frame_number(name) < 0) file.copy_from(old, name);
+      if (frame_number(name) < 0 && number_in(name, kGroup) < 0) file.copy_from(old, name, name);
     }
-    for (const auto& frame : frames_) file.copy_from(old, frame.name);
+    for (auto& frame : frames_) {
+      const std::string name = name_of(frame_number(frame.name));
+      if (const auto slash = name.find('/'); slash != std::string::npos)
+        file.make_group(name.substr(0, slash), Hdf5File::kGroupLinks);
+      file.copy_from(old, std::exchange(frame.name, name), name);
+    }
   });
 }
 
@@ -128,25 +160,29 @@ void FrameFile::replace_file(const Preamble& fill) const {
 
 FrameInfo FrameFile::write_frame(Hdf5File& file, double t, std::int64_t step,
                                  const Content& content) const {
-  const std::string name = fmt::format("{}{:06}", kFramePrefix, next_);
+  const std::string name = name_of(next_);
   file.begin_hidden_group(name);
   file.set_attribute(name, "time", t);
   file.set_attribute(name, "step", step);
   content(file, name);
+  FrameInfo frame = read_frame(file, name);
   file.publish_group();
-  return read_frame(file, name);
+  return frame;
 }
 
 void FrameFile::append(double t, std::int64_t step, const Preamble& preamble,
                        const Content& content) {
   FrameInfo frame;
+  if (next_ == kMostFrames) {
+    throw Hdf5Error(fmt::format(
+        "cannot write {}: it holds {} frames, the most that one file takes: go on in another "
+        "--out, or with a longer interval",
+        path_.string(), kMostFrames));
+  }
   if (made_) {
     Hdf5File file(path_, Hdf5File::Mode::modify, communicator_);
     frame = write_frame(file, t, step, content);
-    file.close();
-  } else {
-    // The first link also makes the root's table, which is not safe against a kill as the later
-    // ones are: the file gets its name with its first frame.
+  } else {  // it gets its name with its first frame
     replace_file([&](Hdf5File& file) {
       write_provenance(file, provenance_);
       if (preamble) preamble(file);

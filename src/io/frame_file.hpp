@@ -1,4 +1,6 @@
-// An HDF5 file that grows by frames: /frame_000000, /frame_000001, ...
+// An HDF5 file that grows by frames: /frame_000000 to /frame_000249, then, in groups of 250,
+// /frame_group_001/frame_000250, ... A program that knows no groups stumbles over their names: it
+// must not take the first frames for all.
 #pragma once
 
 #include <mpi.h>
@@ -16,7 +18,7 @@
 namespace barchan {
 
 struct FrameInfo {
-  std::string name;  // "frame_000012"
+  std::string name;  // "frame_000012", "frame_group_001/frame_000262"
   double t = 0;      // [s]
   std::int64_t step = 0;
   std::map<std::string, ArrayInfo> arrays;
@@ -45,7 +47,8 @@ class FrameFile {
   const std::vector<FrameInfo>& frames() const { return frames_; }
 
  private:
-  void drop_after(double t);
+  /// Frames after t go; a file with the tables of an earlier version gets those of this one.
+  void bring_up_to_date(double t, bool has_room);
   /// Makes a new file beside and gives it the name when it is complete.
   void replace_file(const Preamble& fill) const;
   void write_description() const;

@@ -3,10 +3,15 @@
 // driver therefore takes note of the first failure, writes nothing more, and lets the library go on
 // undisturbed; Hdf5File looks at the note. The file is then as if the program had been killed at
 // that write.
+// What a file held when it was opened stays readable at every moment: of a block that is written
+// anew only the words that differ are written, the last one first. A new link thus lies complete
+// behind the end of the list of links before its first word makes it part of the list.
 // It also takes no locks: a viewer that has the file open must not be able to stop a run.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <iterator>
+#include <vector>
 
 #include "src/io/hdf5_handle.hpp"
 #if H5_VERSION_GE(1, 13, 0)
@@ -21,6 +26,7 @@ struct OpenFile {
   H5FD_t library_part;  // must come first: the library sees this only
   H5FD_t* posix;
   std::string* failure;  // the first one, owned by the Hdf5File
+  haddr_t size_before;   // of the file when it was opened
 };
 
 OpenFile& own(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
@@ -45,7 +51,8 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t last_a
   info->failure->clear();  // the library may have tried other flags before
   H5FD_t* const opened = H5FDopen(name, flags, plain, last_address);
   if (note(*info->failure, opened == nullptr ? -1 : 0) < 0) return nullptr;
-  return &(new OpenFile{{}, opened, info->failure})->library_part;
+  const haddr_t size = opened->cls->get_eof(opened, H5FD_MEM_DEFAULT);
+  return &(new OpenFile{{}, opened, info->failure, size})->library_part;
 }
 
 herr_t close_file(H5FD_t* file) {
@@ -63,11 +70,35 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t type, hid_t transfer, haddr_t address
               calls(file).read(posix(file), type, transfer, address, size, buffer));
 }
 
+/// As the first lines of this file say. A word that begins at a multiple of its size lies in one
+/// page, of which the system writes all or nothing.
+herr_t write_in_place(H5FD_t* file, H5FD_mem_t type, hid_t transfer, haddr_t address,
+                      std::size_t size, const char* bytes) {
+  constexpr std::size_t word = 8;
+  std::vector<char> old(size);
+  if (calls(file).read(posix(file), type, transfer, address, size, old.data()) < 0) return -1;
+  for (std::size_t end = size; end > 0;) {
+    const std::size_t over = (address + end) % word;
+    const std::size_t n = std::min(end, over == 0 ? word : over);
+    end -= n;
+    if (std::memcmp(old.data() + end, bytes + end, n) == 0) continue;
+    if (calls(file).write(posix(file), type, transfer, address + end, n, bytes + end) < 0)
+      return -1;
+  }
+  return 0;
+}
+
 herr_t write_bytes(H5FD_t* file, H5FD_mem_t type, hid_t transfer, haddr_t address, std::size_t size,
                    const void* buffer) {
   std::string& failure = *own(file).failure;
-  if (failure.empty())
-    note(failure, calls(file).write(posix(file), type, transfer, address, size, buffer));
+  const auto* bytes = static_cast<const char*>(buffer);
+  const haddr_t before = own(file).size_before;
+  const std::size_t old = address < before ? std::min<haddr_t>(size, before - address) : 0;
+  if (failure.empty() && old < size)
+    note(failure,
+         calls(file).write(posix(file), type, transfer, address + old, size - old, bytes + old));
+  if (failure.empty() && old > 0)
+    note(failure, write_in_place(file, type, transfer, address, old, bytes));
   return 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -18,10 +19,8 @@ namespace {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-// Room for this many links in the root's first table, and for their names (16 bytes each): while
-// they last, adding a frame rewrites two blocks in place, the names first.
-constexpr unsigned kRootLinks = 2048;
-constexpr std::size_t kNameBytes = 16;
+// Room in the header of the root, of which 64 kB is the most. Its attributes take some.
+constexpr unsigned kRootLinks = 1600, kNameBytes = 12;
 
 Handle access_list(bool parallel, MPI_Comm communicator, std::string* failure) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -35,22 +34,20 @@ Handle access_list(bool parallel, MPI_Comm communicator, std::string* failure) {
   return list;
 }
 
-/// Groups below the root keep their links in their header: without this each would have a table of
-/// the root's size.
-Handle group_creation_list() {
-  constexpr unsigned compact_links = 64;
-  Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+/// Groups keep their links in their header; `room`: for so many from the start.
+Handle creation_list(hid_t kind, unsigned room) {
+  const unsigned compact_links = std::max(room, 64u);
+  Handle list(H5Pcreate(kind), H5Pclose);
   H5Pset_link_creation_order(list.get(), H5P_CRT_ORDER_TRACKED);
   H5Pset_link_phase_change(list.get(), compact_links, compact_links / 2);
+  if (room > 0) H5Pset_est_link_info(list.get(), room, kNameBytes);
   H5Pset_obj_track_times(list.get(), false);
   return list;
 }
 
-Handle creation_list(bool sealable) {
-  Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+Handle file_creation_list(bool sealable) {
+  Handle list = creation_list(H5P_FILE_CREATE, sealable ? 0 : kRootLinks);
   if (sealable) H5Pset_userblock(list.get(), kSealBytes);
-  H5Pset_sym_k(list.get(), 0, kRootLinks / 2);
-  H5Pset_local_heap_size_hint(list.get(), kRootLinks * kNameBytes);
   return list;
 }
 
@@ -92,7 +89,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, MPI_Comm commun
   const Handle access = access_list(parallel_, communicator, failure_.get());
   Id opened = -1;
   if (mode == Mode::create || mode == Mode::create_sealable) {
-    const Handle creation = creation_list(mode == Mode::create_sealable);
+    const Handle creation = file_creation_list(mode == Mode::create_sealable);
     if (is_root_) remove_name(path);
     if (parallel_) synchronise(communicator);
     opened = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.get(), access.get());
@@ -155,33 +152,79 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
   return names;
 }
 
-void Hdf5File::copy_from(const Hdf5File& source, const std::string& name) {
-  check(H5Ocopy(source.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+void Hdf5File::copy_from(const Hdf5File& source, const std::string& name, const std::string& as) {
+  check(H5Ocopy(source.file_, name.c_str(), file_, as.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
   check_writes();
 }
 
-void Hdf5File::make_group(const std::string& name) {
+void Hdf5File::make_group(const std::string& name, unsigned room) {
   if (name.empty() || exists(name)) return;
   if (const auto slash = name.rfind('/'); slash != std::string::npos) {
     make_group(name.substr(0, slash));
   }
   const auto [base, path] = locate(name);
-  const Handle creation = group_creation_list();
+  const Handle creation = creation_list(H5P_GROUP_CREATE, room);
   const Handle group(
       check(H5Gcreate2(base, path.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name),
       H5Gclose);
 }
 
+bool Hdf5File::has_room() const {
+  const Handle root(check(H5Gopen2(file_, "/", H5P_DEFAULT)), H5Gclose);
+  const Handle creation(check(H5Gget_create_plist(root.get())), H5Pclose);
+  unsigned links = 0, name_bytes = 0;
+  check(H5Pget_est_link_info(creation.get(), &links, &name_bytes));
+  return links >= kRootLinks && name_bytes >= kNameBytes;
+}
+
 void Hdf5File::begin_hidden_group(const std::string& as) {
-  hidden_ = check(H5Gcreate_anon(file_, group_creation_list().get(), H5P_DEFAULT), as);
+  hidden_ = check(H5Gcreate_anon(file_, creation_list(H5P_GROUP_CREATE, 0).get(), H5P_DEFAULT), as);
   hidden_name_ = as;
 }
 
 void Hdf5File::publish_group() {
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL));  // all the new link leads to is there before the link
-  check_writes();
-  check(H5Olink(hidden_, file_, hidden_name_.c_str(), H5P_DEFAULT, H5P_DEFAULT), hidden_name_);
-  check(H5Gclose(std::exchange(hidden_, -1)), hidden_name_);
+  // Counted as if something led to it, else closing the file would remove it.
+  check(H5Oincr_refcount(hidden_), hidden_name_);
+  hobj_ref_t address = 0;
+  check(H5Rcreate(&address, hidden_, ".", H5R_OBJECT, -1), hidden_name_);
+  // All the new link leads to is on the disk before the link.
+  if (!parallel_) {
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+    check_writes();
+    check(H5Gclose(std::exchange(hidden_, -1)), hidden_name_);
+    link(address, hidden_name_);
+    return close();
+  }
+  close();
+  synchronise(communicator_);
+  if (is_root_) {  // through the serial driver
+    Hdf5File serial(path_, Mode::modify);
+    serial.link(address, hidden_name_);
+    serial.close();
+  }
+  synchronise(communicator_);
+}
+
+/// Gives the group at `address` its name. What was in the file before changes in one place only:
+/// the header of the group that gets the name, where the driver writes the link's first word last.
+void Hdf5File::link(std::uint64_t address, const std::string& as) {
+  const hobj_ref_t reference = address;
+  const Handle object(check(H5Rdereference2(file_, H5P_DEFAULT, H5R_OBJECT, &reference), as),
+                      H5Oclose);
+  const auto slash = as.find('/');
+  const std::string group = slash == std::string::npos ? "/" : as.substr(0, slash);
+  if (exists(group)) {
+    check(H5Olink(object.get(), file_, as.c_str(), H5P_DEFAULT, H5P_DEFAULT), as);
+  } else {  // a new group, which is complete before it has a name
+    const Handle creation = creation_list(H5P_GROUP_CREATE, kGroupLinks);
+    const Handle made(check(H5Gcreate_anon(file_, creation.get(), H5P_DEFAULT), group), H5Gclose);
+    check(H5Oincr_refcount(made.get()), group);
+    check(H5Olink(object.get(), made.get(), as.c_str() + slash + 1, H5P_DEFAULT, H5P_DEFAULT), as);
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+    check(H5Olink(made.get(), file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT), group);
+    check(H5Odecr_refcount(made.get()), group);
+  }
+  check(H5Odecr_refcount(object.get()), as);
 }
 
 }  // namespace barchan

@@ -68,15 +68,22 @@ class Hdf5File {
   bool is_group(const std::string& name) const;
   /// Names directly below a group, in alphabetical order.
   std::vector<std::string> children(const std::string& group = "/") const;
-  /// Copies a group or an array, with all below it, under the same name.
-  void copy_from(const Hdf5File& source, const std::string& name);
-  /// Makes a group and those on the way, where missing.
-  void make_group(const std::string& name);
+  /// Copies a group or an array, with all below it.
+  void copy_from(const Hdf5File& source, const std::string& name, const std::string& as);
+  /// Makes a group and those on the way, where missing; `room`: for so many names from the start.
+  void make_group(const std::string& name, unsigned room = 0);
 
-  /// Makes a group that nothing leads to yet, fills it through the names below `as`, and is made
-  /// visible as `as` by publish_group(), after all its content is on the disk. A kill at any moment
-  /// leaves a valid file, with this group or without it.
+  /// Names of frames that fit into a group made by publish_group(). In the root there is room for
+  /// as many, and for a thousand groups. For more a table would have to grow in place, and a kill
+  /// at that moment would cost all that is in it.
+  static constexpr unsigned kGroupLinks = 250;
+  /// True for a file whose root has this room; those of version 0.2.0 have other tables.
+  bool has_room() const;
+
+  /// Makes a group that nothing leads to yet, which is filled through the names below `as`.
   void begin_hidden_group(const std::string& as);
+  /// Makes it visible as `as`, "name" or "group/name", after all its content is on the disk, and
+  /// closes the file. A kill at any moment leaves a valid file, with this group or without it.
   void publish_group();
 
   /// T is float, double, std::int32_t or std::int64_t. `extents` are those of `values`. Without a
@@ -131,6 +138,7 @@ class Hdf5File {
                          const Extents& size) const;
   void put_attribute(const std::string& object, const std::string& name, Id type,
                      const void* value);
+  void link(std::uint64_t address, const std::string& as);
 
   std::filesystem::path path_;
   Mode mode_;

@@ -44,7 +44,7 @@ std::string time_series(const char* name, const char* centre, const char* points
     grids += fmt::format(
         "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.10g}\"/>\n{}"
         "      </Grid>\n",
-        frame.name, frame.t, content);
+        frame.name.substr(frame.name.find('/') + 1), frame.t, content);
   }
   return fmt::format(
       "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"

@@ -208,6 +208,9 @@ TEST(Hdf5File, AHiddenGroupAppearsWhenPublished) {
     file.set_attribute("frame", "time", 2.0);
     EXPECT_TRUE(file.children().empty());
     file.publish_group();
+  }
+  {
+    Hdf5File file(folder / "a.h5", Mode::modify);
     EXPECT_EQ(file.children(), std::vector<std::string>{"frame"});
     file.begin_hidden_group("dropped");
     write(file, "dropped/a", counting<double>(3), {3});

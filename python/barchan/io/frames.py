@@ -70,6 +70,15 @@ class Flow:
     alpha_f: np.ndarray
 
 
+def frame_names(file: Group) -> list[str]:
+    """Of an open file: frame_000000 to frame_000249, then, in groups, frame_group_001/frame_000250 and so on."""
+    names = [name for name in file if name.startswith("frame_")]
+    groups = [(name, file[name]) for name in names if name.startswith("frame_group_")]
+    names = [name for name in names if not name.startswith("frame_group_")]
+    names += [f"{name}/{frame}" for name, group in groups if isinstance(group, Group) for frame in group]
+    return sorted(names, key=lambda name: name.rpartition("frame_")[2].zfill(9))
+
+
 class FrameFile:
     """Times and names of the frames of a file that are complete; `frames` is a list of (time [s], name)."""
 
@@ -86,7 +95,7 @@ class FrameFile:
             self.config_text = file.attrs.get("config", "")
             self.title = file.attrs.get("title", "")
             self.frames = []
-            for name in sorted(name for name in file if name.startswith("frame_")):
+            for name in frame_names(file):
                 group = file[name]
                 if "time" in group.attrs and all(key in group for key in needed):
                     self.frames.append((float(group.attrs["time"]), name))

@@ -45,7 +45,7 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
         if kind == "fields":
             _write_mesh(mesh, root["grid"])
         for time, name in file.frames:
-            path = folder / f"{kind}_{name.removeprefix('frame_')}.hdf"
+            path = folder / f"{kind}_{name.rpartition('frame_')[2]}.hdf"
             with _new_file(path) as out:
                 top = out.create_group("VTKHDF")
                 top.attrs["Version"], top.attrs["Type"] = [1, 0], np.bytes_("UnstructuredGrid")
