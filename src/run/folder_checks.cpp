@@ -123,7 +123,8 @@ void check_is_ours(const Config& config, const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
     std::error_code error;
-    if (is_result_name(name) && !is_checkpoint_name(name) &&
+    const bool unfinished = name.extension() == ".tmp";  // all that a kill at the start leaves
+    if (is_result_name(name) && !is_checkpoint_name(name) && !unfinished &&
         !fs::equivalent(entry.path(), config.file, error))
       refuse_folder(folder, name.string() + " in it is not of a run");
   }

@@ -249,7 +249,8 @@ TEST_F(OutFolder, IsOfARunIfItHoldsResults) {
   const Config config = load_config_text(test::grain_case(), folder_ / "out/config.toml");
   const auto foreign = [&] { return message_of([&] { check_is_ours(config, folder_ / "out"); }); };
   EXPECT_EQ(foreign(), "");
-  for (const char* name : {"notes.tmp", "thesis.txt", "config.toml", "restart_0000000100.h5"})
+  for (const char* name : {"notes.tmp", "thesis.txt", "config.toml", "restart_0000000100.h5",
+                           "run.json.tmp"})  // the last one is all that a kill may leave
     write(std::string("out/") + name);
   EXPECT_EQ(foreign(), "");
   write("out/log.txt");
