@@ -91,7 +91,7 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
                    "makes cells {:.1f} mean grain diameters long: a dune has a step in each column "
                    "of cells; take 5 or less",
                    n.column_ratio);
-  found.warning_if(n.width_ratio < 2, {"fluid.cells", "domain.size", "grains.sizes"},
+  found.warning_if(n.width_ratio < 2 * (1 - 1e-9), {"fluid.cells", "domain.size", "grains.sizes"},
                    "makes cells {:.2f} mean grain diameters narrow: below 2 each belongs to single "
                    "grains, which then read their own wake; take 2.4 or more",
                    n.width_ratio);
