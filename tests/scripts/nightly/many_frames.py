@@ -74,6 +74,7 @@ def kill(work, folder, number):
     while process.poll() is None and (tracks.stat().st_size <= size or tracks.stat().st_ino != inode):
         if tracks.stat().st_ino != inode:  # frames after the restart were dropped
             size, inode = tracks.stat().st_size, tracks.stat().st_ino
+        time.sleep(0.001)
     time.sleep(random.uniform(0, 0.1))
     process.send_signal(signal.SIGKILL)
     if process.wait() != -signal.SIGKILL:
