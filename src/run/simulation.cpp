@@ -14,8 +14,6 @@ namespace barchan {
 
 namespace {
 
-constexpr const char* kOnRequest = "stopped on request";
-
 /// Where the state of a start comes from, for messages.
 std::string source_of(const Config& config, const RunOptions& options, const InitialFiles& files) {
   if (options.restart) return options.restart->string();
@@ -91,7 +89,7 @@ Outcome Simulation::run() {
 }
 
 Outcome Simulation::loop() {
-  std::string stopped = asked_to_stop() ? kOnRequest : "";  // why, if it was: during the set-up
+  std::string stopped;  // why, if it was
   while (run_.clock.step < run_.clock.end && stopped.empty()) {
     one_step();
     stopped = reason_to_stop();
@@ -128,12 +126,10 @@ std::string Simulation::reason_to_stop() const {
   const double limit = run_.config.time.wall_clock_limit;
   const bool out_of_time =
       limit > 0 && broadcast(seconds_since(accounts_.start) > limit, run_.ranks);
-  const bool asked = asked_to_stop();
+  const bool requested = any_rank(stop_signal != 0, run_.ranks);
   if (out_of_time) return "the wall-clock limit was reached";
-  return asked ? kOnRequest : "";
+  return requested ? "stopped on request" : "";
 }
-
-bool Simulation::asked_to_stop() const { return any_rank(stop_signal != 0, run_.ranks); }
 
 /// In run.json, if the disk that may be the problem lets us.
 void Simulation::say_failed(const std::string& message) {

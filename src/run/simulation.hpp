@@ -39,7 +39,6 @@ class Simulation {
   Outcome loop();
   void one_step();
   std::string reason_to_stop() const;
-  bool asked_to_stop() const;
   void say_failed(const std::string& message);
 
   RunOptions options_;

@@ -12,6 +12,7 @@ import pytest
 from fake_runs import ROOT, fake
 
 import barchan
+from barchan import vtk
 
 
 @pytest.fixture(scope="module")
@@ -156,6 +157,27 @@ for grains in run.frames(progress=False):
     last = grains.attrs["time"]
 print(one, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, last)
 """
+
+
+def test_frames_in_groups_come_after_those_in_the_root(tmp_path):
+    """As the program writes more than 250 frames; a link to another file among them is not followed."""
+    paths = [f"frame_{index:06d}" if index < 250 else f"frame_group_{index // 250:03d}/frame_{index:06d}"
+             for index in range(750)]
+    with h5py.File(tmp_path / "grains.h5", "w") as file:
+        for index in reversed(range(750)):
+            group = file.create_group(paths[index])
+            group.attrs["time"] = 0.5 * index
+            group["id"], group["x"], group["d"] = [3], [[1.0 * index, 0, 0]], [2e-4]
+    run = barchan.Run(tmp_path)
+    assert run.grain_file.frames == [(0.5 * index, path) for index, path in enumerate(paths)]
+    assert run.grains(frame=749)["x"].item() == 749 and run.grains(t=150)["x"].item() == 300
+    assert vtk.main([str(tmp_path)]) == 0
+    with h5py.File(tmp_path / "vtkhdf/grains_000700.hdf") as file:
+        assert file["VTKHDF/Points"][0, 0] == 700
+    with h5py.File(tmp_path / "grains.h5", "a") as file:
+        file["frame_group_003"] = h5py.ExternalLink("other.h5", "/")
+    with pytest.raises(barchan.BarchanError, match="frame_group_003 in it is a link"):
+        barchan.Run(tmp_path).grains()
 
 
 def test_many_frames_take_the_memory_of_one(tmp_path):

@@ -1,11 +1,16 @@
 #!/usr/bin/python3
 """A run that is asked to stop (SIGTERM, SIGINT, SIGHUP, several signals at once, the wall-clock limit) writes a restart
 file, ends with exit code 3 and says how to go on; going on gives the bits of the run that nobody stopped, also in the
-middle of a ramp of the flow. A run whose output nobody reads ends as any other."""
+middle of a ramp of the flow. So does one that is asked while it sets up its case after a precursor case, or while it
+waits for one that another process computes. A run whose output nobody reads ends as any other."""
+import fcntl
+import json
 import signal
 import subprocess
+import time
 
 import faults
+import same_bits
 
 LONG = {**faults.OFTEN, "time.end": 0.25, "restart.interval": 0}
 
@@ -69,7 +74,101 @@ def goes_on_within_a_ramp(work):
     faults.same_run(work / "turned", work / "halves")
 
 
+FALL = """[time]
+end = {end}
+fluid_step = {step}
+grain_step = 5e-6
+[domain]
+size = [0.012, 0.006, 0.006]
+[grains]
+youngs_modulus = 1.25e6
+"""
+POURED = FALL.format(end=0.005, step=2.5e-4) + """sizes = [[2e-4, 200]]
+[initial.grains.pour]
+centre = [0.008, 0.003]
+radius = 0.0018
+"""
+FLUID = """[fluid]
+cells = [60, 40, 24]
+first_cell_height = 0
+mean_velocity = 0.2
+"""
+FLOW = """[time]
+end = 0.001
+fluid_step = 2.5e-4
+[domain]
+size = [0.012, 0.006, 0.006]
+""" + FLUID.replace("[60, 40, 24]", "[10, 14, 6]")
+FINE = FALL.format(end=2e-4, step=2e-5) + FLUID + """[initial]
+grains = "heap.toml"
+fluid = """
+
+
+def is_done(folder):
+    """The run there has written its last restart file."""
+    try:
+        return faults.summary(folder)["status"] == "done"
+    except (OSError, json.JSONDecodeError):
+        return False
+
+
+def command(work, name, *words):
+    return [faults.PROGRAM, "run", work / f"{name}.toml", "--threads", "1", "--out", work / name, *words]
+
+
+def start(work, name):
+    """What it says goes to NAME.txt."""
+    with open(work / f"{name}.txt", "w") as said:
+        return subprocess.Popen(command(work, name), env=faults.ENVIRONMENT, stdout=said, stderr=subprocess.STDOUT)
+
+
+def stops_during_a_set_up(work, delay):
+    """The signal comes some seconds after the precursor case, before the first steps of the case."""
+    work.mkdir()
+    (work / "heap.toml").write_text(POURED)
+    (work / "fine.toml").write_text(FINE + '"turbulent"\n')
+    process = start(work, "fine")
+    faults.wait_until(lambda: is_done(work / "heap"), process, work)
+    time.sleep(delay)
+    process.send_signal(signal.SIGTERM)
+    code, said = process.wait(timeout=60), (work / "fine.txt").read_text()
+    last = faults.last_restart(work / "fine")
+    if code != 3 or "stopped on request" not in said:
+        faults.fail(f"a signal {delay} s after the precursor case: exit code {code}: {said}")
+    if last:  # there was a state already
+        check_stopped(work / "fine", code, said)
+    faults.expect(subprocess.run(command(work, "fine", *(["--restart", last] if last else [])), env=faults.ENVIRONMENT,
+                                 capture_output=True, text=True), 0)
+    return faults.last_restart(work / "fine")
+
+
+def stops_while_it_waits(work, which, other):
+    """For a precursor case that another process computes: this one, which holds the lock."""
+    (work / other).mkdir(parents=True)
+    (work / "heap.toml").write_text(POURED)
+    (work / "flow.toml").write_text(FLOW)
+    (work / "both.toml").write_text(FINE.replace("[60, 40, 24]", "[10, 14, 6]") + '"flow.toml"\n')
+    with open(work / other / ".barchan.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        process = start(work, "both")
+        said = work / "both.txt"
+        faults.wait_until(lambda: "; waiting" in said.read_text(), process, work)
+        process.send_signal(which)
+        try:
+            code = process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            code = "it goes on waiting"
+    if code != 3 or "stopped on request" not in said.read_text() or (work / "both").exists():
+        faults.fail(f"{which.name} while waiting for {other}: {code}: {said.read_text()}")
+
+
 def main(work):
+    ends = [stops_during_a_set_up(work / f"set_up_{delay}", delay) for delay in (0, 0.1, 0.3)]
+    for other in ends[1:]:
+        same_bits.compare(ends[0], other)
+    stops_while_it_waits(work / "waits", signal.SIGINT, "heap")  # after its own flow.toml
+    stops_while_it_waits(work / "waits_at_once", signal.SIGTERM, "flow")
     goes_on_within_a_ramp(work)
     faults.expect(faults.run(work / "whole", LONG), 0)
     for which in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):

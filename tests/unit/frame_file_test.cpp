@@ -192,8 +192,8 @@ std::vector<std::string> names_in(const Hdf5File& file, const std::string& group
 
 /// One more frame, behind so many.
 class FrameFileOf : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Frames, FrameFileOf, testing::Values(1, 10, 249, 250, 500, 2046));
-INSTANTIATE_TEST_SUITE_P(NightlyFrames, FrameFileOf, testing::Values(2250, 5000));
+INSTANTIATE_TEST_SUITE_P(Frames, FrameFileOf, testing::Values(10, 249, 250, 2046));
+INSTANTIATE_TEST_SUITE_P(NightlyFrames, FrameFileOf, testing::Values(1, 500, 2250, 5000));
 
 TEST_P(FrameFileOf, KeepsThemWhateverTheNextWriteMeets) {
   const int n = GetParam();
@@ -299,7 +299,7 @@ TEST(FrameFile, GoesOnWithAFileOfAnEarlierVersion) {
   make_old_file(folder / "b.h5", 3);
   meet_at_every_write(
       Fault::kill, folder / "b.h5", [](const std::filesystem::path& copy) { open(copy, 1e9); },
-      [](const std::filesystem::path& path) { ASSERT_EQ(sound_times(path).size(), 3u); });
+      [](const std::filesystem::path& copy) { ASSERT_EQ(sound_times(copy).size(), 3u); });
 }
 
 /// The root is filled to the last name, with attributes as a run writes them: its header has not
