@@ -50,14 +50,10 @@ def run(*arguments):
 
 def times(path):
     """Of all frames that h5py finds, in order."""
-    found = []
-
-    def take(_, item):
-        if "time" in item.attrs:
-            found.append(float(item.attrs["time"]))
     with h5py.File(path) as file:
-        file.visititems(take)
-    return sorted(found)
+        groups = [file, *(file[name] for name in file if name.startswith("frame_group_"))]
+        return sorted(float(group[name].attrs["time"]) for group in groups for name in group
+                      if name.startswith("frame_0"))
 
 
 def bits(path):
