@@ -70,7 +70,8 @@ FrameInfo read_frame(const Hdf5File& file, const std::string& name) {
 }  // namespace
 
 std::vector<FrameInfo> list_frames(const Hdf5File& file) {
-  std::vector<std::pair<int, std::string>> names;
+  using Name = std::pair<int, std::string>;
+  std::vector<Name> names;
   const auto collect = [&](const std::string& group) {  // returns the groups of frames in it
     std::vector<std::string> groups;
     for (const auto& name : file.children(group.empty() ? "/" : group)) {
@@ -83,7 +84,9 @@ std::vector<FrameInfo> list_frames(const Hdf5File& file) {
     return groups;
   };
   for (const auto& group : collect("")) collect(group);
-  std::sort(names.begin(), names.end());  // by number, also beyond 999999
+  std::sort(names.begin(), names.end());  // by number
+  if (std::ranges::adjacent_find(names, {}, &Name::first) != names.end())
+    refuse(file, "two of its frames have the same number");
   std::vector<FrameInfo> frames;
   for (const auto& [number, name] : names) frames.push_back(read_frame(file, name));
   if (!std::ranges::is_sorted(frames, {}, &FrameInfo::step)) {
