@@ -12,6 +12,7 @@
 #include "barchan_version.hpp"
 #include "src/app/check_case.hpp"
 #include "src/app/info_path.hpp"
+#include "src/app/machine_limits.hpp"
 #include "src/app/run_case.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
@@ -126,6 +127,12 @@ int main(int argc, char** argv) {
   using namespace barchan;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
   keep_standard_streams();
+  try {
+    check_machine_limits();
+  } catch (const InputError& problem) {
+    std::cerr << "error: " << printable_lines(problem.what()) << '\n';
+    return 2;
+  }
   const MpiScope mpi(&argc, &argv);
   try {
     const auto line =

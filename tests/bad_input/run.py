@@ -100,7 +100,7 @@ def conditions(entry, folder):
     elif kind == "nobody" and os.geteuid() == 0:
         yield ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if shutil.which("setpriv") else None
     else:
-        yield ["prlimit", f"--{kind}={size}"] if kind in ("fsize", "as") else []
+        yield ["prlimit", f"--{kind}={size}"] if kind in ("fsize", "as", "nofile") else []
 
 
 def command_of(entry, program):
