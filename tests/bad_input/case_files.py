@@ -134,6 +134,7 @@ def body(name, keys, says, **more):
 
 
 UPRIGHT, SOLID_DUNE = 'shape = "cylinder"; centre = [0.004, 0.003]; ', 'shape = "dune"; centre = [0.008, 0.003]; '
+HALF = 'shape = "box"; centre = [0.004, {}]; size = [0.002, 0.003]; height = 0.006'
 BODIES = [
     body("a body of no shape that we know", 'shape = "cone"', '@shape | "cylinder" | "wave"'),
     body("a cylinder of no radius", UPRIGHT + "height = 0.003",
@@ -147,11 +148,9 @@ BODIES = [
     body("a body that fills the box", 'shape = "box"; height = 0.006', "@shape | must leave water beside or above"),
     body("a body across the stream", 'shape = "box"; centre = [0.004, 0]; size = [0.003, 0]; height = 0.006',
          "@shape | must leave water beside or above"),
-    body("two bodies that close the channel together",
-         'shape = "box"; centre = [0.004, 0.0015]; size = [0.002, 0.003]; height = 0.006 ;; '
-         'fields_interval = 5e-4 => fields_interval = 5e-4\n[[body]]\nname = "other"\nshape = "box"\n'
-         'centre = [0.004, 0.0045]\nsize = [0.002, 0.003]\nheight = 0.006',
-         "case.toml | [[body]] must leave water beside or above | along x"),
+    Entry("two bodies that close the channel together", body("", HALF.format("0.0015"), "").edits +
+          ' ;; [output] => [[body]]\nname = "other"\n' + HALF.format("0.0045").replace("; ", "\n") + "\n[output]",
+          "case.toml | [[body]] must leave water beside or above | along x"),
     body("a wave up to the lid", 'shape = "wave"; height = 0.002; wavelength = 0.006; base = 0.005',
          "case.toml | [[body]] must leave water beside or above | along x"),
     body("posts that overlap", 'shape = "fence"; centre = [0.004, 0.003]; radius = 5e-4; height = 0.003; '

@@ -192,8 +192,8 @@ std::vector<std::string> names_in(const Hdf5File& file, const std::string& group
 
 /// One more frame, behind so many.
 class FrameFileOf : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Frames, FrameFileOf, testing::Values(10, 249, 250, 2046));
-INSTANTIATE_TEST_SUITE_P(NightlyFrames, FrameFileOf, testing::Values(1, 500, 2250, 5000));
+INSTANTIATE_TEST_SUITE_P(Frames, FrameFileOf, testing::Values(10, 249, 250));
+INSTANTIATE_TEST_SUITE_P(NightlyFrames, FrameFileOf, testing::Values(1, 500, 2046, 2250, 5000));
 
 TEST_P(FrameFileOf, KeepsThemWhateverTheNextWriteMeets) {
   const int n = GetParam();
