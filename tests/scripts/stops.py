@@ -99,7 +99,7 @@ fluid_step = 2.5e-4
 [domain]
 size = [0.012, 0.006, 0.006]
 """ + FLUID.replace("[60, 40, 24]", "[10, 14, 6]")
-FINE = FALL.format(end=2e-4, step=2e-5) + FLUID + """[initial]
+FINE = FALL.format(end=4e-3, step=2e-5) + FLUID + """[initial]
 grains = "heap.toml"
 fluid = """
 
