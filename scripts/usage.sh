@@ -17,11 +17,13 @@ usage: $command_name COMMAND [arguments]
       --patience S      wall seconds without progress after which several ranks give up (default: 600, 0: never)
       --dry-run         check the case, print its derived numbers and warnings; nothing is run or written
       --starts-only     run the cases this one starts from where they are missing, then stop
-      --quiet           no live line on the terminal
-  check CASE.toml     validate a case; print it resolved, with derived numbers, how long it takes, and warnings
+      --quiet           show warnings and errors only
+      --verbose         show also derived numbers, rates and iterations, which log.txt always has
+  check CASE.toml     validate a case; print what follows from its numbers, how long it takes, and warnings
       --set KEY=VALUE, --out DIR, --threads N   as of run
+      --resolved        print also the case with every default, as TOML
       --resolved-only   print the case with every default as TOML, nothing else
-  keys [SECTION]      the keys of a case, or of one section, with range, unit, default and meaning
+  keys [SECTION]      the keys of a case, of one section, or one key, with range, unit, default and meaning
   sweep STUDY.toml    a parameter study: one run folder per case, resumed where it was left
       --out DIR         folder of the study (default: runs/<study name>)
       --only RUN ...    these runs of it; patterns with * are taken

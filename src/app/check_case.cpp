@@ -51,12 +51,11 @@ int run_check(const CommandLine& line, std::ostream& out) {
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
   if (memory_of_case(config, planned.sizes) < memory_of_machine())
     cost = as_input([&] { return estimate(the_case, folder, planned); });
-  out << "# " << line.file.string() << ", every default filled in\n\n" << to_toml(config);
-  out << "\n# What follows from it\n\n"
-      << to_text(derived) << memory_line(config, planned.sizes) << cost;
+  out << to_text(derived) << memory_line(config, planned.sizes) << cost;
   const auto warnings = config_warnings(config, planned.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
+  if (line.resolved) out << '\n' << "# The case, every default filled in\n\n" << to_toml(config);
   return 0;
 }
 

@@ -21,7 +21,12 @@ void check_command(int argc, const char* const* argv) {
 }
 
 /// What CLI11 lists as "not expected", in order, with the option it may have been meant for.
-std::string not_expected(const CLI::App& app, const CLI::App& command) {
+std::string not_expected(const CLI::App& app, const CLI::App& command,
+                         const std::vector<std::string>& overrides) {
+  for (const std::string& key : overrides) {
+    if (key.find('=') == key.npos)
+      return fmt::format("--set {0} has no value: write --set {0}=VALUE, without blanks", key);
+  }
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -56,8 +61,8 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     return added;
   };
   CLI::App* run = add_command(Command::run, "run", "run a case");
-  CLI::App* check = add_command(Command::check, "check",
-                                "validate a case; print it resolved, with derived numbers");
+  CLI::App* check =
+      add_command(Command::check, "check", "validate a case; print what follows from its numbers");
   add_command(Command::keys, "keys", "the keys of a case with range, unit, default and meaning")
       ->add_option(
           "SECTION", line.section,
@@ -90,13 +95,21 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
       "check the case, print its derived numbers and warnings; nothing is run or written");
   run->add_flag("--starts-only", line.starts_only,
                 "run the cases this one starts from where their results are missing, then stop");
-  run->add_flag("--quiet", line.quiet, "no live line on the terminal");
+  CLI::Option* quiet = run->add_flag_callback(
+      "--quiet", [&line] { line.shown = report::Shown::problems; },
+      "show warnings and errors only");
+  run->add_flag_callback(
+         "--verbose", [&line] { line.shown = report::Shown::details; },
+         "show derived numbers, rates and iterations, which log.txt always has")
+      ->excludes(quiet);
+  check->add_flag("--resolved", line.resolved,
+                  "print also the case with every default filled in, as TOML");
   check->add_flag("--resolved-only", line.resolved_only,
                   "print the case with every default as TOML, nothing else");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& stop) {
-    const std::string found = not_expected(app, *app.get_subcommands().front());
+    const std::string found = not_expected(app, *app.get_subcommands().front(), line.overrides);
     throw InputError(found.empty() ? stop.what() : found);
   } catch (const CLI::ParseError& stop) {
     std::ostringstream out, err;

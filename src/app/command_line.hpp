@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/base/report.hpp"
+
 namespace barchan {
 
 /// `none`: nothing to do but print `text` (help, version).
@@ -25,7 +27,8 @@ struct CommandLine {
   bool overwrite = false;                          // --overwrite: an earlier run in the folder
   bool dry_run = false;                            // --dry-run: check and show, write nothing
   bool starts_only = false;                        // --starts-only: run what the case starts from
-  bool quiet = false;                              // --quiet: no live line
+  report::Shown shown = report::Shown::progress;   // --quiet, --verbose
+  bool resolved = false;                           // --resolved: of check also the TOML
   bool resolved_only = false;  // --resolved-only: of check the TOML alone, for other programs
 };
 

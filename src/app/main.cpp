@@ -72,6 +72,10 @@ int with_kokkos(const CommandLine& line, const Work& work) {
   check_environment();
   Kokkos::InitializationSettings settings;
   if (line.threads > 0) settings.set_num_threads(line.threads);
+  if (const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+      cores > 0 && line.threads > cores)
+    report::warn("--threads {} on {} cores: threads that share a core wait for each other",
+                 line.threads, cores);
   // Ranks that share cores were asked for: a warning from each would bury the run's own lines.
   if (rank_count(MPI_COMM_WORLD) > 1) settings.set_disable_warnings(true);
   const Kokkos::ScopeGuard kokkos(settings);
@@ -137,7 +141,7 @@ int main(int argc, char** argv) {
   try {
     const auto line =
         parse_command_line(argc, argv, "barchan " BARCHAN_VERSION " (" BARCHAN_GIT_HASH ")");
-    report::start(line.quiet, rank_of(MPI_COMM_WORLD));
+    report::start(line.shown, rank_of(MPI_COMM_WORLD));
     // A reader of its output that goes away must not cost the results of a run.
     if (line.command == Command::run) std::signal(SIGPIPE, SIG_IGN);
     const int code = execute(line);

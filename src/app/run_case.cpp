@@ -32,14 +32,24 @@ void end_if_asked() {
   throw Stopped{};
 }
 
-/// What follows from the case, and what looks wrong in it.
+/// As short as it can be typed here.
+std::string shown(const fs::path& folder) {
+  const fs::path near = fs::absolute(folder).lexically_proximate(fs::current_path());
+  return near.empty() || *near.begin() == ".." ? folder.string() : near.string();
+}
+
+/// What follows from the case, in one line on the terminal and in full in log.txt, and what looks
+/// wrong in it.
 void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
-  report::info("{}", to_text(derive(config, sizes)) + memory_line(config, sizes));
+  const Derived derived = derive(config, sizes);
+  report::info("  {}", summary(derived));
+  report::details(to_text(derived) + memory_line(config, sizes));
   for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
 }
 
 fs::path start_file(const Case& source, const fs::path& beside, int realisation);
-void run_locked(const Case& the_case, const RunOptions& options);
+enum class Role { asked_for, precursor };
+void run_locked(const Case& the_case, const RunOptions& options, Role role);
 
 /// Throws InputError on all ranks if `check` does so on rank 0, which looks at the disk for all.
 template <class Check>
@@ -116,12 +126,11 @@ void make_start(const Case& source, const fs::path& beside, int realisation) {
       set_aside(folder, earlier);
       continue;
     }
-    report::info("first the case it starts from: {} -> {}", first.config.title, folder.string());
     auto restart = earlier.same() ? earlier.restart : std::nullopt;
     if (!restart &&
         realised.config.time.end > first.config.time.end)  // the same flow some time later
       restart = start_file(source, beside, realisation - 1);
-    run_locked(realised, {.folder = folder, .restart = restart});
+    run_locked(realised, {.folder = folder, .restart = restart}, Role::precursor);
     return;
   }
 }
@@ -165,7 +174,7 @@ void tell_changed_input(const Case& the_case, const std::string& record) {
 }
 
 /// A case in a folder that this process has locked.
-void run_locked(const Case& the_case, const RunOptions& options) {
+void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   const Config& config = the_case.config;
   const auto sizes =
       options.restart ? the_case.sizes : planned_grains(the_case, options.folder).sizes;
@@ -178,7 +187,8 @@ void run_locked(const Case& the_case, const RunOptions& options) {
       options.restart ? InitialFiles{} : start_files(the_case, options.folder);
   end_if_asked();
   report::stop_log();
-  report::info("{}", config.title);
+  report::info("{}{} -> {}", role == Role::precursor ? "first the case it starts from: " : "",
+               config.title, shown(options.folder));
   Watchdog::heartbeat("setting up");
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
   Simulation simulation = as_input([&] { return Simulation(config, options, files); });
@@ -208,12 +218,13 @@ void run_one(const Case& the_case, const RunOptions& options, bool overwrite) {
   if (!options.restart && !overwrite) {
     const EarlierRun earlier = earlier_run(the_case, folder);
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) {
-      report::info("done before; --overwrite computes it again");
+      report::info("{} already holds this run, finished; --overwrite computes it again",
+                   folder.string());
       return;
     }
     check_on_root([&] { check_overwrites_nothing(earlier, folder); });
   }
-  run_locked(the_case, options);
+  run_locked(the_case, options, Role::asked_for);
 }
 
 }  // namespace
@@ -228,7 +239,9 @@ int run_command(const CommandLine& line) {
   const Config& config = the_case.config;
   if (line.dry_run) {
     report::info("{}", config.title);
-    show_numbers(config, planned_grains(the_case, run_folder(line)).sizes);
+    const auto sizes = planned_grains(the_case, run_folder(line)).sizes;
+    report::info("{}", to_text(derive(config, sizes)) + memory_line(config, sizes));
+    for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

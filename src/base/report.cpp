@@ -16,7 +16,8 @@ namespace {
 
 /// The terminal knows at most one live line; log lines go above it.
 struct State {
-  bool quiet = false, silent = false;
+  report::Shown shown = report::Shown::progress;
+  bool silent = false;
   bool live = false;  // a live line is on the screen, its end not yet written
   std::ofstream log;
 };
@@ -71,8 +72,8 @@ constexpr auto kLiveInterval = std::chrono::milliseconds(250);
 
 namespace report {
 
-void start(bool quiet, int rank) {
-  state().quiet = quiet;
+void start(Shown shown, int rank) {
+  state().shown = shown;
   state().silent = rank != 0;
 }
 
@@ -95,10 +96,16 @@ void line(std::string_view mark, std::string_view text) {
   const std::string marked = fmt::format("{}{}", mark, text);
   if (!mark.empty()) {
     print(stderr, marked);
-  } else if (!state().quiet) {
+  } else if (state().shown >= Shown::progress) {
     print(stdout, marked);
   }
   log(marked);
+}
+
+void details(std::string_view text) {
+  if (state().silent) return;
+  if (state().shown >= Shown::details) print(stdout, text);
+  log(text);
 }
 
 }  // namespace report
@@ -114,19 +121,28 @@ std::string format_duration(double seconds) {
 
 std::string format_progress(const Progress& p, double eta_seconds) {
   const double percent = p.t_end > 0 ? 100.0 * p.t / p.t_end : 0.0;
-  std::string text = fmt::format("t {:.4g} s  {:.1f} %", p.t, percent);
+  std::string text = fmt::format("{:.0f} %", percent);
   if (eta_seconds >= 0) text += "  left " + format_duration(eta_seconds);
+  text += fmt::format("  t {:.4g} s", p.t);
+  if (p.dune_width && p.dune_length) {
+    text += fmt::format("  W {:.1f} mm  L {:.1f} mm", 1e3 * *p.dune_width, 1e3 * *p.dune_length);
+  } else if (p.n_grains > 0) {
+    text += fmt::format("  grains {}", p.n_grains);
+  }
+  if (p.cell_steps_per_second > 0) text += fmt::format("  CFL {:.2g}", p.cfl);
+  return text;
+}
+
+std::string format_details(const Progress& p, double eta_seconds) {
+  std::string text = format_progress(p, eta_seconds);
+  if (p.dune_width && p.n_grains > 0) text += fmt::format("  grains {}", p.n_grains);
   if (p.grain_steps_per_second > 0) {
     text += fmt::format("  {} grain-steps/s  {:.2g} lists/step", si_rate(p.grain_steps_per_second),
                         p.list_rebuilds);
   }
   if (p.cell_steps_per_second > 0) {
-    text += fmt::format("  {} cell-steps/s  CFL {:.3f}  p-it {:.1f}",
-                        si_rate(p.cell_steps_per_second), p.cfl, p.pressure_iterations);
-  }
-  if (p.n_grains > 0) text += fmt::format("  grains {}", p.n_grains);
-  if (p.dune_width && p.dune_length) {
-    text += fmt::format("  W {:.1f} mm  L {:.1f} mm", 1e3 * *p.dune_width, 1e3 * *p.dune_length);
+    text += fmt::format("  {} cell-steps/s  p-it {:.1f}", si_rate(p.cell_steps_per_second),
+                        p.pressure_iterations);
   }
   return text;
 }
@@ -139,16 +155,19 @@ ProgressLine::~ProgressLine() { finish(); }
 void ProgressLine::update(const Progress& progress) {
   const auto now = Clock::now();
   const bool plain = now - last_plain_ >= plain_interval_;
-  const bool live = terminal_ && !state().quiet && now - last_live_ >= kLiveInterval;
+  const bool shown = state().shown >= report::Shown::progress;
+  const bool live = terminal_ && shown && now - last_live_ >= kLiveInterval;
   if (state().silent || !(plain || live)) return;
   const double wall = std::chrono::duration<double>(now - start_).count();
   const double done = progress.t - progress.t_start;
   const double eta = done > 0 ? wall * std::max(0.0, progress.t_end - progress.t) / done : -1.0;
-  const std::string text = format_progress(progress, eta);
+  const std::string details = format_details(progress, eta);
+  const std::string text =
+      state().shown == report::Shown::details ? details : format_progress(progress, eta);
   if (plain) {
     last_plain_ = now;
-    if (!terminal_ && !state().quiet) print(stdout, text);
-    log(text);
+    if (!terminal_ && shown) print(stdout, text);
+    log(details);
   }
   if (live) {
     last_live_ = now;

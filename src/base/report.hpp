@@ -15,17 +15,21 @@ namespace barchan {
 
 namespace report {
 
-/// Terminal output from now on; `quiet` keeps warnings and errors only; ranks other than 0 are
-/// silent. Until called: not quiet, rank 0.
-void start(bool quiet, int rank = 0);
-/// Copies every line, also those that `quiet` hides, to a file. `append` keeps its content.
-/// Throws std::runtime_error naming the file.
+/// How much the terminal shows: warnings and errors; also what goes on; also every detail.
+enum class Shown { problems, progress, details };
+
+/// Terminal output from now on; ranks other than 0 are silent. Until called: progress, rank 0.
+void start(Shown shown, int rank = 0);
+/// Copies every line, also those that the terminal does not show, to a file. `append` keeps its
+/// content. Throws std::runtime_error naming the file.
 void log_to(const std::filesystem::path& file, bool append);
 /// Ends log_to(): what was said is in the file.
 void stop_log();
 
 /// `mark`: what a warning or an error begins with; empty: information.
 void line(std::string_view mark, std::string_view text);
+/// Lines for log.txt, and for a terminal that shows details.
+void details(std::string_view text);
 
 template <class... Args>
 void info(fmt::format_string<Args...> format, Args&&... args) {
@@ -42,7 +46,7 @@ void error(fmt::format_string<Args...> format, Args&&... args) {
 
 }  // namespace report
 
-/// What the live line shows. Leave out what a run does not have.
+/// What a line of progress shows. Leave out what a run does not have.
 struct Progress {
   double t = 0, t_start = 0, t_end = 0;  // simulated time: now, at the start of this run, end [s]
   double grain_steps_per_second = 0;     // 0: no grains
@@ -54,8 +58,10 @@ struct Progress {
   std::optional<double> dune_width{}, dune_length{};  // [m]
 };
 
-/// One line of progress. eta_seconds < 0: not known yet.
+/// One line of progress, of at most 79 characters. eta_seconds < 0: not known yet.
 std::string format_progress(const Progress& progress, double eta_seconds);
+/// The line for log.txt: with the rates, neighbour lists a step and pressure iterations.
+std::string format_details(const Progress& progress, double eta_seconds);
 /// "42 s", "3 min 05 s", "2 h 07 min", "4 d 03 h".
 std::string format_duration(double seconds);
 

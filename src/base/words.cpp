@@ -83,6 +83,11 @@ std::string nearest_file(const std::filesystem::path& path) {
   constexpr int kMost = 10000;  // of a folder of other things
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
+  const fs::path as_case = path.has_extension() ? path : fs::path(path).concat(".toml");
+  for (const fs::path& meant : {as_case, "configs" / as_case}) {
+    if (meant != path && fs::is_regular_file(meant, error))
+      return fmt::format(" (did you mean {}?)", meant.string());
+  }
   std::vector<std::string> stems;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     if (stems.size() >= kMost) break;

@@ -16,8 +16,9 @@ std::string nearest(std::string_view typed, std::span<const std::string> candida
 /// " (did you mean "restitution"?)"; empty if `close` is.
 std::string did_you_mean(std::string_view close);
 
-/// " (did you mean configs/quickstart.toml?)": the file of the same kind beside `path`, which is
-/// not there, whose name is nearest; empty if none is near enough.
+/// " (did you mean configs/quickstart.toml?)" for a `path` that is not there: with the ending
+/// .toml, in the folder configs, or the file of its kind beside it whose name is nearest; empty if
+/// there is none.
 std::string nearest_file(const std::filesystem::path& path);
 
 /// What a case is called by its file, and so its run folder by default: the name of the file

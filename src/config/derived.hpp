@@ -107,6 +107,8 @@ struct Derived {
 /// point of the grains [m], 0: not known.
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top = 0);
 
+/// "31680 cells, 3000 grains of 0.15 to 0.25 mm, 2400 steps of 50 grain steps": for one line.
+std::string summary(const Derived& derived);
 /// The numbers in lines for a terminal, each ending in a newline.
 std::string to_text(const Derived& derived);
 

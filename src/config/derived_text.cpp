@@ -37,10 +37,11 @@ void add_cells_against_grains(std::string& text, const GrainNumbers& n, bool by_
       n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains{}", n.top_ratio,
                               1e3 * n.top, n.as_poured ? " as poured" : "")
                 : "";
-  const char* wanted = by_row ? "; by row a surface needs 0.7 or less" : "";
-  line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, wanted);
+  const char* limit = by_row ? " (recommended: 0.7 or less)" : "";
+  line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, limit);
   if (!by_row) {
-    line(text, "smallest cell / grain", "{:.2f}; this exchange wants 1.2 to 1.6", n.cell_ratio);
+    line(text, "smallest cell / grain", "{:.2f} (recommended with this exchange: 1.2 to 1.6)",
+         n.cell_ratio);
   }
 }
 
@@ -69,6 +70,19 @@ void add_grains(std::string& text, const GrainNumbers& n, bool by_row) {
 }
 
 }  // namespace
+
+std::string summary(const Derived& derived) {
+  std::string text;
+  if (derived.fluid) text += fmt::format("{} cells, ", derived.fluid->cells);
+  if (derived.grains) {
+    const GrainNumbers& n = *derived.grains;
+    text +=
+        fmt::format("{} grains of {:.4g} to {:.4g} mm, ", n.count, 1e3 * n.d_min, 1e3 * n.d_max);
+  }
+  text += fmt::format("{} steps", derived.fluid_steps);
+  if (derived.grains) text += fmt::format(" of {} grain steps", derived.grain_substeps);
+  return text;
+}
 
 std::string to_text(const Derived& derived) {
   std::string text;

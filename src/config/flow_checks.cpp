@@ -104,6 +104,11 @@ void check_flow_at_start(const Config& c, Findings& found) {
       {"initial.fluid", "fluid.mean_velocity", "fluid.schedule", "fluid.schedule.velocity"},
       "must come with a mean_velocity, which it starts at{}",
       schedule.empty() ? "" : "; the schedule begins at rest");
+  found.warning_if(held && schedule.front().ramp == 0 && c.initial.fluid == "still" && c.grains &&
+                       !c.grains->frozen,
+                   {"initial.fluid", "fluid.mean_velocity", "fluid.ramp_time"},
+                   "accelerates within one step and throws the grains to about half of the "
+                   "velocity; start from another case or \"turbulent\", or give a ramp_time");
 }
 
 }  // namespace barchan

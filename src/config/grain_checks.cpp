@@ -69,6 +69,11 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
   found.warning_if(length == 0 && smallest < 2 * d_mean,
                    {"coupling.smoothing_length", "fluid.cells"},
                    "is off; with cells below two grain diameters alpha_f is then noisy");
+  found.warning_if(length > 0 && length < d_mean && smallest < 2 * d_mean,
+                   {"coupling.smoothing_length", "fluid.cells"},
+                   "is {:.2g} mean grain diameters; with cells below two diameters alpha_f is then "
+                   "noisy; 3 d is usual",
+                   length / d_mean);
   if (!found.warning_if(length > 0 && length < 0.25 * smallest,
                         {"coupling.smoothing_length", "fluid.cells"},
                         "is under a quarter of the smallest cell, {:.3g} m: no effect", smallest))

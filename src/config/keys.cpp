@@ -13,8 +13,9 @@ Section& add(Sections& all, const char* name, const char* meaning) {
 
 void add_case(Sections& all) {
   Keys key(add(all, "case", "What the run is called"), [](auto& c) { return &c; });
-  key("title", &Config::title, at_most(200), "", "a line for tables, pages and pictures");
-  key("notes", &Config::notes, at_most(2000), "", "who ran it and why: kept with every result");
+  key("title", &Config::title, at_most(200), "", "one line for tables, pages and pictures");
+  key("notes", &Config::notes, at_most(2000), "",
+      "free text, kept with every result: who ran the case and why");
 }
 
 void add_time(Sections& all) {
@@ -24,7 +25,7 @@ void add_time(Sections& all) {
       "step of the flow; without `[fluid]` the interval between checks and output",
       fixed_by_restart);
   key("grain_step", &TimeConfig::grain_step, between(1e-18, 1), "s",
-      "longest step of the grains: a fluid step is cut into equal ones");
+      "longest step of the grains; a fluid step is divided into equal grain steps");
   key("wall_clock_limit", &TimeConfig::wall_clock_limit, at_least(0), "s",
       "wall time after which a restart file is written and the run stops (exit code 3); 0: none");
 }
@@ -41,24 +42,24 @@ void add_fluid(Sections& all) {
   using F = FluidConfig;
   key("cells", &F::cells, between(1, 100000), "", "[nx, ny, nz]", required_and_fixed);
   key("first_cell_height", &F::first_cell_height, between(0, 1e6), "m",
-      "height of the lowest row, from which rows grow by a constant ratio; 0: all are equal",
+      "height of the lowest layer of cells; layers above grow by a constant ratio; 0: equal layers",
       fixed_by_restart);
   key("uniform_height", &F::uniform_height, between(0, 1e6), "m",
-      "height up to which rows are as high as the lowest: that of the dune; above it they grow",
+      "layers are as high as the lowest one up to here; choose the height of the dune",
       fixed_by_restart);
   key("density", &F::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &F::kinematic_viscosity, between(0, 1e6), "m2/s",
-      "its viscosity over its density");
+      "kinematic viscosity of the fluid");
   key("mean_velocity", &F::mean_velocity, between(-1e6, 1e6), "m/s",
-      "bulk velocity along x, or [along x, along z], held by a body force");
+      "bulk velocity along x, or [along x, along z], kept constant by a body force");
   key("pressure_gradient", &F::pressure_gradient, between(-1e12, 1e12), "Pa/m",
       "driving force along x per volume, instead of `mean_velocity`");
   key("ramp_time", &F::ramp_time, at_least(0), "s",
-      "time over which `mean_velocity` is brought up from its start");
+      "time over which the bulk velocity rises linearly from its initial value to `mean_velocity`");
   key("turbulence", &F::turbulence, "subgrid model");
   key("wale_constant", &F::wale_constant, between(0, 2), "", "constant of the WALE model");
-  key("bottom", &F::bottom, "what the floor is to the flow");
-  key("top", &F::top, "what the top is to the flow");
+  key("bottom", &F::bottom, "boundary condition of the flow at the floor");
+  key("top", &F::top, "boundary condition of the flow at the top");
   key("top_velocity", &F::top_velocity, between(-1e6, 1e6), "m/s",
       "velocity along x of a no-slip top: a lid that drags the flow");
 }
@@ -69,14 +70,14 @@ void add_schedule(Sections& all) {
       "Bulk velocities in order of time, instead of `mean_velocity`; the first from `time` 0 on"});
   auto key = repeated_keys(section, [](auto& c) { return c.fluid ? &c.fluid->schedule : nullptr; });
   using T = FlowTarget;
-  key("time", &T::time, between(0, 1e12), "s", "from when on it is wanted", required);
+  key("time", &T::time, between(0, 1e12), "s", "time from which the entry holds", required);
   key("velocity", &T::velocity, between(-1e6, 1e6), "m/s",
-      "bulk velocity along x, or [along x, along z], held by a body force", required);
+      "bulk velocity along x, or [along x, along z], kept constant by a body force", required);
   key("ramp", &T::ramp, between(0, 1e12), "s",
-      "time over which it is reached, linearly, from what it was (first entry: from the start)");
+      "time of a linear change to the new velocity (first entry: from the initial state)");
   key("amplitude", &T::amplitude, between(-1e6, 1e6), "m/s",
-      "of a sine that is added from `time` on, number or [along x, along z]");
-  key("period", &T::period, between(0, 1e12), "s", "of the sine; an `amplitude` requires it");
+      "amplitude of a sine that is added from `time` on, number or [along x, along z]");
+  key("period", &T::period, between(0, 1e12), "s", "period of the sine; required with `amplitude`");
 }
 
 void add_grains(Sections& all) {
@@ -87,31 +88,33 @@ void add_grains(Sections& all) {
       fixed_by_restart);
   add_material(all.back(), [](auto& c) { return c.grains ? &c.grains->material : nullptr; });
   key("coulomb_limit", &G::coulomb_limit,
-      "the normal force that limits friction: with its damping, or its elastic part");
+      "normal force in the Coulomb limit: the total one, or its elastic part");
   key("rolling_model", &G::rolling_model, "model of the resistance to rolling");
   key("rolling_theta_m", &G::rolling_theta_m, between(1e-9, 1e6), "rad",
       "angle of incipient rolling of the model \"theta_m\"");
   key("contact_model", &G::contact_model, "law of the forces in a contact");
   key("linear_stiffness", &G::linear_stiffness, between(0, 1e30), "N/m",
-      "stiffness of `contact_model` \"linear\", which requires it");
+      "spring stiffness; required with `contact_model` \"linear\"");
   key("sizes", &G::sizes, between(1e-9, 1e6), "m",
-      "[[diameter, count], ...] of the grains to pour; else the initial file decides");
-  key("frozen", &G::frozen, "grains hold still and the flow feels them");
+      "[[diameter, count], ...] of the grains to pour; without it the initial file has the grains");
+  key("frozen", &G::frozen, "grains do not move; the flow feels them");
   key("boundary_x", &G::boundary_x,
-      "what happens to grains at both ends in x; \"follow\": periodic, but half a box from the "
-      "largest dune they leave",
+      "boundary for grains at both ends in x; \"follow\": periodic, and grains are removed half a "
+      "box "
+      "away from the largest dune",
       fixed_by_restart);
-  key("boundary_z", &G::boundary_z, "what happens to grains at both sides in z", fixed_by_restart);
-  key("floor", &G::floor, "what the floor is to grains: smooth, or a close layer of glued spheres",
+  key("boundary_z", &G::boundary_z, "boundary for grains at both sides in z", fixed_by_restart);
+  key("floor", &G::floor, "floor for grains: smooth, or a dense layer of glued spheres",
       fixed_by_restart);
   key("floor_diameter", &G::floor_diameter, between(0, 1e6), "m",
-      "of the glued spheres; `floor` \"glued\" requires it", fixed_by_restart);
+      "diameter of the glued spheres; required with `floor` \"glued\"", fixed_by_restart);
   key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
   key("skin", &G::skin, between(0, 1e3), "m",
-      "margin of the neighbour lists between grains at rest: these last until one has moved half "
-      "of it, a fast one more");
+      "Verlet skin of grains at rest: a neighbour list is rebuilt when one has moved skin/2 (fast "
+      "grains have a larger skin)");
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
-      "overlap that stops the run, over the mean diameter of a pair or of a grain in a wall");
+      "largest overlap before the run stops, over the mean diameter of the pair (at a wall: the "
+      "grain)");
 }
 
 void add_ambient(Sections& all) {
@@ -121,25 +124,30 @@ void add_ambient(Sections& all) {
            [](auto& c) { return c.grains ? &c.grains->ambient : nullptr; });
   key("density", &AmbientConfig::density, between(1e-6, 1e9), "kg/m3", "density of the fluid");
   key("kinematic_viscosity", &AmbientConfig::kinematic_viscosity, between(1e-15, 1e6), "m2/s",
-      "its viscosity over its density");
+      "kinematic viscosity of the fluid");
 }
 
 void add_feed(Sections& all) {
-  Keys key(add(all, "grains.feed", "Grains that come in at rest; none without the section"),
-           [](auto& c) { return c.grains ? &c.grains->feed : nullptr; });
+  Keys key(
+      add(all, "grains.feed", "Grains that enter at rest during the run; none without the section"),
+      [](auto& c) { return c.grains ? &c.grains->feed : nullptr; });
   using F = FeedConfig;
   key("amount", &F::amount,
-      "at the rate that is given, with the sizes of the grains at the start; or as many as leave, "
-      "with their sizes");
-  key("rate", &F::rate, between(0, 1e9), "1/s", "grains in a second; \"given\" requires it");
-  key("start", &F::start, at_least(0), "s", "time from which grains come in, and losses count");
+      "\"given\": at `rate`, with the size distribution of the initial grains; \"lost\": as many "
+      "as "
+      "leave, with their sizes");
+  key("rate", &F::rate, between(0, 1e9), "1/s",
+      "grains per second; required with `amount` \"given\"");
+  key("start", &F::start, at_least(0), "s", "time from which grains enter, and losses count");
   key("x", &F::x, between(0, 1e6), "m",
-      "of their upstream edges; with `boundary_x` \"follow\" from where the ends of the window "
-      "meet, half a box from the dune");
+      "x at which grains enter (upstream edge); with `boundary_x` \"follow\": distance from the "
+      "seam "
+      "of the window, half a box from the dune");
   key("across", &F::across, between(0, 1e6), "m",
-      "[from, to] of their centres along z; both 0: the whole width");
-  key("height", &F::height, between(0, 1e6), "m", "of their undersides above the floor");
-  key("seed", &F::seed, "of the places, and of the sizes at a given rate");
+      "[from, to] along z in which grains enter (centres); both 0: the whole width");
+  key("height", &F::height, between(0, 1e6), "m",
+      "height above the floor at which grains enter (lowest point)");
+  key("seed", &F::seed, "random seed of the places, and of the sizes at a given rate");
 }
 
 void add_coupling(Sections& all) {
@@ -148,17 +156,18 @@ void add_coupling(Sections& all) {
   using C = CouplingConfig;
   key("drag", &C::drag, "drag law");
   key("void_fraction", &C::void_fraction,
-      "how the volume of a grain is given to the cells around it; \"cfdem_faithful\": and the flow "
-      "read, as in CFDEM");
+      "distribution of the volume of a grain over cells; \"cfdem_faithful\": this and the velocity "
+      "at "
+      "the grain as in CFDEM");
   key("exchange", &C::exchange,
-      "where momentum goes: each part of a grain and its row of cells; the flow at the grain's "
-      "centre; or the latter, smoothed");
+      "momentum exchange: layer by layer over the height of a grain; with the flow interpolated to "
+      "its centre; or interpolated, then smoothed");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
-      "width over which the void fraction, and the exchange \"smoothed\", are smoothed (3 d in the "
-      "paper); 0: not");
+      "smoothing length of the void fraction, and of the exchange \"smoothed\" (3 d in the paper); "
+      "0: no smoothing");
   key("alpha_time_derivative", &C::alpha_time_derivative,
-      "the flow feels changes of the void fraction in time");
-  key("forces", &C::forces, "the forces of the flow on the grains");
+      "include d(alpha_f)/dt in the continuity equation");
+  key("forces", &C::forces, "forces of the flow on the grains");
 }
 
 void add_initial(Sections& all) {
@@ -170,9 +179,9 @@ void add_initial(Sections& all) {
       "same box it is interpolated");
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
-  key("seed", &I::seed, "of the perturbations of \"turbulent\"");
+  key("seed", &I::seed, "random seed of the perturbations of \"turbulent\"");
   key("realisation", &I::realisation, between(1, 1000000), "",
-      "which member of an ensemble: another packing, another moment of the flow");
+      "member of an ensemble: another packing, another instant of the flow");
 }
 
 void add_pour(Sections& all) {
@@ -184,9 +193,10 @@ void add_pour(Sections& all) {
   using P = PourConfig;
   key("shape", &P::shape, "a cone, or a bed of equal depth over the whole floor");
   key("centre", &P::centre, any, "m", "[x, z] of the cone's axis");
-  key("radius", &P::radius, between(0, 1e6), "m", "of the cone's foot; a cone needs one");
-  key("drop_height", &P::drop_height, between(0, 1e6), "m", "of its lowest grain above the floor");
-  key("seed", &P::seed, "of the order and the jitter of the grains");
+  key("radius", &P::radius, between(0, 1e6), "m", "radius of the cone's foot; required for a cone");
+  key("drop_height", &P::drop_height, between(0, 1e6), "m",
+      "height of the lowest grain above the floor");
+  key("seed", &P::seed, "random seed of the order and the jitter of the grains");
 }
 
 void add_heaps(Sections& all) {
@@ -197,19 +207,19 @@ void add_heaps(Sections& all) {
       .most = kMostHeaps});
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.heaps; });
   using H = HeapConfig;
-  key("name", &H::name, at_most(60), "", "in result files and pictures");
+  key("name", &H::name, at_most(60), "", "name in result files and pictures");
   key("shape", &H::shape,
       "a cone, a ridge across the whole channel, or a bed of equal depth over the whole floor, on "
       "which the heaps after it stand");
-  key("centre", &H::centre, any, "m", "[x, z] of a cone's axis; of a ridge x alone counts");
+  key("centre", &H::centre, any, "m", "[x, z] of the axis of a cone; of a ridge x alone counts");
   key("radius", &H::radius, between(0, 1e6), "m",
-      "of a cone's foot, half the width of a ridge's; both need one");
-  key("kind", &H::kind, "name of the `[[grains.kind]]` of its grains; without it of all");
+      "radius of the foot of a cone, half the width of a ridge; required for both");
+  key("kind", &H::kind, "name of the `[[grains.kind]]` of the heap; without it all kinds");
   key("sizes", &H::sizes, between(1e-9, 1e6), "m",
-      "[[diameter, count], ...] of its grains; else those of its kind, or all that `[grains]` has");
+      "[[diameter, count], ...] of the heap; without it those of the kind, or of `[grains]`");
   key("drop_height", &H::drop_height, between(0, 1e6), "m",
-      "of its lowest grain above the floor, or above the bed that it stands on");
-  key("seed", &H::seed, "of the order and the jitter of its grains");
+      "height of the lowest grain above the floor, or above the bed below the heap");
+  key("seed", &H::seed, "random seed of the order and the jitter of the grains");
 }
 
 void add_craters(Sections& all) {
@@ -219,31 +229,33 @@ void add_craters(Sections& all) {
                  "grains"});
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.craters; });
   using C = CraterConfig;
-  key("centre", &C::centre, any, "m", "[x, z] of its deepest point", required);
-  key("radius", &C::radius, above(0).at_most(1e6), "m", "of its rim", required);
+  key("centre", &C::centre, any, "m", "[x, z] of the deepest point", required);
+  key("radius", &C::radius, above(0).at_most(1e6), "m", "radius of the rim", required);
   key("depth", &C::depth, above(0).at_most(1e6), "m",
-      "below the mean height of the surface within the rim", required);
+      "depth below the mean height of the surface within the rim", required);
 }
 
 void add_output(Sections& all) {
   Keys key(add(all, "output", "Intervals in simulated time; 0: no such file"),
            [](auto& c) { return &c.output; });
   using O = OutputConfig;
-  key("history_interval", &O::history_interval, at_least(0), "s", "of `history.csv`");
-  key("dune_interval", &O::dune_interval, at_least(0), "s", "of `dune.csv`");
-  key("grains_interval", &O::grains_interval, at_least(0), "s", "of `grains.h5`");
-  key("fields_interval", &O::fields_interval, at_least(0), "s", "of `fields.h5`");
+  key("history_interval", &O::history_interval, at_least(0), "s", "interval of `history.csv`");
+  key("dune_interval", &O::dune_interval, at_least(0), "s", "interval of `dune.csv`");
+  key("grains_interval", &O::grains_interval, at_least(0), "s", "interval of `grains.h5`");
+  key("fields_interval", &O::fields_interval, at_least(0), "s", "interval of `fields.h5`");
   key("tracks_interval", &O::tracks_interval, at_least(0), "s",
-      "of `tracks.h5`: numbers and positions of the grains alone");
-  key("grain_forces", &O::grain_forces, "each force separately in `grains.h5`");
+      "interval of `tracks.h5`: only ids and positions of the grains");
+  key("grain_forces", &O::grain_forces, "write each force separately to `grains.h5`");
 }
 
 void add_restart(Sections& all) {
   Keys key(add(all, "restart", "Restart files, from which a run can go on"),
            [](auto& c) { return &c.restart; });
-  key("interval", &RestartConfig::interval, at_least(0), "s", "in simulated time; 0: none");
-  key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s", "in wall time; 0: none");
-  key("keep", &RestartConfig::keep, between(1, 1000), "", "how many are kept");
+  key("interval", &RestartConfig::interval, at_least(0), "s",
+      "interval in simulated time; 0: none");
+  key("wall_interval", &RestartConfig::wall_interval, at_least(0), "s",
+      "interval in wall time; 0: none");
+  key("keep", &RestartConfig::keep, between(1, 1000), "", "number of restart files that are kept");
 }
 
 void add_statistics(Sections& all) {
@@ -251,7 +263,7 @@ void add_statistics(Sections& all) {
            [](auto& c) { return &c.statistics; });
   using S = StatisticsConfig;
   key("start", &S::start, at_least(0), "s", "time of the first sample", required);
-  key("interval", &S::interval, above(0), "s", "between samples");
+  key("interval", &S::interval, above(0), "s", "interval between samples");
   key("fields", &S::fields, "means and second moments in every cell, `flow_average.h5`");
   key("grain_forces", &S::grain_forces,
       "resultant force on the grains around the largest dune, `force_map.csv`");
@@ -262,9 +274,10 @@ void add_solver(Sections& all) {
   using S = SolverConfig;
   key("pressure_tolerance", &S::pressure_tolerance, at_least(1e-14).below(1), "",
       "residual over right-hand side (2-norms) at which iterations stop");
-  key("max_iterations", &S::max_iterations, at_least(1), "", "of the conjugate gradients a step");
+  key("max_iterations", &S::max_iterations, at_least(1), "",
+      "largest number of iterations of the conjugate gradients in a step");
   key("preconditioner", &S::preconditioner,
-      "a solve by FFT; \"local_fft\" adds a relaxation where grains hinder the flow");
+      "direct solve by FFT; \"local_fft\" adds a relaxation in cells with grains");
 }
 
 }  // namespace

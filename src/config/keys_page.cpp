@@ -114,6 +114,9 @@ std::string keys_page(const Sections& table) {
 
 std::string keys_text(std::string_view name, const Sections& table) {
   const std::string inner = fmt::format(".{}", name);  // "pour" is enough
+  const bool is_section = std::ranges::any_of(table, [&](const Section& section) {
+    return !section.keys.empty() && (section.name == name || section.name.ends_with(inner));
+  });
   Config defaults;
   std::string text;
   for (const Section& section : table) {
@@ -121,15 +124,19 @@ std::string keys_text(std::string_view name, const Sections& table) {
     std::size_t width = 0;
     for (const Key& key : section.keys) width = std::max(width, key.name.size());
     const bool whole = section.name == name || section.name.ends_with(inner);
+    std::string entries;
     for (const Key& key : section.keys) {
-      if (whole || key.dotted() == name) text += entry(section, key, defaults, width);
+      if (whole || key.dotted() == name || (key.name == name && !is_section))
+        entries += entry(section, key, defaults, width);
     }
-    if (text.empty()) continue;
+    if (entries.empty()) continue;
     std::string head = wrapped(section.meaning + (section.required ? " (required)." : "."), 0);
     std::erase(head, '`');
-    return fmt::format("{}\n{}\n{}", title_of(section), head, text);
+    text += fmt::format("{}{}\n{}\n{}", text.empty() ? "" : "\n", title_of(section), head, entries);
+    if (whole) break;
   }
-  refuse(std::string(name), table);
+  if (text.empty()) refuse(std::string(name), table);
+  return text;
 }
 
 }  // namespace barchan

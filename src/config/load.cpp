@@ -146,6 +146,11 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
   Loaded loaded;
   ConfigReader reading(text, file);
   const bool parsed = reading.problems().empty();
+  if (const Node* study = reading.tree().find("study"); study != nullptr && study->table()) {
+    loaded.problems.push_back(
+        {study->where, "[study]: this is a study, not a case: ./barchan sweep " + file.string()});
+    return loaded;
+  }
   reading.set(overrides);
   if (parsed && !overrides.empty()) drop_switched_off(reading);
   std::vector<Problem> from_starts;

@@ -23,8 +23,7 @@ void add_kinds(Sections& all) {
   const auto list = [](auto& c) { return c.grains ? &c.grains->kinds : nullptr; };
   auto key = repeated_keys(section, list);
   using K = KindConfig;
-  key("name", &K::name, at_most(30), "", "what it is called in tables, files and pictures",
-      required_and_fixed);
+  key("name", &K::name, at_most(30), "", "name in tables, files and pictures", required_and_fixed);
   key("density", &K::density, between(1e-6, 1e9), "kg/m3", "density of the grains",
       fixed_by_restart);
   add_material(section, [list](auto& c, std::size_t entry) {

@@ -100,6 +100,14 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
   return {};
 }
 
+/// What the parser says, with the two most frequent causes named.
+std::string in_plain_words(std::string_view said) {
+  if (said.find("control characters other than TAB") != said.npos)
+    return "the quotation mark that ends a text is missing on this line";
+  const char* cause = said.ends_with("saw ','") ? "; decimals take a point, as in 0.25" : "";
+  return fmt::format("{}{}", said, cause);
+}
+
 /// The value part of an assignment: TOML if it is, else a string of its characters.
 Node parse_value(std::string_view text, const Location& where) {
   const bool one_line = text.find('\n') == text.npos && !unfit(text, {});
@@ -144,7 +152,7 @@ Node parse_toml(std::string_view text, const std::string& name, std::vector<Prob
     problems.push_back(std::move(*problem));
   } catch (const toml::parse_error& error) {
     problems.push_back({{name, static_cast<int>(error.source().begin.line)},
-                        fmt::format("not TOML: {}", error.description())});
+                        "not TOML: " + in_plain_words(error.description())});
   }
   return {NodeTable{}, whole};
 }
@@ -153,9 +161,18 @@ std::string assigned_name(std::string_view dotted) {
   return fmt::format("--set {}", printable(dotted, 60));
 }
 
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+}  // namespace
+
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems) {
   const std::size_t equals = assignment.find('=');
-  const std::string_view dotted = assignment.substr(0, equals);
+  const std::string_view dotted = without_blanks(assignment.substr(0, equals));
   const Location where{assigned_name(dotted), 0};
   const auto refuse = [&](std::string why) { problems.push_back({where, std::move(why)}); };
   if (std::count(dotted.begin(), dotted.end(), '.') >= kMaxParts) {

@@ -64,7 +64,7 @@ int LLVMFuzzerInitialize(int* argc, char*** argv) {
     Kokkos::finalize();
     MPI_Finalize();
   });
-  report::start(true);
+  report::start(report::Shown::problems);
   return 0;
 }
 

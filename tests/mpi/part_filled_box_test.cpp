@@ -87,7 +87,7 @@ Config config_of(const Case& at) {
 /// To the end of `config`; returns the last restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
                           const std::optional<std::filesystem::path>& restart = {}) {
-  report::start(true);
+  report::start(report::Shown::problems);
   Simulation simulation(config, {.folder = folder, .restart = restart}, {});
   EXPECT_EQ(simulation.run(), Outcome::done);
   report::stop_log();

@@ -55,7 +55,7 @@ Profiles statistics(const Comparison& c, const std::filesystem::path& scratch) {
     return {test::table(root / finished / "statistics.csv"), "y_plus"};
   }
   const Config config = load_config(root / "configs/validation" / c.config);
-  report::start(true);
+  report::start(report::Shown::problems);
   Simulation simulation(config, {.folder = scratch, .restart = {}}, {});
   EXPECT_EQ(simulation.run(), Outcome::done);
   report::stop_log();

@@ -23,7 +23,7 @@ using test::expect_same_state;
 /// Runs `config` in `folder` and returns its final restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
                           const std::optional<std::filesystem::path>& restart = {}) {
-  report::start(true);
+  report::start(report::Shown::problems);
   Simulation simulation(config, {.folder = folder, .restart = restart}, {});
   EXPECT_EQ(simulation.run(), Outcome::done);
   report::stop_log();

@@ -146,3 +146,8 @@ def test_the_program_measures_the_same(tmp_path):
         theirs = run.dunes.loc[0].loc[grains.attrs["time"]]
         for name in table.columns:
             assert table[name][0] == pytest.approx(theirs[name], rel=1e-5, abs=1e-8 * size[0]), name
+
+
+def test_centres_in_millimetres_are_warned_of():
+    with pytest.warns(UserWarning, match="both be in metres"):
+        barchan.find_dunes(1e3 * sand(cone, 10), 1e3 * D, SIZE)

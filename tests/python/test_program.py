@@ -57,13 +57,14 @@ def test_sweep_returns_the_study(launcher, tmp_path):
 
 def test_check_returns_the_case(launcher, capsys):
     """As `barchan check` does without options: it refuses what that refuses."""
-    launcher(prints="# case.toml\n\n[time]\nend = 2.0\n\n# What follows from it\n\n  memory  about 3 MB\n",
-             says="warning: thick rows")
+    launcher(prints="  memory  about 3 MB\n\nwarning: thick rows\n\n# The case, every default filled in\n\n"
+             "[time]\nend = 2.0\n")
     assert barchan.check("case.toml", time__end=2.0) == {"time": {"end": 2.0}}
-    assert launcher.words() == ["check", "case.toml", "--set", "time.end=2.0"]
+    assert launcher.words() == ["check", "case.toml", "--resolved", "--set", "time.end=2.0"]
     assert capsys.readouterr().out == ""
     barchan.check("case.toml", report=True)
-    assert "about 3 MB" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "about 3 MB" in shown and "thick rows" in shown and "end = 2.0" not in shown
 
 
 @pytest.mark.parametrize("status, kind", [(1, barchan.RunFailed), (2, barchan.BadInput), (3, barchan.RunStopped)])
@@ -82,7 +83,7 @@ def test_an_override_needs_its_section(launcher):
 def test_overrides_reach_every_key(launcher):
     barchan.check("case.toml", grains__feed__rate=50, fluid__cells=np.array([4, 5, 6]), case__notes="two\nlines",
                   initial__fluid=Path("a.h5"), body=[{"name": "pile", "centre": (0.1, 0.2)}])
-    assert launcher.words()[3::2] == ["grains.feed.rate=50", "fluid.cells=[4, 5, 6]", 'case.notes="two\\nlines"',
+    assert launcher.words()[4::2] == ["grains.feed.rate=50", "fluid.cells=[4, 5, 6]", 'case.notes="two\\nlines"',
                                       'initial.fluid="a.h5"', 'body=[{"name" = "pile", "centre" = [0.1, 0.2]}]']
     with pytest.raises(barchan.BadInput, match="time__end: a case cannot have a value of type NoneType"):
         barchan.check("case.toml", time__end=None)

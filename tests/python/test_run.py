@@ -27,6 +27,18 @@ def test_open_tells_runs_from_studies():
         barchan.open("/nowhere")
 
 
+def test_a_run_named_without_its_folder(tmp_path, monkeypatch):
+    (tmp_path / "runs/dune").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(barchan.BarchanError, match=r"no such run folder: dune \(did you mean runs/dune\?\)"):
+        barchan.Run("dune")
+
+
+def test_a_time_that_is_no_number(run):
+    with pytest.raises(barchan.BarchanError, match="t must be a number, a time in seconds, and is '0.5'"):
+        run.grains(t="0.5")
+
+
 def test_tables_have_units(run):
     assert run.history.index.name == "t"
     assert run.history.attrs["units"]["u_star"] == "m s-1"

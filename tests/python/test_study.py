@@ -66,3 +66,10 @@ def test_a_study_fills_the_cores_unless_told_otherwise(tmp_path, monkeypatch, co
     options = SimpleNamespace(**{"at_once": None, "threads": None, "out": None, **asked})
     study = read_study(tmp_path / "study.toml", options)
     assert (study.at_once, study.threads) == expected
+
+
+def test_a_case_is_no_study(tmp_path):
+    from barchan.studies.spec import StudyError, read_study
+    (tmp_path / "case.toml").write_text("[case]\ntitle = 'a'\n[time]\nend = 1\n")
+    with pytest.raises(StudyError, match="this is a case, not a study: ./barchan run"):
+        read_study(tmp_path / "case.toml", SimpleNamespace(at_once=None, threads=None, out=None))

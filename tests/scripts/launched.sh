@@ -12,6 +12,7 @@ mkdir -p bin libexec/barchan share/barchan && cp "$root/barchan" bin && cp "$roo
 stand_in() { cat > "$1" && chmod +x "$1"; }  # stand_in FILE: the program that it is
 stand_in libexec/barchan/barchan <<'SH'
 #!/bin/sh
+[ "$MODE" != stopped ] || exit 3
 [ "$MODE" != killed ] || { mkdir -p runs/case; printf '{\n  "status": "running",\n  "message": ""\n}\n' > runs/case/run.json; kill -KILL $$; }
 SH
 stand_in draws <<'SH'
@@ -40,6 +41,13 @@ launch case.toml 2>&- || fail "a closed stderr: exit code $?"
 [ "$(cat status)" = 0 ] || fail "a reader that has gone: exit code $(cat status)"
 said="$(launch case.toml 2>&1)"
 [[ $said == *"no pictures"* && $said == *"warning: some pictures"* ]] || fail "it says '$said'"
+status=0
+said="$(MODE=stopped launch case.toml 2>&1)" || status=$?
+[[ $status = 3 && $said != *"no pictures"* && $said == *"./barchan plot runs/case"* ]] || fail "stopped: '$said'"
+mkdir -p runs/case && touch -d yesterday runs/case/run.json && touch runs/case/report.html
+said="$(launch case.toml 2>&1)"
+[[ $said != *pictures* ]] || fail "pictures newer than the run are drawn again: '$said'"
+rm -r runs
 status=0
 bin/barchan nonsense 2> /dev/full || status=$?
 [ "$status" -eq 2 ] || fail "an unknown command with a full stderr: exit code $status"

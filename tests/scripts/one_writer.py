@@ -193,7 +193,7 @@ def run_here(folder, name, *options):
 
 def takes_for_done(folder, name):
     done = run_here(folder, name)
-    if done.returncode != 0 or "done before" not in done.stdout + done.stderr:
+    if done.returncode != 0 or "finished; --overwrite" not in done.stdout + done.stderr:
         faults.fail(f"{name} was not taken for done: {done.stdout}{done.stderr}")
 
 

@@ -114,7 +114,7 @@ grep -q '^only,.*done' table/study.csv || fail "table: $(cat table/study.csv)"
 
 # --- the studies that ship name cases that load
 grep -lZ '^\[study\]' -r "$root/configs" |
-  xargs -0 -P 2 -n 1 bash -c '"$0" -m barchan sweep "$1" "$2" --list' "$python" "$program" > list 2>&1 ||
+  xargs -0 -P 2 -I STUDY "$python" -m barchan sweep "$program" STUDY --list > list 2>&1 ||
   fail "a study that ships: $(cat list)"
 
 finish "sweep: fine"

@@ -28,10 +28,10 @@ inline std::string fluid_case(const std::string& fluid = "",
 
 /// A case with both parts whose cells and steps nothing is said against, with grains of 0.2 mm.
 inline std::string coupled_case(const std::string& sizes = "[[0.2e-3, 100]]") {
-  return fluid_case(
-      "first_cell_height = 1.6e-4\nmean_velocity = 0.28\n[grains]\nsizes = " + sizes +
-          "\n[initial]\ngrains = { pour = { centre = [0.05, 0.02], radius = 0.006 } }\n",
-      "[96, 30, 25]");
+  return fluid_case("first_cell_height = 1.6e-4\nmean_velocity = 0.28\n[grains]\nsizes = " + sizes +
+                        "\n[initial]\nfluid = \"turbulent\"\ngrains = { pour = { centre = [0.05, "
+                        "0.02], radius = 0.006 } }\n",
+                    "[96, 30, 25]");
 }
 
 using Lines = std::vector<std::string>;

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     Kokkos::ScopeGuard kokkos(argc, argv);
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    barchan::report::start(rank != 0, rank);
+    barchan::report::start(barchan::report::Shown::progress, rank);
     failed = RUN_ALL_TESTS();
   }
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);

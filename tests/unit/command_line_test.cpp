@@ -27,7 +27,7 @@ TEST(CommandLine, RunWithNothingElse) {
   EXPECT_EQ(line.threads, 0);
   EXPECT_EQ(line.patience, 600);
   EXPECT_FALSE(line.dry_run);
-  EXPECT_FALSE(line.quiet);
+  EXPECT_EQ(line.shown, report::Shown::progress);
 }
 
 TEST(CommandLine, RunWithAll) {
@@ -44,7 +44,7 @@ TEST(CommandLine, RunWithAll) {
   EXPECT_EQ(line.threads, 3);
   EXPECT_EQ(line.patience, 20);
   EXPECT_TRUE(line.dry_run);
-  EXPECT_TRUE(line.quiet);
+  EXPECT_EQ(line.shown, report::Shown::problems);
 }
 
 TEST(CommandLine, CheckAndInfo) {
@@ -81,6 +81,9 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({"run", "a.toml", "--patience", "-1"}, "--patience");
   expect_bad({"run", "a.toml", "--patience", "soon"}, "--patience");
   expect_bad({"run", "a.toml", "--set"}, "--set");
+  expect_bad({"run", "a.toml", "--set", "a.b", "0.4"},
+             "--set a.b has no value: write --set a.b=VALUE");
+  expect_bad({"run", "a.toml", "--quiet", "--verbose"}, "--quiet");
   expect_bad({"check", "a.toml", "--restart", "r.h5"}, "--restart");
   expect_bad({"info"}, "PATH is required");
 }

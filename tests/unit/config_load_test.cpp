@@ -189,6 +189,11 @@ TEST(ConfigLoad, WhatIsNoTomlIsToldWithItsLine) {
   says(std::string("[time]\ne\0nd = 1\n", 16), "case.toml:2: not TOML: it holds a NUL byte");
   says("[time]\nend = 1.0\nend = = 2\n", "case.toml:3: not TOML: ");
   says(fluid_case("cells = [8, 8, 8]\n"), "case.toml:7: not TOML: ");
+  says("[case]\ntitle = \"no end\n[time]\nend = 1\n",
+       "case.toml:2: not TOML: the quotation mark that ends a text is missing on this line");
+  says("[time]\nend = 0,5\n", "decimals take a point, as in 0.25");
+  says("[case]\ntitle = \"a\"\n[study]\nbase = \"b.toml\"\n",
+       "case.toml:3: [study]: this is a study, not a case: ./barchan sweep case.toml");
   for (const char* value : {"0,5", ".5", "5d-1", "5 s", "True", "\"C:\\q\""}) {
     says(std::string("[time]\nend = ") + value + "\n", "case.toml:2: not TOML: ");
   }

@@ -180,6 +180,8 @@ TEST(ConfigKeys, ASectionFitsTheTerminal) {
     }
   }
   EXPECT_EQ(keys_text("pour"), keys_text("initial.grains.pour"));
+  EXPECT_EQ(keys_text("sliding_friction").find(keys_text("grains.sliding_friction")), 0U);
+  EXPECT_NE(keys_text("sliding_friction").find("[grains.wall]"), std::string::npos);
   EXPECT_THROW(keys_text("grans"), InputError);
   EXPECT_NE(message_of([] { keys_text("grans"); }).find("did you mean \"grains\"?"),
             std::string::npos);

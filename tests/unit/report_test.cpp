@@ -13,15 +13,15 @@ struct Said {
 };
 
 template <class Talk>
-Said heard(const Talk& talk, bool quiet = false, int rank = 0) {
+Said heard(const Talk& talk, report::Shown shown = report::Shown::progress, int rank = 0) {
   const TemporaryFolder folder;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  report::start(quiet, rank);
+  report::start(shown, rank);
   report::log_to(folder / "log.txt", false);
   talk();
   report::stop_log();
-  report::start(false);
+  report::start(report::Shown::progress);
   return {.out = testing::internal::GetCapturedStdout(),
           .err = testing::internal::GetCapturedStderr(),
           .log = exists(folder / "log.txt") ? read_text(folder / "log.txt") : ""};
@@ -43,14 +43,23 @@ TEST(Report, LinesGoToTheTerminalAndTheLog) {
 }
 
 TEST(Report, QuietHidesInformationButLogsIt) {
-  const Said said = heard(say_all, true);
+  const Said said = heard(say_all, report::Shown::problems);
   EXPECT_EQ(said.out, "");
   EXPECT_EQ(said.err, warnings);
   EXPECT_EQ(said.log, "grains 3000\n" + warnings);
 }
 
+TEST(Report, DetailsGoToTheLogAndToWhoAsksForThem) {
+  const auto say = [] { report::details("CFL 0.1"); };
+  for (const auto shown : {report::Shown::progress, report::Shown::details}) {
+    const Said said = heard(say, shown);
+    EXPECT_EQ(said.out, shown == report::Shown::details ? "CFL 0.1\n" : "");
+    EXPECT_EQ(said.log, "CFL 0.1\n");
+  }
+}
+
 TEST(Report, OtherRanksAreSilent) {
-  const Said said = heard(say_all, false, 1);
+  const Said said = heard(say_all, report::Shown::progress, 1);
   EXPECT_EQ(said.out + said.err + said.log, "");
 }
 
@@ -86,22 +95,35 @@ TEST(Report, TheLogOfAForeignFolderLeadsNowhereElse) {
 
 TEST(Progress, ShowsWhatARunHas) {
   Progress p{.t = 2.5, .t_start = 0, .t_end = 10};
-  EXPECT_EQ(format_progress(p, -1), "t 2.5 s  25.0 %");
+  EXPECT_EQ(format_progress(p, -1), "25 %  t 2.5 s");
   p.grain_steps_per_second = 17.3e6;
   p.list_rebuilds = 0.625;
   p.n_grains = 98765;
-  EXPECT_EQ(
-      format_progress(p, 185),
-      "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  0.62 lists/step  grains 98765");
+  EXPECT_EQ(format_progress(p, 185), "25 %  left 3 min 05 s  t 2.5 s  grains 98765");
   p.cell_steps_per_second = 9.1e6;
   p.cfl = 0.051;
   p.pressure_iterations = 4.96;
   p.dune_width = 0.0451;
   p.dune_length = 0.06;
-  EXPECT_EQ(format_progress(p, 185),
-            "t 2.5 s  25.0 %  left 3 min 05 s  17.30 M grain-steps/s  0.62 lists/step  9.10 M "
-            "cell-steps/s  "
-            "CFL 0.051  p-it 5.0  grains 98765  W 45.1 mm  L 60.0 mm");
+  const std::string line = "25 %  left 3 min 05 s  t 2.5 s  W 45.1 mm  L 60.0 mm  CFL 0.051";
+  EXPECT_EQ(format_progress(p, 185), line);
+  EXPECT_EQ(format_details(p, 185),
+            line +
+                "  grains 98765  17.30 M grain-steps/s  0.62 lists/step  9.10 M cell-steps/s  "
+                "p-it 5.0");
+}
+
+TEST(Progress, TheLongestLineFitsATerminal) {
+  const Progress p{.t = 1234.5678,
+                   .t_start = 0,
+                   .t_end = 1e4,
+                   .grain_steps_per_second = 1,
+                   .cell_steps_per_second = 1,
+                   .cfl = 0.12345,
+                   .n_grains = 123'456'789,
+                   .dune_width = 1.23456,
+                   .dune_length = 1.23456};
+  EXPECT_LT(format_progress(p, 3599).size(), 80);
 }
 
 TEST(Progress, DurationsRead) {
@@ -120,13 +142,13 @@ TEST(ProgressLine, PrintsPlainLinesNowAndThenWhereThereIsNoTerminal) {
     ProgressLine(std::chrono::hours(1)).update(p);
     ProgressLine(std::chrono::milliseconds(0)).update(p);
   });
-  EXPECT_EQ(said.out, "t 2 s  100.0 %  left 0 s\n");
+  EXPECT_EQ(said.out, "100 %  left 0 s  t 2 s\n");
   EXPECT_EQ(said.log, said.out);
 }
 
 TEST(ProgressLine, QuietShowsNone) {
   const auto talk = [] { ProgressLine(std::chrono::milliseconds(0)).update({.t = 1, .t_end = 2}); };
-  EXPECT_EQ(heard(talk, true).out, "");
+  EXPECT_EQ(heard(talk, report::Shown::problems).out, "");
 }
 
 }  // namespace

@@ -82,13 +82,20 @@ TEST(Check, PrintsTheCaseItsNumbersAndWarnings) {
   line.command = Command::check;
   line.file = BARCHAN_SOURCE_DIR "/configs/barchan-10k.toml";
   line.overrides = {"time.end=2"};
+  line.resolved = true;
   std::ostringstream out;
   EXPECT_EQ(run_check(line, out), 0);
   const std::string text = out.str();
+  EXPECT_LT(text.find("Re = 2"), text.find("warning: "));
+  EXPECT_LT(text.find("warning: "), text.find("end = 2.0"));
   for (const char* part : {"end = 2.0\n", "skin = 4e-05", "Re = 2 delta U / nu     14000",
                            "26.5 % (smallest)", "warning: [time] grain_step is 26.5 %"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
+  line.resolved = false;
+  std::ostringstream short_out;
+  EXPECT_EQ(run_check(line, short_out), 0);
+  EXPECT_EQ(short_out.str().find("end = 2.0"), std::string::npos);
   line.overrides = {"time.end=-2"};
   EXPECT_THROW(run_check(line, out), ConfigError);
 }

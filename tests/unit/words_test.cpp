@@ -37,6 +37,9 @@ TEST(Words, AFileThatIsNotThereIsNotMeant) {
   write_atomically(other, "");
   EXPECT_EQ(nearest_file(loop), " (did you mean " + other.string() + "?)");
   EXPECT_EQ(not_a_file(folder / "absent"), "No such file or directory");
+  write_atomically(folder / "dune.toml", "");
+  EXPECT_EQ(nearest_file(folder / "dune"),
+            " (did you mean " + (folder / "dune.toml").string() + "?)");
 }
 
 TEST(Words, ALineIsNotAddedThroughALink) {

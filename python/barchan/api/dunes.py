@@ -1,5 +1,6 @@
 """Dunes among the grains of any program."""
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -21,7 +22,7 @@ def find_dunes(x: Any, d: Any, size: Sequence[float],
     domain along x and z [m], which begins at 0; periodic: whether x and z are. Returns a DataFrame with a row for each
     dune, that of most sand first (columns as in dune.csv: W, L, H, Cx, Cz, horns, crest; m, m3), and (N) the row that a
     grain belongs to, -1 for none. Definitions: docs/dune-measures.md.
-    Raises BadInput for arrays of other shapes or values that are not finite.
+    Warns if most grains lie outside `size`. Raises BadInput for arrays of other shapes or values that are not finite.
     """
     centres, diameters = np.asarray(x, float), np.asarray(d, float)
     if centres.ndim != 2 or centres.shape[1] != 3 or not len(centres):
@@ -32,6 +33,9 @@ def find_dunes(x: Any, d: Any, size: Sequence[float],
         raise BadInput(f"d must be a number or {len(centres)} diameters, and has the shape {diameters.shape}")
     if not np.isfinite(centres).all() or not (np.isfinite(diameters) & (diameters > 0)).all():
         raise BadInput("centres must be finite, diameters positive and finite")
+    beyond = (centres[:, [0, 2]] < 0) | (centres[:, [0, 2]] > np.asarray(size, float))
+    if beyond.any(axis=1).mean() > 0.5:
+        warnings.warn("most grains lie outside size: centres and size must both be in metres", stacklevel=2)
     grains = Grains(0.0, np.arange(len(centres)), centres, np.broadcast_to(diameters, len(centres)))
     bed = Bed(tuple(size), tuple(periodic))
     label = detect.labels(grains, bed)

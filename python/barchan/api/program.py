@@ -14,7 +14,7 @@ from barchan.api.study import Study
 from barchan.io.study_folder import run_name
 from barchan.studies.spec import as_toml
 
-DERIVED = "\n# What follows from it\n"  # of the output of check: before it stands the case as TOML
+RESOLVED = "\n# The case, every default filled in\n"  # of the output of check --resolved: the case as TOML is behind it
 LAUNCHER = Path(__file__).resolve().parents[3] / "barchan"  # of the repository, where the package lies in it
 
 
@@ -41,10 +41,10 @@ def check(case: str | Path, report: bool = False, **overrides: Any) -> dict[str,
     a whole, body=[{"name": "pile", ...}]. Raises BadInput with the message of `barchan check`, which takes some
     seconds: it times the case.
     """
-    said = _call(["check", str(case), *_settings(overrides)])
+    numbers, _, resolved = _call(["check", str(case), "--resolved", *_settings(overrides)]).partition(RESOLVED)
     if report:
-        print(said, end="")
-    return tomllib.loads(said.partition(DERIVED)[0])
+        print(numbers, end="")
+    return tomllib.loads(resolved)
 
 
 def run(case: str | Path, out: str | Path | None = None, threads: int | None = None, ranks: int | None = None,

@@ -122,6 +122,8 @@ class FrameFile:
             if not -count <= wanted < count:
                 raise BarchanError(f"no frame {wanted} in {self.path}: it has {count}, 0 to {count - 1}")
             return wanted % count
+        if isinstance(t, str) or not np.isscalar(t):
+            raise BarchanError(f"t must be a number, a time in seconds, and is {t!r}")
         reach = np.diff(times).max() if count > 1 else 0.0
         if not times[0] - reach * (1 + 1e-9) <= t <= times[-1] + reach * (1 + 1e-9):
             raise BarchanError(f"no frame near t = {t:g} s in {self.path}: it has {times[0]:g} to {times[-1]:g} s")

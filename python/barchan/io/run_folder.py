@@ -48,7 +48,9 @@ class RunFolder:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         if not self.path.exists():
-            raise BarchanError(f"no such run folder: {path}")
+            meant = Path("runs") / path
+            hint = f" (did you mean {meant}?)" if meant.is_dir() else ""
+            raise BarchanError(f"no such run folder: {path}{hint}")
         if not self.path.is_dir():
             raise BarchanError(f"not a run folder but a file: {path}")
 

@@ -211,6 +211,8 @@ def check_kind(value, section, path):
 
 
 def check_sections(table, path):
+    if "study" not in table and ("time" in table or "domain" in table):
+        raise StudyError(f"{path}: this is a case, not a study: ./barchan run {path}")
     for section in table:
         if section not in SECTIONS:
             raise unknown(section, SECTIONS, path)
