@@ -122,7 +122,7 @@ class FrameFile:
             if not -count <= wanted < count:
                 raise BarchanError(f"no frame {wanted} in {self.path}: it has {count}, 0 to {count - 1}")
             return wanted % count
-        if isinstance(t, str) or not np.isscalar(t):
+        if isinstance(t, str) or np.ndim(t) != 0:
             raise BarchanError(f"t must be a number, a time in seconds, and is {t!r}")
         reach = np.diff(times).max() if count > 1 else 0.0
         if not times[0] - reach * (1 + 1e-9) <= t <= times[-1] + reach * (1 + 1e-9):
