@@ -36,7 +36,7 @@ def target_on_site(target, folder, page):
     if name in TEXTS:
         return TEXTS[name]
     if path.parts[0] == "docs":
-        return str(path.relative_to("docs"))
+        return path.name if path.parts[1] == "site" and path.suffix == ".md" else str(path.relative_to("docs"))
     source = ROOT / path
     if not source.exists():
         sys.exit(f"{page}: links to {target}, which is not there")
