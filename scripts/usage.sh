@@ -23,7 +23,7 @@ usage: $command_name COMMAND [arguments]
       --set KEY=VALUE, --out DIR, --threads N   as of run
       --resolved        print also the case with every default as TOML, after the numbers
       --resolved-only   print the case with every default as TOML, nothing else
-  keys [SECTION]      the keys of a case, or of one section, with range, unit, default and meaning
+  keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
   sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
       --out DIR         folder of the study (default: runs/<study name>)
       --only RUN ...    only these runs; patterns with * are allowed
@@ -65,8 +65,7 @@ Environment:
   BARCHAN_PYTHON      the Python that draws (default: /usr/bin/python3)
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
-  BARCHAN_PRESET      release (default), generic, ci, relwithdebinfo, debug, thread, rehearsal, fuzz, coverage,
-                      cuda, hip, sycl: docs/install.md
+  BARCHAN_PRESET      release, generic, ci, relwithdebinfo, debug, thread, rehearsal, fuzz, coverage, cuda, hip, sycl
   BARCHAN_DEPS        where a private Kokkos goes
   Kokkos_ROOT         a Kokkos of your own
   CMAKE_BUILD_PARALLEL_LEVEL   compile jobs
