@@ -19,8 +19,10 @@ SITE = ROOT / "build/site"
 NEW = ROOT / "build/site-new"  # takes its place when it is whole
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
 TEXTS["README.md"] = "index.md"
-WIDE = "---\nhide:\n  - navigation\n  - toc\n---\n\n"  # of the front page
+WIDE = "---\ntemplate: home.html\nhide:\n  - navigation\n  - toc\n---\n\n"  # of the front page
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+FONTS = pathlib.Path("/usr/share/fonts/opentype/inter")
+OF_FONTS = "Inter-Regular.otf", "Inter-Italic.otf", "Inter-SemiBold.otf"
 OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensions/MathEvents.js", "jax/input/TeX",
               "jax/element", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
 LINK = re.compile(r"(!?\[(?:[^\]\[]|\[[^\]]*\])*\]\()([^)\s#]+)(#[^)\s]*)?\)")
@@ -86,6 +88,9 @@ def gather():
     for page in (ROOT / "docs/site").glob("*.md"):
         shutil.copy(page, PAGES)
     shutil.copytree(ROOT / "docs/site", PAGES / "site", ignore=shutil.ignore_patterns("*.md", "theme"))
+    (PAGES / "site/fonts").mkdir()
+    for name in OF_FONTS:
+        shutil.copy(FONTS / name, PAGES / "site/fonts")
     for name in OF_MATHJAX:
         source, copy = MATHJAX / name, PAGES / "mathjax" / name
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -97,7 +102,7 @@ def gather():
 
 
 def main():
-    if shutil.which("mkdocs") is None or not MATHJAX.is_dir():
+    if shutil.which("mkdocs") is None or not MATHJAX.is_dir() or not FONTS.is_dir():
         sys.exit("MkDocs or a part of it is missing: ./barchan setup --docs")
     gather()
     python_path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
