@@ -102,6 +102,9 @@ def gather():
 
 
 def main():
+    if len(sys.argv) > 1:
+        print(f"usage: ./barchan docs\n\n{__doc__}")
+        return 0 if sys.argv[1] in ("--help", "-h") else 2
     if shutil.which("mkdocs") is None or not MATHJAX.is_dir() or not FONTS.is_dir():
         sys.exit("MkDocs or a part of it is missing: ./barchan setup --docs")
     gather()
