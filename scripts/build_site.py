@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Builds the site of the documentation in build/site: ./barchan docs. Needs Debian's MkDocs and Material; no network.
 
-The pages are those of docs/ and the texts beside README.md. They are gathered in build/site-pages with every link as
-the site needs it, and with the files that they link to. A warning of MkDocs, such as a link to nothing, is an error.
+The pages are those of docs/ and the texts beside README.md, which is the front page. They are gathered in
+build/site-pages with every link as the site needs it, and with the files that they link to. A warning of MkDocs, such
+as a link to nothing, is an error.
 """
 import json
 import os
@@ -17,7 +18,11 @@ PAGES = ROOT / "build/site-pages"
 SITE = ROOT / "build/site"
 NEW = ROOT / "build/site-new"  # takes its place when it is whole
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
+TEXTS["README.md"] = "index.md"
+WIDE = "---\ntemplate: home.html\nhide:\n  - navigation\n  - toc\n---\n\n"  # of the front page
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+FONTS = pathlib.Path("/usr/share/fonts/opentype/inter")
+OF_FONTS = "Inter-Regular.otf", "Inter-Italic.otf", "Inter-SemiBold.otf"
 OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensions/MathEvents.js", "jax/input/TeX",
               "jax/element", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
 LINK = re.compile(r"(!?\[(?:[^\]\[]|\[[^\]]*\])*\]\()([^)\s#]+)(#[^)\s]*)?\)")
@@ -30,12 +35,10 @@ def target_on_site(target, folder, page):
         return target
     path = pathlib.Path(os.path.normpath(folder / target))
     name = str(path)
-    if name == "README.md":
-        return "index.md"
     if name in TEXTS:
         return TEXTS[name]
     if path.parts[0] == "docs":
-        return str(path.relative_to("docs"))
+        return path.name if path.parts[1] == "site" and path.suffix == ".md" else str(path.relative_to("docs"))
     source = ROOT / path
     if not source.exists():
         sys.exit(f"{page}: links to {target}, which is not there")
@@ -53,17 +56,21 @@ def target_on_site(target, folder, page):
 
 def titles():
     """Title of each page in the navigation of mkdocs.yml."""
-    entries = re.findall(r"- ([^:\n]+): ([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.M)
+    entries = re.findall(r"- ([^:\n]+): ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.M)
     return {page: title for title, page in entries}
 
 
-def rewritten(text, folder, page):
-    """The text with its links as the site has them, a page by its title where it is named by its file; code is left."""
+def rewritten(source, on_site):
+    """The text of a page with its links as the site has them, a page by its title where it is named by its file; code
+    is left."""
     title = titles()
+    text, folder = source.read_text(), source.parent.relative_to(ROOT)
 
     def link(found):
-        target = target_on_site(found[2], folder, page)
-        shown = f"[{title[target]}](" if target in title and found[1] == f"[{target}](" else found[1]
+        target = target_on_site(found[2], folder, source.name)
+        shown = f"[{title[target]}](" if target in title and found[1] == f"[{found[2]}](" else found[1]
+        if "://" not in target and not target.startswith("mailto:"):
+            target = os.path.relpath(target, on_site.parent)
         return f"{shown}{target}{found[3] or ''})"
 
     return "".join(part if part.startswith("`") else LINK.sub(link, part) for part in CODE.split(text))
@@ -72,13 +79,18 @@ def rewritten(text, folder, page):
 def gather():
     shutil.rmtree(PAGES, ignore_errors=True)
     shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("*.md", "*.py", "site"))
-    for page in sorted((ROOT / "docs").glob("*.md")):
-        (PAGES / page.name).write_text(rewritten(page.read_text(), pathlib.Path("docs"), page.name))
-    for name, on_site in TEXTS.items():
-        (PAGES / on_site).write_text(rewritten((ROOT / name).read_text(), pathlib.Path(), name))
+    docs = ROOT / "docs"
+    pages = {page: page.relative_to(docs) for page in (*docs.glob("*.md"), *docs.glob("dev/*.md"))}
+    pages |= {ROOT / name: pathlib.Path(on_site) for name, on_site in TEXTS.items()}
+    for page, on_site in pages.items():
+        (PAGES / on_site).parent.mkdir(exist_ok=True)
+        (PAGES / on_site).write_text((WIDE if on_site.name == "index.md" else "") + rewritten(page, on_site))
     for page in (ROOT / "docs/site").glob("*.md"):
         shutil.copy(page, PAGES)
     shutil.copytree(ROOT / "docs/site", PAGES / "site", ignore=shutil.ignore_patterns("*.md", "theme"))
+    (PAGES / "site/fonts").mkdir()
+    for name in OF_FONTS:
+        shutil.copy(FONTS / name, PAGES / "site/fonts")
     for name in OF_MATHJAX:
         source, copy = MATHJAX / name, PAGES / "mathjax" / name
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -90,7 +102,10 @@ def gather():
 
 
 def main():
-    if shutil.which("mkdocs") is None or not MATHJAX.is_dir():
+    if len(sys.argv) > 1:
+        print(f"usage: ./barchan docs\n\n{__doc__}")
+        return 0 if sys.argv[1] in ("--help", "-h") else 2
+    if shutil.which("mkdocs") is None or not MATHJAX.is_dir() or not FONTS.is_dir():
         sys.exit("MkDocs or a part of it is missing: ./barchan setup --docs")
     gather()
     python_path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])

@@ -10,7 +10,7 @@ usage: $command_name COMMAND [arguments]
   run CASE.toml       run a case, then draw its pictures
       --set KEY=VALUE   change one key, e.g. grains.sliding_friction=0.4 (repeatable)
       --out DIR         run folder (default: runs/<case name>)
-      --restart FILE    go on from a restart file
+      --restart FILE    continue from a restart file
       --overwrite       remove the results of an earlier run in the folder and begin again
       --threads N       threads per rank (default: all cores, shared by the ranks)
       --ranks N         MPI ranks on this machine (default: 1)
@@ -18,15 +18,15 @@ usage: $command_name COMMAND [arguments]
       --dry-run         check the case, print its derived numbers and warnings; nothing is run or written
       --starts-only     run the cases this one starts from where they are missing, then stop
       --quiet           show warnings and errors only
-      --verbose         show also derived numbers, rates and iterations, which log.txt always has
+      --verbose         show derived numbers, rates and iterations, which log.txt always has
   check CASE.toml     validate a case; print what follows from its numbers, how long it takes, and warnings
       --set KEY=VALUE, --out DIR, --threads N   as of run
-      --resolved        print also the case with every default, as TOML
+      --resolved        print also the case with every default as TOML, after the numbers
       --resolved-only   print the case with every default as TOML, nothing else
-  keys [SECTION]      the keys of a case, of one section, or one key, with range, unit, default and meaning
-  sweep STUDY.toml    a parameter study: one run folder per case, resumed where it was left
+  keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
+  sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
       --out DIR         folder of the study (default: runs/<study name>)
-      --only RUN ...    these runs of it; patterns with * are taken
+      --only RUN ...    only these runs; patterns with * are allowed
       --at-once N       cases side by side (default: one for each core)
       --threads N       threads of each (default: all cores, shared by the cases)
       --overwrite       begin changed cases again
@@ -40,7 +40,7 @@ usage: $command_name COMMAND [arguments]
   info PATH           what a run or study folder, a result, restart file, table or case holds
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
-  plot validation     the figures of docs/validation*.md, from saved results
+  plot validation     the figures of docs/validation.md, from saved results
   test [CTEST ARGS]   build and run the tests (all but those labelled nightly)
   bench [NAME]        performance suite, or the cases with NAME in their name; adds records to runs/bench.jsonl
   docs                make a site of the documentation, with search, in build/site
@@ -65,7 +65,7 @@ Environment:
   BARCHAN_PYTHON      the Python that draws (default: /usr/bin/python3)
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
-  BARCHAN_PRESET      release, generic, debug, thread, cuda
+  BARCHAN_PRESET      release, generic, ci, relwithdebinfo, debug, thread, rehearsal, fuzz, coverage, cuda, hip, sycl
   BARCHAN_DEPS        where a private Kokkos goes
   Kokkos_ROOT         a Kokkos of your own
   CMAKE_BUILD_PARALLEL_LEVEL   compile jobs

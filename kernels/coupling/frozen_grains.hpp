@@ -1,4 +1,4 @@
-// Drag on grains that do not move. Equations: docs/numerics.md, "Coupled step".
+// Drag on grains that do not move. Equations: docs/theory-coupling.md, "Coupled step".
 #pragma once
 
 #include "kernels/grains/half_kick.hpp"

@@ -1,5 +1,5 @@
 // Fluid to grain: what is constant for a grain over one fluid step. The symbols are those of
-// docs/numerics.md, "Dense beds", and of docs/theory-coupling.md, "Exchange of momentum".
+// docs/theory-coupling.md, "Dense beds" and "Exchange of momentum".
 #pragma once
 
 #include "kernels/coupling/drag.hpp"

@@ -14,8 +14,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
   return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
 }
 
-/// What of beta_p dt joins rows j - 1 and j through one grain: C_j of docs/numerics.md, "Drag
-/// between rows",
+/// What of beta_p dt joins rows j - 1 and j through one grain: C_j of docs/theory-coupling.md,
+/// "Drag between cell layers",
 ///   sum over pairs of its rows a < j <= b of w_a w_b (b - a).
 /// At least as stiff as the drag itself (tests/physics/drag_between_rows_test.cpp). Over all j it
 /// adds up to kDividedOffsets^2 / 4 at most. Rows must be higher than a sixth of the grain: then

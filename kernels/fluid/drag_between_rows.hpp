@@ -10,7 +10,7 @@ namespace barchan {
 /// is left of it, per area of floor:
 ///   m_j (e_j - e*_j) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
 /// C_j the conductance between rows j - 1 and j. Implicit, so stable at any step; no momentum is
-/// lost. The drag at the old velocities is in u* already (docs/numerics.md, "Drag between rows").
+/// lost. The drag at the old velocities is in u* already (docs/theory-coupling.md).
 struct DragBetweenRows {
   GridRef grid;
   int rows = 0;               // those above have no conductance

@@ -3,7 +3,7 @@
 // serves grain-grain and grain-wall; it has no branches that a compiler cannot turn into selects,
 // so that a block of contacts vectorises.
 // Equation numbers: Lima et al. (2022), appendix A, with the misprints put right
-// (docs/misprints.md). Laws of one kind are small types with the same call.
+// (docs/barchan-10k.md). Laws of one kind are small types with the same call.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,5 @@
 // Velocity Verlet of a grain and the fluid that it carries along, with a drag that is linear in
-// their slip. Equations: docs/numerics-grains.md, "Integration".
+// their slip. Equations: docs/theory-grains.md, "Integration".
 #pragma once
 
 #include "kernels/grains/half_kick.hpp"

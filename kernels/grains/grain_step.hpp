@@ -114,7 +114,7 @@ struct SumKickDrift {
 
   /// For how many grain steps slack is best given. To look for active pairs costs once, more of
   /// them cost in every grain step, and how many more grows with `displacement`, the mean one of a
-  /// grain in a grain step [m]. Measured (docs/performance-method.md); hardly anything changes from
+  /// grain in a grain step [m]. Measured (docs/dev/performance.md); hardly anything changes from
   /// 20 to 200.
   KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real displacement) const {
     const Real n_steps = Kokkos::sqrt(100 * min_slack / displacement);

@@ -23,8 +23,8 @@ KOKKOS_INLINE_FUNCTION Real stable_step(Real k, Real gamma, Real m) {
 inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
 
 /// Adds up the tangential springs and dashpots of the contacts of each grain, which gives the step
-/// within some 10 % of that of all grains together (docs/numerics.md); reduces the shortest step of
-/// any contact alone [s].
+/// within some 10 % of that of all grains together (docs/theory-grains.md); reduces the shortest
+/// step of any contact alone [s].
 template <class Laws>
 struct TangentialOfPairs {
   Laws laws;  // a LawTable

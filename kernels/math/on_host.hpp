@@ -6,7 +6,7 @@
 namespace barchan {
 
 /// A build in which the host plays a device: kernels have the shapes that they have there, and the
-/// host has copies of its own of all arrays (docs/reliability.md).
+/// host has copies of its own of all arrays (docs/dev/reliability.md).
 #ifdef BARCHAN_REHEARSAL
 inline constexpr bool kRehearsal = true;
 #else

@@ -7,7 +7,7 @@
     run.fields(t=2.0)            # an xarray.Dataset, read where it is used
     run.figure("morphology")     # a matplotlib Figure
 
-docs/python.md has the first hour. SI units throughout.
+docs/results.md has the first hour. SI units throughout.
 """
 
 from barchan.errors import BadInput, BarchanError, MissingData, RunFailed, RunStopped

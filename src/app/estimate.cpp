@@ -22,7 +22,7 @@ namespace barchan {
 
 namespace {
 
-// Measured in runs of the shipped cases (docs/performance-method.md, "Estimates"). A grain step of
+// Measured in runs of the shipped cases (docs/dev/performance.md, "Estimates"). A grain step of
 // a moving dune is dearer than one at rest: contacts come and go, and are looked for more often.
 constexpr double kMovingOverResting = 1.2;
 // Direct solves of the pressure equation in a step where grains move.

@@ -247,7 +247,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
       {"grains.sizes", "grains.kind"},
       "holds diameters of 1 to {:.3g}: beyond 3 friction may hold small grains between "
       "large ones; give the small ones a [[grains.kind]] of their own "
-      "(docs/numerics-grains.md)",
+      "(docs/theory-grains.md)",
       n.d_max / n.d_min);
   // The neighbour search looks at the columns on either side, which must be three different ones.
   const double reach = 3 * (n.d_max + c.grains->skin);

@@ -14,8 +14,8 @@
 namespace barchan {
 
 /// Direct forcing within the fluid step: faces inside a body are closed, and the friction of its
-/// wall acts on the faces next to these, where the wall is (docs/numerics.md, "Bodies"). Nothing
-/// changes over a run.
+/// wall acts on the faces next to these, where the wall is (docs/theory-fluid.md, "Bodies").
+/// Nothing changes over a run.
 class BodiesInFlow {
  public:
   BodiesInFlow(const Bodies& bodies, const Grid& grid, const Halo& halo, const FluidConfig& config);

@@ -1,5 +1,5 @@
 // What a rank sends in a step, counted and as the scaling model has it (perf/scaling_counts.py,
-// docs/scaling.md).
+// docs/dev/scaling.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

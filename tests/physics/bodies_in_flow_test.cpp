@@ -217,7 +217,7 @@ Vec3 floor_stress(const FlowRun& run) {
 // O'Neill, Chem. Eng. Sci. 23, 1293 (1968): a sphere that touches a wall in slow shear has 1.7009
 // of Stokes' drag and 0.944 of his torque. Here r is 4 cells, the lid 4 r above and the next
 // spheres 8 r away, which adds some 3 %: with 6 r and 12 r the drag is 1 % above his
-// (docs/validation-flow.md).
+// (docs/validation.md).
 TEST(BodiesInFlow, ASphereOnTheFloorHasONeillsDragAndTorque) {
   const int cells = 4;
   const double r = 1e-3, nu = 1e-5, rate = 0.1, h = r / cells;

@@ -200,7 +200,7 @@ TEST(ChungOoiSpin, Test8SlidingEndsOfTheDampedLaw) {
 // is limited by the elastic part of the normal force, whose impulse is m v (1 + e) like that of the
 // total. A sphere a thousand times stiffer and denser (case B) is a plane: the law knows the moduli
 // only through k_t/k_n. The digitised curve of case B lies up to 0.15 above that of the plane. At
-// two angles it is missed by that (0.120 and 0.134 for 0.1; docs/validation-grains.md says so): there the
+// two angles it is missed by that (0.120 and 0.134 for 0.1; docs/validation.md says so): there the
 // motion is compared with the plane's.
 TEST(ChungOoiSpin, Test8SpinningImpact) {
   for_spinning_impacts(CoulombLimit::elastic, [](const std::string& claim, Real x, Real recoil,

@@ -120,7 +120,7 @@ Steady steady_flow(int n) {
 }
 
 // Re = 20: drag 5.5795, lift 0.0106, pressure difference 0.1175, length of the recirculation 0.0842
-// to 0.0852 m. Finer meshes: docs/validation-flow.md.
+// to 0.0852 m. Finer meshes: docs/validation.md.
 TEST(CylinderInAChannel, AtReynolds20ItIsThatOfTheBenchmark) {
   const Steady flow = steady_flow(10);
   expect_relative("drag of a cylinder in a channel, Re 20", flow.drag, 5.5795, 0.01);

@@ -167,7 +167,7 @@ def test_the_verdicts():
 def test_what_is_published_stands_in_the_documents():
     """Each law with its exponent and source in docs/studies.md, each source in the bibliography."""
     rows = [line for line in (ROOT / "docs/studies.md").read_text().splitlines() if line.startswith("| `")]
-    sources = (ROOT / "docs/bibliography.md").read_text()
+    sources = (ROOT / "docs/glossary.md").read_text()
     for name, relation in laws.RELATIONS.items():
         row, = (line for line in rows if line.startswith(f"| `{name}` |"))
         said = "none" if relation.published is None else \

@@ -72,7 +72,7 @@ def test_units_are_those_of_the_documents():
 
 
 def test_the_page_lists_every_figure():
-    page = (ROOT / "docs/python.md").read_text()
+    page = (ROOT / "docs/results.md").read_text()
     for entries in registry.OF_RUN, registry.OF_STUDY:
         rows = [f"| `{entry.name}` | {', '.join(entry.needs).replace('|', ' or ') or 'any file'} | {entry.about} |"
                 for entry in entries.values()]

@@ -11,7 +11,7 @@ import numpy as np
 import faults
 
 CASE = {**faults.OFTEN, "time.end": 0.005, "output.grain_forces": "true"}
-# Round-off after twenty fluid steps, the motion of the grains amplifies it from then on (docs/numerics-grains.md).
+# Round-off after twenty fluid steps, the motion of the grains amplifies it from then on (docs/theory-grains.md).
 LARGEST_DIFFERENCE = 1e-9
 
 

@@ -24,50 +24,38 @@ SAME = [
     ("agreement of a card and a CPU", ("docs/cluster.md", rf"positions agree to {N}, forces and velocities to {N}\."),
      ("scripts/first_light_judge.py", rf"STEP, FORCES = {N}, {N} ")),
     ("bed load over Wong & Parker's", ("docs/threshold.md", rf"{N} to {N} up to 0\.2,"),
-     ("docs/validation-beds.md", rf"a flat bed carries {N} to {N} of the flux"),
+     ("docs/validation.md", rf"a flat bed carries {N} to {N} of the flux"),
      ("docs/validation.md", rf"Shields 0\.15 to 0\.2: Wong & Parker \| {N} to {N} of it")),
     ("where a flat bed begins to move", ("docs/threshold.md", rf"begin to move at a Shields number of {N} to {N}"),
-     ("docs/choosing.md", rf"a flat bed of this program starts at \[{N} to {N}\]"),
      ("docs/troubleshooting.md", rf"A flat bed of this program moves from {N} to {N} on")),
-    ("Shields number of the paper's flow", ("docs/validation-beds.md", rf"threshold 0\.0487 \| {N};"),
+    ("Shields number of the paper's flow", ("docs/validation.md", rf"threshold 0\.0487 \| {N};"),
      ("docs/choosing.md", rf"`Shields number` \| {N} \|")),
     ("peaks of the stresses on the paper's meshes", ("docs/validation.md", rf"peaks of u'u', v'v' \| \+{N},"),
-     ("docs/validation-flow.md", rf"Peaks of single stresses there miss by up to {N} %"),
-     ("docs/troubleshooting.md", rf"peaks of the stresses miss the DNS by up to {N} %")),
-    ("step over the Rayleigh time, smallest grain", ("docs/validation-beds.md", rf"step over them {N} %"),
-     ("docs/numerics.md", rf"for the mean grain and {N} % for the smallest"),
+     ("docs/validation.md", rf"Peaks of single stresses there miss by up to {N} %")),
+    ("step over the Rayleigh time, smallest grain", ("docs/validation.md", rf"step over them {N} %"),
+     ("docs/theory-grains.md", rf"for the mean grain and {N} % for the smallest"),
      ("docs/choosing.md", rf"and that of the shipped dunes, is {N} % of it"),
-     ("docs/first-dune.md", rf"\({N} % of the Rayleigh time\)"),
      ("configs/barchan-10k.toml", rf"\({N} % for the smallest grain")),
-    ("dune of 10,000 at 2 s: W, L, H",
-     ("docs/barchan-10k.md", rf"\| 2 \| {N} \+- {N} \| {N} \+- {N} \| {N} \+- {N} \|"),
-     ("docs/barchan-10k-studies.md", rf"\| 2 \| 0\.65 d \(3\) \| {N} \+- {N}, {N} \+- {N} \| {N} \+- {N} \|")),
-    ("its W/L", ("docs/barchan-10k.md", rf"\| W/L \| {N} \+- {N} \|"),
-     ("docs/gallery.md", rf"W/L, L/H from 5 to 10 s \| [^|]*\| [^|]*\| {N} \+- {N},")),
-    ("its horn grains from the paper's sectors", ("docs/barchan-10k.md", rf"if evenly spread\) \| {N} \+- {N} %"),
-     ("docs/gallery.md", rf"210 to 260 degrees \| {N} \+- {N} %")),
-    ("its grain step over the stable one", ("docs/barchan-10k.md", rf"is up to {N} times the longest stable one"),
-     ("docs/choosing.md", rf"`grain_step_over_stable` up to {N},")),
-    ("turbulence in the box of the flat bed", ("docs/validation-beds.md", rf"for at least {N} s at {N} m/s"),
+    ("turbulence in the box of the flat bed", ("docs/validation.md", rf"for at least {N} s at {N} m/s"),
      ("configs/validation/flat-bed.toml", rf"turbulence lives in it for {N} s at {N} m/s")),
     ("bytes of a cell, of the flow alone", ("docs/performance.md", rf"takes {N} bytes in a coupled step and {N} in a"),
      ("perf/scaling.py", rf"\(\({N} if case\.has_grains else {N}\)")),
     ("bytes of a grain in water", ("docs/performance.md", rf"bytes dry and {N} in water"),
      ("perf/scaling.py", rf"\* case\.cells \+ {N} \* case\.grains")),
     ("a moving grain step over one at rest", ("src/app/estimate.cpp", rf"kMovingOverResting = {N};"),
-     ("docs/performance-method.md", rf"moves the grains takes {N} times that at rest")),
+     ("docs/dev/performance.md", rf"moves the grains takes {N} times that at rest")),
     ("iterations with moving grains", ("src/app/estimate.cpp", rf"kIterationsOfMoving = {N};"),
-     ("docs/performance-method.md", rf"equation then takes {N} direct solves")),
+     ("docs/dev/performance.md", rf"equation then takes {N} direct solves")),
     ("speed of the fastest grains", ("src/app/estimate.cpp", rf"std::max\({N} \* derive"),
-     ("docs/performance-method.md", rf"go at {N} of the bulk velocity")),
+     ("docs/dev/performance.md", rf"go at {N} of the bulk velocity")),
     ("latency of a message", ("perf/scaling.py", rf"latency: float = {N}e-6"),
-     ("docs/scaling.md", rf"A message costs a latency \({N} us\)")),
+     ("docs/dev/scaling.md", rf"A message costs a latency \({N} us\)")),
     ("memory of a core", ("perf/scaling.py", rf'"CPU", memory={N}e9'),
-     ("docs/scaling.md", rf"less than {N} GB a core")),
-    ("1e7 grains on 1,000 cores", ("docs/scaling.md", rf"\| 1000 \| [^|]*\| [\d,]+ \({N} %\)"),
-     ("docs/scaling.md", rf"1e7 grains on cores: at about 1,000 cores\*\* \({N} % there\)")),
-    ("1e9 cells on 1,000 cores", ("docs/scaling.md", rf"\| 1000 \| (?:[^|]*\| ){{2}}[\d.]+ \({N} %\)"),
-     ("docs/scaling.md", rf"1e9 cells on cores: beyond 1,000 cores\*\* \({N} % there\)")),
+     ("docs/dev/scaling.md", rf"less than {N} GB a core")),
+    ("1e7 grains on 1,000 cores", ("docs/dev/scaling.md", rf"\| 1000 \| [^|]*\| [\d,]+ \({N} %\)"),
+     ("docs/dev/scaling.md", rf"1e7 grains on cores: at about 1,000 cores\*\* \({N} % there\)")),
+    ("1e9 cells on 1,000 cores", ("docs/dev/scaling.md", rf"\| 1000 \| (?:[^|]*\| ){{2}}[\d.]+ \({N} %\)"),
+     ("docs/dev/scaling.md", rf"1e9 cells on cores: beyond 1,000 cores\*\* \({N} % there\)")),
     ("estimates within a factor of 1.5", ("docs/performance.md", rf"For {N} of the {N} cases measured"),
      ("perf/estimates.csv", "ratio")),
 ]
@@ -75,11 +63,11 @@ SAME = [
 # Page, rows there, table, what stands before the name of a case in the table, how far off (of the number), fewest rows.
 MEASURED = [
     ("docs/performance.md", CASES, "perf/measured.csv", "case", ("",), 0, 9),
-    ("docs/performance-method.md", KERNELS, "perf/measured.csv", "case", ("kernel/",), 0, 6),
+    ("docs/dev/performance.md", KERNELS, "perf/measured.csv", "case", ("kernel/",), 0, 6),
     ("docs/performance.md", RATIOS, "perf/peers.csv", "ratio", ("",), 0, 8),
-    ("docs/cases.md", COSTS, "perf/estimates.csv", "case", ("", "validation/"), 0.2, 10),
+    ("docs/examples.md", COSTS, "perf/estimates.csv", "case", ("", "validation/"), 0.2, 10),
 ]
-# Quantity in docs/validation/channel_summary.csv, and the row of docs/validation-flow.md with its deviations.
+# Quantity in docs/validation/channel_summary.csv, and the row of docs/validation.md with its deviations.
 CHANNEL = {"u_star": "$u_*$", "uu peak": "peak of u'u'", "vv peak": "peak of v'v'", "ww peak": "peak of w'w'",
            "-uv peak": "peak of -u'v'", "uu peak y+": "place of the u'u' peak", "vv peak y+": "place of the v'v' peak",
            "ww peak y+": "place of the w'w' peak", "-uv peak y+": "place of the -u'v' peak"}
@@ -177,9 +165,9 @@ def wrong_channel():
     lines = {line["quantity"]: line for line in lines_of("docs/validation/channel_summary.csv")}
     for quantity, start in CHANNEL.items():
         expected = [float(lines[quantity][name]) for name in CHANNEL_COLUMNS]
-        found = rows("docs/validation-flow.md", start + " |")
+        found = rows("docs/validation.md", start + " |")
         if not found or numbers_in(found[0].split("|", 3)[3]) != expected:
-            yield f"docs/validation-flow.md: the row '{start}' is not {expected}"
+            yield f"docs/validation.md: the row '{start}' is not {expected}"
 
 
 def wrong_summary():
@@ -198,8 +186,8 @@ def wrong_summary():
 def wrong_scaling():
     script = ROOT / "perf/scaling.py"
     said = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
-    if said not in (ROOT / "docs/scaling.md").read_text(encoding="utf-8"):
-        yield "docs/scaling.md: its table is not that of perf/scaling.py (--page docs/scaling.md writes it)"
+    if said not in (ROOT / "docs/dev/scaling.md").read_text(encoding="utf-8"):
+        yield "docs/dev/scaling.md: its table is not that of perf/scaling.py (--page docs/dev/scaling.md writes it)"
 
 
 def wrong_measurements():
@@ -212,12 +200,12 @@ def wrong_measurements():
         load, flux = line.split(" | ")[2:4]
         if f"{load} ({flux.split()[0]})" not in page:
             yield f"docs/threshold.md has no '{load} ({flux.split()[0]})': {line}"
-    page = text_of("docs/validation-beds.md")
+    page = text_of("docs/validation.md")
     for line in laminar_bed.summary(folder):
         case, _, _, height, shields, flux, *_ = line.split(" | ")
         found = re.search(rf"\| {case}(?:, torque)? \| {height} \| {shields} \|[^|]*\|[^|]*\| {N} \+- {N}", page)
         if not found or any(abs(float(a) - b) > 0.06e-3 for a, b in zip(found.groups(), numbers_in(flux))):
-            yield f"docs/validation-beds.md has no row of '{line}'"
+            yield f"docs/validation.md has no row of '{line}'"
 
 
 def main():

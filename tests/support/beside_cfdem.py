@@ -1,4 +1,4 @@
-"""What is compared with CFDEM (docs/validation-cfdem.md), from runs of our program; tests/reference/cfdem_*.csv
+"""What is compared with CFDEM (docs/validation.md), from runs of our program; tests/reference/cfdem_*.csv
 hold what CFDEM gave from the same states."""
 import csv
 import os

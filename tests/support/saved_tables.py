@@ -1,4 +1,4 @@
-"""Results of tests/scripts/nightly/cfdem.py as tables for the figure of docs/validation-cfdem.md."""
+"""Results of tests/scripts/nightly/cfdem.py as tables for the figure of docs/validation.md."""
 import datetime
 import json
 import pathlib

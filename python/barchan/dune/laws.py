@@ -29,7 +29,7 @@ class Relation:
     """The column y of `measure` against x: a power y = a x^n, a line y = a + n x or a ratio y = n x.
 
     among: runs that are alike in this column share an a. published: lowest and highest n of the source; None where we
-    know of none to compare with. The sources in full: docs/bibliography.md.
+    know of none to compare with. The sources in full: docs/glossary.md.
     """
 
     y: str

@@ -11,7 +11,7 @@ In the program itself: File > Load State, this file, after setting RUN below or 
 
     BARCHAN_RUN=runs/barchan-10k paraview
 
-or, with grains.xdmf or fields.xdmf open, Run Script in the Python Shell. docs/paraview.md
+or, with grains.xdmf or fields.xdmf open, Run Script in the Python Shell. docs/results.md
 says what the pipeline does, step by step. Written for ParaView 5.11.
 """
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Comparison with CFDEM (docs/validation-cfdem.md): our side again, from the same cases, against what CFDEM gave from
+"""Comparison with CFDEM (docs/validation.md): our side again, from the same cases, against what CFDEM gave from
 the same states (tests/reference/cfdem_*.csv). Some ten minutes on one core. BARCHAN_CFDEM_RUNS names a folder for the
 runs, which are used again; with BARCHAN_RESULTS the tables for the figure are written there."""
 import os

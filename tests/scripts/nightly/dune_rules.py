@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The paper's rules on friction, restitution and rolling friction, judged from finished runs of one case that differ
-in one key each (docs/validation-beds.md, "Dunes"; to 2 s some three minutes each on one core):
+in one key each (docs/validation.md, "Dunes"; to 2 s some three minutes each on one core):
   ./barchan run configs/barchan-10k.toml --set time.end=2 --out runs/base
   ... --set grains.sliding_friction=0.2 --out runs/mu, ... --set grains.restitution=0.9 --out runs/e,
   ... --set grains.rolling_friction=0.3 --out runs/mu-r

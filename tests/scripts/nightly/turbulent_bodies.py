@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Turbulent flow over a wavy wall and around a cube against published results (docs/validation-flow.md, "Turbulent flow
+"""Turbulent flow over a wavy wall and around a cube against published results (docs/validation.md, "Turbulent flow
 over bodies"). BARCHAN_BODY_RUNS names a folder for the runs, which are used again."""
 import json
 import os
