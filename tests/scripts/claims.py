@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""What texts name is there: the tests of docs/validation*.md (`Suite.Name`, `Suite.Begin*`, `script.name`); in all
+"""What texts name is there: the tests of docs/validation/checks.csv (Suite.Name, Suite.Begin*, script.name); in all
 documents, Python files and comments the files (src/base/words.cpp); but in comments of C++ members (Halo::fill)."""
+import csv
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
-NAMED = re.compile(r"`([A-Z]\w+\.\w*(?:\*|\.\.\.)?|script(?:\.nightly)?\.\w+)`")
+CHECKS = "docs/validation/checks.csv"
 FOLDERS = "cmake", "configs", "docs", "kernels", "packaging", "perf", "python", "scripts", "src", "tests"
 FILE = re.compile(rf"(?<![\w/.$}}-])((?:{'|'.join(FOLDERS)})/[\w./-]+\.(?:cpp|hpp|py|sh|cmake|md|toml|csv|js))\b")
 MEMBER = re.compile(r"\b([A-Z]\w+)::(\w+)")
@@ -16,19 +17,19 @@ WRITTEN = {"kernels/math/mutant.hpp"}  # by tests/hygiene/mutants.py
 
 
 def gone_tests():
-    """Names of tests in docs/validation*.md, and "page names it" for each that is not there."""
+    """Names of tests in the table of all checks, and "it names ..." for each that is not there."""
     tests = {f"script.{path.stem}" for path in ROOT.glob("tests/scripts/*.[ps][yh]")}
     tests |= {"script.parallel_files", "script.bad_input"}
     tests |= {f"script.nightly.{path.stem}" for path in ROOT.glob("tests/scripts/nightly/*")}
     for source in ROOT.glob("tests/*/*.cpp"):
         tests |= {".".join(found) for found in DECLARED.findall(source.read_text())}
-    named = {(path.relative_to(ROOT), name) for path in ROOT.glob("docs/validation*.md")
-             for name in NAMED.findall(path.read_text()) if not name.endswith((".md", ".csv", ".toml"))}
+    with open(ROOT / CHECKS, encoding="utf-8") as file:
+        named = {name for row in csv.DictReader(file) for name in row["tests"].split()}
 
     def is_there(name):
         return any(test == name or (name[-1] in "*." and test.startswith(name.rstrip("*."))) for test in tests)
 
-    return named, [f"{page} names {name}" for page, name in sorted(named) if not is_there(name)]
+    return named, [f"{CHECKS} names {name}" for name in sorted(named) if not is_there(name)]
 
 
 def sources(*ends):
@@ -67,7 +68,7 @@ def main():
     n, names = gone_names()
     for what in [*gone, *names]:
         print(f"{what}, and there is no such thing")
-    print(f"claims: {len(named)} names of tests in docs/validation*.md, {n} of files and members")
+    print(f"claims: {len(named)} names of tests in {CHECKS}, {n} of files and members")
     return 1 if gone or names or len(named) < 200 or n < 100 else 0
 
 
