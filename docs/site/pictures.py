@@ -3,19 +3,19 @@
 Needs numpy, matplotlib, Pillow, the package barchan with h5py and pandas, and the programs ffmpeg and povray
 (Debian: python3-numpy python3-matplotlib python3-pil python3-h5py python3-pandas ffmpeg povray).
 
-    PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36] [--work build/pictures]
+    PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36]
 
-film: docs/site/barchan.mp4, docs/site/barchan.png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png.
-All lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right and z
-down the page, as in the figures of the program: the left horn is the upper one.
+film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png.
+Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
+and z down the page, as in the figures of the program: the left horn is the upper one.
 """
 
 from __future__ import annotations
 
 import argparse
 import subprocess
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib
 import numpy as np
@@ -28,14 +28,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).resolve().parent.parent
 FLOOR = np.array([0.925, 0.915, 0.895], np.float32)
-SANDS = np.array(
-    [[0.87, 0.70, 0.45], [0.83, 0.65, 0.40], [0.90, 0.75, 0.52], [0.80, 0.61, 0.36], [0.93, 0.80, 0.60],
-     [0.77, 0.57, 0.34], [0.86, 0.69, 0.46], [0.55, 0.36, 0.22]], np.float32)  # fmt: skip
-DIAMETER = 0.2
+SANDS = np.array([[87, 70, 45], [83, 65, 40], [90, 75, 52], [80, 61, 36], [93, 80, 60], [77, 57, 34], [86, 69, 46],
+                  [55, 36, 22]], np.float32) / 100  # fmt: skip
+DIAMETER, INK = 0.2, "#222222"
 
 
-@dataclass
-class Window:
+class Window(NamedTuple):
     """Part of the floor seen from above: upper left corner and size in mm, pixels per mm."""
 
     x: float
@@ -92,10 +90,7 @@ def blurred(a: np.ndarray, half: int) -> np.ndarray:
 
 
 def lit(h: np.ndarray, scale: float, elevation: float = 30.0, turn: float = 0.35) -> np.ndarray:
-    """Share of the side light that reaches each pixel: soft shadows cast over the height field.
-
-    The light comes from upstream (the left) and turns by `turn` pixels across per pixel along.
-    """
+    """Share of the side light from upstream (`turn`: pixels across per pixel along) that reaches each pixel."""
     rows, columns = h.shape
     j = np.arange(columns)
     drift = np.round(turn * j).astype(int)
@@ -105,12 +100,11 @@ def lit(h: np.ndarray, scale: float, elevation: float = 30.0, turn: float = 0.35
     rays = np.take_along_axis(tall, np.minimum(i, tall.shape[0] - 1), axis=0)
     light = np.zeros_like(rays)
     step = np.hypot(1.0, turn) / scale
-    elevations = elevation + np.array([-6.0, -3.0, 0.0, 3.0, 6.0])
-    for angle in elevations:
+    for angle in elevation + np.array([-6.0, -3.0, 0.0, 3.0, 6.0]):
         along = rays + (np.tan(np.radians(angle)) * step * j).astype(np.float32)
         light += (np.maximum.accumulate(along, axis=1) - along) < 0.2 / scale
     back = np.arange(reach, rows + reach)[:, None] - drift[None, :]
-    return np.take_along_axis(light, back, axis=0) / len(elevations)
+    return np.take_along_axis(light, back, axis=0) / 5
 
 
 def facing(h: np.ndarray, scale: float, sun: np.ndarray) -> np.ndarray:
@@ -120,10 +114,7 @@ def facing(h: np.ndarray, scale: float, sun: np.ndarray) -> np.ndarray:
 
 
 def shade(h: np.ndarray, scale: float, sand: np.ndarray) -> np.ndarray:
-    """Brightness of each pixel: side light with shadows, light of the sky less what neighbours hide.
-
-    Shadows and relief are found on every second pixel, the roundness of the grains on all.
-    """
+    """Brightness of each pixel: side light with shadows, light of the sky less what neighbours hide."""
     sun = np.array([-np.cos(np.radians(30)), -0.3, np.sin(np.radians(30))], np.float32)
     sun /= np.linalg.norm(sun)
     low, s = h[::2, ::2], scale / 2
@@ -131,11 +122,9 @@ def shade(h: np.ndarray, scale: float, sand: np.ndarray) -> np.ndarray:
     form[~sand[::2, ::2]] = sun[2]
     hidden = sum(np.maximum(blurred(low, round(k * DIAMETER * s)) - low, 0) / (k * DIAMETER) for k in (0.4, 1.2, 3.0))
     sky, light = np.exp(-1.1 * hidden), lit(low, s)
-
-    def full(a: np.ndarray) -> np.ndarray:
-        return a.astype(np.float32).repeat(2, axis=0).repeat(2, axis=1)
-
-    return full(0.42 * sky + 0.72 * light * form) + full(0.38 * light) * facing(h, scale, sun)
+    coarse = np.stack([0.42 * sky + 0.72 * light * form, 0.38 * light]).astype(np.float32)  # on every second pixel
+    smooth, round_part = coarse.repeat(2, axis=1).repeat(2, axis=2)
+    return smooth + round_part * facing(h, scale, sun)
 
 
 def top_view(g: dict[str, np.ndarray], w: Window) -> np.ndarray:
@@ -145,16 +134,12 @@ def top_view(g: dict[str, np.ndarray], w: Window) -> np.ndarray:
     return np.clip(colour * (1.12 * shade(h, w.scale, who >= 0))[..., None], 0, 1) ** np.float32(0.88)
 
 
-def font(size: int) -> ImageFont.FreeTypeFont:
-    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    return ImageFont.truetype(str(folder / "DejaVuSans.ttf"), size)
-
-
 def labelled(picture: np.ndarray, w: Window, t: float) -> Image.Image:
     """Picture with the bar of 5 mm, the arrow of the flow and the time."""
     image = Image.fromarray((255 * picture).astype(np.uint8))
     pen, ink, u = ImageDraw.Draw(image), (40, 44, 48), image.width / 1600
-    letters, low = font(round(34 * u)), image.height - round(50 * u)
+    font = f"{matplotlib.get_data_path()}/fonts/ttf/DejaVuSans.ttf"
+    letters, low = ImageFont.truetype(font, round(34 * u)), image.height - round(50 * u)
     start, end = image.width - round(60 * u) - 5 * w.scale, image.width - round(60 * u)
     pen.rectangle([start, low - 4 * u, end, low + 4 * u], fill=ink)
     pen.text(((start + end) / 2, low - 14 * u), "5 mm", fill=ink, font=letters, anchor="ms")
@@ -170,26 +155,21 @@ def film(run: barchan.Run, work: Path, still: float, every: int) -> None:
     frames = work / "frames"
     frames.mkdir(parents=True, exist_ok=True)
     times = np.asarray(run.grain_times)[::every]
-    track = run.dune_columns[0]
-    path = np.polyfit(track["t"], 1e3 * track["Cx"], 3)
-
-    def window(t: float) -> Window:
-        return Window(float(np.polyval(path, t)) - 11.0, 10.0, 32.0, 20.0, 50.0)
-
+    path = np.polyfit(run.dune_columns[0]["t"], 1e3 * run.dune_columns[0]["Cx"], 3)
     for k, t in enumerate(times):
         name = frames / f"{k:04d}.png"  # remains from an interrupted call are used
         if not name.exists():
-            w = window(t)
+            w = Window(float(np.polyval(path, t)) - 11.0, 10.0, 32.0, 20.0, 50.0)
             labelled(top_view(grains_of(run, t), w), w, t).save(name, compress_level=1)
-    call = ["ffmpeg", "-y", "-loglevel", "error", "-threads", "1", "-framerate", "12", "-i", str(frames / "%04d.png")]
-    subprocess.run([*call, "-c:v", "libx264", "-preset", "veryfast", "-crf", "27", "-pix_fmt", "yuv420p",
-                    "-movflags", "+faststart", str(DOCS / "site" / "barchan.mp4")], check=True)  # fmt: skip
+    call = f"ffmpeg -y -loglevel error -threads 1 -framerate 12 -i {frames}/%04d.png -c:v libx264 -preset veryfast"
+    call += f" -crf 31 -pix_fmt yuv420p -movflags +faststart {DOCS}/site/barchan.mp4"
+    subprocess.run(call.split(), check=True)
     poster = Image.open(frames / f"{int(np.argmin(abs(times - still))):04d}.png")
     poster.quantize(200, dither=Image.Dither.NONE).save(DOCS / "site" / "barchan.png", optimize=True)
-    small = [Image.open(frames / f"{k:04d}.png").resize((704, 440), Image.Resampling.LANCZOS)
-             for k in range(len(times))]  # fmt: skip
+    names = sorted(frames.glob("*.png"))
+    small = [Image.open(name).resize((704, 440), Image.Resampling.LANCZOS) for name in names]
+    name = DOCS / "barchan.webp"
     for quality in (30, 15, 5):
-        name = DOCS / "barchan.webp"
         small[0].save(name, save_all=True, append_images=small[1:], duration=95, loop=0, quality=quality, method=2)
         if name.stat().st_size < 2e6:
             break
@@ -197,31 +177,30 @@ def film(run: barchan.Run, work: Path, still: float, every: int) -> None:
 
 def grid(run: barchan.Run, times: list[float]) -> None:
     """Six views from above, cropped to the dune; the colour is the height."""
+    tint = matplotlib.colors.ListedColormap(plt.get_cmap("YlOrBr")(np.linspace(0.12, 0.87, 256)))
+    arrow = {"arrowstyle": "-|>", "color": INK}
     figure, axes = plt.subplots(2, 3, figsize=(12, 7.4), layout="constrained")
     for axis, t in zip(axes.flat, times, strict=True):
         g = grains_of(run, t)
         w = Window(float(np.median(g["x"][g["dune"] == 0])) - 9.3, 9.0, 23.0, 22.0, 32.0)
         h, who = paint(g, w)
         light = np.clip(0.25 + 0.95 * shade(h, w.scale, who >= 0), 0, 1.15)[..., None]
-        colour = np.where(who[..., None] < 0, [0.97, 0.97, 0.97], plt.get_cmap("YlOrBr")(0.12 + 0.75 * h / 1.3)[..., :3])
+        colour = np.where(who[..., None] < 0, 0.97, tint(h / 1.3)[..., :3])
         extent = (w.x, w.x + w.length, w.z + w.width, w.z)
         axis.imshow(np.clip(colour * light, 0, 1), extent=extent, interpolation="antialiased")
         smooth = blurred(h, round(1.5 * DIAMETER * w.scale))[::4, ::4]
-        axis.contour(np.linspace(*extent[:2], smooth.shape[1]), np.linspace(w.z, w.z + w.width, smooth.shape[0]), smooth,
-                     levels=2 * DIAMETER * np.arange(1, 6), colors="#222222", linewidths=0.7)  # fmt: skip
-        axis.set_title(f"{t:g} s", fontsize=13)
-        axis.set_xticks([])
-        axis.set_yticks([])
-        axis.plot([w.x + 17, w.x + 22], [w.z + 21.2] * 2, color="#222222", linewidth=3, solid_capstyle="butt")
+        across, along = (np.linspace(0, side, n) for side, n in zip((w.width, w.length), smooth.shape, strict=True))
+        axis.contour(w.x + along, w.z + across, smooth, 2 * DIAMETER * np.arange(1, 6), colors=INK, linewidths=0.7)
+        axis.set(title=f"{t:g} s", xticks=[], yticks=[])
+        axis.plot([w.x + 17, w.x + 22], [w.z + 21.2] * 2, color=INK, linewidth=3, solid_capstyle="butt")
         axis.text(w.x + 19.5, w.z + 20.8, "5 mm", ha="center", va="bottom", fontsize=10)
         axis.text(w.x + 0.8, w.z + 1.4, "water", ha="left", va="center", fontsize=10)
-        axis.annotate("", (w.x + 7.5, w.z + 1.4), (w.x + 3.8, w.z + 1.4), arrowprops={"arrowstyle": "-|>", "color": "#222222"})
-    tint = matplotlib.colors.LinearSegmentedColormap.from_list("height", plt.get_cmap("YlOrBr")(np.linspace(0.12, 0.87, 64)))
+        axis.annotate("", (w.x + 7.5, w.z + 1.4), (w.x + 3.8, w.z + 1.4), arrowprops=arrow)
     bar = plt.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1.3), tint)
     figure.colorbar(bar, ax=axes, shrink=0.6, aspect=30, label="height (mm); lines every 2 d = 0.4 mm")
     figure.savefig(DOCS / "barchan-10k.png", dpi=110)
-    Image.open(DOCS / "barchan-10k.png").convert("RGB").quantize(256, dither=Image.Dither.NONE).save(
-        DOCS / "barchan-10k.png", optimize=True)  # fmt: skip
+    picture = Image.open(DOCS / "barchan-10k.png").convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    picture.save(DOCS / "barchan-10k.png", optimize=True)
 
 
 def hero(run: barchan.Run, work: Path, t: float) -> None:
@@ -236,7 +215,7 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
         "camera { perspective location <26, 19, -4> right x*16/9 up y angle 40 look_at <2.2, -0.2, 0.7> }",
         "light_source { <-34, 27, 30> rgb 1.75 area_light <6, 0, 7>, <0, 9, 0>, 4, 4 adaptive 1 jitter }",
         "#declare Ink = texture { pigment { rgb <0.03, 0.035, 0.04> } finish { ambient 0 diffuse 0.6 } }",
-        "#declare Flat = transform { matrix <0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, 0> };",
+        "#declare Flat = transform { matrix <0, 0, 0.9, -0.9, 0, 0, 0, -1, 0, 0, 0, 0> };",
         "plane { y, 0 texture { pigment { rgb <0.80, 0.785, 0.755> } finish { ambient 0 diffuse 0.85 } } }",
     ]
     for k, sand in enumerate(SANDS):
@@ -247,19 +226,17 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
         lines.append(f"sphere {{ <{x:.4f},{y:.4f},{-z:.4f}>,{r:.4f} texture {{ S{k} }} }}")
     lines += [
         "box { <8.2, 0, -2.5>, <8.32, 0.02, 2.5> texture { Ink } }",
-        'text { internal 1 "5 mm" 0.02, 0 scale <0.9, 0.9, 1> transform { Flat } translate <9.3, 0.02, -1> texture { Ink } }',
+        'text { internal 1 "5 mm" 0.02, 0 transform { Flat } translate <9.3, 0.02, -1> texture { Ink } }',
         "box { <-1.4, 0, -8.76>, <1.4, 0.02, -8.64> texture { Ink } }",
         "prism { linear_spline 0, 0.02, 4, <1.4, -9.1>, <1.4, -8.3>, <2.5, -8.7>, <1.4, -9.1> texture { Ink } }",
-        'text { internal 1 "water" 0.02, 0 scale <0.9, 0.9, 1> transform { Flat } translate <-1.8, 0.02, -9.9> texture { Ink } }',
+        'text { internal 1 "water" 0.02, 0 transform { Flat } translate <-1.8, 0.02, -9.9> texture { Ink } }',
     ]
-    scene = work / "hero.pov"
-    scene.parent.mkdir(parents=True, exist_ok=True)
+    work.mkdir(parents=True, exist_ok=True)
+    scene, picture = work / "hero.pov", work / "hero.png"
     scene.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    picture = work / "hero.png"
-    subprocess.run(["povray", f"+I{scene}", f"+O{picture}", "+W1600", "+H900", "+A0.3", "+AM1", "+R2", "-D", "-GA", "-V",
-                    "+WT1"], check=True)  # fmt: skip
-    Image.open(picture).convert("RGB").quantize(256, dither=Image.Dither.FLOYDSTEINBERG).save(
-        DOCS / "barchan.png", optimize=True)  # fmt: skip
+    size = ["+W1600", "+H900", "+A0.3", "+AM1", "+R2", "-D", "-GA", "-V", "+WT1"]
+    subprocess.run(["povray", f"+I{scene}", f"+O{picture}", *size], check=True)
+    Image.open(picture).convert("RGB").quantize(256).save(DOCS / "barchan.png", optimize=True)
 
 
 def main() -> None:
@@ -267,18 +244,17 @@ def main() -> None:
     parser.add_argument("run", type=Path)
     parser.add_argument("pictures", nargs="*", help="film, grid, hero; all if none is named")
     parser.add_argument("--time", type=float, default=9.36, help="time of the still and of the poster in s")
-    parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views in s")
+    parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views")
     parser.add_argument("--every", type=int, default=3, help="step between the frames of the film")
-    parser.add_argument("--work", type=Path, default=Path("build/pictures"), help="folder of the frames and the scene")
-    options = parser.parse_args()
-    run = barchan.Run(options.run)
-    wanted = options.pictures or ["film", "grid", "hero"]
+    parser.add_argument("--work", type=Path, default=Path("build/pictures"), help="folder of frames and scene")
+    o = parser.parse_args()
+    run, wanted = barchan.Run(o.run), o.pictures or ["film", "grid", "hero"]
     if "hero" in wanted:
-        hero(run, options.work, options.time)
+        hero(run, o.work, o.time)
     if "grid" in wanted:
-        grid(run, options.times)
+        grid(run, o.times)
     if "film" in wanted:
-        film(run, options.work, options.time, options.every)
+        film(run, o.work, o.time, o.every)
 
 
 if __name__ == "__main__":
