@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Numbers that stand in two places are the same: in pages and in the tables, scripts and pages that they come from.
 
-SAME has sentences, MEASURED tables of pages whose rows are those of a CSV file; results of the validation stand in its full table. A pattern that is not found any more is a fault, too: mend it, or better, delete the second
-number. In the texts every white space is one blank, so a sentence may be broken anywhere."""
+SAME has sentences, MEASURED tables of pages whose rows are those of a CSV file; results of the validation stand in its
+table of all checks. A pattern that is not found any more is a fault, too: mend it, or better, delete the second number.
+In the texts every white space is one blank, so a sentence may be broken anywhere."""
 import csv
 import os
 import pathlib
@@ -27,11 +28,14 @@ SAME = [
      ("docs/validation.md", rf"Shields 0\.15 to 0\.2 \| [^|]*\| {N} to {N} of it")),
     ("where a flat bed begins to move", ("docs/threshold.md", rf"begin to move at a Shields number of {N} to {N}"),
      ("docs/troubleshooting.md", rf"A flat bed of this program moves from {N} to {N} on")),
-    ("Shields number of the paper's flow", ("docs/validation.md", rf"threshold \(Soulsby & Whitehouse\) \|[^|]*\| {N};"),
+    ("Shields number of the paper's flow",
+     ("docs/validation.md", rf"threshold \(Soulsby & Whitehouse\) \|[^|]*\| {N};"),
      ("docs/choosing.md", rf"`Shields number` \| {N} \|")),
-    ("peaks of the stresses on the paper's meshes", ("docs/validation.md", rf"peaks of u'u', v'v' \|[^|]*\| \+{N},"),
+    ("peaks of the stresses on the paper's meshes",
+     ("docs/validation.md", rf"peaks of u'u', v'v' \|[^|]*\| \+{N},"),
      ("docs/validation.md", rf"peaks of single stresses miss by up to {N} %")),
-    ("step over the Rayleigh time, smallest grain", ("docs/theory-grains.md", rf"for the mean grain and {N} % for the smallest"),
+    ("step over the Rayleigh time, smallest grain",
+     ("docs/theory-grains.md", rf"for the mean grain and {N} % for the smallest"),
      ("docs/choosing.md", rf"and that of the shipped dunes, is {N} % of it"),
      ("configs/barchan-10k.toml", rf"\({N} % for the smallest grain")),
     ("turbulence in the box of the flat bed", ("docs/validation.md", rf"for at least {N} s at {N} m/s"),
