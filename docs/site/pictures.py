@@ -1,7 +1,6 @@
 """Pictures of the front page: film, six top views and 3-D still of one run, every grain a sphere.
 
-Needs numpy, matplotlib, Pillow, the package barchan with h5py and pandas, and the programs ffmpeg and povray
-(Debian: python3-numpy python3-matplotlib python3-pil python3-h5py python3-pandas ffmpeg povray).
+Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil python3-h5py python3-pandas ffmpeg povray.
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36]
 
@@ -35,7 +34,6 @@ DIAMETER, INK = 0.2, "#222222"
 
 class Window(NamedTuple):
     """Part of the floor seen from above: upper left corner and size in mm, pixels per mm."""
-
     x: float
     z: float
     length: float
@@ -62,17 +60,15 @@ def paint(g: dict[str, np.ndarray], w: Window) -> tuple[np.ndarray, np.ndarray]:
     cx, cz, r = (g["x"] - w.x) * w.scale, (g["z"] - w.z) * w.scale, g["r"] * w.scale
     reach = int(np.ceil(r.max())) + 1
     i0, j0 = np.floor(cz).astype(int), np.floor(cx).astype(int)
-    places, heights, owners = [], [], []
+    found = []
     for di in range(-reach, reach + 1):
         for dj in range(-reach, reach + 1):
             i, j = i0 + di, j0 + dj
             gap = (j + 0.5 - cx) ** 2 + (i + 0.5 - cz) ** 2
             k = np.flatnonzero((gap < r * r) & (i >= 0) & (i < rows) & (j >= 0) & (j < columns))
-            places.append(i[k] * columns + j[k])
-            heights.append(g["y"][k] + np.sqrt(r[k] ** 2 - gap[k]) / w.scale)
-            owners.append(k)
-    place, height, owner = np.concatenate(places), np.concatenate(heights), np.concatenate(owners)
-    order = np.argsort(height)
+            found.append((i[k] * columns + j[k], g["y"][k] + np.sqrt(r[k] ** 2 - gap[k]) / w.scale, k))
+    place, height, owner = (np.concatenate(part) for part in zip(*found, strict=True))
+    order = np.argsort(height)  # lets the highest be written last
     h, who = np.zeros(rows * columns, np.float32), np.full(rows * columns, -1)
     h[place[order]], who[place[order]] = height[order], owner[order]
     return h.reshape(rows, columns), who.reshape(rows, columns)
@@ -95,9 +91,8 @@ def lit(h: np.ndarray, scale: float, elevation: float = 30.0, turn: float = 0.35
     j = np.arange(columns)
     drift = np.round(turn * j).astype(int)
     reach = int(drift[-1]) + 1
-    tall = np.pad(h, ((reach, reach), (0, 0)))
-    i = np.arange(rows + reach)[:, None] + drift[None, :]
-    rays = np.take_along_axis(tall, np.minimum(i, tall.shape[0] - 1), axis=0)
+    i = np.minimum(np.arange(rows + reach)[:, None] + drift, rows + 2 * reach - 1)
+    rays = np.take_along_axis(np.pad(h, ((reach, reach), (0, 0))), i, axis=0)
     light = np.zeros_like(rays)
     step = np.hypot(1.0, turn) / scale
     for angle in elevation + np.array([-6.0, -3.0, 0.0, 3.0, 6.0]):
@@ -152,8 +147,7 @@ def labelled(picture: np.ndarray, w: Window, t: float) -> Image.Image:
 
 def film(run: barchan.Run, work: Path, still: float, every: int) -> None:
     """Film of each `every`-th frame, 12 a second; the window follows the dune at its mean speed."""
-    frames = work / "frames"
-    frames.mkdir(parents=True, exist_ok=True)
+    (frames := work / "frames").mkdir(parents=True, exist_ok=True)
     times = np.asarray(run.grain_times)[::every]
     path = np.polyfit(run.dune_columns[0]["t"], 1e3 * run.dune_columns[0]["Cx"], 3)
     for k, t in enumerate(times):
@@ -161,18 +155,17 @@ def film(run: barchan.Run, work: Path, still: float, every: int) -> None:
         if not name.exists():
             w = Window(float(np.polyval(path, t)) - 11.0, 10.0, 32.0, 20.0, 50.0)
             labelled(top_view(grains_of(run, t), w), w, t).save(name, compress_level=1)
-    call = f"ffmpeg -y -loglevel error -threads 1 -framerate 12 -i {frames}/%04d.png -c:v libx264 -preset veryfast"
+    call = f"ffmpeg -y -loglevel error -framerate 12 -i {frames}/%04d.png -c:v libx264 -preset veryfast"
     call += f" -crf 31 -pix_fmt yuv420p -movflags +faststart {DOCS}/site/barchan.mp4"
     subprocess.run(call.split(), check=True)
     poster = Image.open(frames / f"{int(np.argmin(abs(times - still))):04d}.png")
     poster.quantize(200, dither=Image.Dither.NONE).save(DOCS / "site" / "barchan.png", optimize=True)
-    names = sorted(frames.glob("*.png"))
-    small = [Image.open(name).resize((704, 440), Image.Resampling.LANCZOS) for name in names]
+    small = [Image.open(frame).resize((704, 440)) for frame in sorted(frames.glob("*.png"))]
     name = DOCS / "barchan.webp"
-    for quality in (30, 15, 5):
+    for quality in (15, 5):
         small[0].save(name, save_all=True, append_images=small[1:], duration=95, loop=0, quality=quality, method=2)
         if name.stat().st_size < 2e6:
-            break
+            return
 
 
 def grid(run: barchan.Run, times: list[float]) -> None:
@@ -206,8 +199,7 @@ def grid(run: barchan.Run, times: list[float]) -> None:
 def hero(run: barchan.Run, work: Path, t: float) -> None:
     """Still in three dimensions from the downstream side; POV-Ray paints it."""
     g = grains_of(run, t)
-    main = g["dune"] == 0
-    cx, cz = float(np.median(g["x"][main])) + 1.2, float(np.median(g["z"][main]))
+    cx, cz = (float(np.median(g[k][g["dune"] == 0])) + shift for k, shift in (("x", 1.2), ("z", 0.0)))
     lines = [
         "#version 3.7;",
         "global_settings { assumed_gamma 1.0 radiosity { count 30 error_bound 1.2 recursion_limit 1 brightness 0.8 } }",
@@ -233,7 +225,7 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
     ]
     work.mkdir(parents=True, exist_ok=True)
     scene, picture = work / "hero.pov", work / "hero.png"
-    scene.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    scene.write_text("\n".join(lines) + "\n")
     size = ["+W1600", "+H900", "+A0.3", "+AM1", "+R2", "-D", "-GA", "-V", "+WT1"]
     subprocess.run(["povray", f"+I{scene}", f"+O{picture}", *size], check=True)
     Image.open(picture).convert("RGB").quantize(256).save(DOCS / "barchan.png", optimize=True)
@@ -241,7 +233,7 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path)
+    parser.add_argument("run")
     parser.add_argument("pictures", nargs="*", help="film, grid, hero; all if none is named")
     parser.add_argument("--time", type=float, default=9.36, help="time of the still and of the poster in s")
     parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views")
@@ -249,12 +241,9 @@ def main() -> None:
     parser.add_argument("--work", type=Path, default=Path("build/pictures"), help="folder of frames and scene")
     o = parser.parse_args()
     run, wanted = barchan.Run(o.run), o.pictures or ["film", "grid", "hero"]
-    if "hero" in wanted:
-        hero(run, o.work, o.time)
-    if "grid" in wanted:
-        grid(run, o.times)
-    if "film" in wanted:
-        film(run, o.work, o.time, o.every)
+    calls = {"hero": (hero, o.work, o.time), "grid": (grid, o.times), "film": (film, o.work, o.time, o.every)}
+    for call, *values in (calls[name] for name in wanted):
+        call(run, *values)
 
 
 if __name__ == "__main__":
