@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What texts name is there: the tests of docs/validation/checks.csv (Suite.Name, Suite.Begin*, script.name); in all
+"""What texts name is there: the tests of docs/checks.csv (Suite.Name, Suite.Begin*, script.name); in all
 documents, Python files and comments the files (src/base/words.cpp); but in comments of C++ members (Halo::fill)."""
 import csv
 import pathlib
@@ -8,7 +8,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
-CHECKS = "docs/validation/checks.csv"
+CHECKS = "docs/checks.csv"
 FOLDERS = "cmake", "configs", "docs", "kernels", "packaging", "perf", "python", "scripts", "src", "tests"
 FILE = re.compile(rf"(?<![\w/.$}}-])((?:{'|'.join(FOLDERS)})/[\w./-]+\.(?:cpp|hpp|py|sh|cmake|md|toml|csv|js))\b")
 MEMBER = re.compile(r"\b([A-Z]\w+)::(\w+)")

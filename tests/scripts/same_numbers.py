@@ -73,7 +73,7 @@ MEASURED = [
 CHANNEL = {"u_star": "$u_*$", "uu peak": "peak of u'u'", "vv peak": "peak of v'v'", "ww peak": "peak of w'w'",
            "-uv peak": "peak of -u'v'", "uu peak y+": "place of the u'u' peak", "vv peak y+": "place of the v'v' peak",
            "ww peak y+": "place of the w'w' peak", "-uv peak y+": "place of the -u'v' peak"}
-CHECKS = "docs/validation/checks.csv"
+CHECKS = "docs/checks.csv"
 CHANNEL_COLUMNS = [f"{name} off (%)" for name in ("mesh1", "mesh3", "across", "along")]
 
 
