@@ -11,7 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["BARCHAN_PROGRAM"]
-PAGES = [page for pattern in ("*.md", "docs/*.md", "docs/dev/*.md", "docs/site/*.md", "packaging/*.md", "notebooks/*.md")
+FOLDERS = "", "docs/", "docs/dev/", "docs/site/", "packaging/", "notebooks/"
+PAGES = [page for pattern in (folder + "*.md" for folder in FOLDERS)
          for page in sorted(ROOT.glob(pattern)) if page.name != "CHANGELOG.md"]
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 INLINE = re.compile(r"`((?:\./)?barchan [^`\n]+)`")
