@@ -2,7 +2,7 @@
 """Predicts the time of a fluid step on up to 1,000 ranks, from what ranks send each other and measured rates.
 
 usage: scaling.py [--latency S] [--bandwidth B]   the table of docs/dev/scaling.md
-       scaling.py --page docs/dev/scaling.md          puts it there
+       scaling.py --page docs/dev/scaling.md      puts it there
        scaling.py --figure PNG                    its figure
        scaling.py --check RUN_DIR ...             the model compared with run.json of runs on several ranks
 

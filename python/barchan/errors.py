@@ -29,5 +29,5 @@ def optional(module: str, package: str) -> ModuleType:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise BarchanError(f"needs {package}, which is not installed: apt install python3-{package}, "
-                           f"or pip install {package}") from error
+        raise BarchanError(f"needs {package}, which is not installed: apt install python3-{package}, where the system "
+                           f"has it, or pip install {package}") from error

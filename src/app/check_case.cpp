@@ -55,7 +55,7 @@ int run_check(const CommandLine& line, std::ostream& out) {
   const auto warnings = config_warnings(config, planned.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
-  if (line.resolved) out << '\n' << "# The case, every default filled in\n\n" << to_toml(config);
+  if (line.resolved) out << "\n# The case, every default filled in\n\n" << to_toml(config);
   return 0;
 }
 

@@ -38,13 +38,12 @@ std::string shown(const fs::path& folder) {
   return near.empty() || *near.begin() == ".." ? folder.string() : near.string();
 }
 
-/// What follows from the case, in one line on the terminal and in full in log.txt, and what looks
-/// wrong in it.
-void show_numbers(const Config& config, const std::vector<SizeClass>& sizes) {
-  const Derived derived = derive(config, sizes);
-  report::info("  {}", summary(derived));
-  report::details(to_text(derived) + memory_line(config, sizes));
+void warn_of(const Config& config, const std::vector<SizeClass>& sizes) {
   for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+}
+
+std::string numbers_of(const Config& config, const std::vector<SizeClass>& sizes) {
+  return to_text(derive(config, sizes)) + memory_line(config, sizes);
 }
 
 fs::path start_file(const Case& source, const fs::path& beside, int realisation);
@@ -194,7 +193,9 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   Simulation simulation = as_input([&] { return Simulation(config, options, files); });
   simulation.open_folder();
   if (options.restart) tell_changed_input(the_case, simulation.inputs());
-  show_numbers(config, sizes);
+  report::info("  {}", summary(derive(config, sizes)));
+  report::details(numbers_of(config, sizes));
+  warn_of(config, sizes);
   try {
     if (simulation.run() == Outcome::stopped) throw Stopped{};
   } catch (const std::exception& problem) {
@@ -240,8 +241,8 @@ int run_command(const CommandLine& line) {
   if (line.dry_run) {
     report::info("{}", config.title);
     const auto sizes = planned_grains(the_case, run_folder(line)).sizes;
-    report::info("{}", to_text(derive(config, sizes)) + memory_line(config, sizes));
-    for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+    report::info("{}", numbers_of(config, sizes));
+    warn_of(config, sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

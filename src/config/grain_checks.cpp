@@ -86,15 +86,15 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const Keys keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
   if (!exchanges_by_row(c.coupling)) {
-    found.warning_if(
-        n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
-        "makes the smallest cell {:.2f} mean grain diameters; this exchange wants 1.2 to 1.6",
-        n.cell_ratio);
+    found.warning_if(n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
+                     "makes the smallest cell {:.2f} mean grain diameters; recommended with this "
+                     "exchange: 1.2 to 1.6",
+                     n.cell_ratio);
     return;
   }
   found.warning_if(n.column_ratio > 6 && !c.grains->frozen, {"fluid.cells", "domain.size"},
                    "makes cells {:.1f} mean grain diameters long: a dune has a step in each column "
-                   "of cells; take 5 or less",
+                   "of cells; take 6 or less",
                    n.column_ratio);
   found.warning_if(n.width_ratio < 2 * (1 - 1e-9), {"fluid.cells", "domain.size", "grains.sizes"},
                    "makes cells {:.2f} mean grain diameters narrow: below 2 each belongs to single "

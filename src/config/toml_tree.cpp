@@ -100,6 +100,11 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
   return {};
 }
 
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
 /// What the parser says, with the two most frequent causes named.
 std::string in_plain_words(std::string_view said) {
   if (said.find("control characters other than TAB") != said.npos)
@@ -161,15 +166,6 @@ std::string assigned_name(std::string_view dotted) {
   return fmt::format("--set {}", printable(dotted, 60));
 }
 
-namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
-}  // namespace
-
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems) {
   const std::size_t equals = assignment.find('=');
   const std::string_view dotted = without_blanks(assignment.substr(0, equals));
@@ -192,7 +188,7 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
     at = &at->table()->try_emplace(std::string(key), Node{NodeTable{}, where}).first->second;
     begin = end + 1;
   }
-  *at = parse_value(assignment.substr(equals + 1), where);
+  *at = parse_value(without_blanks(assignment.substr(equals + 1)), where);
 }
 
 }  // namespace barchan

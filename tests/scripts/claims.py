@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What texts name is there: the tests of docs/checks.csv (Suite.Name, Suite.Begin*, script.name); in all
-documents, Python files and comments the files (src/base/words.cpp); but in comments of C++ members (Halo::fill)."""
+"""What texts name is there: the tests of docs/checks.csv (Suite.Name, script.name); in all documents, Python files
+and comments the files (src/base/words.cpp), headings of pages and, but in comments of C++, members (Halo::fill)."""
 import csv
 import pathlib
 import re
@@ -63,13 +63,27 @@ def gone_names():
     return n, gone
 
 
+def gone_headings():
+    """Number of headings of pages that texts name, FILE.md, "Heading", and "file names it" for each that is gone."""
+    n, gone = 0, []
+    for path in sources(".hpp", ".cpp", ".py", ".sh"):
+        text = re.sub(r"\s*\n\s*(?://+|#)?\s*", " ", path.read_text())
+        for page, heading in re.findall(r'(docs/[\w/-]+\.md), "([^"]{1,60})"', text):
+            n += 1
+            there = (ROOT / page).read_text() if (ROOT / page).exists() else ""
+            if not re.search(rf"^#+ {re.escape(heading)}$", there, re.M):
+                gone.append(f'{path.relative_to(ROOT)} names {page}, "{heading}"')
+    return n, gone
+
+
 def main():
     named, gone = gone_tests()
     n, names = gone_names()
-    for what in [*gone, *names]:
+    n_headings, headings = gone_headings()
+    for what in [*gone, *names, *headings]:
         print(f"{what}, and there is no such thing")
-    print(f"claims: {len(named)} names of tests in {CHECKS}, {n} of files and members")
-    return 1 if gone or names or len(named) < 200 or n < 100 else 0
+    print(f"claims: {len(named)} names of tests in {CHECKS}, {n} of files and members, {n_headings} of headings")
+    return 1 if gone or names or headings or n_headings < 20 or len(named) < 200 or n < 100 else 0
 
 
 sys.exit(main())

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Turbulent flow over a wavy wall and around a cube against published results (docs/validation.md, "Turbulent flow
-over bodies"). BARCHAN_BODY_RUNS names a folder for the runs, which are used again."""
+"""Turbulent flow over a wavy wall and around a cube against published results (docs/validation.md, "Bodies in
+the flow"). BARCHAN_BODY_RUNS names a folder for the runs, which are used again."""
 import json
 import os
 import pathlib
