@@ -1,4 +1,4 @@
-"""The shapes of [[body]] from the side and from above, with the keys that make them (sketch-bodies.png)."""
+"""The shapes of [[body]] from the side and from above, with the keys that make them (sketch-bodies.svg)."""
 
 import numpy as np
 from matplotlib.figure import Figure

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the sketches of the pages: sketch-domain, -dune, -exchange, -forces, -bodies (.png in docs/).
+"""Draws the sketches of the pages: sketch-domain, -dune, -exchange, -forces, -bodies (.svg in docs/).
 
 Nothing here is a result: shapes are made up. In the sketch of the exchange the shares and the lengths of the arrows
 follow from the formulas of docs/theory-coupling.md. usage: python3 docs/sketches.py [NAME ...]
@@ -17,7 +17,6 @@ import sketch_parts as part
 from sketch_parts import arrow, bezier, distance, force, frame, note, s, sphere, turn, wall
 
 WATER, PALE, LINE = s.BLUE, "#DCEBF5", "#B5B5B5"
-LARGEST = 150_000  # [bytes] of a picture
 
 
 # --- (a) the domain ---------------------------------------------------------------------------------------------------
@@ -393,7 +392,7 @@ DRAWINGS = {"sketch-domain": draw_domain, "sketch-dune": draw_dune, "sketch-exch
 def main(names):
     with s.look():
         for name in names or DRAWINGS:
-            s.save(DRAWINGS[name](), Path(__file__).resolve().parent, name, name, largest=LARGEST)
+            s.save(DRAWINGS[name](), Path(__file__).resolve().parent, name, name, ("svg",))
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ usage: $command_name COMMAND [arguments]
       --list            show the cases, run nothing
       --no-pictures     draw nothing
   plot RUN_DIR [FIGURE ...]   pictures of a run or a study; --help lists them
-      --pdf             PDF files besides the PNG files
+      --pdf, --svg      PDF files, SVG files besides the PNG files
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results

@@ -1,10 +1,12 @@
-"""Pictures of the front page: film, six top views and 3-D still of one run, every grain a sphere.
+"""Pictures of the pages: film, six top views and 3-D still of one run, every grain a sphere; grains of fed dunes.
 
 Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil python3-h5py python3-pandas ffmpeg povray.
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36]
 
-film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png.
+    PYTHONPATH=python python3 docs/site/pictures.py runs/fed-dune fed
+
+fed: docs/fed-dune-grains.svg, with runs/unfed-dune beside. film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png.
 Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
 and z down the page, as in the figures of the program: the left horn is the upper one.
 """
@@ -21,6 +23,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import barchan
+from barchan.figures import style
+from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -231,17 +235,32 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
     Image.open(picture).convert("RGB").quantize(256).save(DOCS / "barchan.png", optimize=True)
 
 
+def fed(run: barchan.Run) -> None:
+    """Grains of a dune that is fed, and of one that is not, against time."""
+    with style.look():
+        figure = Figure(figsize=(style.FULL_WIDTH / 2, 2.2))
+        axes = figure.subplots()
+        for one, label, colour in ((run, "fed", style.BLUE),
+                                   (barchan.Run(run.path.parent / "unfed-dune"), "not fed", style.VERMILLION)):
+            dune = one.dunes.loc[0]
+            axes.plot(dune.index, dune["n_grains"], color=colour, label=label)
+        axes.set(xlabel="$t$ (s)", ylabel="grains of the dune", ylim=(2400, 3000))
+        axes.legend()
+        style.save(figure, DOCS, "fed-dune-grains", run.title, ("svg",))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run")
-    parser.add_argument("pictures", nargs="*", help="film, grid, hero; all if none is named")
+    parser.add_argument("pictures", nargs="*", help="film, grid, hero (if none is named), fed")
     parser.add_argument("--time", type=float, default=9.36, help="time of the still and of the poster in s")
     parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views")
     parser.add_argument("--every", type=int, default=3, help="step between the frames of the film")
     parser.add_argument("--work", type=Path, default=Path("build/pictures"), help="folder of frames and scene")
     o = parser.parse_args()
     run, wanted = barchan.Run(o.run), o.pictures or ["film", "grid", "hero"]
-    calls = {"hero": (hero, o.work, o.time), "grid": (grid, o.times), "film": (film, o.work, o.time, o.every)}
+    calls = {"hero": (hero, o.work, o.time), "grid": (grid, o.times), "film": (film, o.work, o.time, o.every),
+             "fed": (fed,)}
     for call, *values in (calls[name] for name in wanted):
         call(run, *values)
 

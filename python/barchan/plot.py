@@ -1,7 +1,7 @@
 """Figures of a run, or of a study: a folder with study.json and a run folder per case.
 
-    barchan plot RUN_DIR [FIGURE ...] [--pdf] [--time T] [--from T] [--to T]
-    barchan plot STUDY_DIR [FIGURE ...] [--pdf] [--from T] [--to T]
+    barchan plot RUN_DIR [FIGURE ...] [--pdf] [--svg] [--time T] [--from T] [--to T]
+    barchan plot STUDY_DIR [FIGURE ...] [--pdf] [--svg] [--from T] [--to T]
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
 behind curves to RUN_DIR/figures_data/<figure>.csv. A figure may be named by its number in the paper
@@ -41,6 +41,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("run_dir", metavar="RUN_DIR")
     parser.add_argument("figures", metavar="FIGURE", nargs="*")
     parser.add_argument("--pdf", action="store_true", help="write PDF files besides the PNG files")
+    parser.add_argument("--svg", action="store_true",
+                        help="write SVG files besides the PNG files; they suit light and dark pages")
     parser.add_argument("--time", type=float, metavar="T",
                         help="horn_origins, sectors: at T seconds, not at the end")
     parser.add_argument("--from", type=float, metavar="T", dest="start",
@@ -76,7 +78,8 @@ def draw_one(folder: Any, job: Job, options: argparse.Namespace) -> list[Path]:
     result.write_numbers(drawn, folder.path)
     if isinstance(drawn, result.Told):
         return []
-    return style.save(drawn, folder.path, job.file, folder.title, options.pdf or job.file.startswith("fig"))
+    asked = {"png": True, "pdf": options.pdf or job.file.startswith("fig"), "svg": options.svg}
+    return style.save(drawn, folder.path, job.file, folder.title, [kind for kind, yes in asked.items() if yes])
 
 
 def draw(folder: Any, jobs: list[Job], options: argparse.Namespace) -> Outcome:

@@ -2,7 +2,7 @@
 
     ./barchan plot validation [FIGURE ...] [--from DIR] [--out DIR] [--keep NAME=DIR]
 
-Writes <figure>.png and .pdf, and channel_summary.csv. The results are tables that the tests write
+Writes <figure>.svg and .pdf, and channel_summary.csv. The results are tables that the tests write
 when BARCHAN_RESULTS names a folder, and statistics of channel runs and of the studies of bed load
 taken over with --keep. Each says in its first lines which command, commit and machine made it, and when.
 Without names every figure is drawn whose results are saved. Exit status as of plot.py.
@@ -28,7 +28,6 @@ from barchan.plot import fail
 from barchan.errors import BarchanError, MissingData
 
 SAVED = tables.ROOT / "docs/validation"
-LARGEST_PNG = 140_000  # [bytes]; the pictures live in the repository
 FIGURES = {
     "channel": channel.draw,
     "channel_resolved": channel.draw_resolved,
@@ -61,8 +60,7 @@ def parse(arguments):
 
 def draw(name, options):
     figure = FIGURES[name](options.source)
-    paths = style.save(figure, options.out, name, "Barchan, validation", pdf=True,
-                       largest=LARGEST_PNG)
+    paths = style.save(figure, options.out, name, "Barchan, validation", ("pdf", "svg"))
     if name == "channel":
         paths.append(channel.write_summary(options.source, options.out))
     if hasattr(STUDIES.get(name), "summary"):

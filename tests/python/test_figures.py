@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 import barchan
 from barchan.figures import registry, result, style
 
-PANELS = {"topviews": 8, "height_map": 3, "morphology": 6, "midplane": 2, "profiles": 2, "history": 8,
+PANELS = {"topviews": 8, "height_map": 3, "morphology": 6, "midplane": 1, "profiles": 2, "history": 8,
           "morphodynamics": 6, "horns": 3}
 OWN_PAGE = ("horn_origins", "profiles_over_dune")
 
@@ -49,7 +49,7 @@ def test_a_figure_in_axes_of_ones_own(run, name):
     """The same curves as in a new figure, and no other axes but colour bars."""
     with style.look():
         mine = Figure()
-        axes = mine.subplots(1, PANELS[name])
+        axes = mine.subplots(1, PANELS[name], squeeze=False)[0]
     alone = run.figure(name)
     assert run.figure(name, ax=axes) is mine
     for ours, theirs in zip(axes, alone.axes):
@@ -116,3 +116,39 @@ def test_a_figure_that_is_not_there(run, study):
         run.figure("zzz")
     with pytest.raises(barchan.BarchanError, match='no figure "horns" of a study; there are topviews'):
         study.figure("horns")
+
+
+def test_a_short_run_has_no_means_over_a_second(run, monkeypatch):
+    from barchan.figures import morphodynamics
+
+    monkeypatch.setattr(morphodynamics, "LEAST", 1e3)
+    with pytest.raises(barchan.MissingData, match="followed for 1000 s or more"):
+        run.figure("morphodynamics")
+
+
+def test_top_views_fill_their_grid_and_colours_show_the_dune(run):
+    from barchan.figures import topviews
+
+    figure = run.figure("topviews")
+    views = [axes for axes in figure.axes if axes.images]
+    assert len(views) in topviews.FULL_GRIDS and all(axes.get_visible() for axes in figure.axes)
+    frames = topviews.frames_at(run, tuple(topviews.FULL_GRIDS))
+    later = max(np.percentile(g.x[:, 1] + 0.5 * g.d, topviews.LOW) for g in frames[1:])
+    bar = next(axes for axes in figure.axes if hasattr(axes, "_colorbar"))
+    assert bar._colorbar.vmax == pytest.approx(1e3 * later)
+    highest = max((g.x[:, 1] + 0.5 * g.d).max() for g in frames)
+    assert (bar._colorbar.extend == "max") == (highest > later)
+
+
+def test_colours_of_the_flow_are_those_of_what_is_seen(run):
+    figure = run.figure("midplane")
+    image = figure.axes[0].collections[0]
+    assert image.norm.vmax < np.nanmax(image.get_array())  # the flow is faster above the dune, out of sight
+
+
+def test_curves_that_do_not_vary_are_left_out():
+    from barchan.figures import history
+
+    steps = np.arange(100.0)
+    columns = {"rate": np.full(100, 0.25), "started": np.where(steps == 0, 9.0, 2.0), "varies": 1 + 1e-2 * steps}
+    assert [name for name in columns if history.varies(columns, name)] == ["varies"]

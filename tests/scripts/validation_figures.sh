@@ -17,9 +17,9 @@ done
 plot 0 validation --out "$dir/all"
 quiet
 for figure in "${figures[@]}"; do
-  is_figure "$dir/all/$figure"
-  [ "$(wc -c < "$dir/all/$figure.png")" -lt 150000 ] || fail "$figure.png is larger than 150 kB"
-  [ -e "$root/docs/validation/$figure.png" ] || fail "docs/validation/$figure.png is not there"
+  is_drawing "$dir/all/$figure"
+  same_drawing "$dir/all/$figure.svg" "$root/docs/validation/$figure.svg" ||
+    fail "docs/validation/$figure.svg is not what the saved results give"
 done
 # Figures of merit: every quantity has as many cells as the heading.
 awk -F, '!/^#/ { if (!columns) columns = NF; else rows += NF == columns; all += NF != columns }

@@ -30,6 +30,25 @@ is_figure() {  # is_figure PATH_WITHOUT_END: a PNG and a PDF
   [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
 }
 
+is_drawing() {  # is_drawing PATH_WITHOUT_END: an SVG file that follows the page, and a PDF file
+  grep -q '<style>:root{color-scheme:light dark;' "$1.svg" || fail "no $1.svg for dark pages"
+  grep -q '#000000"\|: #000000' "$1.svg" && fail "$1.svg has black ink that dark pages swallow"
+  [ "$(wc -c < "$1.svg")" -lt 300000 ] || fail "$1.svg is larger than 300 kB"
+  [ "$(head -c 4 "$1.pdf" 2> /dev/null)" = %PDF ] || fail "no $1.pdf"
+}
+
+same_drawing() {  # same_drawing A B: SVG files that differ by less than 0.1 point
+  "$python" - "$1" "$2" <<'PYTHON'
+import re, sys
+from pathlib import Path
+number = re.compile(r"\d+\.?\d*")
+name = re.compile(r'(id="|url\(#|href="#)[^")]*')  # made of digests
+ours, theirs = (name.sub("", Path(path).read_text()) for path in sys.argv[1:])
+values = [[float(found) for found in number.findall(text)] for text in (ours, theirs)]
+sys.exit(number.sub("", ours) != number.sub("", theirs) or any(abs(a - b) > 0.1 for a, b in zip(*values)))
+PYTHON
+}
+
 says() {  # says TEXT: somewhere on the error stream
   grep -qF -- "$1" "$dir/err" || fail "expected '$1', got '$(cat "$dir/err")'"
 }

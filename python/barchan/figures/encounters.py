@@ -1,7 +1,7 @@
 """encounters: dunes that meet: where they go, what becomes of their sand, and how each encounter ended.
 
 Curves are dunes by name, which they keep through contact; bands along x are their extents, dots mark the first
-contact. The last panel has the share of a dune's grains that is of another heap than its first ones. Writes
+contact. While two dunes touch, nobody can say where one ends: their curves are dotted there. The last panel has the share of a dune's grains that is of another heap than its first ones. Writes
 encounters.csv besides the numbers of the curves, and the same into run.json. Definitions: docs/dune-measures.md,
 "Names" and "Encounters".
 """
@@ -25,8 +25,9 @@ def draw(run, ax=None):
     names = chosen(lineage, found)
     for name, colour in zip(names, COLOURS):
         draw_path(paths, lineage, name, colour)
-        masses.plot(lineage.t, lineage.n_grains[:, name], color=colour, label=f"dune {name}")
-        exchange.plot(lineage.t, 100 * foreign(lineage, name), color=colour)
+        touching = in_contact(lineage, name)
+        apart_and_touching(masses, lineage.t, lineage.n_grains[:, name], touching, color=colour, label=f"dune {name}")
+        apart_and_touching(exchange, lineage.t, 100 * foreign(lineage, name), touching, color=colour)
     for one in found:
         if one.t_contact == one.t_contact:
             frame = int(np.argmin(abs(lineage.t - one.t_contact)))
@@ -46,7 +47,7 @@ def draw(run, ax=None):
 
 
 def title(found):
-    told = [f"{one.upstream} behind {one.downstream}: {one.kind}" for one in found[:SHOWN]]
+    told = [f"dune {one.upstream} upstream of dune {one.downstream}: {one.kind}" for one in found[:SHOWN]]
     more = [f"and {len(found) - SHOWN} more"] if len(found) > SHOWN else []
     return "; ".join(told + more) or "no encounter"
 
@@ -57,6 +58,19 @@ def chosen(lineage, found):
     largest = np.argsort(-np.nanmax(lineage.n_grains, axis=0), kind="stable").tolist()
     able = dune_encounters.dunes_of(lineage)
     return sorted(list(dict.fromkeys(meet + [name for name in largest if name in able]))[:MOST])
+
+
+def in_contact(lineage, name):
+    """(F) whether it touches another dune: dunes that touch share the number of a body."""
+    others = np.delete(lineage.body, name, axis=1)
+    return lineage.present[:, name] & (others == lineage.body[:, [name]]).any(axis=1)
+
+
+def apart_and_touching(axes, t, values, touching, color, label=None):
+    """The curve, dotted while dunes touch."""
+    axes.plot(t, np.where(touching, np.nan, values), color=color, label=label)
+    widened = touching | np.roll(touching, 1) & (t > t[0]) | np.roll(touching, -1) & (t < t[-1])
+    axes.plot(t, np.where(widened, values, np.nan), color=color, lw=0.8, ls=(0, (1, 1.5)))
 
 
 def draw_path(axes, lineage, name, colour):

@@ -1,4 +1,4 @@
-"""midplane: the flow in the vertical plane through the dune, and the grains cut by it.
+"""midplane: the flow in the vertical plane through the dune and its wake, and the grains cut by it.
 
 The plane is that of the cells nearest to the dune's centroid (dune.csv, else the grains, else the
 middle of the channel). Grains are those with centres within a diameter of it, drawn to scale.
@@ -22,36 +22,31 @@ def draw(run, ax=None):
     frame = len(run.need_fields().frames) - 1
     time = run.field_file.frames[frame][0]
     grains = nearest_grains(run, time)
+    if grains is not None and len(grains.d) == 0:
+        grains = None
     flow = run.flow_plane(frame, plane_z(run, grains, time))
-    top = float(np.nanmax(flow.u))
-    bottom = min(0.0, float(np.nanmin(flow.u)))
-    if grains is None or len(grains.d) == 0:
-        length, height = flow.x[-1] - flow.x[0], flow.y[-1] - flow.y[0]
-        figure, grid = style.panels(ax, figsize=(style.FULL_WIDTH, 0.9 + 6.4 * height / length))
-        panels = list(grid[:, 0])
-    else:
-        views = [channel_view(flow, grains), dune_view(flow, grains)]
-        ratios = [(view[3] - view[2]) / (view[1] - view[0]) for view in views]
-        figure, grid = style.panels(
-            ax, 2, height_ratios=ratios, figsize=(style.FULL_WIDTH, 1.2 + 6.2 * sum(ratios)))
-        panels = list(grid[:, 0])
-        for index, (axes, view) in enumerate(zip(panels, views)):
-            axes.set(xlim=1e3 * np.array(view[:2]), ylim=1e3 * np.array(view[2:]))
-            style.panel_label(axes, index)
-    for axes in panels:
-        image = draw_flow(axes, flow, bottom, top)
-        body_pictures.draw_section(axes, bodies_of(run.config), flow.z)
-        if grains is not None:
-            draw_grains(axes, grains, flow.z)
-        axes.set(aspect="equal", ylabel="$y$ (mm)")
+    view = (flow.x[0], flow.x[-1], flow.y[0], flow.y[-1]) if grains is None else dune_view(flow, grains)
+    figure, ((axes,),) = style.panels(
+        ax, figsize=(style.FULL_WIDTH, 0.9 + 6.4 * (view[3] - view[2]) / (view[1] - view[0])))
+    axes.set(xlim=1e3 * np.array(view[:2]), ylim=1e3 * np.array(view[2:]))
+    image = draw_flow(axes, flow, *velocity_range(flow, view))
+    body_pictures.draw_section(axes, bodies_of(run.config), flow.z)
+    if grains is not None:
+        draw_grains(axes, grains, flow.z)
+    axes.set(aspect="equal", xlabel="$x$ (mm)", ylabel="$y$ (mm)")
+    axes.set_title(f"$t$ = {flow.time:.3g} s,  $z$ = {1e3 * flow.z:.3g} mm", pad=3)
     if has_reversed_flow(flow):
-        style.legend_above(panels[0], [Line2D([], [], color=style.VERMILLION, lw=1.0, label="$u$ = 0")])
-    panels[-1].set_xlabel("$x$ (mm)")
-    panels[0].set_title(f"$t$ = {flow.time:.3g} s,  $z$ = {1e3 * flow.z:.3g} mm", pad=3)
-    bar = figure.colorbar(image, ax=panels, location="bottom", shrink=0.45, aspect=35, pad=0.02)
+        style.legend_above(axes, [Line2D([], [], color=style.VERMILLION, lw=1.0, label="$u$ = 0")])
+    bar = figure.colorbar(image, ax=axes, location="bottom", shrink=0.45, aspect=35, pad=0.02)
     bar.set_label("streamwise velocity $u$ (m/s)")
     bar.outline.set_linewidth(0.6)
     return figure
+
+
+def velocity_range(flow, view):
+    """Least (or zero) and largest u that is seen."""
+    seen = flow.u[np.ix_(flow.y <= view[3], (flow.x >= view[0]) & (flow.x <= view[1]))]
+    return min(0.0, float(np.nanmin(seen))), float(np.nanmax(seen))
 
 
 def nearest_grains(run, time):
@@ -70,15 +65,6 @@ def plane_z(run, grains, time):
         return float(np.average(grains.x[:, 2], weights=grains.d**3))
     with run.field_file.open() as file:
         return float(file["grid/z_face"][:].mean())
-
-
-def channel_view(flow, grains):
-    """(x0, x1, y0, y1) [m]: the whole height, and a length around the dune to match."""
-    height = flow.y[-1]
-    centre = np.median(grains.x[:, 0])
-    length = min(flow.x[-1] - flow.x[0], 4.0 * height)
-    start = np.clip(centre - 0.4 * length, flow.x[0], flow.x[-1] - length)
-    return start, start + length, 0.0, height
 
 
 def dune_view(flow, grains):

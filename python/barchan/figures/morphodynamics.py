@@ -11,17 +11,21 @@ import numpy as np
 from barchan.dune import current as dune_current
 from barchan.dune import fluxes as grain_fluxes
 from barchan.dune import transport as dune_transport
+from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.figures.result import keep, say
 from barchan.stats import over_the_last_second, window
 
 DASHED = (0, (4, 1.5))
+LEAST = 3.0  # [s] of a run: lines are means over one second
 LEGEND = {"ncols": 2, "columnspacing": 1.0, "handlelength": 1.4}
 
 
 def draw(run, ax=None, start=None, end=None):
     """The means are also said in words."""
     table, profiles = dune_transport.measure(run)
+    if table["t"][-1] - table["t"][0] < LEAST * (1 - 1e-9):
+        raise MissingData(f"needs a dune that is followed for {LEAST:g} s or more")
     shares = dune_transport.measure_shares(run)
     chosen = window(table["t"], start, end)
     figure, panels = style.panels(ax, 3, 2, figsize=(style.FULL_WIDTH, 6.2))
@@ -66,8 +70,9 @@ def draw_angles(axes, table):
 def draw_fluxes(axes, table):
     explain_dots(axes)
     points_and_mean(axes, table["t"], 1e6 * table["crest_flux"], style.BLUE, "over the crest")
-    axes.plot(table["t"], 1e6 * table["migration_flux"], color=style.VERMILLION, ls=DASHED,
-              label="$\\phi\\, c\\, H$ (migration)")
+    if np.isfinite(table["migration_flux"]).any():
+        axes.plot(table["t"], 1e6 * table["migration_flux"], color=style.VERMILLION, ls=DASHED,
+                  label="$\\phi\\, c\\, H$ (migration)")
     top = np.nanpercentile(1e6 * table["crest_flux"], 98)
     axes.set(ylabel="flux (mm$^2$/s)", ylim=(0, 1.5 * top if top > 0 else None))
     axes.legend(loc="upper right")

@@ -40,11 +40,16 @@ def draw_quantity(axes, dunes, name):
 
 
 def draw_horns(axes, main):
+    """By height, and thin up to the farthest grains."""
     columns = horn_lengths.best_known(main)
-    axes.plot(main["t"], 1e3 * main[columns["left"]], color=style.BLUE, marker=style.mark_if_few(main["t"]),
-              ms=3, label="left ($z < C_z$)")
-    axes.plot(main["t"], 1e3 * main[columns["right"]], color=style.VERMILLION, ls=(0, (4, 1.2)),
-              marker=style.mark_if_few(main["t"]), ms=3, label="right ($z > C_z$)")
+    marker = style.mark_if_few(main["t"])
+    for side, sign, colour in (("left", "<", style.BLUE), ("right", ">", style.VERMILLION)):
+        axes.plot(main["t"], 1e3 * main[columns[side]], color=colour, marker=marker, ms=3,
+                  label=f"{side} ($z {sign} C_z$)")
+        if columns[side] != f"horn_{side}":
+            axes.plot(main["t"], 1e3 * main[f"horn_{side}"], color=colour, lw=0.7, alpha=0.8, ls=(0, (1, 1)))
+    if columns["left"] != "horn_left":
+        axes.plot([], [], color=style.GREY, lw=0.7, ls=(0, (1, 1)), label="to the last grain")
     axes.legend(loc="best")
 
 

@@ -57,7 +57,7 @@ def draw(run, ax=None):
 
 def draw_map(figure, axes, bed, bodies, histories):
     over = 1e3 * (bed.h - bed.far)
-    most = max(float(np.nanmax(abs(over))), 1e3 * float(bed.size.min()) / BIN)  # at least a grain
+    most = max(-float(np.nanmin(over)), 1e3 * float(bed.size.min()) / BIN)  # grains in suspension may be far higher
     edges = [1e3 * np.append(0.0, centres + 0.5 * size) for centres, size in zip((bed.x, bed.z), bed.size)]
     image = axes.pcolormesh(*edges, np.ma.masked_invalid(over).T, vmin=-most, vmax=most, cmap=style.FORCE_MAP,
                             rasterized=True)
@@ -65,7 +65,8 @@ def draw_map(figure, axes, bed, bodies, histories):
     for found in histories.values():
         axes.plot(1e3 * found[-1].x, 1e3 * found[-1].z, "x", color=style.BLACK, ms=5, zorder=4)
     axes.set(aspect="equal", xlabel="$x$ (mm)", ylabel="$z$ (mm)", xlim=edges[0][[0, -1]], ylim=edges[1][[-1, 0]])
-    bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
+    bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02,
+                          extend="max" if np.nanmax(over) > most else "neither")
     bar.set_label("height over the far bed (mm)")
     bar.outline.set_linewidth(0.6)
 

@@ -152,21 +152,39 @@ def legend_above(axes, handles, **options):
                     borderaxespad=0.0, borderpad=0.2, **options)
 
 
-def save(figure, folder, name, title, pdf=False, largest=LARGEST_PNG):
-    """Writes `name`.png (and .pdf) into the folder, beside and renamed; returns the paths."""
+def save(figure, folder, name, title, kinds=("png",), largest=LARGEST_PNG):
+    """Writes `name`.png, .pdf, .svg, as `kinds` says, into the folder, beside and renamed; returns the paths."""
+    contents = {}
+    for kind in ("png", "pdf", "svg"):  # an SVG file changes the figure: it comes last
+        if kind in kinds:
+            contents[folder / f"{name}.{kind}"] = ENCODERS[kind](figure, f"{title}: {name}", largest)
+    for path, content in contents.items():
+        write(path, content)
+    return list(contents)
+
+
+def _png(figure, _, largest):
     encoded = io.BytesIO()
     figure.savefig(encoded, format="png", dpi=DPI, facecolor="white")
     if encoded.tell() > largest:
         encoded = _with_palette(encoded, _colour_maps(figure))
-    paths = [folder / f"{name}.png"]
-    write(paths[0], encoded.getvalue())
-    if pdf:
-        figure.set_layout_engine("none")  # panels stay where the PNG file has them
-        document = io.BytesIO()
-        figure.savefig(document, format="pdf", dpi=3 * DPI, metadata={"Title": f"{title}: {name}"})
-        paths.append(folder / f"{name}.pdf")
-        write(paths[1], document.getvalue())
-    return paths
+    figure.set_layout_engine("none")  # panels stay where the PNG file has them
+    return encoded.getvalue()
+
+
+def _pdf(figure, title, _):
+    document = io.BytesIO()
+    figure.savefig(document, format="pdf", dpi=3 * DPI, metadata={"Title": title})
+    return document.getvalue()
+
+
+def _svg(figure, title, _):
+    from barchan.figures import svg
+
+    return svg.encoded(figure, title)
+
+
+ENCODERS = {"png": _png, "pdf": _pdf, "svg": _svg}
 
 
 def _colour_maps(figure):

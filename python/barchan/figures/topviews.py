@@ -17,6 +17,9 @@ from barchan.figures.grain_image import top_view
 from barchan.io.study_folder import plain
 
 FINER = 1.5  # pixels of the picture per pixel of the PNG, for the PDF
+FULL_GRIDS = {8: 2, 6: 2, 9: 3, 4: 2}  # views: columns, none left empty
+TALL = 1.5  # height over width of all views below each other: above it they are put in a grid
+LOW = 98.0  # [%] of the grains decide the range of the colours: neither suspended ones nor the tip of the first heap
 
 
 def frame_window(frames):
@@ -28,18 +31,34 @@ def frame_window(frames):
     return low[0] - margin, high[0] + 2 * margin, low[2] - margin, side + margin
 
 
-def draw(run, ax=None):
-    """`ax`: one for each time, in their order."""
-    file = run.need_grains()
-    counts = () if ax is None else ((np.size(ax),),)
-    frames = [g for g in map(run.frame, file.evenly_spaced(*counts)) if len(g.d)]
+def frames_at(run, *counts):
+    """Frames at even times, without those that have no grain."""
+    frames = [g for g in map(run.frame, run.need_grains().evenly_spaced(*counts)) if len(g.d)]
     if not frames:
         raise MissingData("needs a frame with grains in it")
+    return frames
+
+
+def height_range(frames):
+    """Height [m] at which the colours end."""
+    later = frames[1:] or frames
+    return max(np.percentile(g.x[:, 1] + 0.5 * g.d, LOW) for g in later)
+
+
+def shape_of(window):
+    return (window[3] - window[2]) / (window[1] - window[0])
+
+
+def draw(run, ax=None):
+    """`ax`: one for each time, in their order."""
+    frames = frames_at(run, *(() if ax is None else ((np.size(ax),),)))
+    columns = 1
+    if ax is None and len(frames) > 3 and len(frames) * shape_of(frame_window(frames)) > TALL:
+        frames = frames_at(run, tuple(FULL_GRIDS))
+        columns = FULL_GRIDS.get(len(frames), 2)
     bodies = bodies_of(run.config)
     window = body_pictures.in_window(frame_window(frames), run.config)
-    top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in frames)
-    ratio = (window[3] - window[2]) / (window[1] - window[0])
-    columns = 2 if ax is None and len(frames) > 3 and len(frames) * ratio > 2.2 else 1
+    top, ratio = height_range(frames), shape_of(window)
     rows = np.size(ax) if ax is not None else -(-len(frames) // columns)
     panel_width = style.FULL_WIDTH / columns if columns > 1 else 5.2
     figure, grid = style.panels(
@@ -64,7 +83,8 @@ def draw(run, ax=None):
     if always_along_x(run.config):
         flow_arrow(panels[0])
     named = max(frames, key=lambda grains: len(grains.groups))
-    colour_key(figure, grid, top, named.groups, named.kinds)
+    higher = any((g.x[:, 1] + 0.5 * g.d).max() > top for g in frames)
+    colour_key(figure, grid, top, named.groups, named.kinds, "max" if higher else "neither")
     return figure
 
 
@@ -75,14 +95,16 @@ def flow_arrow(axes):
     axes.text(0.87, 0.9, "flow", transform=axes.transAxes, ha="right", va="center", path_effects=style.WHITE_EDGE)
 
 
-def colour_key(figure, grid, top, groups=(), kinds=()):
-    """What the colours of `top_view` mean: kinds or heaps of these names, or heights up to `top` [m]."""
+def colour_key(figure, grid, top, groups=(), kinds=(), extend="neither"):
+    """What the colours of `top_view` mean: kinds or heaps of these names, or heights up to `top` [m]; `extend`: "max"
+    where grains are higher."""
     if groups:
         colours = ListedColormap([style.GROUPS[n % len(style.GROUPS)] for n in range(len(groups))])
         scale = plt.cm.ScalarMappable(plt.Normalize(-0.5, len(groups) - 0.5), colours)
     else:
         scale = plt.cm.ScalarMappable(plt.Normalize(0, 1e3 * top), style.HEIGHT_MAP)
-    bar = figure.colorbar(scale, ax=grid, location="bottom", shrink=0.5, aspect=35, pad=0.02)
+    bar = figure.colorbar(scale, ax=grid, location="bottom", shrink=0.5, aspect=35, pad=0.02,
+                          extend="neither" if groups else extend)
     name = "kind of the grain" if kinds else "heap that a grain came from"
     bar.set_label(name if groups else "height above the wall (mm)")
     if groups:
