@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Builds the site of the documentation in build/site: ./barchan docs. Needs Debian's MkDocs and Material; no network.
 
-The pages are those of docs/ and the texts beside README.md, which is the front page. They are gathered in
-build/site-pages with every link as the site needs it, and with the files that they link to. A warning of MkDocs, such
-as a link to nothing, is an error.
+The pages are those of docs/, the texts beside README.md, which is the front page, and the notebooks with their
+outputs. They are gathered in build/site-pages with every link as the site needs it, and with the files that they link
+to. A warning of MkDocs, such as a link to nothing, is an error. Pages of a clone from a public address have a link to
+edit them there.
 """
 import json
 import os
@@ -13,13 +14,15 @@ import shutil
 import subprocess
 import sys
 
+import nbconvert
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "build/site-pages"
 SITE = ROOT / "build/site"
 NEW = ROOT / "build/site-new"  # takes its place when it is whole
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
 TEXTS["README.md"] = "index.md"
-WIDE = "---\ntemplate: home.html\nhide:\n  - navigation\n  - toc\n---\n\n"  # of the front page
+WIDE = "template: home.html\nhide:\n  - navigation\n  - toc\n"  # the front page
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 FONTS = pathlib.Path("/usr/share/fonts/opentype/inter")
 OF_FONTS = "Inter-Regular.otf", "Inter-Italic.otf", "Inter-SemiBold.otf"
@@ -27,6 +30,13 @@ OF_MATHJAX = ("MathJax.js", "extensions/tex2jax.js", "extensions/TeX", "extensio
               "jax/element", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
 LINK = re.compile(r"(!?\[(?:[^\]\[]|\[[^\]]*\])*\]\()([^)\s#]+)(#[^)\s]*)?\)")
 CODE = re.compile(r"(```.*?```|`[^`\n]*`)", re.S)
+
+
+def address():
+    """Where this clone came from, if that is public, else an empty text."""
+    asked = subprocess.run(["git", "config", "remote.origin.url"], cwd=ROOT, capture_output=True, text=True,
+                           check=False)
+    return asked.stdout.strip().removesuffix(".git") if asked.stdout.startswith("https://") else ""
 
 
 def target_on_site(target, folder, page):
@@ -37,6 +47,8 @@ def target_on_site(target, folder, page):
     name = str(path)
     if name in TEXTS:
         return TEXTS[name]
+    if path.parts[0] == "notebooks" and path.suffix == ".ipynb":
+        return f"{name.removesuffix('.ipynb')}.md"
     if path.parts[0] == "docs":
         return path.name if path.parts[1] == "site" and path.suffix == ".md" else str(path.relative_to("docs"))
     source = ROOT / path
@@ -73,7 +85,26 @@ def rewritten(source, on_site):
             target = os.path.relpath(target, on_site.parent)
         return f"{shown}{target}{found[3] or ''})"
 
+    text = text.replace("<repository>", address() or "<repository>")
     return "".join(part if part.startswith("`") else LINK.sub(link, part) for part in CODE.split(text))
+
+
+def put(text, on_site, source):
+    """Writes a page; `source`: the file to edit."""
+    page = PAGES / on_site
+    page.parent.mkdir(parents=True, exist_ok=True)
+    first = WIDE if str(on_site) == "index.md" else ""
+    page.write_text(f"---\n{first}source: {source.relative_to(ROOT)}\n---\n\n{text}")
+
+
+def gather_notebooks():
+    for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        pictures = {"output_files_dir": f"{notebook.stem}_files"}
+        text, made = nbconvert.MarkdownExporter().from_filename(notebook, resources=pictures)
+        put(text, pathlib.Path("notebooks") / f"{notebook.stem}.md", notebook)
+        for name, content in made["outputs"].items():
+            (PAGES / "notebooks" / name).parent.mkdir(exist_ok=True)
+            (PAGES / "notebooks" / name).write_bytes(content)
 
 
 def gather():
@@ -83,8 +114,8 @@ def gather():
     pages = {page: page.relative_to(docs) for page in (*docs.glob("*.md"), *docs.glob("dev/*.md"))}
     pages |= {ROOT / name: pathlib.Path(on_site) for name, on_site in TEXTS.items()}
     for page, on_site in pages.items():
-        (PAGES / on_site).parent.mkdir(exist_ok=True)
-        (PAGES / on_site).write_text((WIDE if on_site.name == "index.md" else "") + rewritten(page, on_site))
+        put(rewritten(page, on_site), on_site, page)
+    gather_notebooks()
     for page in (ROOT / "docs/site").glob("*.md"):
         shutil.copy(page, PAGES)
     shutil.copytree(ROOT / "docs/site", PAGES / "site", ignore=shutil.ignore_patterns("*.md", "theme"))
@@ -113,7 +144,7 @@ def main():
                            "--site-dir", NEW],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           cwd=PAGES,  # in ROOT the API's reader takes the launcher for the package
-                          env={**os.environ, "PYTHONPATH": python_path}, check=False)
+                          env={**os.environ, "PYTHONPATH": python_path, "BARCHAN_ADDRESS": address()}, check=False)
     told = [line for line in made.stdout.splitlines() if "WARNING" in line or "ERROR" in line or "Abort" in line]
     print(*told, sep="\n", end="\n" if told else "", file=sys.stderr)
     if made.returncode:

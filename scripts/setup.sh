@@ -22,7 +22,8 @@ test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pip python3-venv python3-wheel  # its installation
   python3-yaml  # the citation file
   nodejs node-jsdom)  # the report page
-docs_packages=(mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers libjs-mathjax fonts-mathjax fonts-inter)
+docs_packages=(mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers python3-nbconvert libjs-mathjax
+  fonts-mathjax fonts-inter)
 if [ "${CI:-}" = true ]; then test_packages+=(chromium "${docs_packages[@]}"); fi  # large; elsewhere tests are skipped
 
 quiet=no

@@ -17,6 +17,6 @@ from barchan.api.run import Run
 from barchan.api.run import open_folder as open  # the name that users look for  # noqa: A004
 from barchan.api.study import Study
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 __all__ = ["BadInput", "BarchanError", "MissingData", "Run", "RunFailed", "RunStopped", "Study", "check", "find_dunes", "open",
            "run", "sweep"]

@@ -17,7 +17,7 @@ N = r"(\d+\.\d+\.\d+)"
 # Files that repeat the version, and the text around it there. The first must be there and say it; of the second those
 # that are there must; the third may.
 ALWAYS = {
-    "README.md": rf"State of version {N}",
+    "README.md": rf"(?:[Vv]ersion |version = {{){N}",
     "CITATION.cff": rf"^version: {N}$",
     "codemeta.json": rf'^  "version": "{N}",$',
     "python/barchan/__init__.py": rf'^__version__ = "{N}"$',
@@ -55,8 +55,6 @@ def bad_changelog(version, date):
     text = (ROOT / "CHANGELOG.md").read_text()
     sections = re.split(r"^## ", text, flags=re.M)[1:]
     heads = [section.splitlines()[0] for section in sections]
-    if heads[-1] == "What was learned":
-        del sections[-1], heads[-1]
     releases = [re.fullmatch(rf"\[{N}\] - (\d{{4}}-\d\d-\d\d)", head) for head in heads[1:]]
     if heads[0] != "[Unreleased]" or not all(releases):
         yield f"CHANGELOG.md has the sections {heads}, not [Unreleased] and [number] - date"

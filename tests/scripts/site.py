@@ -4,6 +4,7 @@ page and a heading, nothing is loaded from elsewhere; in a browser formulas are 
 pages fit a telephone. Screenshots stay in BARCHAN_SCREENSHOTS, if that is set."""
 import html.parser
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -27,15 +28,23 @@ SEARCH = """
 const field = document.querySelector("[data-md-component=search-query]");
 document.getElementById("__search").checked = true;
 field.focus();
-field.value = "restitution";
-field.dispatchEvent(new Event("input", { bubbles: true }));
-field.dispatchEvent(new KeyboardEvent("keyup", { bubbles: true }));
-for (let i = 0; i < 50 && !found.results; ++i) {
-  await wait(200);
-  found.results = document.querySelectorAll(".md-search-result__link").length;
+found.results = {};
+for (const word of WORDS) {
+  field.value = word;
+  field.dispatchEvent(new Event("input", { bubbles: true }));
+  field.dispatchEvent(new KeyboardEvent("keyup", { bubbles: true }));
+  await wait(600);
+  found.results[word] = [...document.querySelectorAll(".md-search-result__link")].map(
+    (link) => link.getAttribute("href").replace(/^.*\\/|[?#].*$/g, ""));
 }
 document.getElementById("__search").checked = false;
 """
+# What users type, and a page that answers it among the first ANSWERS pages found.
+WORDS = {"restitution": "keys", "resume": "cluster", "cite": "index", "STL": "field", "macOS": "install",
+         "Windows": "install", "time step too large": "troubleshooting", "checkpoint": "cluster", "obstacle": "field",
+         "ParaView": "results", "horn length": "dune-measures", "GPU": "install"}
+ANSWERS = 5
+PUBLIC = "https://git.example/barchan/barchan"
 
 
 class Page(html.parser.HTMLParser):
@@ -93,8 +102,11 @@ def check_in_browser(wrong, kept):
         if not found["formulas"] or found["typeset"] != found["formulas"] or found["errors"]:
             counts = f"{found['typeset']} of {found['formulas']} formulas, {found['errors']} errors"
             wrong.append(f"{page}: typeset are {counts}")
-    if not visit("index", SEARCH)["results"]:
-        wrong.append("the search finds nothing")
+    results = visit("index", SEARCH.replace("WORDS", str(list(WORDS))))["results"]
+    for word, page in WORDS.items():
+        first = list(dict.fromkeys(results[word]))[:ANSWERS]
+        if f"{page}.html" not in first:
+            wrong.append(f"the search for {word} finds {first}, not {page}.html")
     for page in ("index", "first-dune", "files", "validation"):
         visit(page, "await wait(500);", 400)
     if kept:
@@ -102,15 +114,34 @@ def check_in_browser(wrong, kept):
         visit("keys", "", 400)
 
 
+def build(address=""):
+    """Of a clone from that address, if there is one."""
+    known = {"GIT_CONFIG_COUNT": "1", "GIT_CONFIG_KEY_0": "remote.origin.url", "GIT_CONFIG_VALUE_0": address}
+    made = subprocess.run([sys.executable, ROOT / "scripts/build_site.py"], capture_output=True, text=True, check=False,
+                          env=os.environ | (known if address else {}))
+    if made.returncode:
+        sys.exit(made.stdout + made.stderr)
+
+
+def check_address(wrong):
+    """Where the address is known, pages have links to edit them, and the front page says what to clone."""
+    for page, source in (("index", "README.md"), ("keys", "docs/keys.md"), ("dev/scaling", "docs/dev/scaling.md"),
+                         ("notebooks/laws", "notebooks/laws.ipynb")):
+        text = (SITE / f"{page}.html").read_text()
+        if f'href="{PUBLIC}/edit/main/{source}"' not in text:
+            wrong.append(f"{page}.html has no link to edit {source}")
+    if f"git clone {PUBLIC} barchan" not in re.sub(r"<[^>]*>", "", (SITE / "index.html").read_text()):
+        wrong.append("the front page does not say where to clone from")
+
+
 def main():
     if shutil.which("mkdocs") is None:
         print("no mkdocs: ./barchan setup --docs")
         return 1 if os.environ.get("CI") == "true" else browser.SKIPPED
     wrong = []
-    made = subprocess.run([sys.executable, ROOT / "scripts/build_site.py"], capture_output=True, text=True, check=False)
-    if made.returncode:
-        print(made.stdout + made.stderr)
-        return 1
+    build(PUBLIC)
+    check_address(wrong)
+    build()
     n = check_links(wrong)
     check_in_browser(wrong, os.environ.get("BARCHAN_SCREENSHOTS"))
     print(*wrong or [f"{n} pages of the site as they should be"], sep="\n")
