@@ -58,6 +58,12 @@ said="$("$root/barchan" run "${quick[@]}" --out -o2 -dash.toml 2>&1)" || fail "r
 "$root/barchan" check -dash.toml > said 2>&1 || fail "check -dash.toml: $(cat said)"
 "$root/barchan" run "${quick[@]}" --dry-run -- -dash.toml > said 2>&1 || fail "run -- -dash.toml: $(cat said)"
 
+# More threads than cores are told; as many are not.
+for more in 1 0; do
+  "$root/barchan" run "${quick[@]}" --dry-run --threads $(($(nproc --all) + more)) -- -dash.toml > said 2>&1
+  [ "$(grep -c "threads that share a core" said)" = "$more" ] || fail "$more threads more than cores: $(cat said)"
+done
+
 printf '[study]\nbase = "-dash.toml"\n[set]\n"time.end" = 5e-4\n[vary]\n"fluid.mean_velocity" = [0.2]\n' > -study.toml
 "$root/barchan" sweep -study.toml --out=-s > said 2>&1 || fail "sweep -study.toml --out=-s: $(cat said)"
 ! grep -i "error\|could not" said || fail "sweep -study.toml --out=-s: no pictures"
