@@ -23,22 +23,21 @@ struct BodyRecord {
 inline constexpr std::array kBodyColumns = [] {
   using B = BodyRecord;
   return std::to_array<Column<B>>({
-      {"t", "s", &B::t, "time at the end of the interval", 10},
-      {"body", "-", &B::body, "number of the body from 0, in the order of the case"},
-      {"force_x", "N", &B::force_x, "force of the water on the body, along x"},
-      {"force_y", "N", &B::force_y, "the same, upwards"},
-      {"force_z", "N", &B::force_z, "the same, along z"},
-      {"torque_x", "N m", &B::torque_x, "torque of the water on the body, about x"},
-      {"torque_y", "N m", &B::torque_y, "the same, about y"},
-      {"torque_z", "N m", &B::torque_z, "the same, about z"},
-      {"grain_force_x", "N", &B::grain_force_x, "force of the grains that touch the body, along x"},
-      {"grain_force_y", "N", &B::grain_force_y, "the same, upwards"},
-      {"grain_force_z", "N", &B::grain_force_z, "the same, along z"},
-      {"grain_torque_x", "N m", &B::grain_torque_x,
-       "torque of the grains that touch the body, about x"},
-      {"grain_torque_y", "N m", &B::grain_torque_y, "the same, about y"},
-      {"grain_torque_z", "N m", &B::grain_torque_z, "the same, about z"},
-      {"n_contacts", "-", &B::n_contacts, "grains that touch the body, at this time"},
+      {"t", "s", &B::t, "end of the interval", 10},
+      {"body", "-", &B::body, "number in the case, from 0"},
+      {"force_x", "N", &B::force_x, "force of the water along x"},
+      {"force_y", "N", &B::force_y, "force of the water upwards"},
+      {"force_z", "N", &B::force_z, "force of the water along z"},
+      {"torque_x", "N m", &B::torque_x, "torque of the water about x"},
+      {"torque_y", "N m", &B::torque_y, "torque of the water about y"},
+      {"torque_z", "N m", &B::torque_z, "torque of the water about z"},
+      {"grain_force_x", "N", &B::grain_force_x, "force of the grains along x"},
+      {"grain_force_y", "N", &B::grain_force_y, "force of the grains upwards"},
+      {"grain_force_z", "N", &B::grain_force_z, "force of the grains along z"},
+      {"grain_torque_x", "N m", &B::grain_torque_x, "torque of the grains about x"},
+      {"grain_torque_y", "N m", &B::grain_torque_y, "torque of the grains about y"},
+      {"grain_torque_z", "N m", &B::grain_torque_z, "torque of the grains about z"},
+      {"n_contacts", "-", &B::n_contacts, "grains that touch it at `t`"},
   });
 }();
 inline constexpr CsvTable<BodyRecord> kBodyTable{"bodies.csv", kBodyColumns};

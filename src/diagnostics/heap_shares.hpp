@@ -22,10 +22,10 @@ inline constexpr std::array kHeapColumns = [] {
   using H = HeapShare;
   return std::to_array<Column<H>>({
       {"t", "s", &H::t, "time", 10},
-      {"dune", "-", &H::dune, "label as in `dune.csv`; -1: grains in no dune"},
-      {"heap", "-", &H::heap, "the heap they came from, as in `grains.h5`; -1: from none"},
+      {"dune", "-", &H::dune, "label as in `dune.csv`; -1: in no dune"},
+      {"heap", "-", &H::heap, "heap of origin, as in `grains.h5`; -1: none"},
       {"n_grains", "-", &H::n_grains, "grains of this heap in this dune"},
-      {"volume", "m3", &H::volume, "sum of pi d^3/6 over them"},
+      {"volume", "m3", &H::volume, "sum of pi d^3/6"},
   });
 }();
 inline constexpr CsvTable<HeapShare> kHeapTable{"heaps.csv", kHeapColumns};
