@@ -94,3 +94,15 @@ def in_seconds(t: np.ndarray, values: np.ndarray) -> list[float]:
     means = [np.mean(values[(second == s) & np.isfinite(values)]) for s in np.unique(second)
              if np.isfinite(values[second == s]).any()]
     return means or [np.nan]
+
+
+def varies(values: Any) -> bool:
+    """By more than a thousandth, but for a value in fifty. The flow rate of a flow of constant rate does not.
+
+    values: (N) numbers, of which those that are not finite do not count; without others it does not vary.
+    """
+    known = np.asarray(values)[np.isfinite(values)]
+    if not known.size:
+        return False
+    low, high = np.percentile(known, [2, 98])
+    return bool(high - low > 1e-3 * abs(known).max())

@@ -9,6 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.figures.result import keep
+from barchan.stats import varies
 
 # label, scale ("count": linear from zero), {column: legend}; a panel without data is left out
 PANELS = (
@@ -30,13 +31,6 @@ def has_data(history, column):
     return values is not None and bool(np.any(np.isfinite(values) & (values != 0.0)))
 
 
-def varies(history, column):
-    """By more than a thousandth, but for a line in fifty: the flow rate of a flow of constant rate does not."""
-    values = history[column][np.isfinite(history[column])]
-    low, high = np.percentile(values, [2, 98])
-    return high - low > 1e-3 * abs(values).max()
-
-
 def draw(run, ax=None):
     history = run.history_columns
     if history is None:
@@ -46,7 +40,7 @@ def draw(run, ax=None):
     panels = [panel for panel in panels if panel[2]]
     if not panels:
         raise MissingData("needs a history.csv whose values are not all zero")
-    panels = [panel for panel in panels if any(varies(history, column) for column in panel[2])] or panels
+    panels = [panel for panel in panels if any(varies(history[column]) for column in panel[2])] or panels
     columns = 3 if len(panels) % 3 == 0 else min(2, len(panels))
     rows = -(-len(panels) // columns)
     figure, grid = style.panels(ax, rows, columns, sharex=True,

@@ -41,7 +41,7 @@ def write_files(run):
         "summary": verdict(found), "health": health(found), "derived": derived(run),
         "player": player(facts, missing), "curves": curves(run),
         "phases": phases(summary), "rates": rates(summary), "config": config(run),
-        "files": files(run), "commands": commands(run, summary), "css": template("css"), "js": template("js"),
+        "files": files(run), "commands": commands(run, summary), "next": next_steps(run), "css": template("css"), "js": template("js"),
         "facts": grain_pictures.to_script(facts or {}), "data": data,
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
@@ -286,3 +286,13 @@ def commands(run, summary):
     needs = ("The run starts from " + " and ".join(f"{value} ({key})" for key, value in start.items())
              + ": the files must be there." if start else "")
     return f"<pre>{escape(chr(10).join(lines))}</pre><p class=\"quiet\">{escape(needs)}</p>"
+
+
+def next_steps(run):
+    """Commands and files that lead on from here."""
+    folder = str(run.path)
+    shown = [name for name in ("grains.xdmf", "fields.xdmf") if (run.path / name).exists()]
+    steps = [f"<code>./barchan plot {escape(folder)} --help</code> lists all figures",
+             f"<code>barchan.open({escape(repr(folder))})</code> reads the tables in Python"]
+    steps += [f"<code>{shown[0]}</code> opens in ParaView"] if shown else []
+    return "; ".join(steps) + ". Tutorials: docs/first-case.md, docs/results.md."

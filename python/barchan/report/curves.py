@@ -7,6 +7,7 @@ from barchan.io import horn_lengths
 import numpy as np
 
 from barchan.io.tables import thin
+from barchan.stats import varies
 
 WIDTH, HEIGHT = 360, 190
 LEFT, RIGHT, TOP, BOTTOM = 52, 350, 8, 158
@@ -42,7 +43,7 @@ OF_INTERVAL = ("cfl", "continuity_residual", "pressure_iterations")
 
 
 def figures(table, panels):
-    """HTML of the panels for which the table (columns by name, with `t` [s]) has values."""
+    """HTML of the panels for which the table (columns by name, with `t` [s]) has values that vary."""
     return "\n".join(filter(None, (figure(table, *panel) for panel in panels)))
 
 
@@ -53,7 +54,7 @@ def figure(table, title, unit, factor, scale, columns):
     if scale == "log":
         series = {legend: np.where(y > 0.0, y, np.nan) for legend, y in series.items()}
     series = {legend: y for legend, y in series.items() if np.isfinite(y).any()}
-    if not series:
+    if not any(varies(y) for y in series.values()) and len(t) > 1:
         return ""
     axes = Axes(t, np.concatenate(list(series.values())), scale)
     lines = "".join(f'<path class="curve s{i}" d="{axes.path(t, y)}"/><circle class="dot s{i}" r="3.5"/>'
