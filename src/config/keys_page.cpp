@@ -18,6 +18,16 @@ std::string domain_of(const Key& key) {
   return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
 }
 
+/// The same for a table, with the unit: "number, 0 to 1 m".
+std::string domain_in_table(const Key& key) {
+  const Range& range = key.range;
+  const bool both = range.min > -Range::infinite && range.max < Range::infinite &&
+                    !range.above_min && !range.below_max;
+  const std::string text =
+      both ? fmt::format("{}, {:g} to {:g}", key.type, range.min, range.max) : domain_of(key);
+  return key.unit.empty() ? text : fmt::format("{} {}", text, key.unit);
+}
+
 /// "required", "none", "as in `[grains]`" or the value in backticks.
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
@@ -28,7 +38,7 @@ std::string default_of(const Section& section, const Key& key, const Config& def
 }
 
 std::string row(const Section& section, const Key& key, const Config& defaults) {
-  return fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, domain_of(key), key.unit,
+  return fmt::format("| `{}` | {} | {} | {}{} |\n", key.name, domain_in_table(key),
                      default_of(section, key, defaults), key.meaning,
                      key.fixed_by_restart ? " (R)" : "");
 }
@@ -93,20 +103,18 @@ std::string entry(const Section& section, const Key& key, const Config& defaults
 std::string keys_page(const Sections& table) {
   std::string page =
       "# Keys of a case\n\n"
-      "Printed by `./barchan keys`; the table is `src/config/keys.cpp`. All numbers are in SI "
-      "units.\n`--set section.key=value` changes a key for one run. Keys marked (R) must be the "
-      "same in a restart\nas in the run that wrote the restart file. Numbers within these ranges "
-      "may still be refused\nif they do not fit other keys. A length `\"3 d\"` is in mean "
-      "diameters, "
-      "by number, of the grains\nthat are poured here or in the case that this one starts from; "
-      "`check` prints it in metres.\n";
+      "Printed by `./barchan keys`. All numbers are in SI units. `--set section.key=value` changes "
+      "a key\nfor one run. Keys marked (R) stay as they are in a restart. Numbers within these "
+      "ranges may still be\nrefused if they do not fit other keys. A length `\"3 d\"` is in mean "
+      "diameters, by number, of the grains\nthat are poured here or in the case that this one "
+      "starts from; `check` prints it in metres.\n";
   Config defaults;
   for (const Section& section : table) {
     prepare(section, defaults);
     if (section.keys.empty()) continue;
     page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
                         section.required ? " (required)" : "");
-    page += "| key | type, range | unit | default | meaning |\n|---|---|---|---|---|\n";
+    page += "| key | type, range, unit | default | meaning |\n|---|---|---|---|\n";
     for (const Key& key : section.keys) page += row(section, key, defaults);
   }
   return page;
