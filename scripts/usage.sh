@@ -10,7 +10,8 @@ usage: $command_name COMMAND [arguments]
   run CASE.toml       run a case, then draw its pictures
       --set KEY=VALUE   change one key, e.g. grains.sliding_friction=0.4 (repeatable)
       --out DIR         run folder (default: runs/<case name>)
-      --restart FILE    continue from a restart file
+      --resume          continue from the last restart file, or begin if there is none
+      --restart FILE    continue from a restart file, from the last one of a folder, or from "latest" of the run
       --overwrite       remove the results of an earlier run in the folder and begin again
       --threads N       threads per rank (default: all cores, shared by the ranks)
       --ranks N         MPI ranks on this machine (default: 1)

@@ -82,14 +82,23 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
   }
-  run->add_option("--restart", line.restart, "go on from this restart file")->type_name("FILE");
+  CLI::Option* restart =
+      run->add_option("--restart", line.restart,
+                      "go on from this restart file, from the last one in this folder, or with "
+                      "\"latest\" from the last one of the run")
+          ->type_name("FILE");
+  CLI::Option* resume =
+      run->add_flag("--resume", line.resume,
+                    "go on from the last restart file of the run; without one begin it")
+          ->excludes(restart);
   run->add_option("--patience", line.patience,
                   "wall time without progress after which several ranks give up (default: 600, "
                   "0: never)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0, 1'000'000));
   run->add_flag("--overwrite", line.overwrite,
-                "remove the results of an earlier run in the folder and begin again");
+                "remove the results of an earlier run in the folder and begin again")
+      ->excludes(resume);
   run->add_flag(
       "--dry-run", line.dry_run,
       "check the case, print its derived numbers and warnings; nothing is run or written");

@@ -21,7 +21,8 @@ struct CommandLine {
   std::string section{};                           // of keys; empty: all
   std::vector<std::string> overrides{};            // --set, each "key=value" as typed
   std::optional<std::filesystem::path> out{};      // --out, the run folder
-  std::optional<std::filesystem::path> restart{};  // --restart, a restart file to go on from
+  std::optional<std::filesystem::path> restart{};  // --restart: a restart file, a folder or "latest"
+  bool resume = false;                             // --resume: from the last restart file, if any
   int threads = 0;                                 // --threads, 0: all that are there
   int patience = 600;                              // --patience of the watchdog [s], 0: for ever
   bool overwrite = false;                          // --overwrite: an earlier run in the folder

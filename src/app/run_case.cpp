@@ -10,6 +10,7 @@
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/validate.hpp"
+#include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/case_inputs.hpp"
@@ -205,26 +206,43 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   }
 }
 
+/// What --restart names: a file, the last one in a folder, or with "latest" the last one of the run.
+std::optional<fs::path> named_restart(const CommandLine& line) {
+  if (!line.restart) return std::nullopt;
+  std::error_code error;
+  const bool latest = *line.restart == "latest" && !fs::exists(*line.restart, error);
+  if (!latest && !fs::is_directory(*line.restart, error)) return line.restart;
+  const fs::path folder = latest ? run_folder(line) : *line.restart;
+  const auto last = latest_checkpoint(folder);
+  if (!last)
+    throw InputError(fmt::format("--restart {}: {} holds no restart file", line.restart->string(),
+                                 shown(folder)));
+  return last;
+}
+
 /// The case that was asked for, unless its results are there. Nothing that took time is removed
 /// unless the user said so.
-void run_one(const Case& the_case, const RunOptions& options, bool overwrite) {
+void run_one(const Case& the_case, RunOptions options, const CommandLine& line) {
   const Config& config = the_case.config;
   const fs::path& folder = options.folder;
+  if (line.resume) options.restart = latest_checkpoint(folder);
   check_place(config, options);
   const auto lock = try_to_lock(folder);
   if (!broadcast(lock.has_value(), MPI_COMM_WORLD)) {
     throw InputError(fmt::format("{} is in use by {}: wait for it, or take another --out",
                                  folder.string(), FolderLock::holder_of(folder)));
   }
-  if (!options.restart && !overwrite) {
+  if (line.resume || (!options.restart && !line.overwrite)) {
     const EarlierRun earlier = earlier_run(the_case, folder);
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) {
       report::info("{} already holds this run, finished; --overwrite computes it again",
                    folder.string());
       return;
     }
-    check_on_root([&] { check_overwrites_nothing(earlier, folder); });
+    if (line.resume) options.restart = earlier.restart;  // another process may have gone on
+    if (!options.restart) check_on_root([&] { check_overwrites_nothing(earlier, folder); });
   }
+  if (options.restart) report::info("going on from {}", shown(*options.restart));
   run_locked(the_case, options, Role::asked_for);
 }
 
@@ -246,12 +264,12 @@ int run_command(const CommandLine& line) {
     report::info("nothing was run (--dry-run)");
     return 0;
   }
-  const RunOptions options{.folder = run_folder(line), .restart = line.restart};
+  const RunOptions options{.folder = run_folder(line), .restart = named_restart(line)};
   try {
     if (line.starts_only) {
       start_files(the_case, options.folder);
     } else {
-      run_one(the_case, options, line.overwrite);
+      run_one(the_case, options, line);
       report::info("results in {}", options.folder.string());
     }
     return 0;

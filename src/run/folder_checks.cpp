@@ -132,8 +132,7 @@ void check_is_ours(const Config& config, const fs::path& folder) {
 
 void check_overwrites_nothing(const EarlierRun& earlier, const fs::path& folder) {
   if (!earlier.is_worth_keeping()) return;
-  const std::string go_on =
-      earlier.restart ? fmt::format("go on with --restart {}, ", earlier.restart->string()) : "";
+  const std::string go_on = earlier.restart ? "go on with --resume, " : "";
   throw InputError(
       fmt::format("{} holds {} run{}{}: {}begin again with --overwrite, or take another --out",
                   folder.string(), earlier.status == "done" ? "a finished" : "an unfinished",

@@ -101,7 +101,7 @@ Outcome Simulation::loop() {
   results_->write_summary(stopped.empty() ? "done" : "stopped",
                           stopped.empty() ? unfed_grains(run_) : stopped);
   if (stopped.empty()) return Outcome::done;
-  report::info("{}; go on with --restart {}", stopped, last_restart()->string());
+  report::info("{}; state in {}: go on with --resume", stopped, last_restart()->string());
   return Outcome::stopped;
 }
 

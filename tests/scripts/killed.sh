@@ -43,7 +43,7 @@ killed() {
 for ranks in 1 2; do
   [ "$ranks" -eq 1 ] || command -v mpirun > /dev/null || continue
   killed "on $ranks" "$ranks" "restart_*.h5" --set restart.interval=0.01
-  grep -q "perhaps because the memory is full; go on with .*/barchan run .* --restart " "on $ranks.said" ||
+  grep -q "perhaps because the memory is full; go on with .*/barchan run .* --resume" "on $ranks.said" ||
     { cat "on $ranks.said"; fail "it is not said how to go on"; }
 done
 # The line, taken as it stands, goes on (its end time is a thousand seconds away).

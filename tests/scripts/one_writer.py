@@ -98,7 +98,7 @@ def keeps_what_the_same_command_would_remove(work):
     limited = {**LONG, "time.wall_clock_limit": 0.1}
     faults.expect(faults.run(folder, limited), 3)
     before = content(folder)
-    said = ("holds an unfinished run:", f"--restart {faults.last_restart(folder)}", "--overwrite")
+    said = ("holds an unfinished run:", "--resume", "--overwrite")
     faults.expect(faults.run(folder, limited), 2, *said)
     faults.expect(faults.run(folder, faults.OFTEN), 2, "an unfinished run of another configuration")
     if content(folder) != before:

@@ -27,6 +27,8 @@ TEST(CommandLine, RunWithNothingElse) {
   EXPECT_EQ(line.threads, 0);
   EXPECT_EQ(line.patience, 600);
   EXPECT_FALSE(line.dry_run);
+  EXPECT_FALSE(line.resume);
+  EXPECT_TRUE(parse({"run", "case.toml", "--resume"}).resume);
   EXPECT_EQ(line.shown, report::Shown::progress);
 }
 
@@ -85,6 +87,8 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
              "--set a.b has no value: write --set a.b=VALUE");
   expect_bad({"run", "a.toml", "--quiet", "--verbose"}, "--quiet");
   expect_bad({"check", "a.toml", "--restart", "r.h5"}, "--restart");
+  expect_bad({"run", "a.toml", "--resume", "--restart", "r.h5"}, "--resume");
+  expect_bad({"run", "a.toml", "--resume", "--overwrite"}, "--resume");
   expect_bad({"info"}, "PATH is required");
 }
 

@@ -270,7 +270,7 @@ TEST_F(OutFolder, KeepsARunThatTookTime) {
   write_summary(folder_ / "out", {{"status", "failed"}});
   EXPECT_EQ(kept(), "");  // it had not come far enough for a restart file
   write("out/restart_0000000100.h5");
-  EXPECT_NE(kept().find("holds an unfinished run: go on with --restart"), std::string::npos);
+  EXPECT_NE(kept().find("holds an unfinished run: go on with --resume"), std::string::npos);
   write_summary(folder_ / "out", {{"status", "done"}});
   EXPECT_TRUE(earlier_run(the_case, folder_ / "out").done());
   write("out/config.toml", "[case]\n");
