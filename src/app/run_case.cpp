@@ -206,7 +206,8 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   }
 }
 
-/// What --restart names: a file, the last one in a folder, or with "latest" the last one of the run.
+/// What --restart names: a file, the last one in a folder, or with "latest" the last one of the
+/// run.
 std::optional<fs::path> named_restart(const CommandLine& line) {
   if (!line.restart) return std::nullopt;
   std::error_code error;

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
-"""Going on: --resume from the last restart file or from the start, --restart latest and --restart FOLDER. Each gives the
-bits of an unbroken run; what differs from the run that began is refused, with its reason."""
+"""Going on: --resume from the last restart file or from the start, --restart latest and --restart FOLDER.
+
+Each gives the bits of an unbroken run; what differs from the run that began is refused, with its reason.
+"""
 import faults
 
 CASE = {**faults.OFTEN, "time.end": 0.02, "restart.interval": 0, "output.history_interval": 1e-3}
@@ -32,7 +34,7 @@ def test(work):
         faults.same_run(whole, folder)
     other = stopped(work, "other")
     content = {path.name: path.read_bytes() for path in other.iterdir()}
-    faults.expect(run(other, "--resume", fluid__kinematic_viscosity=2e-6), 2, "kinematic_viscosity")
+    faults.expect(run(other, "--resume", grains__density=2600), 2, "density")
     faults.expect(run(other, "--resume", "--overwrite"), 2, "--resume")
     faults.expect(run(other, "--resume", "--restart", "latest"), 2, "--restart")
     if {path.name: path.read_bytes() for path in other.iterdir()} != content:
