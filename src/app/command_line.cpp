@@ -80,7 +80,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
         ->type_name("DIR");
     command->add_option("--threads", line.threads, "threads per rank (default: all)")
         ->type_name("N")
-        ->check(CLI::Range(1, 4096));
+        ->check(CLI::Range(1, kMostThreads));
   }
   CLI::Option* restart =
       run->add_option("--restart", line.restart,

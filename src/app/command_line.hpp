@@ -10,6 +10,9 @@
 
 namespace barchan {
 
+/// Threads of a rank in Kokkos' OpenMP backend, which writes beyond its tables with more.
+inline constexpr int kMostThreads = 512;
+
 /// `none`: nothing to do but print `text` (help, version).
 enum class Command { none, run, check, keys, info };
 

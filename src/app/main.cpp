@@ -6,8 +6,12 @@
 #include <Kokkos_Core.hpp>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <limits>
+#include <thread>
+#include <tuple>
 
 #include "barchan_version.hpp"
 #include "src/app/check_case.hpp"
@@ -43,19 +47,33 @@ struct MpiScope {
 
 /// Kokkos ends the program with a stack trace when it cannot read its own settings.
 void check_environment() {
-  for (const auto& [name, least] : {std::pair{"KOKKOS_NUM_THREADS", 1}, {"KOKKOS_DEVICE_ID", 0}}) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  for (const auto& [name, least, most] :
+       {std::tuple{"KOKKOS_NUM_THREADS", 1, kMostThreads}, {"KOKKOS_DEVICE_ID", 0, kMost}}) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): there are no other threads yet
     const char* const set = std::getenv(name);
     if (set == nullptr) continue;
     const char* const end = set + std::strlen(set);
     int value = -1;
     const auto [stop, error] = std::from_chars(set, end, value);
-    if (error == std::errc() && stop == end && value >= least) continue;
+    if (error == std::errc() && stop == end && value >= least && value <= most) continue;
     throw InputError(
-        fmt::format("the environment variable {} = \"{}\" must be a whole number of at least {}; "
+        fmt::format("the environment variable {} = \"{}\" must be a whole number of at least {}{}; "
                     "unset it, or use --threads",
-                    name, set, least));
+                    name, set, least, most < kMost ? fmt::format(" and at most {}", most) : ""));
   }
+}
+
+/// Those that --threads asks for, or as many as Kokkos can have; 0: Kokkos chooses.
+int threads_of(const CommandLine& line) {
+  if (line.threads > 0) return line.threads;
+  // NOLINTBEGIN(concurrency-mt-unsafe): there are no other threads yet
+  if (std::getenv("KOKKOS_NUM_THREADS") != nullptr) return 0;
+  const char* const set = std::getenv("OMP_NUM_THREADS");
+  // NOLINTEND(concurrency-mt-unsafe)
+  const unsigned long by_itself =
+      set != nullptr ? std::strtoul(set, nullptr, 10) : std::thread::hardware_concurrency();
+  return by_itself > kMostThreads ? kMostThreads : 0;
 }
 
 /// A standard stream that is closed leads to nowhere. Else the next file that is opened would take
@@ -71,7 +89,7 @@ template <class Work>
 int with_kokkos(const CommandLine& line, const Work& work) {
   check_environment();
   Kokkos::InitializationSettings settings;
-  if (line.threads > 0) settings.set_num_threads(line.threads);
+  if (const int threads = threads_of(line); threads > 0) settings.set_num_threads(threads);
   if (const auto cores = static_cast<int>(std::thread::hardware_concurrency());
       cores > 0 && line.threads > cores)
     report::warn("--threads {} on {} cores: threads that share a core wait for each other",

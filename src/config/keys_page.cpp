@@ -18,14 +18,14 @@ std::string domain_of(const Key& key) {
   return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
 }
 
-/// The same for a table, with the unit: "number, 0 to 1 m".
+/// The same for a table, with the unit: "number, 0 to 1 [m]".
 std::string domain_in_table(const Key& key) {
   const Range& range = key.range;
   const bool both = range.min > -Range::infinite && range.max < Range::infinite &&
                     !range.above_min && !range.below_max;
   const std::string text =
       both ? fmt::format("{}, {:g} to {:g}", key.type, range.min, range.max) : domain_of(key);
-  return key.unit.empty() ? text : fmt::format("{} {}", text, key.unit);
+  return key.unit.empty() ? text : fmt::format("{} [{}]", text, key.unit);
 }
 
 /// "required", "none", "as in `[grains]`" or the value in backticks.

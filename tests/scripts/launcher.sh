@@ -58,6 +58,13 @@ said="$("$root/barchan" run "${quick[@]}" --out -o2 -dash.toml 2>&1)" || fail "r
 "$root/barchan" check -dash.toml > said 2>&1 || fail "check -dash.toml: $(cat said)"
 "$root/barchan" run "${quick[@]}" --dry-run -- -dash.toml > said 2>&1 || fail "run -- -dash.toml: $(cat said)"
 
+# With more than 512 threads Kokkos crashes: they are refused, and never taken by default.
+status=0
+KOKKOS_NUM_THREADS=513 "$BARCHAN_PROGRAM" check -- -dash.toml > said 2>&1 || status=$?
+[ "$status" = 2 ] && grep -q "at most 512" said || fail "KOKKOS_NUM_THREADS=513: $status, $(cat said)"
+OMP_NUM_THREADS=600 "$BARCHAN_PROGRAM" run "${quick[@]}" --dry-run -- -dash.toml > said 2>&1 ||
+  fail "OMP_NUM_THREADS=600: $(cat said)"
+
 # More threads than cores are told; as many are not.
 for more in 1 0; do
   "$root/barchan" run "${quick[@]}" --dry-run --threads $(($(nproc --all) + more)) -- -dash.toml > said 2>&1

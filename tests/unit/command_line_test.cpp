@@ -80,6 +80,7 @@ TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({"run", "a.toml", "--sett", "a=1"}, "--sett");
   expect_bad({"run", "a.toml", "--threads", "many"}, "--threads");
   expect_bad({"run", "a.toml", "--threads", "0"}, "--threads");
+  expect_bad({"run", "a.toml", "--threads", "513"}, "--threads");
   expect_bad({"run", "a.toml", "--patience", "-1"}, "--patience");
   expect_bad({"run", "a.toml", "--patience", "soon"}, "--patience");
   expect_bad({"run", "a.toml", "--set"}, "--set");
