@@ -38,6 +38,7 @@ usage: $command_name COMMAND [arguments]
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
+  list [FOLDER]       runs below a folder (default: runs): status, time reached, age, last restart file, size
   info PATH           what a run or study folder, a result, restart file, table or case holds
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'

@@ -1,4 +1,4 @@
-"""python -m barchan plot RUN_DIR ... | vtk RUN_DIR ... | sweep PROGRAM STUDY.toml ...: what the launcher calls."""
+"""What the launcher calls: python -m barchan plot RUN_DIR ..., vtk RUN_DIR ..., list [FOLDER], sweep PROGRAM ..."""
 
 import sys
 
@@ -14,14 +14,18 @@ def main() -> int:
             from barchan import vtk
 
             return vtk.main(arguments)
+        if command == "list":
+            from barchan import listing
+
+            return listing.main(arguments)
         if command == "sweep":
             from barchan.studies import sweep
 
             return sweep.main(arguments)
     except KeyboardInterrupt:
         return 3
-    print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | sweep PROGRAM STUDY.toml [...]",
-          file=sys.stderr)
+    print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | list [FOLDER] | "
+          "sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
     return 2
 
 
