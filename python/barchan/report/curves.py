@@ -54,7 +54,7 @@ def figure(table, title, unit, factor, scale, columns):
     if scale == "log":
         series = {legend: np.where(y > 0.0, y, np.nan) for legend, y in series.items()}
     series = {legend: y for legend, y in series.items() if np.isfinite(y).any()}
-    if not any(varies(y) for y in series.values()) and len(t) > 1:
+    if not series or (len(t) > 1 and not any(varies(y) for y in series.values())):
         return ""
     axes = Axes(t, np.concatenate(list(series.values())), scale)
     lines = "".join(f'<path class="curve s{i}" d="{axes.path(t, y)}"/><circle class="dot s{i}" r="3.5"/>'
