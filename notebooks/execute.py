@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Executes notebooks in place, so that they show their results: python3 notebooks/execute.py [NAME.ipynb ...]
 
-Runs are read from and written to runs/ (or BARCHAN_RUNS). Without names: all. What changes with every execution, such as
-times of the clock, is not kept.
+Runs are read from and written to runs/ (or BARCHAN_RUNS). Without names: all. What changes with every execution, such
+as times of the clock, is not kept.
 """
 import os
 import sys

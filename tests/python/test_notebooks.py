@@ -1,6 +1,7 @@
 """Every notebook runs from its first to its last cell, on small runs."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -18,7 +19,7 @@ def runs(tmp_path_factory):
     """Folders with the names that the notebooks open: made-up runs and studies."""
     folder = tmp_path_factory.mktemp("runs")
     (folder / "quickstart").symlink_to(fake("--average"))
-    (folder / "variations").symlink_to(fake("--study"))
+    (folder / "friction-3k").symlink_to(fake("--study"))
     horns = folder / "horns"
     subprocess.run([sys.executable, ROOT / "tests/support/make_horn_run.py", horns / "base"], check=True)
     (folder / "sizes").mkdir()
@@ -31,7 +32,7 @@ def test_it_runs(path, runs, tmp_path):
     if path.stem in COMPUTES and "BARCHAN_PROGRAM" not in os.environ:
         pytest.skip("needs the program, whose path BARCHAN_PROGRAM has")
     if path.stem == "horn_grains":
-        (tmp_path / "variations").symlink_to(runs / "horns")
+        (tmp_path / "friction-3k").symlink_to(runs / "horns")
     where = tmp_path if path.stem in (*COMPUTES, "horn_grains") else runs
     environment = {**os.environ, "BARCHAN_RUNS": str(where), "BARCHAN_QUICK": "1", "PYTHONPATH": str(ROOT / "python"),
                    "BARCHAN_CASE": str(ROOT / "tests/support/small_dune.toml"),
@@ -45,9 +46,18 @@ def test_it_runs(path, runs, tmp_path):
         path.stem == "calibration"
 
 
-def test_notebooks_are_stored_without_output():
-    """A few kilobytes each, so that a change is readable."""
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_shows_its_results(path):
+    """Each is stored as executed from its first to its last cell (notebooks/execute.py), small, without errors, and
+    says nothing of the machine."""
+    cells = [cell for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert outputs and not any(output.output_type == "error" for output in outputs)
+    assert path.stat().st_size < 500_000
+    assert not re.search(r"/(home|root|tmp|work|usr)/", path.read_text())
+    assert not any(cell.metadata.get("execution") for cell in cells)
+
+
+def test_there_are_six():
     assert len(NOTEBOOKS) == 6
-    for path in NOTEBOOKS:
-        for cell in nbformat.read(path, 4).cells:
-            assert cell.cell_type == "markdown" or (not cell.outputs and cell.execution_count is None), path.name
