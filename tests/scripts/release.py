@@ -20,6 +20,7 @@ ALWAYS = {
     "README.md": rf"(?:[Vv]ersion |version = {{){N}",
     "CITATION.cff": rf"^version: {N}$",
     "codemeta.json": rf'^  "version": "{N}",$',
+    "tests/install/CMakeLists.txt": rf"^find_package\(Barchan {N} ",
     "python/barchan/__init__.py": rf'^__version__ = "{N}"$',
 }
 IF_THERE = {"debian/changelog": rf"\A[\w-]+ \((?:\d+:)?{N}[-~+)]"}

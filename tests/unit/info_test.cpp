@@ -96,7 +96,7 @@ TEST(Info, TablesAndCases) {
   std::ofstream(folder / "history.csv") << kHistoryTable.header() << "\n0,0\n0.25,100\n";
   const std::string history = describe_path(folder / "history.csv");
   for (const char* part :
-       {"rows     2, t = 0 ... 0.25 s", "[m/s]", "u_star", "the longest stable one, at"})
+       {"rows     2, t = 0 ... 0.25 s", "[m/s]", "u_star", "over the longest stable one"})
     EXPECT_TRUE(contains(history, part)) << history;
   std::ofstream(folder / "heap.csv") << "id,diameter,x,y,z\n1,2e-4,0,0,0\n2,3e-4,1,1,1\n";
   EXPECT_TRUE(contains(describe_path(folder / "heap.csv"), "2\ndiameter 0.0002 ... 0.0003 m"));

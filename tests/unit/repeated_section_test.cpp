@@ -100,7 +100,7 @@ TEST(RepeatedSection, ARestartComparesAllOfThem) {
 TEST(RepeatedSection, ThePageHasItOnce) {
   const std::string page = keys_page(table());
   EXPECT_NE(page.find("\n## [[size]]\n\nGrains of one size"), std::string::npos);
-  EXPECT_NE(page.find("| `diameter` | number, above 0 and at most 1 | m | required | how wide"),
+  EXPECT_NE(page.find("| `diameter` | number, above 0 and at most 1 [m] | required | how wide"),
             std::string::npos);
 }
 
