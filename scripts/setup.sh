@@ -45,7 +45,7 @@ missing_packages() {  # one name a line; a package that was removed but configur
   # shellcheck disable=SC2016  # ${Package} is dpkg-query's own syntax
   installed="$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2> /dev/null |
     sed -n 's/^installed //p')" || true
-  comm -23 <(printf '%s\n' "${packages[@]}" | sort) <(sort <<< "$installed")
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(sort -u <<< "$installed")
 }
 
 apt_install() {
