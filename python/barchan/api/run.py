@@ -66,6 +66,61 @@ class Run(RunFolder):
         joined["body"] = joined["body"].astype(int)
         return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
 
+    @cached_property
+    def statistics(self) -> Any:
+        """pandas.DataFrame of statistics.csv, indexed by y [m]: averages over planes and time."""
+        return self._read("statistics.csv", columns.STATISTICS, "[statistics]").set_index("y")
+
+    @cached_property
+    def heaps(self) -> Any:
+        """pandas.DataFrame of heaps.csv, indexed by (dune, heap, t [s]): which grains each dune has."""
+        return self._read("heaps.csv", columns.HEAPS, "[[initial.heap]]").set_index(["dune", "heap", "t"])
+
+    @property
+    def encounters(self) -> Any:
+        """pandas.DataFrame of encounters.csv, one line for each; `./barchan plot RUN encounters` writes it."""
+        return self._read("encounters.csv", columns.ENCOUNTERS, "./barchan plot RUN encounters", text=("new_dunes",))
+
+    @property
+    def obstacles(self) -> Any:
+        """pandas.DataFrame of obstacles.csv, one line for each dune and obstacle; `./barchan plot RUN obstacles` writes
+        it."""
+        return self._read("obstacles.csv", columns.OBSTACLES, "./barchan plot RUN obstacles", text=("obstacle",))
+
+    @cached_property
+    def force_map(self) -> Any:
+        """pandas.DataFrame of force_map.csv: mean force on the grains in polar bins about the dune."""
+        return self._read("force_map.csv", columns.FORCE_MAP, "statistics.grain_forces = true")
+
+    def _read(self, name: str, about: dict[str, tuple[str, str]], source: str, text: Sequence[str] = ()) -> Any:
+        """A table that may have words in it. Raises MissingData, with what writes the table."""
+        pandas = optional("pandas", "pandas")
+        path = self.path / name
+        if not path.is_file():
+            raise MissingData(f"needs {name}: {source}")
+        try:
+            table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=False, na_values=["nan"])
+        except ValueError as problem:
+            raise BarchanError(f"{path} cannot be read: {problem}") from None
+        return labelled.data_frame({key: table[key].to_numpy() for key in table}, about)
+
+    @property
+    def restarts(self) -> dict[int, Path]:
+        """{fluid step: restart file}, in order of the steps."""
+        return {int(path.stem.removeprefix("restart_")): path for path in sorted(self.path.glob("restart_*.h5"))
+                if path.stem.removeprefix("restart_").isdigit()}
+
+    @property
+    def log(self) -> str:
+        """What log.txt says, empty where there is none."""
+        path = self.path / "log.txt"
+        return path.read_text(errors="replace") if path.is_file() else ""
+
+    def __dir__(self) -> list[str]:
+        """What is for users; figures and reports take more from a run."""
+        own = [name for name in vars(Run) if not name.startswith("_")]
+        return sorted([*own, "config", "domain", "path", "summary", "title"])
+
     # --- grains
 
     @property
