@@ -1,5 +1,6 @@
 """What the launcher calls: python -m barchan plot RUN_DIR ..., vtk RUN_DIR ..., list [FOLDER], sweep PROGRAM ..."""
 
+import os
 import sys
 
 
@@ -24,6 +25,9 @@ def main() -> int:
             return sweep.main(arguments)
     except KeyboardInterrupt:
         return 3
+    except BrokenPipeError:  # the reader of the output has seen enough, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | list [FOLDER] | "
           "sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
     return 2

@@ -133,7 +133,7 @@ def test_top_views_fill_their_grid_and_colours_show_the_dune(run):
     views = [axes for axes in figure.axes if axes.images]
     assert len(views) in topviews.FULL_GRIDS and all(axes.get_visible() for axes in figure.axes)
     frames = topviews.frames_at(run, tuple(topviews.FULL_GRIDS))
-    later = max(np.percentile(g.x[:, 1] + 0.5 * g.d, topviews.LOW) for g in frames[1:])
+    later = max(np.percentile(g.x[:, 1] + 0.5 * g.d, topviews.HEIGHT_PERCENTILE) for g in frames[1:])
     bar = next(axes for axes in figure.axes if hasattr(axes, "_colorbar"))
     assert bar._colorbar.vmax == pytest.approx(1e3 * later)
     highest = max((g.x[:, 1] + 0.5 * g.d).max() for g in frames)

@@ -1,6 +1,8 @@
 """barchan list: what runs there are below a folder."""
 import json
 import os
+import subprocess
+import sys
 import time
 
 import pytest
@@ -57,6 +59,19 @@ def test_links_are_not_followed(tmp_path, capsys):
 def test_no_folder_is_told(tmp_path, capsys):
     assert listing.main([str(tmp_path / "nothing")]) == 2
     assert "no such folder" in capsys.readouterr().err
+
+
+def test_a_reader_may_stop_early(tmp_path):
+    """As `./barchan list | head` does."""
+    for number in range(2000):
+        (tmp_path / f"{number}").mkdir()
+        (tmp_path / f"{number}/run.json").write_text('{"status": "done", "title": "' + 60 * "x" + '"}')
+    with subprocess.Popen([sys.executable, "-m", "barchan", "list", tmp_path], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True) as listed:
+        listed.stdout.readline()
+        listed.stdout.close()
+        said = listed.stderr.read()
+    assert (said, listed.returncode) == ("", 0)
 
 
 @pytest.mark.parametrize(("elapsed", "said"), [(1, "now"), (59, "59 s ago"), (90, "2 min ago"), (3 * 86400, "3 d ago")])

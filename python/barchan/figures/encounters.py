@@ -1,9 +1,9 @@
 """encounters: dunes that meet: where they go, what becomes of their sand, and how each encounter ended.
 
 Curves are dunes by name, which they keep through contact; bands along x are their extents, dots mark the first
-contact. While two dunes touch, nobody can say where one ends: their curves are dotted there. The last panel has the share of a dune's grains that is of another heap than its first ones. Writes
-encounters.csv besides the numbers of the curves, and the same into run.json. Definitions: docs/dune-measures.md,
-"Names" and "Encounters".
+contact. While two dunes touch, nobody can say where one ends: their curves are dotted there. The last panel has the
+share of a dune's grains that is of another heap than its first ones. Writes encounters.csv besides the numbers of the
+curves, and the same into run.json. Definitions: docs/dune-measures.md, "Names" and "Encounters".
 """
 
 import numpy as np

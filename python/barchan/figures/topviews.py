@@ -19,7 +19,7 @@ from barchan.io.study_folder import plain
 FINER = 1.5  # pixels of the picture per pixel of the PNG, for the PDF
 FULL_GRIDS = {8: 2, 6: 2, 9: 3, 4: 2}  # views: columns, none left empty
 TALL = 1.5  # height over width of all views below each other: above it they are put in a grid
-LOW = 98.0  # [%] of the grains decide the range of the colours: neither suspended ones nor the tip of the first heap
+HEIGHT_PERCENTILE = 98.0  # of the grains ends the range of colours: neither suspended ones do, nor the first heap's tip
 
 
 def frame_window(frames):
@@ -42,10 +42,11 @@ def frames_at(run, *counts):
 def height_range(frames):
     """Height [m] at which the colours end."""
     later = frames[1:] or frames
-    return max(np.percentile(g.x[:, 1] + 0.5 * g.d, LOW) for g in later)
+    return max(np.percentile(g.x[:, 1] + 0.5 * g.d, HEIGHT_PERCENTILE) for g in later)
 
 
 def shape_of(window):
+    """Width over length of (x0, x1, z0, z1)."""
     return (window[3] - window[2]) / (window[1] - window[0])
 
 

@@ -41,7 +41,8 @@ def write_files(run):
         "summary": verdict(found), "health": health(found), "derived": derived(run),
         "player": player(facts, missing), "curves": curves(run),
         "phases": phases(summary), "rates": rates(summary), "config": config(run),
-        "files": files(run), "commands": commands(run, summary), "next": next_steps(run), "css": template("css"), "js": template("js"),
+        "files": files(run), "commands": commands(run, summary), "next": next_steps(run),
+        "css": template("css"), "js": template("js"),
         "facts": grain_pictures.to_script(facts or {}), "data": data,
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
