@@ -24,6 +24,9 @@ usage: $command_name COMMAND [arguments]
       --set KEY=VALUE, --out DIR, --threads N   as of run
       --resolved        print also the case with every default as TOML, after the numbers
       --resolved-only   print the case with every default as TOML, nothing else
+  new NAME            write a case of your own, with the flow and the heap it starts from
+      --grains N, --diameter LENGTH, --density KG/M3, --velocity M/S   mesh, steps and box follow from these
+      --from CASE       based on another case instead
   keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
   sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
       --out DIR         folder of the study (default: runs/<study name>)

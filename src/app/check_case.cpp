@@ -33,7 +33,7 @@ double top_of(const PlannedGrains& planned) {
 }  // namespace
 
 int run_check(const CommandLine& line, std::ostream& out) {
-  const Case the_case = load_case(line.file, line.overrides);
+  const Case the_case = load_case_of(line);
   const Config& config = the_case.config;
   if (line.resolved_only) {
     out << to_toml(config);

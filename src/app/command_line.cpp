@@ -13,7 +13,7 @@ namespace {
 
 /// CLI11 alone would say that a subcommand is missing, not that this one is unknown.
 void check_command(int argc, const char* const* argv) {
-  const std::vector<std::string> commands{"run", "check", "info", "keys"};
+  const std::vector<std::string> commands{"run", "check", "new", "info", "keys"};
   if (argc < 2 || argv[1][0] == '-' || std::ranges::count(commands, argv[1]) > 0) return;
   throw InputError(fmt::format("unknown command \"{}\"{}; there are {}", argv[1],
                                did_you_mean(nearest(argv[1], commands)),
@@ -46,6 +46,25 @@ std::string not_expected(const CLI::App& app, const CLI::App& command,
   return {};
 }
 
+void add_new_case(CLI::App& command, NewCase& asked) {
+  command.add_option("NAME", asked.name, "name of the case, and of its file NAME.toml")->required();
+  CLI::Option* from =
+      command
+          .add_option("--from", asked.from, "a case to be based on, instead of the numbers below")
+          ->type_name("CASE");
+  const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
+    return command.add_option(name, value, meaning)->type_name(type)->excludes(from);
+  };
+  add("--grains", asked.grains, "number of grains (default: 3000)", "N")
+      ->check(CLI::Range(100, 10'000'000));
+  add("--diameter", asked.diameter, "mean diameter of the grains (default: 0.2mm)", "LENGTH");
+  add("--density", asked.density, "density of the grains (default: 2500)", "KG/M3")
+      ->check(CLI::Range(1001.0, 30000.0));
+  add("--velocity", asked.velocity,
+      "mean velocity of the water (default: one that moves these grains as in the paper)", "M/S")
+      ->check(CLI::Range(1e-3, 100.0));
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
@@ -71,6 +90,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
       ->add_option("PATH", line.file,
                    "a run or study folder, a result, restart file, table or case")
       ->required();
+  add_new_case(*add_command(Command::new_case, "new", "write a case of your own"), line.new_case);
   for (CLI::App* command : {run, check}) {
     command->add_option("CASE", line.file, "the case, a TOML file")->required();
     command->add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")

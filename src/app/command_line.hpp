@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/app/new_case.hpp"
 #include "src/base/report.hpp"
 
 namespace barchan {
@@ -14,25 +15,27 @@ namespace barchan {
 inline constexpr int kMostThreads = 512;
 
 /// `none`: nothing to do but print `text` (help, version).
-enum class Command { none, run, check, keys, info };
+enum class Command { none, run, check, keys, info, new_case };
 
 struct CommandLine {
   Command command = Command::none;
   std::string text{};  // with Command::none
 
-  std::filesystem::path file{};                    // CONFIG of run and check, PATH of info
-  std::string section{};                           // of keys; empty: all
-  std::vector<std::string> overrides{};            // --set, each "key=value" as typed
-  std::optional<std::filesystem::path> out{};      // --out, the run folder
-  std::optional<std::filesystem::path> restart{};  // --restart: a restart file, a folder or "latest"
-  bool resume = false;                             // --resume: from the last restart file, if any
-  int threads = 0;                                 // --threads, 0: all that are there
-  int patience = 600;                              // --patience of the watchdog [s], 0: for ever
-  bool overwrite = false;                          // --overwrite: an earlier run in the folder
-  bool dry_run = false;                            // --dry-run: check and show, write nothing
-  bool starts_only = false;                        // --starts-only: run what the case starts from
-  report::Shown shown = report::Shown::progress;   // --quiet, --verbose
-  bool resolved = false;                           // --resolved: of check also the TOML
+  std::filesystem::path file{};                // CONFIG of run and check, PATH of info
+  std::string section{};                       // of keys; empty: all
+  std::vector<std::string> overrides{};        // --set, each "key=value" as typed
+  std::optional<std::filesystem::path> out{};  // --out, the run folder
+  std::optional<std::filesystem::path>
+      restart{};                                  // --restart: a restart file, a folder or "latest"
+  bool resume = false;                            // --resume: from the last restart file, if any
+  int threads = 0;                                // --threads, 0: all that are there
+  int patience = 600;                             // --patience of the watchdog [s], 0: for ever
+  bool overwrite = false;                         // --overwrite: an earlier run in the folder
+  bool dry_run = false;                           // --dry-run: check and show, write nothing
+  bool starts_only = false;                       // --starts-only: run what the case starts from
+  report::Shown shown = report::Shown::progress;  // --quiet, --verbose
+  bool resolved = false;                          // --resolved: of check also the TOML
+  NewCase new_case{};                             // of new
   bool resolved_only = false;  // --resolved-only: of check the TOML alone, for other programs
 };
 

@@ -1,4 +1,4 @@
-// barchan run | check | keys | info: from the command line to an exit code.
+// barchan run | check | new | keys | info: from the command line to an exit code.
 #include <fcntl.h>
 #include <mpi.h>
 #include <unistd.h>
@@ -112,6 +112,9 @@ int execute(const CommandLine& line) {
       break;
     case Command::info:
       std::cout << as_input([&] { return describe_path(line.file); });
+      break;
+    case Command::new_case:
+      if (rank_of(MPI_COMM_WORLD) == 0) std::cout << make_new_case(line.new_case);
       break;
     case Command::none:
       if (rank_of(MPI_COMM_WORLD) == 0) std::cout << line.text;

@@ -255,7 +255,7 @@ fs::path run_folder(const CommandLine& line) {
 
 int run_command(const CommandLine& line) {
   const Watchdog watchdog(line.patience, MPI_COMM_WORLD);
-  const Case the_case = load_case(line.file, line.overrides);
+  const Case the_case = load_case_of(line);
   const Config& config = the_case.config;
   if (line.dry_run) {
     report::info("{}", config.title);

@@ -60,6 +60,12 @@ PlannedGrains grains_in(const fs::path& file, const Config& config) {
 
 }  // namespace
 
+Case load_case_of(const CommandLine& line) {
+  return load_case(line.file, line.overrides, [](const Config& config, const fs::path& file) {
+    return grains_in(file, config).sizes;
+  });
+}
+
 StartCase start_case(const Case& source, const fs::path& beside, int realisation) {
   StartCase start{.first = source,
                   .realised = realisation_of(source, realisation),

@@ -7,11 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "src/app/command_line.hpp"
 #include "src/config/load.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/run/folder_checks.hpp"
 
 namespace barchan {
+
+/// The case of a command line. Throws ConfigError.
+Case load_case_of(const CommandLine& line);
 
 /// A case that another one starts from, [initial] fluid or grains = a .toml.
 struct StartCase {

@@ -12,16 +12,6 @@
 
 namespace barchan {
 
-/// A length in metres. A case may give it in mean diameters of its grains, as "3 d"; load_config
-/// makes metres of them.
-struct Length {
-  double value = 0;
-  bool in_diameters = false;
-  operator double() const { return value; }  // NOLINT(google-explicit-constructor): [m]
-  Length& operator=(double metres) { return *this = Length{metres}; }
-  bool operator==(const Length&) const = default;
-};
-
 /// A velocity in the plane of the bed [m/s]. In a case it is a number, along x, or [x, z].
 struct PlaneVelocity {
   double x = 0, z = 0;
@@ -32,7 +22,8 @@ struct PlaneVelocity {
 
 /// [time]
 struct TimeConfig {
-  double end = 0;               // [s], required
+  double end = 0;  // [s], required
+  // In a case both steps are chosen by default (steps.hpp).
   double fluid_step = 2.5e-4;   // [s]; without [fluid] the interval between checks and output
   double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
   double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
@@ -52,8 +43,8 @@ struct FlowTarget {
 /// [fluid]
 struct FluidConfig {
   std::array<int, 3> cells{};                    // nx, ny, nz, required
-  Length first_cell_height{};                    // [m]; 0: uniform in y
-  Length uniform_height{};                       // [m] up to which rows are as high as the first
+  double first_cell_height = 0;                  // [m]; 0: uniform in y
+  double uniform_height = 0;                     // [m] up to which rows are as high as the first
   double density = 1000;                         // [kg/m^3]
   double kinematic_viscosity = 1e-6;             // [m^2/s]
   PlaneVelocity mean_velocity{};                 // [m/s], held by a body force
@@ -136,9 +127,9 @@ struct GrainConfig {
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;
   GrainFloor floor = GrainFloor::smooth;
-  Length floor_diameter{};  // [m] of the spheres of a glued floor, which needs it
+  double floor_diameter = 0;  // [m] of the spheres of a glued floor, which needs it
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
-  Length skin{4e-5};                           // [m], Verlet skin
+  double skin = 4e-5;                          // [m], Verlet skin; in a case 0.2 d by default
   double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run
   std::optional<AmbientConfig> ambient = {};
   std::vector<KindConfig> kinds = {};  // none: all grains are of one kind
@@ -158,7 +149,7 @@ struct CouplingConfig {
   DragLaw drag = DragLaw::gidaspow;
   VoidFraction void_fraction = VoidFraction::divided;
   Exchange exchange = Exchange::by_row;
-  Length smoothing_length{6e-4};  // [m], 3 d in the paper; 0: off
+  double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
   bool alpha_time_derivative = true;
   ForceSwitches forces;
   bool operator==(const CouplingConfig&) const = default;

@@ -190,6 +190,10 @@ double rayleigh_time(double diameter, double density, const Material& material) 
          (0.1631 * s + 0.8766);
 }
 
+double linear_contact_time(double mass, double stiffness) {
+  return std::numbers::pi * std::sqrt(mass / (2 * stiffness));
+}
+
 double friction_velocity(double bulk_velocity, double delta, double viscosity) {
   const double speed = std::abs(bulk_velocity);
   if (speed == 0 || viscosity == 0 || delta == 0) return 0;
@@ -222,6 +226,7 @@ Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double
   Derived derived;
   derived.by_row = exchanges_by_row(config.coupling);
   derived.fluid_steps = fluid_steps(config.time);
+  derived.fluid_step = config.time.fluid_step;
   derived.grain_substeps = grain_substeps(config.time);
   derived.grain_step = true_grain_step(config.time);
   if (config.fluid) derived.fluid = derive_fluid(config);

@@ -38,6 +38,10 @@ double mean_diameter(const std::vector<SizeClass>& sizes);
 /// the time a surface wave takes over it. Li, Xu & Thornton (2005).
 double rayleigh_time(double diameter, double density, const Material& material);
 
+/// Duration [s] of a contact of two spheres of a `mass` [kg] with a linear spring [N/m],
+/// pi sqrt(m / (2 k)), without damping.
+double linear_contact_time(double mass, double stiffness);
+
 /// Friction velocity [m/s] of channel flow at bulk velocity U: u* = U sqrt(Cf / 2) with Dean's
 /// (1978) Cf = 0.073 (2 delta U / nu)^(-1/4), or the laminar 12 / (2 delta U / nu) where larger.
 /// `delta` [m] from the wall to the free surface or the middle. 0 for U = 0 or nu = 0.
@@ -96,6 +100,7 @@ struct GrainNumbers {
 
 struct Derived {
   std::int64_t fluid_steps = 0;
+  double fluid_step = 0;  // [s]
   int grain_substeps = 1;
   double grain_step = 0;  // [s], the one really taken
   std::optional<FluidNumbers> fluid;

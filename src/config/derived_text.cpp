@@ -88,7 +88,7 @@ std::string to_text(const Derived& derived) {
   std::string text;
   if (derived.fluid) add_fluid(text, *derived.fluid);
   if (derived.grains) add_grains(text, *derived.grains, derived.by_row);
-  std::string steps = fmt::format("{}", derived.fluid_steps);
+  std::string steps = fmt::format("{} of {:.4g} s", derived.fluid_steps, derived.fluid_step);
   if (derived.grains) {
     steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,
                          derived.grain_substeps == 1 ? "" : "s", derived.grain_step);

@@ -6,7 +6,7 @@ namespace barchan {
 
 void check_following(const Config& c, Findings& found) {
   if (c.grains->boundary_x != GrainBoundaryX::follow) return;
-  const Keys keys{"grains.boundary_x", "fluid", "output.dune_interval", "fluid.cells"};
+  const KeyNames keys{"grains.boundary_x", "fluid", "output.dune_interval", "fluid.cells"};
   if (found.error_if(!c.fluid, keys, "must not be \"follow\" without a [fluid] section")) return;
   found.error_if(c.output.dune_interval == 0, keys,
                  "must come with an output.dune_interval above 0: with dune.csv the window moves");

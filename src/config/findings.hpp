@@ -17,27 +17,28 @@ struct Finding {
   std::string message;
 };
 
-using Keys = std::vector<std::string>;
+using KeyNames = std::vector<std::string>;
 
 struct Findings {
   std::vector<Finding> all;
 
   /// Adds a finding if a condition holds, and says whether it does.
   template <class... Args>
-  bool error_if(bool wrong, const Keys& keys, fmt::format_string<Args...> message, Args&&... args) {
+  bool error_if(bool wrong, const KeyNames& keys, fmt::format_string<Args...> message,
+                Args&&... args) {
     using enum Finding::Severity;
     if (wrong) all.push_back({error, keys, fmt::format(message, std::forward<Args>(args)...)});
     return wrong;
   }
   template <class... Args>
-  bool warning_if(bool unwise, const Keys& keys, fmt::format_string<Args...> message,
+  bool warning_if(bool unwise, const KeyNames& keys, fmt::format_string<Args...> message,
                   Args&&... args) {
     using enum Finding::Severity;
     if (unwise) all.push_back({warning, keys, fmt::format(message, std::forward<Args>(args)...)});
     return unwise;
   }
   /// Adds an error if `value` is above `most`, a warning if only above `wise`; true for an error.
-  bool limit(double value, double wise, double most, const Keys& keys, const std::string& error,
+  bool limit(double value, double wise, double most, const KeyNames& keys, const std::string& error,
              const std::string& warning) {
     if (error_if(value > most, keys, "{}", error)) return true;
     warning_if(value > wise, keys, "{}", warning);

@@ -40,14 +40,13 @@ void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
               fmt::format("is {}; above 20 % contacts are less accurate", text));
 }
 
-/// Linear springs: the step against the duration of a contact of two of the lightest grains,
-/// pi sqrt(m / (2 k)).
+/// Linear springs: the step against the duration of a contact of two of the lightest grains.
 void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) {
   if (c.grains->linear_stiffness == 0) return;
   double mass = std::numeric_limits<double>::infinity();
   for (const KindNumbers& kind : n.kinds)
     mass = std::min(mass, kind.density * std::numbers::pi / 6 * std::pow(kind.d_min, 3));
-  const double contact = std::numbers::pi * std::sqrt(mass / (2 * c.grains->linear_stiffness));
+  const double contact = linear_contact_time(mass, c.grains->linear_stiffness);
   const double fraction = true_grain_step(c.time) / contact;
   found.limit(
       fraction, 0.1, 0.2,
@@ -84,7 +83,7 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
 /// By row a surface is resolved by thin rows. Where a grain's force goes to the cells around its
 /// centre, or is smeared, the rule of Lima et al. (2022) holds for the smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
-  const Keys keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
+  const KeyNames keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
   if (!exchanges_by_row(c.coupling)) {
     found.warning_if(n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
                      "makes the smallest cell {:.2f} mean grain diameters; recommended with this "

@@ -1,6 +1,7 @@
 // How lines of the table of keys are written down.
 #pragma once
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,11 @@
 namespace barchan {
 
 enum Rule { none = 0, required = 1, fixed_by_restart = 2, required_and_fixed = 3 };
+
+/// Adds a section.
+inline Section& add(Sections& all, const char* name, const char* meaning) {
+  return all.emplace_back(Section{.name = name, .meaning = meaning});
+}
 
 /// What `parent` points to, or holds; nullptr if that is absent.
 template <class T>
@@ -46,38 +52,42 @@ class Keys {
   }
 
   template <class Struct, class T>
-  void operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
-    (*this)(name, member, any, "", meaning, rule);
+  Key& operator()(const char* name, T Struct::*member, const char* meaning, Rule rule = none) {
+    return (*this)(name, member, any, "", meaning, rule);
   }
 
   template <class Struct, class T>
-  void operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
+  Key& operator()(const char* name, T Struct::*member, const Range& range, const char* unit,
                   const char* meaning, Rule rule = none) {
     if ((rule & required) != 0 && !section_.prepare && !section_.repeated())
       section_.required = true;
     section_.keys.push_back(
-        {.section = section_.name,
-         .name = name,
-         .type = type_text<Plain<T>>(),
-         .range = range,
-         .unit = unit,
-         .meaning = meaning,
-         .required = (rule & required) != 0,
-         .fixed_by_restart = (rule & fixed_by_restart) != 0,
-         .read =
-             [get = get_, member, range](const Node& node, Config& config, std::size_t entry) {
-               Plain<T> value{};
-               Mismatch mismatch = convert(node, value);
-               if (!mismatch) mismatch = check(value, range);
-               if (!mismatch) parent_of(get, config, entry)->*member = value;
-               return mismatch;
-             },
-         .text = [get = get_, member](const Config& config,
-                                      std::size_t entry) -> std::optional<std::string> {
-           const Struct* parent = parent_of(get, config, entry);
-           if (parent == nullptr) return {};
-           return optional_text(parent->*member);
-         }});
+        Key{.section = section_.name,
+            .name = name,
+            .type = type_text<Plain<T>>(),
+            .range = range,
+            .unit = unit,
+            .meaning = meaning,
+            .required = (rule & required) != 0,
+            .by_default = {},
+            .takes_diameters =
+                unit == std::string_view("m") && !std::is_same_v<T, std::vector<SizeClass>>,
+            .fixed_by_restart = (rule & fixed_by_restart) != 0,
+            .read =
+                [get = get_, member, range](const Node& node, Config& config, std::size_t entry) {
+                  Plain<T> value{};
+                  Mismatch mismatch = convert(node, value);
+                  if (!mismatch) mismatch = check(value, range);
+                  if (!mismatch) parent_of(get, config, entry)->*member = value;
+                  return mismatch;
+                },
+            .text = [get = get_, member](const Config& config,
+                                         std::size_t entry) -> std::optional<std::string> {
+              const Struct* parent = parent_of(get, config, entry);
+              if (parent == nullptr) return {};
+              return optional_text(parent->*member);
+            }});
+    return section_.keys.back();
   }
 
  private:

@@ -1,34 +1,12 @@
 #include "src/config/keys.hpp"
 
 #include "src/config/body_keys.hpp"
+#include "src/config/case_keys.hpp"
 #include "src/config/key_builder.hpp"
 #include "src/config/material_keys.hpp"
 
 namespace barchan {
 namespace {
-
-Section& add(Sections& all, const char* name, const char* meaning) {
-  return all.emplace_back(Section{.name = name, .meaning = meaning});
-}
-
-void add_case(Sections& all) {
-  Keys key(add(all, "case", "What the run is called"), [](auto& c) { return &c; });
-  key("title", &Config::title, at_most(200), "", "one line for tables, pages and pictures");
-  key("notes", &Config::notes, at_most(2000), "",
-      "free text, kept with every result: who ran the case and why");
-}
-
-void add_time(Sections& all) {
-  Keys key(add(all, "time", "End and steps"), [](auto& c) { return &c.time; });
-  key("end", &TimeConfig::end, above(0), "s", "time at which the run ends", required);
-  key("fluid_step", &TimeConfig::fluid_step, between(1e-15, 1), "s",
-      "step of the flow; without `[fluid]` the interval between checks and output",
-      fixed_by_restart);
-  key("grain_step", &TimeConfig::grain_step, between(1e-18, 1), "s",
-      "longest step of the grains; a fluid step is divided into equal grain steps");
-  key("wall_clock_limit", &TimeConfig::wall_clock_limit, at_least(0), "s",
-      "wall time after which a restart file is written and the run stops (exit code 3); 0: none");
-}
 
 void add_domain(Sections& all) {
   Keys key(add(all, "domain", "The box"), [](auto& c) { return &c; });
@@ -111,7 +89,8 @@ void add_grains(Sections& all) {
   key("gravity", &G::gravity, between(-1e6, 1e6), "m/s2", "acceleration of gravity");
   key("skin", &G::skin, between(0, 1e3), "m",
       "Verlet skin of grains at rest: a neighbour list is rebuilt when one has moved skin/2 (fast "
-      "grains have a larger skin)");
+      "grains have a larger skin)")
+      .by_default = "0.2 d";
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "largest overlap before the run stops, over the mean diameter of the pair (at a wall: the "
       "grain)");
@@ -163,8 +142,8 @@ void add_coupling(Sections& all) {
       "momentum exchange: layer by layer over the height of a grain; with the flow interpolated to "
       "its centre; or interpolated, then smoothed");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
-      "smoothing length of the void fraction, and of the exchange \"smoothed\" (3 d in the paper); "
-      "0: no smoothing");
+      "smoothing length of the void fraction, and of the exchange \"smoothed\"; 0: no smoothing")
+      .by_default = "3 d";
   key("alpha_time_derivative", &C::alpha_time_derivative,
       "include d(alpha_f)/dt in the continuity equation");
   key("forces", &C::forces, "forces of the flow on the grains");

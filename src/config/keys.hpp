@@ -13,6 +13,9 @@
 
 namespace barchan {
 
+/// The value of a key that the program is to choose.
+inline constexpr const char* kAutomatic = "auto";
+
 struct Key {
   std::string section, name;
   std::string type;  // in words
@@ -20,6 +23,10 @@ struct Key {
   std::string unit;     // of its numbers; empty: none
   std::string meaning;  // one line
   bool required = false;
+  /// What the reader takes where a case says nothing, if that rests on the case: a length "3 d", or
+  /// kAutomatic. Else the default of the member.
+  std::string by_default = {};
+  bool takes_diameters = false;   // a length, whose texts may be in mean grain diameters
   bool fixed_by_restart = false;  // what the numbers of a restart file mean depends on it
 
   /// Sets the member; what the value must be if it is not that, the member is left alone then.

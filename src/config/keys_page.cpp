@@ -32,6 +32,7 @@ std::string domain_in_table(const Key& key) {
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
   if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
+  if (!key.by_default.empty()) return fmt::format("`\"{}\"`", key.by_default);
   const std::string value = key.text(defaults, 0).value_or("");
   const bool none = value.empty() || value == "\"\"" || value == "[]";
   return none ? "none" : "`" + value + "`";
@@ -103,11 +104,12 @@ std::string entry(const Section& section, const Key& key, const Config& defaults
 std::string keys_page(const Sections& table) {
   std::string page =
       "# Keys of a case\n\n"
-      "Printed by `./barchan keys`. All numbers are in SI units. `--set section.key=value` changes "
-      "a key\nfor one run. Keys marked (R) stay as they are in a restart. Numbers within these "
-      "ranges may still be\nrefused if they do not fit other keys. A length `\"3 d\"` is in mean "
-      "diameters, by number, of the grains\nthat are poured here or in the case that this one "
-      "starts from; `check` prints it in metres.\n";
+      "Printed by `./barchan keys`. Numbers are in SI units. A length may also be a text: `\"0.2 "
+      "mm\"` (m, cm, mm, um), or\n`\"3 d\"` in mean diameters, by number, of the grains that the "
+      "case starts with; `check --resolved` prints it in\nmetres. Only the diameters themselves, "
+      "`sizes`, are never in d. `--set section.key=value` changes a key for one run.\nKeys marked "
+      "(R) stay as they are in a restart. Numbers within these ranges may still be refused if they "
+      "do not fit\nother keys.\n";
   Config defaults;
   for (const Section& section : table) {
     prepare(section, defaults);

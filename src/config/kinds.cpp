@@ -22,7 +22,7 @@ void check_names(const GrainConfig& grains, Findings& found) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < grains.kinds.size(); ++k) {
     const KindConfig& kind = grains.kinds[k];
-    const Keys key{fmt::format("grains.kind.{}.name", k + 1)};
+    const KeyNames key{fmt::format("grains.kind.{}.name", k + 1)};
     found.error_if(!is_plain(kind.name), key,
                    "must be a word of letters, digits, \".\", \"-\" and \"_\"; \"{}\" is not",
                    kind.name);
@@ -63,7 +63,7 @@ void check_pairs(const GrainConfig& grains, Findings& found) {
   for (std::size_t p = 0; p < grains.pairs.size(); ++p) {
     const PairConfig& pair = grains.pairs[p];
     const std::string section = fmt::format("grains.pair.{}", p + 1);
-    const Keys key{section + ".kinds"};
+    const KeyNames key{section + ".kinds"};
     const auto& [a, b] = pair.kinds;
     bool known = true;
     for (const std::string& name : pair.kinds) {

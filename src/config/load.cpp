@@ -1,26 +1,29 @@
 #include "src/config/load.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
+#include "src/config/case_text.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
-#include "src/config/no_effect.hpp"
+#include "src/config/lengths.hpp"
 #include "src/config/reading.hpp"
+#include "src/config/steps.hpp"
 #include "src/config/validate.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;
 namespace {
 
+bool is_case(const fs::path& start) { return start.extension() == ".toml"; }
+
 /// If the start `key` is a file: is it of a known kind, and there? Makes its path absolute.
-void resolve_start(ConfigReader& reading, const std::string& key, fs::path& start,
-                   const fs::path& folder) {
+void resolve_start(ConfigReader& reading, const std::string& key, fs::path& start) {
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
   if (node == nullptr || node->table() != nullptr || reading.is_bad(key)) return;
@@ -32,7 +35,7 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
                                 fmt::join(kFlowWords, "\", \""))
                   : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
   }
-  const fs::path path = fs::absolute(folder / start).lexically_normal();
+  const fs::path path = fs::absolute(reading.folder_of(key) / start).lexically_normal();
   std::error_code ignored;
   if (const std::string why = not_a_file(path); why.empty()) {
     start = path;
@@ -49,27 +52,14 @@ struct Loaded {
   std::vector<Problem> problems;  // of this file, then of those it starts from
 };
 
+/// Where a load is: the cases that lead to it, and how to read grains from a file.
+struct Context {
+  SizesInFile sizes_in;
+  std::vector<fs::path> chain = {};
+};
+
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
-            const std::vector<fs::path>& chain);
-
-/// Far longer than any case, far shorter than results that are given for one by mistake.
-constexpr std::uintmax_t kLongestCase = 10'000'000;
-
-std::optional<std::string> text_of(const fs::path& file, std::vector<Problem>& problems) {
-  std::string why = not_a_file(file);
-  if (why.empty() && fs::file_size(file) > kLongestCase) {
-    why = fmt::format("it is {} MB long, and a case is a few kB of TOML",
-                      fs::file_size(file) / 1'000'000);
-  }
-  if (!why.empty()) {
-    std::error_code ignored;
-    const bool absent = !file.empty() && !fs::exists(file, ignored);
-    problems.push_back({{file.empty() ? "CASE" : file.string(), 0},
-                        "cannot be read: " + why + (absent ? nearest_file(file) : "")});
-    return {};
-  }
-  return read_text(file);
-}
+            const Context& context);
 
 /// Reports errors that rest on values as written: one read wrongly would only confuse.
 void report(const std::vector<Finding>& findings, ConfigReader& reading) {
@@ -82,117 +72,121 @@ void report(const std::vector<Finding>& findings, ConfigReader& reading) {
   }
 }
 
-/// The case that the start `key` names, if it names one: loaded, and checked against this one.
-/// `same`: it was loaded before, and its problems are told.
+/// The case that the start `key` names, if it names one.
 Loaded load_start(const Config& config, const std::string& key, const fs::path& start,
-                  ConfigReader& reading, std::vector<fs::path> chain,
-                  const Loaded* same = nullptr) {
+                  ConfigReader& reading, Context context) {
   Loaded loaded;
-  if (start.extension() != ".toml" || reading.is_bad(key)) return loaded;
+  if (!is_case(start) || reading.is_bad(key)) return loaded;
+  std::vector<fs::path>& chain = context.chain;
   chain.push_back(fs::weakly_canonical(config.file));
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(start)) != chain.end()) {
     reading.report_conflict(key, "must not lead back to this case");
     return loaded;
   }
-  if (same != nullptr) {
-    loaded.result = same->result;
-  } else if (const auto text = text_of(start, loaded.problems)) {
-    loaded = load(*text, start, {}, chain);
-  }
-  if (loaded.problems.empty() && (same == nullptr || same->problems.empty())) {
-    report(check_start(config, loaded.result.config, key == "initial.fluid"), reading);
-  }
+  if (const auto text = case_text(start, loaded.problems)) loaded = load(*text, start, {}, context);
   return loaded;
 }
 
-/// Makes metres of what is given in diameters. `sizes`: of the grains that are poured, here or in
-/// the case that this one starts from; of others [grains] sizes need not be true. `tell`: if none
-/// are known.
-void resolve_lengths(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes,
-                     bool tell) {
-  const auto resolve = [&](const char* key, Length& length) {
-    if (!length.in_diameters || reading.is_bad(key)) return;
-    if (sizes.empty() && tell) {
-      return reading.report_error(key,
-                                  "must be in metres: diameters are known only of grains that are "
-                                  "poured, in this case or in the one it starts from");
-    }
-    length = sizes.empty() ? 0 : length.value * mean_diameter(sizes);
-  };
-  resolve("coupling.smoothing_length", config.coupling.smoothing_length);
-  if (config.fluid) {
-    resolve("fluid.first_cell_height", config.fluid->first_cell_height);
-    resolve("fluid.uniform_height", config.fluid->uniform_height);
+/// What a case starts from.
+struct Starts {
+  Loaded flow, grains;
+  std::vector<Problem> problems;  // of both
+};
+
+Starts load_starts(Config& config, ConfigReader& reading, const Context& context) {
+  InitialConfig& initial = config.initial;
+  resolve_start(reading, "initial.fluid", initial.fluid);
+  resolve_start(reading, "initial.grains", initial.grains);
+  Starts starts;
+  starts.flow = load_start(config, "initial.fluid", initial.fluid, reading, context);
+  starts.problems = starts.flow.problems;
+  if (initial.fluid == initial.grains && !reading.is_bad("initial.fluid")) {
+    starts.grains.result = starts.flow.result;  // its problems are told
+  } else {
+    starts.grains = load_start(config, "initial.grains", initial.grains, reading, context);
+    std::ranges::copy(starts.grains.problems, std::back_inserter(starts.problems));
   }
-  if (!config.grains) return;
-  resolve("grains.skin", config.grains->skin);
-  resolve("grains.floor_diameter", config.grains->floor_diameter);
+  return starts;
 }
 
-/// Keys of the file that an assignment has switched off are as if they were not there: who sets
-/// contact_model need not delete the elastic constants. What was assigned itself must do something.
-void drop_switched_off(ConfigReader& reading) {
-  ConfigReader trial = reading;
-  Findings found;
-  check_effects(trial.read(), found);
-  for (const Finding& finding : found.all) {
-    const std::string &key = finding.keys[0], &rests_on = finding.keys[1];
-    if (reading.is_assigned(rests_on) && !reading.is_assigned(key)) reading.drop(key);
+/// Of the grains of a start; empty if it has none, or they are not known.
+std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts,
+                                      const SizesInFile& sizes_in) {
+  if (!config.grains) return {};
+  const Case& start = starts.grains.result;
+  if (start.config.grains) return with_kinds_of(*config.grains, *start.config.grains, start.sizes);
+  const fs::path& file = config.initial.grains;
+  if (!sizes_in || file.empty() || is_case(file)) return {};
+  try {
+    return sizes_in(config, file);
+  } catch (const InputError&) {
+    return {};  // told where the grains are read
   }
+}
+
+/// Gives the keys that rest on the grains their values. `sizes`: of the grains that are poured,
+/// here or in the case that this one starts from; of others [grains] sizes need not be true.
+void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes, bool tell) {
+  reading.settle_lengths(config, sizes.empty() ? 0 : nominal_diameter(mean_diameter(sizes)), tell);
+  if (reading.is_automatic("time.fluid_step") && !reading.is_bad("fluid"))
+    config.time.fluid_step = chosen_fluid_step(config, sizes);
+  if (reading.is_automatic("time.grain_step"))
+    config.time.grain_step = chosen_grain_step(config, sizes);
+}
+
+/// Reads what stands in a file, its bases and the assignments, and checks it against its starts.
+void read_case(ConfigReader& reading, const Context& context, Loaded& loaded) {
+  Case& result = loaded.result;
+  Config& config = result.config = reading.read();
+  Starts starts = load_starts(config, reading, context);
+  const std::vector<HeapConfig> heaps = poured_heaps(config);
+  result.random =
+      (config.fluid && (config.initial.fluid == "turbulent" || starts.flow.result.random)) ||
+      (config.grains && (!heaps.empty() || starts.grains.result.random));
+  if (config.initial.realisation > 1 && !result.random && starts.problems.empty()) {
+    reading.report_conflict("initial.realisation",
+                            "has other random numbers, and this case starts from none: its "
+                            "realisations would all be the same");
+  }
+  if (config.grains) result.sizes = heaps.empty() ? poured_sizes(*config.grains) : sizes_of(heaps);
+  const std::vector<SizeClass> of_start = sizes_of_start(config, starts, context.sizes_in);
+  settle(reading, config, heaps.empty() ? of_start : result.sizes, starts.problems.empty());
+  if (result.sizes.empty() && starts.grains.result.config.grains) result.sizes = of_start;
+  if (starts.problems.empty()) {
+    if (is_case(config.initial.fluid))
+      report(check_start(config, starts.flow.result.config, true), reading);
+    if (is_case(config.initial.grains))
+      report(check_start(config, starts.grains.result.config, false), reading);
+  }
+  report(validate(config, result.sizes), reading);
+  if (is_case(config.initial.fluid))
+    result.flow_start = std::make_shared<const Case>(std::move(starts.flow.result));
+  if (is_case(config.initial.grains))
+    result.grain_start = std::make_shared<const Case>(std::move(starts.grains.result));
+  loaded.problems = std::move(starts.problems);
 }
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
-            const std::vector<fs::path>& chain) {
+            const Context& context) {
   Loaded loaded;
   ConfigReader reading(text, file);
-  const bool parsed = reading.problems().empty();
+  bool parsed = reading.problems().empty();
   if (const Node* study = reading.tree().find("study"); study != nullptr && study->table()) {
     loaded.problems.push_back(
         {study->where, "[study]: this is a study, not a case: ./barchan sweep " + file.string()});
     return loaded;
   }
+  if (parsed) reading.inherit();
+  parsed = reading.problems().empty();
   reading.set(overrides);
-  if (parsed && !overrides.empty()) drop_switched_off(reading);
-  std::vector<Problem> from_starts;
-  if (parsed) {
-    Config& config = loaded.result.config = reading.read();
-    std::vector<SizeClass>& sizes = loaded.result.sizes;
-    InitialConfig& initial = config.initial;
-    resolve_start(reading, "initial.fluid", initial.fluid, file.parent_path());
-    resolve_start(reading, "initial.grains", initial.grains, file.parent_path());
-    Loaded flow = load_start(config, "initial.fluid", initial.fluid, reading, chain);
-    const bool one_for_both = initial.fluid == initial.grains && !reading.is_bad("initial.fluid");
-    Loaded grains = load_start(config, "initial.grains", initial.grains, reading, chain,
-                               one_for_both ? &flow : nullptr);
-    from_starts = std::move(flow.problems);
-    from_starts.insert(from_starts.end(), grains.problems.begin(), grains.problems.end());
-    const std::vector<HeapConfig> heaps = poured_heaps(config);
-    loaded.result.random = (config.fluid && (initial.fluid == "turbulent" || flow.result.random)) ||
-                           (config.grains && (!heaps.empty() || grains.result.random));
-    if (initial.realisation > 1 && !loaded.result.random && from_starts.empty()) {
-      reading.report_conflict(
-          "initial.realisation",
-          "has other random numbers, and this case starts from none: its realisations "
-          "would all be the same");
-    }
-    if (config.grains) sizes = heaps.empty() ? poured_sizes(*config.grains) : sizes_of(heaps);
-    std::vector<SizeClass> of_start = grains.result.sizes;
-    if (config.grains && grains.result.config.grains)
-      of_start = with_kinds_of(*config.grains, *grains.result.config.grains, std::move(of_start));
-    if (sizes.empty()) sizes = of_start;
-    resolve_lengths(reading, config, heaps.empty() ? of_start : sizes, from_starts.empty());
-    report(validate(config, sizes), reading);
-    if (initial.fluid.extension() == ".toml")
-      loaded.result.flow_start = std::make_shared<const Case>(std::move(flow.result));
-    if (initial.grains.extension() == ".toml")
-      loaded.result.grain_start = std::make_shared<const Case>(std::move(grains.result));
-  }
-  loaded.problems = std::move(reading.problems());
+  if (parsed) reading.drop_switched_off();
+  if (parsed) read_case(reading, context, loaded);
   const auto by_line = [](const Problem& a, const Problem& b) {
     return unsigned(a.where.line) - 1 < unsigned(b.where.line) - 1;  // no line: last
   };
-  std::stable_sort(loaded.problems.begin(), loaded.problems.end(), by_line);
-  loaded.problems.insert(loaded.problems.end(), from_starts.begin(), from_starts.end());
+  std::vector<Problem>& own = reading.problems();
+  std::stable_sort(own.begin(), own.end(), by_line);
+  loaded.problems.insert(loaded.problems.begin(), own.begin(), own.end());
   return loaded;
 }
 
@@ -216,10 +210,11 @@ Case checked(Loaded loaded) {
 ConfigError::ConfigError(std::vector<std::string> lines)
     : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
 
-Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
+Case load_case(const fs::path& file, const std::vector<std::string>& overrides,
+               const SizesInFile& sizes_in) {
   Loaded nothing;
-  const auto text = text_of(file, nothing.problems);
-  return checked(text ? load(*text, file, overrides, {}) : std::move(nothing));
+  const auto text = case_text(file, nothing.problems);
+  return checked(text ? load(*text, file, overrides, {sizes_in}) : std::move(nothing));
 }
 
 Case load_case_text(std::string_view text, const fs::path& file,
@@ -247,7 +242,7 @@ bool says(std::string_view resolved, const Config& config) {
 
 bool is_written_in(const fs::path& file, const Config& config) {
   std::vector<Problem> unreadable;
-  const auto text = text_of(file, unreadable);
+  const auto text = case_text(file, unreadable);
   return text && says(*text, config);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -34,11 +35,18 @@ struct Case {
       grain_start;  // initial.fluid, .grains where they are cases
 };
 
+/// Reads the sizes of the grains in a file, .csv or .h5, that a case starts from; throws InputError
+/// if it cannot.
+using SizesInFile =
+    std::function<std::vector<SizeClass>(const Config&, const std::filesystem::path&)>;
+
 /// Reads and validates a case. `overrides`: "key=value" as after --set, applied in order before
 /// anything is checked; paths in them too are relative to the folder of the file. A case that this
 /// one starts from ([initial], a .toml) is checked along with it, as it stands in its own file.
-/// Throws ConfigError.
-Case load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// `sizes_in`: without it lengths in diameters and steps that are chosen need grains that are
+/// poured. Throws ConfigError.
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+               const SizesInFile& sizes_in = {});
 /// Of a text, as if it stood in `file` (which need not exist).
 Case load_case_text(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});

@@ -8,6 +8,6 @@
 namespace barchan {
 
 /// One cell of a table, also of one that a spreadsheet opens, where it must be no formula.
-void check_name(const std::string& name, const Keys& keys, Findings& found);
+void check_name(const std::string& name, const KeyNames& keys, Findings& found);
 
 }  // namespace barchan

@@ -1,5 +1,6 @@
 #include "src/config/no_effect.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "src/config/keys.hpp"
@@ -81,6 +82,13 @@ void check_effects(const Config& c, Findings& found) {
       }
     }
   }
+}
+
+bool has_effect(const std::string& dotted, const Config& config) {
+  return std::ranges::none_of(kNeeds, [&](const Need& need) {
+    const bool meant = need.key == dotted || dotted.starts_with(std::string(need.key) + ".");
+    return meant && !need.met(config);
+  });
 }
 
 }  // namespace barchan

@@ -7,22 +7,14 @@
 #include <fmt/format.h>
 
 #include "src/base/words.hpp"
+#include "src/config/dotted.hpp"
 #include "src/config/keys.hpp"
+#include "src/config/lengths.hpp"
+#include "src/config/no_effect.hpp"
 #include "src/config/synonyms.hpp"
 
 namespace barchan {
 namespace {
-
-std::string join(std::string_view section, std::string_view name) {
-  return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
-}
-
-/// The section of a dotted key and its name there.
-std::pair<std::string, std::string> split(const std::string& dotted) {
-  const std::size_t dot = dotted.rfind('.');
-  if (dot == std::string::npos) return {"", dotted};
-  return {dotted.substr(0, dot), dotted.substr(dot + 1)};
-}
 
 /// A key of one of several sections, "initial.heap.2.radius", as that of all of them.
 std::string without_numbers(std::string_view dotted) {
@@ -53,33 +45,6 @@ std::string sentence(const std::string& section, const std::string& name, bool i
                      shown_key(name), node == nullptr ? "" : " = " + toml_text(*node), message);
 }
 
-std::string elsewhere(const std::string& key, const std::string& home) {
-  return fmt::format(" (did you mean \"{}\" of [{}]?)", key, home);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-struct Removed {
-  std::string_view key, value, why;  // no value: the key as a whole
-};
-constexpr Removed kRemoved[] = {
-    {"coupling.relaxation", "", "the exchange needs none any more; delete this line"},
-    {"solver.correctors", "", "one correction of the pressure a step is exact; delete this line"},
-    {"solver.preconditioner", "\"jacobi\"", "take \"local_fft\", the default, or \"fft\""},
-    {"solver.preconditioner", "\"none\"", "take \"local_fft\", the default, or \"fft\""}};
-
-/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
-/// never was.
-std::string removal(std::string_view dotted, std::string_view value) {
-  for (const Removed& one : kRemoved) {
-    if (one.key != dotted || one.value != value) continue;
-    return fmt::format("was removed after version 0.1.0: {}", one.why);
-  }
-  return {};
-}
-
 }  // namespace
 
 ConfigReader::ConfigReader(std::string_view text, const std::filesystem::path& file,
@@ -105,22 +70,10 @@ bool ConfigReader::is_section(const std::string& dotted) const {
 
 void ConfigReader::set(const std::vector<std::string>& assignments) {
   for (const std::string& one : assignments) apply_override(tree_, one, problems_);
-}
-
-bool ConfigReader::is_assigned(const std::string& dotted) const {
-  const Node* node = tree_.find(dotted);
-  return node != nullptr && node->where.line == 0;
-}
-
-void ConfigReader::drop(const std::string& dotted) {
-  NodeTable* table = tree_.table();
-  std::string name = dotted;
-  for (std::size_t dot = name.find('.'); table && dot != name.npos; dot = name.find('.')) {
-    const auto at = table->find(name.substr(0, dot));
-    table = at == table->end() ? nullptr : at->second.table();
-    name.erase(0, dot + 1);
+  for (const char* key : {"case.base", "case.without"}) {
+    if (tree_.find(key) != nullptr)
+      report_error(key, "must stand in the file of the case; --set changes single keys of it");
   }
-  if (table != nullptr) table->erase(name);
 }
 
 Config ConfigReader::read() {
@@ -172,21 +125,72 @@ void ConfigReader::read_list(const Section& section, const Node& node, Config& c
 
 void ConfigReader::read_keys(const Section& section, const Node& table, Config& config,
                              std::size_t entry) {
-  const auto bad = [&](const Key& key, const Node* value, const std::string& message) {
-    report_at(value, &table, key.dotted(), message);
-    bad_.insert(key.dotted());
-  };
   for (const Key& key : section.keys) {
     const Node* value = table.find(key.name);
     if (value == nullptr) {
-      if (key.required) bad(key, nullptr, "required key is missing");
+      if (key.required) mismatch(key, nullptr, &table, "required key is missing");
     } else if (value->table() == nullptr || !is_section(key.dotted())) {
-      if (const Mismatch mismatch = key.read(*value, config, entry)) {
-        const std::string gone = removal(key.dotted(), toml_text(*value));
-        bad(key, value, gone.empty() ? "must be " + *mismatch : gone);
-      }
+      read_value(key, *value, config, entry);
     }
   }
+}
+
+void ConfigReader::read_value(const Key& key, const Node& value, Config& config,
+                              std::size_t entry) {
+  if (is_automatic(key.dotted())) return;
+  if (key.takes_diameters && is_in_diameters(value))
+    return in_diameters_.push_back({&key, value, entry});
+  Node metres = value;
+  Mismatch wrong = key.unit == "m" ? make_metres(metres) : Mismatch();
+  if (!wrong) wrong = key.read(metres, config, entry);
+  if (!wrong) return;
+  const std::string gone = removal(key.dotted(), toml_text(value));
+  mismatch(key, &value, nullptr, gone.empty() ? "must be " + *wrong : gone);
+}
+
+void ConfigReader::settle_lengths(Config& config, double diameter, bool tell) {
+  for (auto& [key, value, entry] : in_diameters_) {
+    Node metres = value;
+    if (diameter == 0) {
+      if (tell)
+        mismatch(*key, &value, nullptr,
+                 "must be in metres: diameters are known only of grains that are poured, in this "
+                 "case or in the one it starts from");
+      bad_.insert(key->dotted());
+    } else if (Mismatch wrong = make_metres(metres, diameter);
+               wrong || (wrong = key->read(metres, config, entry))) {
+      mismatch(*key, &value, nullptr, "must be " + *wrong);
+    }
+  }
+  in_diameters_.clear();
+  for (const Section& section : table_) {
+    for (const Key& key : section.keys) {
+      Node value{key.by_default, {}};
+      if (diameter == 0 || !is_in_diameters(value) || tree_.find(key.dotted()) != nullptr) continue;
+      make_metres(value, diameter);
+      if (key.text(config, 0) && has_effect(key.dotted(), config)) key.read(value, config, 0);
+    }
+  }
+}
+
+bool ConfigReader::is_automatic(const std::string& dotted) const {
+  const auto [name, key] = split(dotted);
+  for (const Section& section : table_) {
+    if (section.name != name) continue;
+    for (const Key& one : section.keys) {
+      if (one.name != key || one.by_default != kAutomatic) continue;
+      const Node* value = tree_.find(dotted);
+      const auto* text = value != nullptr ? std::get_if<std::string>(&value->value) : nullptr;
+      return value == nullptr || (text != nullptr && *text == kAutomatic);
+    }
+  }
+  return false;
+}
+
+void ConfigReader::mismatch(const Key& key, const Node* value, const Node* around,
+                            const std::string& message) {
+  report_at(value, around, key.dotted(), message);
+  bad_.insert(key.dotted());
 }
 
 void ConfigReader::report_at(const Node* node, const Node* around, const std::string& dotted,
@@ -227,65 +231,6 @@ bool ConfigReader::is_bad(const std::string& dotted) const {
     if (bad_.contains(part)) return true;
   }
   return false;
-}
-
-void ConfigReader::find_unknown(const std::string& section, const Node& node,
-                                const std::vector<std::string>& known) {
-  if (node.table() == nullptr) return;
-  for (const auto& [name, value] : *node.table()) {
-    if (contains(known, name)) continue;
-    const bool table = section.empty() && value.table() != nullptr;
-    std::string why = removal(join(section, name), "");
-    if (why.empty()) {
-      // A file of another kind may hold very many; they need not all be compared with ours.
-      const std::string hint = ++unknown_ > 100 ? std::string() : suggestion(section, name, table);
-      why = fmt::format("unknown {}{}", table ? "section" : "key", hint);
-    }
-    add_problem(value.where, join(section, name), table, nullptr, why);
-  }
-}
-
-/// " (did you mean ...?)" for keys that are there, named from within `section`; they were not read.
-std::string ConfigReader::hint(const std::string& section, std::string_view keys) {
-  const std::vector<std::string> here = names_in(section);
-  std::string text;
-  while (!keys.empty()) {
-    const std::size_t end = std::min(keys.find(", "), keys.size());
-    const auto [home, name] = split(std::string(keys.substr(0, end)));
-    keys.remove_prefix(std::min(end + 2, keys.size()));
-    if (!contains(names_in(home), name)) continue;
-    const bool is_here = contains(here, name);
-    bad_.insert(join(is_here ? section : home, name));
-    text += fmt::format("{}\"{}\"{}", text.empty() ? " (did you mean " : " or ", name,
-                        is_here ? "" : fmt::format(" of [{}]", home));
-  }
-  return text.empty() ? text : text + "?)";
-}
-
-std::string ConfigReader::suggestion(const std::string& section, const std::string& name,
-                                     bool table) {
-  if (!table) {
-    if (std::string text = hint(section, keys_meant_by(name, section)); !text.empty()) return text;
-    for (const Section& other : table_) {
-      if (contains(names_in(other.name), name)) return elsewhere(name, other.name);
-    }
-  }
-  const std::string close = nearest(name, names_in(section));
-  if (!close.empty()) {
-    bad_.insert(join(section, close));  // what it stands for was not read
-    return did_you_mean(close);
-  }
-  if (table) return {};
-  std::vector<std::string> all;
-  for (const Section& other : table_) {
-    const std::vector<std::string> names = names_in(other.name);
-    all.insert(all.end(), names.begin(), names.end());
-  }
-  const std::string near = nearest(name, all);
-  for (const Section& other : table_) {
-    if (contains(names_in(other.name), near)) return elsewhere(near, other.name);
-  }
-  return {};
 }
 
 }  // namespace barchan

@@ -12,6 +12,7 @@
 
 namespace barchan {
 
+struct Key;
 struct Section;
 using Sections = std::vector<Section>;
 const Sections& sections();
@@ -22,11 +23,22 @@ class ConfigReader {
   /// Parses `text`, which stands in `file`.
   ConfigReader(std::string_view text, const std::filesystem::path& file,
                const Sections& table = sections());
+  /// Takes over the keys of the cases in case.base, and of those that they are based on.
+  void inherit();
   /// Applies "key=value" assignments in order, before anything is read.
   void set(const std::vector<std::string>& assignments);
+  /// Leaves out keys that have no effect, where a later layer has switched them off: who sets
+  /// contact_model need not delete the elastic constants. Layers: bases, the file, assignments.
+  void drop_switched_off();
 
-  /// The configuration; what cannot be read keeps its default and is a problem.
+  /// The configuration; what cannot be read keeps its default and is a problem. Lengths in
+  /// diameters, and steps that are "auto", are still to be settled.
   Config read();
+  /// Sets the lengths that are given in diameters, or by default are. `diameter`: the d of the
+  /// case [m]; 0: not known, which is a problem where a length is given. `tell`: as such.
+  void settle_lengths(Config& config, double diameter, bool tell);
+  /// True if the program is to choose the value of a key.
+  bool is_automatic(const std::string& dotted) const;
 
   /// A complaint about a dotted key or a section, at the line where it was written, else that of
   /// its section, else the file as a whole: "[section] key = value: message".
@@ -39,16 +51,30 @@ class ConfigReader {
   /// True if any key that there is could not be read as meant.
   bool has_bad_keys() const { return !bad_.empty(); }
 
-  /// True if a key was given by an assignment, not by the file.
-  bool is_assigned(const std::string& dotted) const;
-  /// As if a key were not there.
-  void drop(const std::string& dotted);
+  /// The folder that a path which is the value of a key starts from.
+  std::filesystem::path folder_of(const std::string& dotted) const;
 
   const Node& tree() const { return tree_; }
   std::vector<Problem>& problems() { return problems_; }
 
  private:
+  struct LengthInDiameters {
+    const Key* key;
+    Node value;
+    std::size_t entry;
+  };
+
+  Node with_bases(Node own, const std::filesystem::path& file,
+                  std::vector<std::filesystem::path> chain);
+  void add_base(Node& all, const Node& name, const std::filesystem::path& file,
+                const std::vector<std::filesystem::path>& chain);
+  void leave_out(Node& all, const Node& name);
+  bool is_switched_off(const std::string& dotted, const std::string& by) const;
+  void drop(const std::string& dotted);
+
   void read(const Section& section, Config& config);
+  void read_value(const Key& key, const Node& value, Config& config, std::size_t entry);
+  void mismatch(const Key& key, const Node* value, const Node* around, const std::string& message);
   void read_list(const Section& section, const Node& node, Config& config);
   void read_keys(const Section& section, const Node& table, Config& config, std::size_t entry);
   void report_at(const Node* node, const Node* around, const std::string& dotted,
@@ -67,6 +93,7 @@ class ConfigReader {
   std::vector<Problem> problems_;
   Node tree_;
   std::set<std::string> bad_;  // dotted keys and sections
+  std::vector<LengthInDiameters> in_diameters_;
   int unknown_ = 0;
 };
 

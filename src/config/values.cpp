@@ -1,7 +1,6 @@
 #include "src/config/values.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "src/base/words.hpp"
@@ -61,18 +60,6 @@ Mismatch convert(const Node& node, double& value) {
   }
   const Mismatch mismatch = take(node, value, "a number");
   return !mismatch && !std::isfinite(value) ? "a finite number" : mismatch;
-}
-
-Mismatch convert(const Node& node, Length& value) {
-  const auto* text = std::get_if<std::string>(&node.value);
-  value.in_diameters = text != nullptr;
-  if (!value.in_diameters) return convert(node, value.value);
-  const auto [unit, error] =
-      std::from_chars(text->data(), text->data() + text->size(), value.value);
-  const std::string_view rest(unit, text->data() + text->size());
-  const bool read = error == std::errc() && std::isfinite(value.value);
-  if (read && (rest == "d" || rest == " d")) return {};
-  return "a number of metres, or of mean grain diameters as in \"3 d\"";
 }
 
 Mismatch convert(const Node& node, PlaneVelocity& value) {
@@ -167,10 +154,6 @@ std::string toml_text(double value) {
   // Only digits and a sign: an integer to TOML. (inf and nan stay as they are.)
   if (text.find_first_not_of("-0123456789") == text.npos) text += ".0";
   return text;
-}
-
-std::string toml_text(const Length& length) {
-  return length.in_diameters ? fmt::format("\"{} d\"", length.value) : toml_text(length.value);
 }
 
 std::string toml_text(const PlaneVelocity& velocity) {

@@ -115,7 +115,6 @@ using Mismatch = std::optional<std::string>;
 
 /// From TOML; after a mismatch the value is of no use.
 Mismatch convert(const Node& node, double& value);
-Mismatch convert(const Node& node, Length& value);
 Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
@@ -163,7 +162,6 @@ Mismatch convert(const Node& node, std::array<T, N>& value) {
 std::string toml_text(std::string_view text);
 /// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
 std::string toml_text(double value);
-std::string toml_text(const Length& value);
 std::string toml_text(const PlaneVelocity& value);
 std::string toml_text(const std::vector<SizeClass>& value);
 std::string toml_text(const ForceSwitches& value);
@@ -209,8 +207,6 @@ Mismatch check(const T& value, const Range& range) {
     return check(static_cast<double>(value), range);
   } else if constexpr (std::is_same_v<T, SizeClass>) {
     return check(value.diameter, range);
-  } else if constexpr (std::is_same_v<T, Length>) {
-    return check(value.value, range);
   } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
     return check(std::array{value.x, value.z}, range);
   } else if constexpr (requires { value.data(); }) {
@@ -232,8 +228,6 @@ std::string type_text() {
     return "integer";
   } else if constexpr (std::is_floating_point_v<T>) {
     return "number";
-  } else if constexpr (std::is_same_v<T, Length>) {
-    return "number or \"N d\"";
   } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
     return "number or [x, z]";
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too

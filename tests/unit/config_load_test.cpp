@@ -115,32 +115,6 @@ TEST(ConfigLoad, SizesAreDiametersAndCounts) {
           {"grains.sizes=[[2e-4, 10], [2e-4, 0]]"});
 }
 
-TEST(ConfigLoad, LengthsMayBeInMeanDiameters) {
-  // 30 of 0.2 mm and 10 of 0.4 mm: 0.25 mm in the mean.
-  const std::string text = coupled_case("[[0.2e-3, 30], [0.4e-3, 10]]");
-  const auto with = [&](const Lines& overrides) {
-    return load_config_text(text, "case.toml", overrides);
-  };
-  const Config c = with({"coupling.smoothing_length=3 d", "grains.skin=\"0.2d\""});
-  EXPECT_DOUBLE_EQ(c.coupling.smoothing_length, 3 * 0.25e-3);
-  EXPECT_DOUBLE_EQ(c.grains->skin, 0.2 * 0.25e-3);
-  // What is written, and read again for a restart, is in metres.
-  EXPECT_EQ(to_toml(c).find(" d\""), std::string::npos);
-  EXPECT_EQ(config_as_written(to_toml(c), c.file), c);
-  EXPECT_EQ(with({"coupling.smoothing_length=0 d"}).coupling.smoothing_length, 0);
-  const Config thin =
-      with({"fluid.first_cell_height=0.8 d", "fluid.uniform_height=2 d", "fluid.cells=[62,34,25]"});
-  EXPECT_DOUBLE_EQ(thin.fluid->first_cell_height, 0.8 * 0.25e-3);
-  EXPECT_DOUBLE_EQ(thin.fluid->uniform_height, 2 * 0.25e-3);
-  for (const std::string wrong : {"3 dd", "d", "3 mm", "3  d", "inf d", " 3 d"}) {
-    EXPECT_EQ(problems(text, {"grains.skin=\"" + wrong + "\""}),
-              only("--set grains.skin = \"" + wrong +
-                   "\": must be a number of metres, or of mean grain diameters as in \"3 d\""));
-  }
-  refused(text, "--set grains.skin = \"-1 d\": must be at least 0 and at most 1000",
-          {"grains.skin=-1 d"});
-}
-
 TEST(ConfigLoad, LimitsAreInclusiveOrNotAsTheySay) {
   refused_grains("poisson_ratio = 2.0", "must be at least 0 and at most 0.5");
   refused_grains("restitution = 0", "must be above 0 and at most 1");

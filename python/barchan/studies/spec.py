@@ -130,6 +130,33 @@ def load(path):
         raise StudyError(f"{path}: not TOML: nested too deep") from error
 
 
+def merge(under, over):
+    """The entries of `over` in place of those of `under`; tables are merged."""
+    merged = dict(under)
+    for key, value in over.items():
+        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = merge(merged[key], value) if both else value
+    return merged
+
+
+def load_case(path, chain=()):
+    """A case over those that it is based on. What is wrong with it the program says when it checks the cases."""
+    own = load(path)
+    names = own.get("case", {}).get("base", [])
+    without = own.get("case", {}).get("without", [])
+    config = {}
+    for name in [names] if isinstance(names, str) else names:
+        base = (path.parent / name).resolve()
+        if base not in chain and base.is_file():
+            config = merge(config, load_case(base, (*chain, base)))
+    for name in [without] if isinstance(without, str) else without:
+        *sections, key = name.split(".")
+        table = lookup(config, ".".join(sections)) if sections else config
+        if isinstance(table, dict):
+            table.pop(key, None)
+    return merge(config, own)
+
+
 def lists_of(table, path, section):
     lists = flatten(table)
     for key, values in lists.items():
@@ -236,7 +263,7 @@ def read_study(path, options):
     table = load(path)
     head = check_sections(table, path)
     base = (path.parent / head["base"]).resolve()
-    base_config = load(base)
+    base_config = load_case(base)
     common = flatten(table.get("set", {}))
     cases = []
     if "vary" in table:

@@ -1,0 +1,11 @@
+// Keys of [case] and [time].
+#pragma once
+
+#include "src/config/keys.hpp"
+
+namespace barchan {
+
+void add_case(Sections& all);
+void add_time(Sections& all);
+
+}  // namespace barchan
