@@ -146,6 +146,8 @@ nlohmann::ordered_json RunAccounts::summary(const RunState& run, const std::stri
   json["ranks"] = ranks;
   json["steps"] = run.clock.step;
   json["simulated_seconds"] = run.clock.time();
+  json["fluid_step"] = run.clock.fluid_step;
+  if (run.state.grains) json["grain_step"] = run.clock.fluid_step / run.coupled_step.substeps();
   json["wall_seconds"] = wall;
   json["phases"] = phases_per_step(run, phases);
   json["grain_steps_per_second"] = static_cast<double>(grain_steps) / for_rates;

@@ -265,7 +265,7 @@ TEST(Simulation, WritesEveryFileOfARun) {
   EXPECT_EQ(json.at("status"), "done");
   EXPECT_EQ(json.at("steps"), 20);
   std::istringstream keys(
-      "message title version git_hash backend device threads ranks simulated_seconds wall_seconds "
+      "message title version git_hash backend device threads ranks simulated_seconds fluid_step wall_seconds "
       "phases grain_steps_per_second cell_steps_per_second pressure_iterations_mean "
       "pressure_iterations_max max_cfl max_overlap max_continuity_residual ledger grains_initial "
       "grains_inside grains_left");

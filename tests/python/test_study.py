@@ -8,6 +8,9 @@ import pytest
 from fake_runs import fake
 
 import barchan
+from barchan.studies.spec import StudyError, load_case, read_study
+
+OPTIONS = SimpleNamespace(at_once=None, threads=None, out=None)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +61,6 @@ def test_a_folder_that_is_no_study(tmp_path):
     (8, "", {"threads": 8}, (1, 8)),
 ])
 def test_a_study_fills_the_cores_unless_told_otherwise(tmp_path, monkeypatch, cores, head, asked, expected):
-    from barchan.studies.spec import read_study
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(cores)))
     (tmp_path / "case.toml").write_text("[grains]\nrestitution = 0.1\n")
     grid = "[grid]\ngrains.restitution = [0.1, 0.2, 0.3]\n"
@@ -69,7 +71,19 @@ def test_a_study_fills_the_cores_unless_told_otherwise(tmp_path, monkeypatch, co
 
 
 def test_a_case_is_no_study(tmp_path):
-    from barchan.studies.spec import StudyError, read_study
     (tmp_path / "case.toml").write_text("[case]\ntitle = 'a'\n[time]\nend = 1\n")
     with pytest.raises(StudyError, match="this is a case, not a study: ./barchan run"):
-        read_study(tmp_path / "case.toml", SimpleNamespace(at_once=None, threads=None, out=None))
+        read_study(tmp_path / "case.toml", OPTIONS)
+
+
+def test_values_of_the_base_case_may_stand_in_its_own_base(tmp_path):
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep" / "root.toml").write_text("[grains]\nsliding_friction = 0.6\nrolling_friction = 0.1\n")
+    (tmp_path / "first.toml").write_text('[case]\nbase = "deep/root.toml"\nwithout = "grains.rolling_friction"\n')
+    (tmp_path / "case.toml").write_text('[case]\nbase = ["first.toml"]\n[grains]\nrestitution = 0.2\n')
+    assert load_case(tmp_path / "case.toml")["grains"] == {"sliding_friction": 0.6, "restitution": 0.2}
+    (tmp_path / "study.toml").write_text('[study]\nbase = "case.toml"\n[vary]\ngrains.sliding_friction = [0.6, 0.3]\n')
+    study = read_study(tmp_path / "study.toml", OPTIONS)
+    assert [case.name for case in study.cases] == ["base", "sliding_friction-0.3"]
+    (tmp_path / "deep" / "root.toml").write_text('[case]\nbase = "../case.toml"\n')
+    assert load_case(tmp_path / "case.toml")["grains"] == {"restitution": 0.2}, "a circle ends"
