@@ -157,10 +157,11 @@ struct CouplingConfig {
 
 /// [initial] grains = { pour = {...} }: a jittered lattice above the floor that settles.
 struct PourConfig {
-  PourShape shape = PourShape::cone;         // or a bed over the whole floor
-  std::array<double, 2> centre{0.04, 0.05};  // x, z of the cone [m]
-  double radius = 0;                         // of the unrelaxed cone's foot [m]
-  double drop_height = 0;                    // lowest grain above the floor [m]
+  PourShape shape = PourShape::cone;  // or a bed over the whole floor
+  // x, z of the cone [m]; in a case Lx/5, Lz/2 by default.
+  std::array<double, 2> centre{0.04, 0.05};
+  double radius = 0;       // of the unrelaxed cone's foot [m]
+  double drop_height = 0;  // lowest grain above the floor [m]
   std::uint64_t seed = 1;
   bool operator==(const PourConfig&) const = default;
 };

@@ -109,6 +109,13 @@ void check_flow_at_start(const Config& c, Findings& found) {
                    {"initial.fluid", "fluid.mean_velocity", "fluid.ramp_time"},
                    "accelerates within one step and throws the grains to about half of the "
                    "velocity; start from another case or \"turbulent\", or give a ramp_time");
+  const PlaneVelocity first = velocity_at_start(schedule);
+  const double reynolds = 2 * c.size[1] * std::hypot(first.x, first.z) / fluid.kinematic_viscosity;
+  found.warning_if(reynolds > 2000 && c.initial.fluid == "still" && !c.grains && c.bodies.empty() &&
+                       fluid.turbulence != Turbulence::none,
+                   {"initial.fluid", "fluid.mean_velocity"},
+                   "begins without turbulence, which takes long to arise by itself; \"turbulent\" "
+                   "begins with a log law and perturbations");
 }
 
 }  // namespace barchan

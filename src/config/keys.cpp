@@ -171,7 +171,7 @@ void add_pour(Sections& all) {
            [](auto& c) { return &c.initial.pour; });
   using P = PourConfig;
   key("shape", &P::shape, "a cone, or a bed of equal depth over the whole floor");
-  key("centre", &P::centre, any, "m", "[x, z] of the cone's axis");
+  key("centre", &P::centre, any, "m", "[x, z] of the cone's axis").by_default = "[Lx/5, Lz/2]";
   key("radius", &P::radius, between(0, 1e6), "m", "radius of the cone's foot; required for a cone");
   key("drop_height", &P::drop_height, between(0, 1e6), "m",
       "height of the lowest grain above the floor");

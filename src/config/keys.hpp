@@ -23,8 +23,8 @@ struct Key {
   std::string unit;     // of its numbers; empty: none
   std::string meaning;  // one line
   bool required = false;
-  /// What the reader takes where a case says nothing, if that rests on the case: a length "3 d", or
-  /// kAutomatic. Else the default of the member.
+  /// What the reader takes where a case says nothing, if that rests on the case: a length "3 d",
+  /// kAutomatic, or words in brackets. Else the default of the member.
   std::string by_default = {};
   bool takes_diameters = false;   // a length, whose texts may be in mean grain diameters
   bool fixed_by_restart = false;  // what the numbers of a restart file mean depends on it

@@ -32,6 +32,7 @@ std::string domain_in_table(const Key& key) {
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
   if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
+  if (key.by_default.starts_with('[')) return fmt::format("`{}`", key.by_default);
   if (!key.by_default.empty()) return fmt::format("`\"{}\"`", key.by_default);
   const std::string value = key.text(defaults, 0).value_or("");
   const bool none = value.empty() || value == "\"\"" || value == "[]";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -128,6 +129,9 @@ std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts
 /// here or in the case that this one starts from; of others [grains] sizes need not be true.
 void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes, bool tell) {
   reading.settle_lengths(config, sizes.empty() ? 0 : nominal_diameter(mean_diameter(sizes)), tell);
+  std::optional<PourConfig>& pour = config.initial.pour;
+  if (pour && pour->shape == PourShape::cone && !reading.tree().find("initial.grains.pour.centre"))
+    pour->centre = {config.size[0] / 5, config.size[2] / 2};
   if (reading.is_automatic("time.fluid_step") && !reading.is_bad("fluid"))
     config.time.fluid_step = chosen_fluid_step(config, sizes);
   if (reading.is_automatic("time.grain_step"))

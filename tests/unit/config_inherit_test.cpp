@@ -79,6 +79,15 @@ TEST(Lengths, HaveDefaultsInDiameters) {
             6e-4);
 }
 
+TEST(Pour, HasAPlaceInItsBox) {
+  const std::string text =
+      "[time]\nend = 1\n[domain]\nsize = [0.05, 0.02, 0.03]\n[grains]\n"
+      "sizes = [[2e-4, 50]]\n[initial]\ngrains = { pour = { radius = 3e-3 } }\n";
+  const Config c = load_config_text(text, "case.toml");
+  EXPECT_EQ(c.initial.pour->centre, (std::array{0.01, 0.015}));
+  EXPECT_TRUE(problems(text, {"initial.grains.pour.shape=bed"}).empty());
+}
+
 TEST(Steps, FollowTheRules) {
   const Config c = with({"time.fluid_step=auto", "fluid.mean_velocity=0.28"});
   const Derived numbers = derive(c, c.grains->sizes);

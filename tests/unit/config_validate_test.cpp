@@ -193,6 +193,8 @@ TEST(ConfigValidate, KeysThatCanDoNothingAreErrors) {
 TEST(ConfigValidate, WarnsOfWhatWillDisappoint) {
   const std::string fluid = fluid_case("mean_velocity = 0.2\n"), both = coupled_case();
   EXPECT_TRUE(says(warnings(fluid, {"fluid.cells=[30, 4, 8]"}), "has 4 rows over a no-slip floor"));
+  EXPECT_TRUE(says(warnings(fluid_case("mean_velocity = 0.2\n")), "begins without turbulence"));
+  EXPECT_EQ(warnings(fluid_case("mean_velocity = 0.2\n"), {"initial.fluid=turbulent"}), Lines{});
   EXPECT_TRUE(says(warnings(both, {"coupling.forces=[]"}), "the flow does not move the grains"));
   EXPECT_TRUE(
       says(warnings(both, {"grains.density=900", "time.grain_step=1e-6"}), "the grains float"));
