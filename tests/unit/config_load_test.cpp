@@ -248,6 +248,38 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
   EXPECT_EQ(c.grains->ambient->density, 900.0);
 }
 
+/// Entries of lists have the numbers that messages and restarts give them, from 1.
+TEST(ConfigOverride, ReachesIntoEntriesOfLists) {
+  const std::string two = grain_case() +
+                          "[[grains.kind]]\nname = \"a\"\nsizes = [[1e-3, 5]]\n"
+                          "[[grains.kind]]\nname = \"b\"\nsizes = [[2e-3, 5]]\ndensity = 3000\n";
+  const Config c = load_config_text(two, "case.toml", {"grains.kind.2.density=2600"});
+  ASSERT_EQ(c.grains->kinds.size(), 2U);
+  EXPECT_EQ(c.grains->kinds[1].density, 2600.0);
+  EXPECT_NE(c.grains->kinds[0].density, 2600.0);
+  const std::string range = "\"grains.kind\" has no entry 3: its entries have the numbers 1 to 2";
+  refused(two, "--set grains.kind.3.density: " + range, {"grains.kind.3.density=2600"});
+  refused(two, "--set grains.kind.0.density: \"grains.kind\" has no entry 0",
+          {"grains.kind.0.density=2600"});
+  refused(two, "--set grains.kind.density: \"grains.kind\" has no entry density",
+          {"grains.kind.density=2600"});
+  refused(two, "--set grains.kind.2.densty: unknown key", {"grains.kind.2.densty=2600"});
+  refused(grain_case(),
+          "--set grains.kind.1.density: there is no entry 1 in this case: give the whole list, "
+          "grains.kind=[...]",
+          {"grains.kind.1.density=2600"});
+}
+
+/// initial.grains is the name of a file or a section.
+TEST(ConfigOverride, ReplacesATextByASection) {
+  const std::vector<std::string> poured = {"initial.grains=\"heap.csv\"",
+                                           "initial.grains.pour.radius=0.01",
+                                           "initial.grains.pour.centre=[0.05, 0.01]"};
+  EXPECT_EQ(load_config_text(grain_case(), "case.toml", poured).initial.pour->radius, 0.01);
+  refused(grain_case(), "--set case.title.x: [case] title = { x = 1 }: must be a string",
+          {"case.title=a", "case.title.x=1"});
+}
+
 TEST(ConfigOverride, IsCheckedLikeTheFile) {
   refused(fluid_case(), "--set time.end = -1: must be above 0", {"time.end=-1"});
   refused(grain_case(), "--set time.end.x: \"time.end\" is not a section", {"time.end.x=1"});
