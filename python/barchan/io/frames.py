@@ -12,10 +12,30 @@ from barchan.io.hdf5 import Group, Root, open_file, patiently
 
 @dataclass
 class Grains:
-    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
+    """Grains of one frame. What the frame has not is None.
 
-    heap (N): number of the heap that each came from, the place of its name in heaps; kind (N): that of its kind in
-    kinds. dune, u, heap and kind are None where the frame has none.
+    Attributes
+    ----------
+    time : float
+        Time [s].
+    id : numpy.ndarray
+        (N) ids, ascending.
+    x : numpy.ndarray
+        (N, 3) centres [m].
+    d : numpy.ndarray
+        (N) diameters [m].
+    dune : numpy.ndarray, optional
+        (N) label of the dune, -1: in none.
+    u : numpy.ndarray, optional
+        (N, 3) velocities [m/s].
+    heap : numpy.ndarray, optional
+        (N) number of the heap that each came from, the place of its name in `heaps`.
+    heaps : tuple of str
+        Names of the heaps.
+    kind : numpy.ndarray, optional
+        (N) number of the kind, the place of its name in `kinds`.
+    kinds : tuple of str
+        Names of the kinds.
     """
 
     time: float
