@@ -2,7 +2,6 @@
 #include "src/config/toml_tree.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <optional>
 #include <sstream>
@@ -140,16 +139,15 @@ AnyNode* entry(AnyNode& of, std::string_view name) {
   return list != nullptr && whole && number - 1 < list->size() ? &(*list)[number - 1] : nullptr;
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// Why `at`, the value of the key `above`, has no part `name`.
 std::string no_part(const Node& at, std::string_view above, std::string_view name) {
   if (const auto* list = std::get_if<NodeArray>(&at.value)) {
     return fmt::format("\"{}\" has no entry {}: its entries have the numbers 1 to {}", above, name,
                        list->size());
   }
-  if (at.table() == nullptr) return fmt::format("\"{}\" is not a section", above);
-  if (above.empty()) return "unknown key";
-  return fmt::format("there is no entry {} in this case: give the whole list, {}=[...]", name,
-                     above);
+  return fmt::format("\"{}\" is not a section", above);
 }
 
 }  // namespace
@@ -160,10 +158,9 @@ std::string to_string(const Location& where) {
 
 Node* Node::part(std::string_view name, const Location& made_at) {
   // initial.grains is a text or a section.
-  if (std::get_if<std::string>(&value) != nullptr) value = NodeTable{};
+  if (std::get_if<std::string>(&value) != nullptr) *this = {NodeTable{}, made_at};
   NodeTable* const entries = table();
-  const bool numbered = std::isdigit(static_cast<unsigned char>(name.front())) != 0;
-  if (entries == nullptr || numbered) return entry(*this, name);
+  if (entries == nullptr) return entry(*this, name);
   return &entries->try_emplace(std::string(name), Node{NodeTable{}, made_at}).first->second;
 }
 
@@ -206,9 +203,13 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
     const std::size_t end = std::min(dotted.find('.', begin), dotted.size());
     const std::string_view key = dotted.substr(begin, end - begin);
     if (key.empty()) return refuse("a part of the key is empty");
-    const std::string_view above = dotted.substr(0, begin > 0 ? begin - 1 : 0);
+    const bool of_list = end + 1 < dotted.size() && is_digit(dotted[end + 1]);
+    if (of_list && at->table() != nullptr && entry(*at, key) == nullptr) {
+      return refuse(fmt::format("the case has no list \"{0}\": give the whole, {0}=[...]",
+                                dotted.substr(0, end)));
+    }
     Node* const part = at->part(key, where);
-    if (part == nullptr) return refuse(no_part(*at, above, key));
+    if (part == nullptr) return refuse(no_part(*at, dotted.substr(0, begin - 1), key));
     at = part;
     begin = end + 1;
   }

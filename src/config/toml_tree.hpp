@@ -36,8 +36,8 @@ struct Node {
   /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none. Entries of
   /// arrays are counted from 1: "initial.heap.2.radius".
   const Node* find(std::string_view dotted) const;
-  /// The entry of that name, made in a table that lacks it, or of that number, from 1, which must
-  /// be there; else nullptr. A text gives way to a table.
+  /// The entry of a table, made where there is none, or of an array, nullptr where there is none. A
+  /// text gives way to a table.
   Node* part(std::string_view name, const Location& made_at);
 };
 

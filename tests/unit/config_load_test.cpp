@@ -251,21 +251,24 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
 /// Entries of lists have the numbers that messages and restarts give them, from 1.
 TEST(ConfigOverride, ReachesIntoEntriesOfLists) {
   const std::string two = grain_case() +
-                          "[[grains.kind]]\nname = \"a\"\nsizes = [[1e-3, 5]]\n"
-                          "[[grains.kind]]\nname = \"b\"\nsizes = [[2e-3, 5]]\ndensity = 3000\n";
+                          "[[grains.kind]]\nname = \"a\"\n"
+                          "[[grains.kind]]\nname = \"b\"\ndensity = 3000\n";
   const Config c = load_config_text(two, "case.toml", {"grains.kind.2.density=2600"});
   ASSERT_EQ(c.grains->kinds.size(), 2U);
   EXPECT_EQ(c.grains->kinds[1].density, 2600.0);
   EXPECT_NE(c.grains->kinds[0].density, 2600.0);
-  const std::string range = "\"grains.kind\" has no entry 3: its entries have the numbers 1 to 2";
-  refused(two, "--set grains.kind.3.density: " + range, {"grains.kind.3.density=2600"});
-  refused(two, "--set grains.kind.0.density: \"grains.kind\" has no entry 0",
-          {"grains.kind.0.density=2600"});
-  refused(two, "--set grains.kind.density: \"grains.kind\" has no entry density",
-          {"grains.kind.density=2600"});
-  refused(two, "--set grains.kind.2.densty: unknown key", {"grains.kind.2.densty=2600"});
+  for (const std::string part : {"3", "0", "-1", "2x", "name"}) {
+    refused(two,
+            "--set grains.kind." + part + ".density: \"grains.kind\" has no entry " + part +
+                ": its entries have the numbers 1 to 2",
+            {"grains.kind." + part + ".density=2600"});
+  }
+  refused(two,
+          "--set grains.kind.2.densty: [grains.kind] densty: unknown key (did you mean "
+          "\"density\"?)",
+          {"grains.kind.2.densty=2600"});
   refused(grain_case(),
-          "--set grains.kind.1.density: there is no entry 1 in this case: give the whole list, "
+          "--set grains.kind.1.density: the case has no list \"grains.kind\": give the whole, "
           "grains.kind=[...]",
           {"grains.kind.1.density=2600"});
 }

@@ -52,13 +52,13 @@ def check(case: str | Path, overrides: Mapping[str, Any] | None = None, *, repor
     case : str or pathlib.Path
         The file of the case.
     overrides : dict, optional
-        Keys in place of those of the file: {"time.end": 2.0} or {"time": {"end": 2.0}}. An entry of a list of sections
-        has its number, from 1: {"fluid.schedule.2.velocity": 0.3} or {"fluid": {"schedule": {2: {"velocity": 0.3}}}}.
-        A list replaces the whole: {"body": [{"name": "pile", ...}]}.
+        Keys in place of those of the file: `{"time.end": 2.0}` or `{"time": {"end": 2.0}}`. An entry of a list of
+        sections has its number, from 1: `{"fluid.schedule.2.velocity": 0.3}` or
+        `{"fluid": {"schedule": {2: {"velocity": 0.3}}}}`. A list replaces the whole: `{"body": [{"name": "pile"}]}`.
     report : bool, optional
         Whether derived numbers, cost and warnings are printed, too.
     **keys
-        The same with __ for the point: time__end=2.0, fluid__schedule__2__velocity=0.3.
+        The same with `__` for the point: `time__end=2.0`, `fluid__schedule__2__velocity=0.3`.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
     overwrite : bool, optional
         Whether the results of another run in the folder are removed.
     **keys
-        Keys in place of those of the file, with __ for the point: time__end=2.0.
+        The same with `__` for the point: `time__end=2.0`.
 
     Returns
     -------

@@ -32,15 +32,10 @@ class Run(RunFolder):
     again to see what has come since. Everything is in SI units. At the end of a notebook's cell a Run shows its state
     and its grains.
 
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The run folder.
-
     Attributes
     ----------
     path : pathlib.Path
-        The run folder.
+        The run folder, which barchan.Run(path) takes.
     title : str
         Title of the case.
     config : dict
@@ -181,7 +176,7 @@ class Run(RunFolder):
         pandas.DataFrame
             x, y, z, d [m], u, v, w [m/s], omega_x, ... [rad/s], dune (label, -1: in none), kind (an index of
             attrs["kinds"], the names) where there are several, and forces [N] where the run has written them.
-            attrs["time"] [s] is that of the frame, attrs["units"] are those of the columns.
+            attrs["time"] is the time of the frame [s], attrs["units"] are the units of the columns.
 
         Raises
         ------

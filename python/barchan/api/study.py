@@ -19,15 +19,10 @@ class Study(StudyFolder):
 
     study["base"] is the first run of a case, study["base-r2"] its second realisation; KeyError where it is not there.
 
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The folder of the study.
-
     Attributes
     ----------
     path : pathlib.Path
-        The folder of the study.
+        The folder of the study, which barchan.Study(path) takes.
     title : str
         Title of the study.
     cases : list of Case

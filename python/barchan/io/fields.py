@@ -79,10 +79,7 @@ def dataset(file: FrameFile) -> Any:
         grid, first = content["grid"], content[file.frames[0][1]]
         axes = {axis: (grid[axis][:], grid[f"{axis}_face"][:]) for axis in "xyz"}
         arrays = {name: FrameArray(file, name, first[name].array.shape, first[name].array.dtype) for name in first}
-        steps = [int(content[name].attrs["step"]) for _, name in file.frames if "step" in first.attrs]
     coordinates: dict[str, tuple] = {"time": (("time",), file.times, TIME)}
-    if steps:
-        coordinates["step"] = (("time",), steps, attributes(("1", "fluid step")))
     for axis, (centres, faces) in axes.items():
         bounds = f"{axis}_bnds"
         coordinates[axis] = ((axis,), centres, {**CF[axis], **attributes(AXES[axis]), "bounds": bounds})
