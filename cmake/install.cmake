@@ -28,6 +28,15 @@ install(DIRECTORY configs DESTINATION "${share_folder}" COMPONENT program)
 install(FILES scripts/progress.sh scripts/usage.sh DESTINATION "${share_folder}" COMPONENT program)
 install(DIRECTORY python/barchan DESTINATION "${BARCHAN_INSTALL_PYTHONDIR}" COMPONENT program
   PATTERN __pycache__ EXCLUDE)
+# What tells xarray of its engine "barchan", as of python/pyproject.toml.
+set(metadata "${PROJECT_BINARY_DIR}/python.dist-info")
+file(WRITE "${metadata}/METADATA" "Metadata-Version: 2.1\nName: barchan\nVersion: ${PROJECT_VERSION}\n")
+file(WRITE "${metadata}/entry_points.txt" [=[
+[xarray.backends]
+barchan = barchan.io.fields:Fields
+]=])
+install(DIRECTORY "${metadata}/" COMPONENT program
+  DESTINATION "${BARCHAN_INSTALL_PYTHONDIR}/barchan-${PROJECT_VERSION}.dist-info")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${barchan_doc_folder}" COMPONENT program)
 install(DIRECTORY docs notebooks DESTINATION "${barchan_doc_folder}" COMPONENT program)
 # The man page and the completion of the shell are made from what the installed launcher says of itself.

@@ -4,7 +4,7 @@
 
     run = barchan.open("runs/quickstart")
     run.dunes                    # a pandas.DataFrame; attrs["units"]
-    run.fields(t=2.0)            # an xarray.Dataset, read where it is used
+    run.fields                   # an xarray.Dataset over time, z, y and x, read where it is used
     run.figure("morphology")     # a matplotlib Figure
 
 docs/results.md has the first hour. SI units throughout.

@@ -24,6 +24,16 @@ class RunStopped(BarchanError):
     """The run was stopped on request (exit code 3) and has written a restart file."""
 
 
+def seconds(name: str, value: object) -> float:
+    """A time as a float; else a BarchanError that says which argument is none."""
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        pass
+    raise BarchanError(f"{name} must be a number, a time in seconds, and is {value!r}")
+
+
 def optional(module: str, package: str) -> ModuleType:
     """The module, where it is installed; else a BarchanError with the name of what to install."""
     try:

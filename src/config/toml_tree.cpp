@@ -125,27 +125,48 @@ Node parse_value(std::string_view text, const Location& where) {
   return {std::string(text), where};
 }
 
-}  // namespace
-
-std::string to_string(const Location& where) {
-  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
-}
-
-const Node* Node::entry(std::string_view name) const {
-  if (const NodeTable* entries = table()) {
+/// The entry of a table of that name, or of a list of that number; nullptr if there is none.
+template <class AnyNode>  // const or not
+AnyNode* entry(AnyNode& of, std::string_view name) {
+  if (auto* entries = of.table()) {
     const auto at = entries->find(name);
     return at == entries->end() ? nullptr : &at->second;
   }
-  const auto* list = std::get_if<NodeArray>(&value);
+  auto* const list = std::get_if<NodeArray>(&of.value);
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   const bool whole = error == std::errc() && end == name.data() + name.size();
   return list != nullptr && whole && number - 1 < list->size() ? &(*list)[number - 1] : nullptr;
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Why `at`, the value of the key `above`, has no part `name`.
+std::string no_part(const Node& at, std::string_view above, std::string_view name) {
+  if (const auto* list = std::get_if<NodeArray>(&at.value)) {
+    return fmt::format("\"{}\" has no entry {}: its entries have the numbers 1 to {}", above, name,
+                       list->size());
+  }
+  return fmt::format("\"{}\" is not a section", above);
+}
+
+}  // namespace
+
+std::string to_string(const Location& where) {
+  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
+}
+
+Node* Node::part(std::string_view name, const Location& made_at) {
+  // initial.grains is a text or a section.
+  if (std::get_if<std::string>(&value) != nullptr) *this = {NodeTable{}, made_at};
+  NodeTable* const entries = table();
+  if (entries == nullptr) return entry(*this, name);
+  return &entries->try_emplace(std::string(name), Node{NodeTable{}, made_at}).first->second;
+}
+
 const Node* Node::find(std::string_view dotted) const {
   const std::size_t dot = std::min(dotted.find('.'), dotted.size());
-  const Node* at = entry(dotted.substr(0, dot));
+  const Node* at = entry(*this, dotted.substr(0, dot));
   return at == nullptr || dot == dotted.size() ? at : at->find(dotted.substr(dot + 1));
 }
 
@@ -182,10 +203,14 @@ void apply_override(Node& root, std::string_view assignment, std::vector<Problem
     const std::size_t end = std::min(dotted.find('.', begin), dotted.size());
     const std::string_view key = dotted.substr(begin, end - begin);
     if (key.empty()) return refuse("a part of the key is empty");
-    if (at->table() == nullptr) {
-      return refuse(fmt::format("\"{}\" is not a section", dotted.substr(0, begin - 1)));
+    const bool of_list = end + 1 < dotted.size() && is_digit(dotted[end + 1]);
+    if (of_list && at->table() != nullptr && entry(*at, key) == nullptr) {
+      return refuse(fmt::format("the case has no list \"{0}\": give the whole, {0}=[...]",
+                                dotted.substr(0, end)));
     }
-    at = &at->table()->try_emplace(std::string(key), Node{NodeTable{}, where}).first->second;
+    Node* const part = at->part(key, where);
+    if (part == nullptr) return refuse(no_part(*at, dotted.substr(0, begin - 1), key));
+    at = part;
     begin = end + 1;
   }
   *at = parse_value(without_blanks(assignment.substr(equals + 1)), where);

@@ -36,9 +36,9 @@ struct Node {
   /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none. Entries of
   /// arrays are counted from 1: "initial.heap.2.radius".
   const Node* find(std::string_view dotted) const;
-
- private:
-  const Node* entry(std::string_view name) const;
+  /// The entry of a table, made where there is none, or of an array, nullptr where there is none. A
+  /// text gives way to a table.
+  Node* part(std::string_view name, const Location& made_at);
 };
 
 /// Something is wrong with what was typed, at `where`.
@@ -54,8 +54,9 @@ Node parse_toml(std::string_view text, const std::string& name, std::vector<Prob
 /// What stands for the file in the location of an assignment: "--set a.b".
 std::string assigned_name(std::string_view dotted);
 
-/// Applies "a.b=value" (as after --set) to the tree, creating tables on the way. The value is
-/// TOML; anything that is not (a bare word) is a string. The value's location is "--set a.b".
+/// Applies "a.b=value" (as after --set) to the tree, creating tables on the way; "a.2.b=value" in
+/// the second entry of the list a. The value is TOML; anything that is not (a bare word) is a
+/// string. The value's location is "--set a.b".
 void apply_override(Node& root, std::string_view assignment, std::vector<Problem>& problems);
 
 }  // namespace barchan

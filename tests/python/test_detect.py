@@ -104,7 +104,10 @@ def test_too_few_grains_are_no_dune():
     (np.zeros((3, 2)), D, SIZE, "N x 3"), (np.zeros((0, 3)), D, SIZE, "N x 3"),
     (np.full((3, 3), np.nan), D, SIZE, "finite"), (np.zeros((3, 3)), 0.0, SIZE, "positive"),
     (np.zeros((3, 3)), np.inf, SIZE, "positive"), (np.zeros((3, 3)), np.full(2, D), SIZE, "3 diameters"),
-    (np.zeros((3, 3)), D, (1.0,), "along x and z")])
+    (np.zeros((3, 3)), D, (1.0,), "along x and z"), (np.zeros((3, 3)), D, 0.06, "along x and z"),
+    (np.zeros((3, 3)), D, (np.nan, 0.03), "lengths are positive"), ("grains.csv", D, SIZE, "x must be numbers"),
+    (np.zeros((3, 3)), "0.2 mm", SIZE, "d must be numbers"), (np.zeros((3, 3)), D, "ab", "size must be numbers"),
+    (np.zeros((3, 3)), 1e3 * D, SIZE, "a diameter, 0.2, is no smaller than the domain, 0.03")])
 def test_wrong_arrays_are_refused(x, d, size, says):
     with pytest.raises(barchan.BadInput, match=says):
         barchan.find_dunes(x, d, size)

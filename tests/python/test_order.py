@@ -19,7 +19,12 @@ ONLY = {"matplotlib": ("figures", "report", "plot"), "h5py": ("io",), "pandas": 
 
 
 def imports_of(path):
-    for node in ast.walk(ast.parse(path.read_text())):
+    """What it imports when it runs; what only annotations name is another matter."""
+    tree = ast.parse(path.read_text())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            node.body = []
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (name.name for name in node.names)
         elif isinstance(node, ast.ImportFrom):

@@ -2,6 +2,8 @@
 
 import os
 import stat
+import subprocess
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 from fake_runs import ROOT
 
 import barchan
+from barchan.api import program
 from barchan.io.tables import read_table
 
 LAUNCHER = """#!/bin/sh
@@ -76,17 +79,80 @@ def test_exceptions_say_what_the_program_says(launcher, status, kind):
 
 
 def test_an_override_needs_its_section(launcher):
-    with pytest.raises(barchan.BadInput, match="section__key"):
-        barchan.check("case.toml", end=2.0)
+    for overrides in {"end": 2.0}, {"end": "late"}:
+        with pytest.raises(barchan.BadInput, match="section__key"):
+            barchan.check("case.toml", **overrides)
+        with pytest.raises(barchan.BadInput, match="end: name a key as section.key"):
+            barchan.check("case.toml", overrides)
 
 
-def test_overrides_reach_every_key(launcher):
+def test_values_are_written_as_toml(launcher):
     barchan.check("case.toml", grains__feed__rate=50, fluid__cells=np.array([4, 5, 6]), case__notes="two\nlines",
                   initial__fluid=Path("a.h5"), body=[{"name": "pile", "centre": (0.1, 0.2)}])
     assert launcher.words()[4::2] == ["grains.feed.rate=50", "fluid.cells=[4, 5, 6]", 'case.notes="two\\nlines"',
                                       'initial.fluid="a.h5"', 'body=[{"name" = "pile", "centre" = [0.1, 0.2]}]']
-    with pytest.raises(barchan.BadInput, match="time__end: a case cannot have a value of type NoneType"):
+    with pytest.raises(barchan.BadInput, match="time.end: a case cannot have a value of type NoneType"):
         barchan.check("case.toml", time__end=None)
+
+
+@pytest.mark.parametrize("overrides, keys", [
+    ({"fluid.schedule.2.velocity": 0.3, "grains.restitution": 0.5}, {}),
+    ({"fluid": {"schedule": {2: {"velocity": 0.3}}}, "grains": {"restitution": 0.5}}, {}),
+    ({"fluid.schedule": {"2": {"velocity": 0.3}}}, {"grains__restitution": 0.5}),
+    (None, {"fluid__schedule__2__velocity": 0.3, "grains": {"restitution": 0.5}})])
+def test_overrides_are_dotted_or_nested(launcher, overrides, keys):
+    for call in barchan.check, barchan.run:
+        Path("runs/case").mkdir(parents=True, exist_ok=True)
+        call("case.toml", overrides, **keys)
+        assert launcher.words()[-4:] == ["--set", "fluid.schedule.2.velocity=0.3", "--set", "grains.restitution=0.5"]
+
+
+def test_overrides_that_cannot_be_meant(launcher):
+    with pytest.raises(barchan.BadInput, match="time.end is given twice"):
+        barchan.check("case.toml", {"time": {"end": 1.0}}, time__end=2.0)
+    with pytest.raises(barchan.BadInput, match="overrides must be a dict of keys and values, and is 'runs/dune'"):
+        barchan.run("case.toml", "runs/dune")
+
+
+NESTED = [
+    ("field/reversal.toml", {"fluid.schedule.2.velocity": -0.2}, {}),
+    ("field/two-heaps-settle.toml", {"initial": {"heap": {1: {"radius": 0.0045}, 2: {"seed": 7}}}}, {}),
+    ("field/two-heaps-settle.toml", {"initial.heap.2": {"centre": [0.05, 0.02], "radius": 0.0045}}, {"time__end": 0.5}),
+    ("field/two-densities-settle.toml", {"grains": {"kind": {"2": {"density": 3100.0}}}}, {}),
+    ("heap-3k.toml", {"initial.grains.pour.radius": 0.0042}, {"initial__grains__pour__seed": 3})]
+
+
+def leaves(value, name=""):
+    """{"fluid.schedule.2.velocity": 0.3} of a case; entries of lists have their numbers."""
+    if isinstance(value, list):
+        value = dict(enumerate(value, 1))
+    if not isinstance(value, dict):
+        return {name: value}
+    return {key: leaf for part, inner in value.items() for key, leaf in leaves(inner, f"{name}.{part}".strip(".")).items()}
+
+
+@pytest.mark.skipif("BARCHAN_PROGRAM" not in os.environ, reason="needs the program, whose path BARCHAN_PROGRAM has")
+@pytest.mark.parametrize("case, overrides, keys", NESTED)
+def test_the_program_takes_nested_overrides(case, overrides, keys):
+    """As the case with every default shows; what is not meant stays as it was."""
+    def resolved(*options):
+        done = subprocess.run([os.environ["BARCHAN_PROGRAM"], "check", ROOT / "configs" / case, "--resolved-only",
+                               *options], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return leaves(tomllib.loads(done.stdout))
+
+    before, after = resolved(), resolved(*program._settings(overrides, keys))
+    wanted = leaves(overrides) | {name.replace("__", "."): value for name, value in keys.items()}
+    changed = {key: value for key, value in after.items() if before.get(key) != value}
+    assert changed == {key: value for key, value in wanted.items() if before.get(key) != value}
+    assert len(changed) >= len(keys) + 1 and before.keys() <= after.keys()
+
+
+@pytest.mark.skipif("BARCHAN_PROGRAM" not in os.environ, reason="needs the program, whose path BARCHAN_PROGRAM has")
+def test_an_entry_that_is_not_there(monkeypatch):
+    monkeypatch.setenv("BARCHAN", os.environ["BARCHAN_PROGRAM"])
+    with pytest.raises(barchan.BadInput, match='"initial.heap" has no entry 3: its entries have the numbers 1 to 2'):
+        barchan.check(ROOT / "configs/field/two-heaps-settle.toml", {"initial.heap.3.radius": 0.004})
 
 
 def test_a_program_that_is_not_there(monkeypatch):

@@ -32,6 +32,28 @@ found.same_again = end.every((shown, i) => shown === again[i]);
 found.curves = [...document.querySelectorAll(".plot svg")].map((plot) => plot.getBoundingClientRect().width);
 """
 
+# A run in a notebook is a frame in a page, as high as what is in it.
+IN_A_CELL = """
+await wait(300);
+const frame = document.querySelector("iframe"), canvas = frame.contentDocument.getElementById("top");
+const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+found.colours = new Set(new Uint32Array(data.buffer)).size;
+found.hidden = frame.contentDocument.documentElement.scrollHeight - frame.clientHeight;
+"""
+
+
+def cell_problems(run, picture):
+    """Of the run at the end of a notebook's cell."""
+    page = run / "cell.html"
+    show = "import sys, barchan; print(barchan.Run(sys.argv[1])._repr_html_())"
+    shown = subprocess.run([sys.executable, "-c", show, run], check=True, capture_output=True, text=True).stdout
+    page.write_text(f'<!DOCTYPE html><html><head><meta charset="utf-8"></head><body>{shown}</body></html>')
+    found = browser.visit(page, IN_A_CELL, 800, 900, picture=picture)
+    wrong = browser.problems("cell", found)
+    if found["colours"] < 10 or found["hidden"] > 1:
+        wrong.append(f"cell: {found['colours']} colours, {found['hidden']} pixels hidden")
+    return wrong
+
 
 def main():
     browser.chromium()
@@ -54,6 +76,7 @@ def main():
                 wrong.append(f"{name}: the curves are {found['curves']} wide")
             if picture.stat().st_size < 20000:
                 wrong.append(f"{name}: the screenshot is empty")
+        wrong += cell_problems(run, Path(kept or folder) / "cell.png")
     print(*wrong or ["the page about a run works in a browser, wide and narrow, light and dark"], sep="\n")
     return len(wrong) > 0
 

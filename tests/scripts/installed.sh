@@ -43,6 +43,10 @@ barchan run mine.toml --ranks 2 --quiet --set time.end=1e-3 > said 2>&1 || fail 
 for run in quickstart mine; do
   grep -q '"status": "done"' "runs/$run/run.json" && [ -f "runs/$run/report.html" ] || fail "$run: $(ls runs/*)"
 done
+PYTHONPATH="$prefix/share/barchan/python" /usr/bin/python3 - > said 2>&1 << 'END' || fail "Python: $(cat said)"
+import xarray
+assert xarray.open_dataset("runs/quickstart/fields.h5", engine="barchan").sizes["time"] > 0
+END
 rm -f runs/quickstart/topviews.png
 barchan plot runs/quickstart topviews > said 2>&1 && [ -f runs/quickstart/topviews.png ] || fail "plot: $(cat said)"
 [ ! -e "$prefix/bin/build" ] || fail "the launcher builds"

@@ -31,6 +31,8 @@ assert barchan.__file__.startswith(sys.argv[1] + "/there/"), barchan.__file__
 run = barchan.open(sys.argv[1] + "/run")
 assert len(run.grains(t=1.0)) > 1000 and run.dunes.attrs["units"]["W"] == "m"
 run.figure("morphology").savefig(sys.argv[1] + "/morphology.png")
+import xarray
+assert xarray.open_dataset(sys.argv[1] + "/run/fields.h5", engine="barchan").u.dims == ("time", "z", "y", "x")
 END
 [ -s morphology.png ] || fail "no picture"
 there/bin/barchan-plot run topviews > log 2>&1 || fail "barchan-plot: $(tail -n 5 log)"

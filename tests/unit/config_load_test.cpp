@@ -222,6 +222,41 @@ TEST(ConfigOverride, ReachesIntoTablesAndMakesSections) {
   EXPECT_EQ(c.grains->ambient->density, 900.0);
 }
 
+/// Entries of lists have the numbers that messages and restarts give them, from 1.
+TEST(ConfigOverride, ReachesIntoEntriesOfLists) {
+  const std::string two = grain_case() +
+                          "[[grains.kind]]\nname = \"a\"\n"
+                          "[[grains.kind]]\nname = \"b\"\ndensity = 3000\n";
+  const Config c = load_config_text(two, "case.toml", {"grains.kind.2.density=2600"});
+  ASSERT_EQ(c.grains->kinds.size(), 2U);
+  EXPECT_EQ(c.grains->kinds[1].density, 2600.0);
+  EXPECT_NE(c.grains->kinds[0].density, 2600.0);
+  for (const std::string part : {"3", "0", "-1", "2x", "name"}) {
+    refused(two,
+            "--set grains.kind." + part + ".density: \"grains.kind\" has no entry " + part +
+                ": its entries have the numbers 1 to 2",
+            {"grains.kind." + part + ".density=2600"});
+  }
+  refused(two,
+          "--set grains.kind.2.densty: [grains.kind] densty: unknown key (did you mean "
+          "\"density\"?)",
+          {"grains.kind.2.densty=2600"});
+  refused(grain_case(),
+          "--set grains.kind.1.density: the case has no list \"grains.kind\": give the whole, "
+          "grains.kind=[...]",
+          {"grains.kind.1.density=2600"});
+}
+
+/// initial.grains is the name of a file or a section.
+TEST(ConfigOverride, ReplacesATextByASection) {
+  const std::vector<std::string> poured = {"initial.grains=\"heap.csv\"",
+                                           "initial.grains.pour.radius=0.01",
+                                           "initial.grains.pour.centre=[0.05, 0.01]"};
+  EXPECT_EQ(load_config_text(grain_case(), "case.toml", poured).initial.pour->radius, 0.01);
+  refused(grain_case(), "--set case.title.x: [case] title = { x = 1 }: must be a string",
+          {"case.title=a", "case.title.x=1"});
+}
+
 TEST(ConfigOverride, IsCheckedLikeTheFile) {
   refused(fluid_case(), "--set time.end = -1: must be above 0", {"time.end=-1"});
   refused(grain_case(), "--set time.end.x: \"time.end\" is not a section", {"time.end.x=1"});

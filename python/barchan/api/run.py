@@ -1,50 +1,78 @@
 """A run: its case, its tables, grains, fields and figures."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from barchan.errors import BarchanError, MissingData, optional
+from barchan.errors import BarchanError, MissingData, optional, seconds
 from barchan.io import columns, labelled
 from barchan.io.frames import FrameFile, names_of
 from barchan.io.progress import Progress
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import NAME
 
-FIELDS_NEEDED = ("u", "v", "alpha_f")
+if TYPE_CHECKING:
+    from barchan.api.study import Study
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+    from pyvista import MultiBlock
+    from xarray import Dataset
 
 
 class Run(RunFolder):
-    """The results of a run in its folder. Nothing is read before it is asked for; tables are read once.
+    """The results of a run in its folder.
 
-    A run that goes on is read as it is now; make the Run again to see what has come since. Everything is in SI units.
+    Nothing is read before it is asked for; tables are read once. A run that goes on is read as it is now; make the Run
+    again to see what has come since. Everything is in SI units. At the end of a notebook's cell a Run shows its state
+    and its grains.
 
-    config: dict of dict -- the case with every default, as config.toml has it.
-    summary: dict -- run.json: status, steps, times, largest values.
-    title: str; path: pathlib.Path; domain: (Lx, Ly, Lz) [m].
+    Attributes
+    ----------
+    path : pathlib.Path
+        The run folder, which barchan.Run(path) takes.
+    title : str
+        Title of the case.
+    config : dict
+        The case with every default, as config.toml has it: {section: {key: value}}.
+    summary : dict
+        run.json: status, steps, times, largest values.
+    domain : tuple of float
+        Lengths of the domain (Lx, Ly, Lz) [m], None where no file tells.
 
-    Raises BarchanError where there is no such folder. What asks for a file that the run has not written raises
-    MissingData.
+    Raises
+    ------
+    BarchanError
+        Where there is no such folder.
+    MissingData
+        By what asks for a file that the run has not written.
     """
 
     def __repr__(self) -> str:
         return f"<barchan.Run {self.path}: {self.title}, {self.summary.get('status', 'status unknown')}>"
 
+    def _repr_html_(self) -> str:
+        from barchan.report import cell
+
+        return cell.html(self)
+
     # --- tables
 
     @cached_property
-    def history(self) -> Any:
-        """pandas.DataFrame of history.csv, indexed by t [s]; attrs["units"], attrs["long_names"]."""
+    def history(self) -> DataFrame:
+        """history.csv, indexed by t [s]; attrs["units"] and attrs["long_names"] say what the columns are."""
         if self.history_columns is None:
             raise MissingData("needs history.csv with at least one line")
         return labelled.data_frame(self.history_columns, columns.HISTORY).set_index("t")
 
     @cached_property
-    def dunes(self) -> Any:
-        """pandas.DataFrame of dune.csv, indexed by (dune, t [s]); run.dunes.loc[0] is the main dune.
+    def dunes(self) -> DataFrame:
+        """dune.csv, indexed by (dune, t [s]); run.dunes.loc[0] is the main dune.
 
         Cx and Cz are without jumps at a periodic boundary. horn_left_2d_1s and horn_right_2d_1s are the lengths of
         the horns that the figures show: medians over a second of what is two grains high.
@@ -57,8 +85,8 @@ class Run(RunFolder):
         return labelled.data_frame(joined, columns.DUNES).set_index(["dune", "t"])
 
     @cached_property
-    def body_forces(self) -> Any:
-        """pandas.DataFrame of bodies.csv, indexed by (body, t [s]); run.body_forces.loc[0] is the first [[body]]."""
+    def body_forces(self) -> DataFrame:
+        """bodies.csv, indexed by (body, t [s]); run.body_forces.loc[0] is the first [[body]]."""
         if self.body_columns is None:
             raise MissingData("needs bodies.csv with at least one line")
         tables = list(self.body_columns.values())
@@ -67,32 +95,32 @@ class Run(RunFolder):
         return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
 
     @cached_property
-    def statistics(self) -> Any:
-        """pandas.DataFrame of statistics.csv, indexed by y [m]: averages over planes and time."""
+    def statistics(self) -> DataFrame:
+        """statistics.csv, indexed by y [m]: averages over planes and time."""
         return self._read("statistics.csv", columns.STATISTICS, "[statistics]").set_index("y")
 
     @cached_property
-    def heaps(self) -> Any:
-        """pandas.DataFrame of heaps.csv, indexed by (dune, heap, t [s]): which grains each dune has."""
+    def heaps(self) -> DataFrame:
+        """heaps.csv, indexed by (dune, heap, t [s]): which grains each dune has."""
         return self._read("heaps.csv", columns.HEAPS, "[[initial.heap]]").set_index(["dune", "heap", "t"])
 
     @property
-    def encounters(self) -> Any:
-        """pandas.DataFrame of encounters.csv, one line for each; `./barchan plot RUN encounters` writes it."""
+    def encounters(self) -> DataFrame:
+        """encounters.csv, one line for each; `./barchan plot RUN encounters` writes it."""
         return self._read("encounters.csv", columns.ENCOUNTERS, "./barchan plot RUN encounters", text=("new_dunes",))
 
     @property
-    def obstacles(self) -> Any:
-        """pandas.DataFrame of obstacles.csv, one line for each dune and obstacle; `./barchan plot RUN obstacles` writes
-        it."""
+    def obstacles(self) -> DataFrame:
+        """obstacles.csv, one line for each dune and obstacle; `./barchan plot RUN obstacles` writes it."""
         return self._read("obstacles.csv", columns.OBSTACLES, "./barchan plot RUN obstacles", text=("obstacle",))
 
     @cached_property
-    def force_map(self) -> Any:
-        """pandas.DataFrame of force_map.csv: mean force on the grains in polar bins about the dune."""
+    def force_map(self) -> DataFrame:
+        """force_map.csv: mean force on the grains in polar bins about the dune."""
         return self._read("force_map.csv", columns.FORCE_MAP, "statistics.grain_forces = true")
 
-    def _read(self, name: str, about: dict[str, tuple[str, str]], source: str, text: Sequence[str] = ()) -> Any:
+    def _read(self, name: str, about: dict[str, tuple[str, str]], source: str,
+              text: Sequence[str] = ()) -> DataFrame:
         """A table that may have words in it. Raises MissingData, with what writes the table."""
         pandas = optional("pandas", "pandas")
         path = self.path / name
@@ -125,32 +153,65 @@ class Run(RunFolder):
 
     @property
     def grain_times(self) -> np.ndarray:
-        """Times of the frames of grains.h5 (n) [s]."""
+        """(n) times of the frames of grains.h5 [s]."""
         return self.need_grains().times
 
     @property
     def field_times(self) -> np.ndarray:
-        """Times of the frames of fields.h5 (n) [s]."""
+        """(n) times of the frames of fields.h5 [s]."""
         return self.need_fields().times
 
-    def grains(self, t: float | None = None, frame: int | None = None) -> Any:
-        """pandas.DataFrame of the grains at the frame nearest to t [s], or of number `frame`; the last by default.
+    def grains(self, t: float | None = None, frame: int | None = None) -> DataFrame:
+        """The grains of one frame, a row for each, indexed by id.
 
-        One row for each grain, indexed by id: x, y, z, d [m], u, v, w [m/s], omega_x, ... [rad/s], dune (label, -1: in
-        none), kind (an index of attrs["kinds"], the names) where there are several, and forces [N] where the run has
-        written them. Its time [s] is attrs["time"], units are attrs["units"].
+        Parameters
+        ----------
+        t : float, optional
+            Time [s], of which the nearest frame is taken.
+        frame : int, optional
+            Number of the frame, from the end if negative. Without `t` and `frame` the last is taken.
+
+        Returns
+        -------
+        pandas.DataFrame
+            x, y, z, d [m], u, v, w [m/s], omega_x, ... [rad/s], dune (label, -1: in none), kind (an index of
+            attrs["kinds"], the names) where there are several, and forces [N] where the run has written them.
+            attrs["time"] is the time of the frame [s], attrs["units"] are the units of the columns.
+
+        Raises
+        ------
+        MissingData
+            Where grains.h5 has no frame.
+        BarchanError
+            Where no frame is near `t`, there is none of that number, or both are given.
         """
         file = self.need_grains()
         return self._grains_of(file, file.index(t, frame))
 
-    def frames(self, progress: bool = True) -> Iterator[Any]:
-        """The same for every frame in turn; only one is in memory. A line of progress on standard error."""
+    def frames(self, progress: bool = True) -> Iterator[DataFrame]:
+        """The grains of every frame in turn; only one frame is in memory.
+
+        Parameters
+        ----------
+        progress : bool, optional
+            Whether a line on standard error tells how far it is.
+
+        Yields
+        ------
+        pandas.DataFrame
+            As of `grains`.
+
+        Raises
+        ------
+        MissingData
+            Where grains.h5 has no frame.
+        """
         file = self.need_grains()
         for index in Progress(range(len(file.frames)), "reading grains", progress):
             yield self._grains_of(file, index)
 
     @staticmethod
-    def _grains_of(file: FrameFile, index: int) -> Any:
+    def _grains_of(file: FrameFile, index: int) -> DataFrame:
         time, name = file.frames[index]
         with file.open() as content:
             group = content[name]
@@ -161,14 +222,35 @@ class Run(RunFolder):
         grains.attrs["kinds"] = kinds
         return grains
 
-    def track(self, ids: Sequence[int], progress: bool = True) -> Any:
-        """pandas.DataFrame of where grains are in every frame: id, t [s], x, y, z [m], one row for each that is inside.
+    def track(self, ids: Sequence[int], progress: bool = True) -> DataFrame:
+        """Where grains are in every frame.
 
         Frames are those of tracks.h5, which are close in time, else those of grains.h5. Positions at a periodic
         boundary jump by its length.
+
+        Parameters
+        ----------
+        ids : sequence of int
+            (n) ids of grains, such as the index of `grains`.
+        progress : bool, optional
+            Whether a line on standard error tells how far it is.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each grain and each frame in which it is inside: id, t [s], x, y, z [m].
+
+        Raises
+        ------
+        MissingData
+            Where there is no frame of grains.
+        BarchanError
+            Where ids are no whole numbers, or none of these grains is in any frame.
         """
         file = self.frame_file("tracks.h5", ("id", "x")) or self.need_grains()
-        wanted = np.unique(np.asarray(ids, dtype=np.int64))
+        wanted = np.unique(np.asarray(ids))
+        if wanted.size and wanted.dtype.kind not in "iu":
+            raise BarchanError("ids must be whole numbers, such as run.grains().index")
         parts: list[dict[str, np.ndarray]] = []
         with file.open() as content:
             for time, name in Progress(file.frames, "following grains", progress):
@@ -177,77 +259,130 @@ class Run(RunFolder):
                 x = content[name]["x"][:][rows].astype(float)
                 parts.append({"id": number[rows], "t": np.full(len(rows), time), **dict(zip("xyz", x.T))})
         joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        if wanted.size and not len(joined["id"]):
+            raise BarchanError(f"no frame of {file.path} has a grain with one of these ids")
         order = np.lexsort((joined["t"], joined["id"]))
         about = {"id": columns.GRAINS["id"], "t": ("s", "time"), **columns.AXES}
         return labelled.data_frame({name: values[order] for name, values in joined.items()}, about)
 
     # --- fields
 
-    def fields(self, t: float | None = None, frame: int | None = None) -> Any:
-        """xarray.Dataset of the flow at the frame nearest to t [s], or of number `frame`; the last by default.
+    @cached_property
+    def fields(self) -> Dataset:
+        """The flow of every frame of fields.h5: u, v, w [m/s], p [Pa], alpha_f, nu_t [m2/s] in the cell centres.
 
-        u, v, w [m/s], p [Pa], alpha_f, nu_t [m2/s] in the cell centres, dimensions (z, y, x), coordinates in metres,
-        units and long names as CF has them. A field is read where its values are used: run.fields().u.sel(z=0.02,
-        method="nearest") reads one plane.
+        Dimensions are time [s], z, y, x [m]. Coordinates, units, axes and the bounds of the cells (x_bnds (x, 2), ...)
+        are as CF has them, which calls the vertical axis, y, Z. A field is read where its values are used:
+        run.fields.u.sel(time=0.8, z=0.02, method="nearest") reads one plane of one frame. Raises MissingData where
+        fields.h5 has no frame.
         """
-        file = self.need_fields()
-        return labelled.dataset(file, file.index(t, frame))
+        return self._xarray().dataset(self.need_fields())
 
     @cached_property
-    def flow_average(self) -> Any:
-        """xarray.Dataset of flow_average.h5: means and second moments uu, vv, ... [m2/s2], as `fields`.
+    def flow_average(self) -> Dataset:
+        """flow_average.h5: means and second moments uu, vv, ... [m2/s2] over z, y, x, else as `fields`.
 
-        attrs: time (end of the window), window_start [s], n_samples.
+        attrs: time (end of the window), window_start [s], n_samples. Raises MissingData where there is no such file.
         """
-        file = self.frame_file("flow_average.h5", FIELDS_NEEDED)
+        file = self.frame_file("flow_average.h5", ("u", "v", "alpha_f"))
         if file is None:
             raise MissingData("needs flow_average.h5: a run with statistics.fields = true")
-        return labelled.dataset(file, len(file.frames) - 1)
+        return self._xarray().average(file)
+
+    @staticmethod
+    def _xarray() -> ModuleType:
+        optional("xarray", "xarray")
+        from barchan.io import fields
+
+        return fields
 
     # --- pictures
 
-    def figure(self, name: str, ax: Any = None, **options: Any) -> Any:
-        """The matplotlib Figure of that name (`./barchan plot --help` lists them; barchan.figures.registry.OF_RUN).
+    def figure(self, name: str, ax: Any = None, **options: Any) -> Figure:
+        """A figure of `./barchan plot`, without a file.
 
-        ax: an array of as many axes of your own as the figure has panels. Options as of the command line: start, end
-        (means from, to) and time [s]. figure.numbers has the numbers behind it, {table: {column: values}}.
+        Parameters
+        ----------
+        name : str
+            Name of the figure; `./barchan plot --help` and barchan.figures.registry.OF_RUN list them.
+        ax : matplotlib Axes or array of Axes, optional
+            Axes of your own, as many as the figure has panels.
+        **options
+            As of the command line: start, end (means from, to) and time [s].
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            figure.numbers has the numbers behind it, {table: {column: values}}.
+
+        Raises
+        ------
+        MissingData
+            Where the run has not what the figure needs.
+        BarchanError
+            Where there is no such figure, or it is a file, or a time is no number.
         """
         from barchan.figures import registry, style
 
         entry = registry.of_run(name)
+        options = in_seconds(options)
         if entry.writes:
             raise BarchanError(f"{name} is a file, not a figure: ./barchan plot {self.path} {name} writes it")
         with style.look():
             return entry.draw(self, ax=ax, **options) if ax is not None else entry.draw(self, **options)
 
-    def to_pyvista(self, t: float | None = None, frame: int | None = None) -> Any:
-        """pyvista.MultiBlock for the time t [s] or number `frame` of the grains: "grains" (a PolyData of their centres,
-        with d and all else as point data) and, where the run has fields, "flow" (a RectilinearGrid with cell data, of
-        the frame nearest in time).
+    def to_pyvista(self, t: float | None = None, frame: int | None = None) -> MultiBlock:
+        """Grains and flow of one time for PyVista.
+
+        Parameters
+        ----------
+        t : float, optional
+            Time [s], of which the nearest frame of the grains is taken.
+        frame : int, optional
+            Number of that frame, from the end if negative. Without `t` and `frame` the last is taken.
+
+        Returns
+        -------
+        pyvista.MultiBlock
+            "grains": a PolyData of their centres (N, 3) [m], with d and all else as point data. Where the run has
+            fields, "flow": a RectilinearGrid with cell data, of the frame nearest in time.
+
+        Raises
+        ------
+        MissingData
+            Where grains.h5 has no frame.
+        BarchanError
+            Where there is no such frame, or no PyVista.
         """
-        pyvista = optional("pyvista", "pyvista")
-        grains = self.grains(t, frame)
-        points = pyvista.PolyData(grains[["x", "y", "z"]].to_numpy())
-        points.point_data["id"] = grains.index.to_numpy()
-        for name in grains.columns.drop(["x", "y", "z"]):
-            points.point_data[name] = grains[name].to_numpy()
-        blocks = pyvista.MultiBlock({"grains": points})
-        if self.field_file is not None:
-            blocks["flow"] = self._rectilinear(pyvista, self.field_file, grains.attrs["time"])
-        return blocks
+        from barchan.api import scene
 
-    @staticmethod
-    def _rectilinear(pyvista: Any, file: FrameFile, time: float) -> Any:
-        _, name = file.frames[int(np.argmin(abs(file.times - time)))]
-        with file.open() as content:
-            grid = pyvista.RectilinearGrid(*(content["grid"][f"{axis}_face"][:] for axis in "xyz"))
-            for field in content[name]:
-                grid.cell_data[field] = content[name][field][:].ravel()  # x fastest, as VTK has it
-        return grid
+        return scene.multi_block(self, t, frame)
 
 
-def open_folder(path: str | Path) -> Any:
-    """A Run, or a Study where the folder has a study.json. Raises BarchanError where there is no such folder."""
+def in_seconds(options: dict[str, Any]) -> dict[str, Any]:
+    """Options of a figure, times among them as numbers. Raises BarchanError where one is none."""
+    return {name: seconds(name, value) if name in ("start", "end", "time") and value is not None else value
+            for name, value in options.items()}
+
+
+def open_folder(path: str | Path) -> Run | Study:
+    """The results in a folder; nothing is computed.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        The folder of a run or of a study.
+
+    Returns
+    -------
+    Run or Study
+        A Study where the folder has a study.json.
+
+    Raises
+    ------
+    BarchanError
+        Where there is no such folder, or its study.json cannot be read.
+    """
     from barchan.api.study import Study
 
     return Study(path) if (Path(path) / NAME).exists() else Run(path)

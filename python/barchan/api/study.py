@@ -1,19 +1,42 @@
 """A study: the runs of its cases and one table of all."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 from barchan.errors import optional
 from barchan.io import columns
 from barchan.io.study_folder import StudyFolder
-from barchan.api.run import Run
+from barchan.api.run import Run, in_seconds
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 
 class Study(StudyFolder):
     """The runs of a parameter study, as `./barchan sweep` leaves them; cases may be absent or unfinished.
 
-    cases: list of Case -- name, values {key: value}, runs (one Run for each realisation that is there), gap (why it is
-    not whole, None when it is).
-    keys: the keys that are varied. gaps: a sentence on what is missing, empty when nothing is.
+    study["base"] is the first run of a case, study["base-r2"] its second realisation; KeyError where it is not there.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        The folder of the study, which barchan.Study(path) takes.
+    title : str
+        Title of the study.
+    cases : list of Case
+        Each with name, values {key: value}, runs (a Run for each realisation that is there) and gap (why it is not
+        whole, None when it is).
+    keys : list of str
+        The keys that are varied.
+    gaps : str
+        A sentence on what is missing, empty when nothing is.
+
+    Raises
+    ------
+    BarchanError
+        Where study.json is not there or cannot be read.
     """
 
     run_class = Run
@@ -22,7 +45,6 @@ class Study(StudyFolder):
         return f"<barchan.Study {self.path}: {self.title}, {len(self.cases)} cases>"
 
     def __getitem__(self, name: str) -> Run:
-        """The first realisation of a case; study["base-r2"] is the second one. KeyError where it is not there."""
         case, _, number = name.rpartition("-r")
         for one in self.cases:
             if one.name == name and one.run:
@@ -34,11 +56,19 @@ class Study(StudyFolder):
         raise KeyError(f"no run {name} in {self.path}; it has "
                        + ", ".join(run.path.name for one in self.cases for run in one.runs))
 
-    def table(self) -> Any:
-        """pandas.DataFrame with one line for each time of each dune of each run.
+    def table(self) -> DataFrame:
+        """One table of all runs that have dunes.
 
-        Columns: case, realisation, status, every key that differs between the cases, then those of dune.csv;
-        attrs["units"] are of the latter. Runs without dunes have no line.
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each time of each dune of each run: case, realisation, status, every key that differs between the
+            cases, then the columns of dune.csv, of which attrs["units"] has the units.
+
+        Raises
+        ------
+        BarchanError
+            Where a file cannot be read.
         """
         pandas = optional("pandas", "pandas")
         parts = []
@@ -63,14 +93,37 @@ class Study(StudyFolder):
         keys = dict.fromkeys(key for case in self.cases for key in case.values if key != "case")
         return [key for key in keys if len({str(case.values.get(key)) for case in self.cases}) > 1]
 
-    def figure(self, name: str, ax: Any = None, key: str | None = None, **options: Any) -> Any:
-        """The matplotlib Figure of that name over the cases (barchan.figures.registry.OF_STUDY; or fig4 to fig9).
+    def figure(self, name: str, ax: Any = None, key: str | None = None, **options: Any) -> Figure:
+        """A figure over the cases.
 
-        key: which varied key, where the study varies several. ax, options and figure.numbers as of Run.figure.
+        Parameters
+        ----------
+        name : str
+            Name of the figure; `./barchan plot --help` and barchan.figures.registry.OF_STUDY list them. fig4 to fig9
+            are names, too.
+        ax : matplotlib Axes or array of Axes, optional
+            Axes of your own, as many as the figure has panels.
+        key : str, optional
+            Which varied key, where the study varies several; else the first.
+        **options
+            As of the command line: start, end (means from, to) [s].
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            figure.numbers has the numbers behind it, {table: {column: values}}.
+
+        Raises
+        ------
+        MissingData
+            Where the study has not what the figure needs.
+        BarchanError
+            Where there is no such figure, or a time is no number.
         """
         from barchan.figures import registry, style
 
         entry, of_paper = registry.of_study(name)
+        options = in_seconds(options)
         if entry.by_key:
             options["key"] = key or of_paper or self.keys[0]
         if ax is not None:

@@ -21,7 +21,20 @@ MEASURED = ("n_grains", "W", "L", "H", "Cx", "Cy", "Cz", "horn_left", "horn_righ
 
 
 def labels(grains: Grains, bed: Bed) -> np.ndarray:
-    """(N) int: the dune of each grain, 0 for the one of most sand; -1 for grains in none or outside the domain."""
+    """Which dune each grain of a frame is of.
+
+    Parameters
+    ----------
+    grains : Grains
+        The frame: x (N, 3), d (N) [m].
+    bed : Bed
+        What the grains lie on.
+
+    Returns
+    -------
+    numpy.ndarray
+        (N) int: 0 for the dune of most sand; -1 for grains in none or outside the domain.
+    """
     diameter = float(grains.d.mean())
     shape = number_of_bins(bed, diameter)
     size = np.array(bed.lengths) / shape
@@ -72,9 +85,23 @@ def largest_around(values: np.ndarray, periodic: tuple) -> np.ndarray:
 
 
 def measure(grains: Grains, rows: np.ndarray, bed: Bed) -> dict[str, float]:
-    """Size, centroid, crest and horns of the dune of these rows, by the names of dune.csv [m; volume: m3].
+    """Size, centroid, crest and horns of one dune.
 
     Cx, Cz and crest_x lie in the domain, also of a dune across a periodic seam.
+
+    Parameters
+    ----------
+    grains : Grains
+        The frame: x (N, 3), d (N) [m].
+    rows : numpy.ndarray
+        (n) places of the dune's grains in the frame.
+    bed : Bed
+        What the grains lie on.
+
+    Returns
+    -------
+    dict of str to float
+        By the names of dune.csv [m; volume: m3].
     """
     sand, mean = Sand.of(grains, rows, bed), float(grains.d.mean())
     x, z, radius, surface, c = sand.x, sand.z, sand.radius, sand.surface, sand.centroid.copy()
@@ -117,7 +144,20 @@ def foot_and_horns(sand: Sand, chosen: np.ndarray, crest: float,
 
 
 def dunes(grains: Grains, bed: Bed) -> list[Dune]:
-    """The dunes of a frame, that of most sand first, for slopes, fluxes and forces of grains without dune.csv."""
+    """The dunes of a frame, for slopes, fluxes and forces of grains without dune.csv.
+
+    Parameters
+    ----------
+    grains : Grains
+        The frame: x (N, 3), d (N) [m].
+    bed : Bed
+        What the grains lie on.
+
+    Returns
+    -------
+    list of Dune
+        That of most sand first.
+    """
     label = labels(grains, bed)
     each = [np.nonzero(label == number)[0] for number in range(label.max(initial=-1) + 1)]
     return [find(grains, rows, bed, measure(grains, rows, bed)) for rows in each]

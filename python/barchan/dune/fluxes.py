@@ -15,15 +15,44 @@ DEEP = 6.0         # ... in bins that are at least so high, and their neighbours
 
 
 def volumes(d: np.ndarray) -> np.ndarray:
+    """Volumes of spheres.
+
+    Parameters
+    ----------
+    d : numpy.ndarray
+        Diameters [m].
+
+    Returns
+    -------
+    numpy.ndarray
+        Volumes [m3], of the same shape.
+    """
     return np.pi / 6 * d**3
 
 
 def crossings(before: Grains, after: Grains, bed: Bed, x: float, z: float,
               half_width: float) -> tuple[float, int]:
-    """(net volume [m3], number) of grains that crossed the line `x` downstream within abs(z' - z) < half_width.
+    """Sand that crossed a line across the flow between two frames.
 
-    Between two frames, ordered by id. The net volume does not depend on the ways between the frames. The number is that
-    of crossings, back and forth; grains that left the domain between the frames count as none.
+    Parameters
+    ----------
+    before, after : Grains
+        The two frames: id (N), x (N, 3), d (N) [m]; a grain moves less than half a period between them.
+    bed : Bed
+        What the grains lie on.
+    x : float
+        Place of the line along the flow [m].
+    z : float
+        Its middle across the flow [m].
+    half_width : float
+        Half its length [m].
+
+    Returns
+    -------
+    volume : float
+        Net solid volume that crossed it downstream [m3]. It does not depend on the ways between the frames.
+    number : int
+        Crossings, back and forth; grains that left the domain between the frames count as none.
     """
     ids, a, b = np.intersect1d(before.id, after.id, assume_unique=True, return_indices=True)
     start = bed.nearest(before.x[a] - (x, 0, z))
@@ -37,7 +66,20 @@ def crossings(before: Grains, after: Grains, bed: Bed, x: float, z: float,
 
 
 def packing(grains: Grains, dune: Dune) -> float:
-    """Solid volume over volume inside the dune, two to four diameters above the floor; NaN in a dune too low."""
+    """Packing fraction inside a dune, two to four mean diameters above the floor.
+
+    Parameters
+    ----------
+    grains : Grains
+        The frame: x (N, 3), d (N) [m].
+    dune : Dune
+        The dune.
+
+    Returns
+    -------
+    float
+        Solid volume over volume; NaN in a dune too low.
+    """
     rows, surface = dune.rows, dune.surface
     low, high = (level * grains.d.mean() for level in SLAB)
     deep = surface.lowest >= DEEP * grains.d.mean()
@@ -50,7 +92,20 @@ def packing(grains: Grains, dune: Dune) -> float:
 
 
 def solid_height(grains: Grains, dune: Dune) -> float:
-    """phi H at the crest of a dune of any height: solid volume over floor area of a bin to each side of it [m]."""
+    """Packing fraction times height, phi H, at the crest of a dune of any height.
+
+    Parameters
+    ----------
+    grains : Grains
+        The frame: d (N) [m].
+    dune : Dune
+        The dune.
+
+    Returns
+    -------
+    float
+        Solid volume over floor area of a bin to each side of the crest [m].
+    """
     d = grains.d.mean()
     near = (abs(dune.x - dune.crest_x) < BIN * d) & (abs(dune.z - dune.centroid[2]) < HALF_WIDTH * d)
     return float(np.sum(volumes(grains.d[dune.rows][near])) / (4 * BIN * HALF_WIDTH * d**2))
@@ -65,9 +120,25 @@ def slice_volumes(low: np.ndarray, high: np.ndarray, r: np.ndarray) -> np.ndarra
 
 
 def shares(grains: Grains, dune: Dune) -> tuple[float, ...]:
-    """KINDS: shares of the dune's streamwise volume flux, NaN where it is zero.
+    """How the grains of a dune move: shares of its streamwise volume flux.
 
-    Of grains whose lower edge is above the surface; whose upper edge is less than a diameter below it; of those deeper.
+    Parameters
+    ----------
+    grains : Grains
+        The frame: x (N, 3), d (N) [m], u (N, 3) [m/s].
+    dune : Dune
+        The dune.
+
+    Returns
+    -------
+    tuple of float
+        (3) of saltation (grains whose lower edge is above the surface), rolling (whose upper edge is less than a mean
+        diameter below it) and creep (deeper); NaN where the flux is zero.
+
+    Raises
+    ------
+    MissingData
+        Where the frame has no velocities.
     """
     if grains.u is None:
         raise MissingData("needs frames with the velocities of the grains")

@@ -24,10 +24,22 @@ LEFT, RIGHT = -1, 1
 
 @dataclass
 class Heap:
-    """The first frame: ids (N), x (N, 3) relative to the heap's centroid [m], its radius R [m].
+    """The heap that a run starts from.
 
-    R = (W + L)/4 of the main dune at that time; `own` (N): which grains belong to it and not to
-    another dune. phi (N) [degrees] and r (N) [in units of R].
+    Attributes
+    ----------
+    id : numpy.ndarray
+        (N) ids of the grains of the first frame, ascending.
+    x : numpy.ndarray
+        (N, 3) places relative to the heap's centroid [m].
+    R : float
+        Radius of the heap: (W + L)/4 of the main dune at that time [m].
+    own : numpy.ndarray
+        (N) bool: which grains belong to it and not to another dune.
+    phi : numpy.ndarray
+        (N) polar angles [degrees].
+    r : numpy.ndarray
+        (N) distances from the centroid [R].
     """
 
     id: np.ndarray
@@ -44,7 +56,18 @@ class Heap:
         return np.hypot(self.x[:, 0], self.x[:, 2]) / self.R
 
     def rows(self, ids: np.ndarray) -> np.ndarray:
-        """Where `ids` are in the heap; ids that are not there are left out."""
+        """Where grains are in the arrays of the heap.
+
+        Parameters
+        ----------
+        ids : numpy.ndarray
+            Ids of grains.
+
+        Returns
+        -------
+        numpy.ndarray
+            Their places; ids that are not in the heap are left out.
+        """
         at = np.minimum(np.searchsorted(self.id, ids), len(self.id) - 1)
         return at[self.id[at] == ids]
 
@@ -53,9 +76,20 @@ class Heap:
 class Horns:
     """The horns in each of F frames.
 
-    t (F) [s]; left, right (F): horn lengths [m]; centroid (F, 3) [m], periodic images undone, NaN
-    while there is no main dune; ids, sides: lists of F arrays, the grains in the horns and which
-    (-1 left, +1 right).
+    Attributes
+    ----------
+    t : numpy.ndarray
+        (F) times [s].
+    left, right : numpy.ndarray
+        (F) lengths of the horns [m].
+    centroid : numpy.ndarray
+        (F, 3) centroid of the main dune, periodic images undone; NaN while there is none [m].
+    ids : list of numpy.ndarray
+        (F) ids of the grains in the horns.
+    sides : list of numpy.ndarray
+        (F) which horn each of them is in: -1 left, +1 right.
+    heap : Heap
+        The heap of the first frame.
     """
 
     t: np.ndarray
@@ -67,11 +101,39 @@ class Horns:
     heap: Heap
 
     def ever(self, last: int) -> np.ndarray:
-        """Ids of the grains that were in a horn at any frame up to `last`, ascending."""
+        """Grains that were in a horn.
+
+        Parameters
+        ----------
+        last : int
+            Number of the last frame that counts.
+
+        Returns
+        -------
+        numpy.ndarray
+            Their ids, ascending.
+        """
         return np.unique(np.concatenate(self.ids[:last + 1]))
 
     def visits(self, ids: np.ndarray, last: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(first, latest, side) of each grain: frames in which it was in a horn, which one first."""
+        """When grains were in a horn.
+
+        Parameters
+        ----------
+        ids : numpy.ndarray
+            (n) ids of grains.
+        last : int
+            Number of the last frame that counts.
+
+        Returns
+        -------
+        first : numpy.ndarray
+            (n) number of the first frame in which each was in a horn, -1 for none.
+        latest : numpy.ndarray
+            (n) number of the last one, -1 for none.
+        side : numpy.ndarray
+            (n) the horn it was in first: -1 left, +1 right, 0 none.
+        """
         first, latest = np.full(len(ids), -1), np.full(len(ids), -1)
         side = np.zeros(len(ids), int)
         for frame in range(last + 1):
@@ -82,28 +144,90 @@ class Horns:
         return first, latest, side
 
     def upstream(self, ids: np.ndarray) -> float:
-        """Share of `ids` that came from the upstream half of the heap; NaN for none."""
+        """Share of grains that came from the upstream half of the heap.
+
+        Parameters
+        ----------
+        ids : numpy.ndarray
+            Ids of grains.
+
+        Returns
+        -------
+        float
+            The share; NaN for none.
+        """
         return share_upstream(self.heap.phi[self.heap.rows(ids)])
 
 
 def polar_angle(x: np.ndarray) -> np.ndarray:
-    """phi [degrees] in [0, 360) of positions (..., 3) relative to a centroid."""
+    """Polar angles of places: 0 downstream, 90 left (z < 0), 270 right.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        (..., 3) places relative to a centroid [m].
+
+    Returns
+    -------
+    numpy.ndarray
+        (...) angles in [0, 360) [degrees].
+    """
     return np.degrees(np.arctan2(-x[..., 2], x[..., 0])) % 360.0
 
 
 def share_upstream(phi: np.ndarray) -> float:
-    """Share of angles [degrees] in the upstream half; NaN for none."""
+    """Share of angles in the upstream half.
+
+    Parameters
+    ----------
+    phi : numpy.ndarray
+        (n) polar angles [degrees].
+
+    Returns
+    -------
+    float
+        The share; NaN for none.
+    """
     return float(np.mean((phi > 90) & (phi < 270))) if len(phi) else np.nan
 
 
 def in_sectors(phi: np.ndarray, sectors: Sequence[tuple[float, float]]) -> np.ndarray:
-    """Which angles lie in one of the sectors ((from, to), ...) [degrees], ends included."""
+    """Which angles lie in sectors.
+
+    Parameters
+    ----------
+    phi : numpy.ndarray
+        (n) polar angles [degrees].
+    sectors : sequence of tuple of float
+        ((from, to), ...), ends included [degrees].
+
+    Returns
+    -------
+    numpy.ndarray
+        (n) bool: in one of them.
+    """
     return np.any([(phi >= low) & (phi <= high) for low, high in sectors], axis=0)
 
 
 @lru_cache(maxsize=4)
 def find_horns(run: RunFolder) -> Horns:
-    """The horns in all frames of a run."""
+    """The horns in all frames of a run.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+
+    Returns
+    -------
+    Horns
+        Of the frames of tracks.h5, else of those of grains.h5.
+
+    Raises
+    ------
+    MissingData
+        Where there are no such frames, no dune.csv, or no heap of at least 100 grains in the first frame.
+    """
     source = tracks(run)
     heap, lengths, centroids, ids, sides = None, [], [], [], []
     centroid = None
@@ -145,10 +269,25 @@ def members(grains: Grains, dune: Dune | None) -> tuple[np.ndarray, np.ndarray]:
 
 
 def follow(run: RunFolder, ids: np.ndarray, frames: np.ndarray) -> np.ndarray:
-    """Paths (len(frames), len(ids), 3) [m] of grains from the first frame on, about the heap's centroid.
+    """Paths of grains from the first frame on, about the centroid of the heap.
 
-    Periodic images are undone from frame to frame: a grain moves less than half a period between two
-    frames that are next to each other in the file. NaN from when a grain has left.
+    Periodic images are undone from frame to frame: a grain moves less than half a period between two frames that are
+    next
+    to each other in the file.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    ids : numpy.ndarray
+        (n) ids of grains.
+    frames : numpy.ndarray
+        (F) numbers of frames.
+
+    Returns
+    -------
+    numpy.ndarray
+        (F, n, 3) places [m]; NaN from when a grain has left.
     """
     source, heap = tracks(run), find_horns(run).heap
     frames = np.asarray(frames)

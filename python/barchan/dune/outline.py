@@ -14,7 +14,21 @@ from barchan.io.run_folder import RunFolder
 
 @dataclass
 class Outline:
-    """h [m] at x [m] along the centreline z [m]; the dune reaches from x = foot to foot + length."""
+    """The outline of a dune in its vertical plane of symmetry.
+
+    Attributes
+    ----------
+    x : numpy.ndarray
+        (n) places along the flow, ascending [m].
+    h : numpy.ndarray
+        (n) heights [m].
+    z : float
+        Place of the plane across the flow [m].
+    foot : float
+        Place of the toe along the flow [m].
+    length : float
+        Length of the dune [m].
+    """
 
     x: np.ndarray
     h: np.ndarray
@@ -23,11 +37,39 @@ class Outline:
     length: float
 
     def height(self, x: float) -> float:
+        """Height at a place, linear between those of the outline.
+
+        Parameters
+        ----------
+        x : float
+            Place along the flow [m].
+
+        Returns
+        -------
+        float
+            Height [m], zero beyond the outline.
+        """
         return float(np.interp(x, self.x, self.h, left=0.0, right=0.0))
 
 
 def main_outline(run: RunFolder) -> Outline:
-    """Of the main dune in the last frame of grains.h5; sand between the horns is not of it."""
+    """The outline of the main dune in the last frame of grains.h5. Sand between the horns is not of it.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+
+    Returns
+    -------
+    Outline
+        The outline.
+
+    Raises
+    ------
+    MissingData
+        Where that frame has no dune with grains on its centreline.
+    """
     grains, bed = run.frame(-1), tracks(run).bed
     dune = tracks(run).main_dune(grains)
     if dune is None or not np.isfinite(dune.lee_foot):

@@ -20,13 +20,32 @@ MAIN = 0           # label of the first dune of a run, the largest one then
 
 @dataclass
 class Bed:
-    """What a dune lies on: lengths (Lx, Lz) [m] and whether x and z are periodic."""
+    """What a dune lies on.
+
+    Attributes
+    ----------
+    lengths : tuple of float
+        Lengths of the domain (Lx, Lz) [m].
+    periodic : tuple of bool
+        Whether it is periodic along x and z.
+    """
 
     lengths: tuple
     periodic: tuple
 
     def nearest(self, difference: np.ndarray) -> np.ndarray:
-        """Differences of positions, (..., 3) [m], to the nearest periodic image."""
+        """Differences of places, to the nearest periodic image.
+
+        Parameters
+        ----------
+        difference : numpy.ndarray
+            (..., 3) differences [m].
+
+        Returns
+        -------
+        numpy.ndarray
+            (..., 3) the shortest ones [m].
+        """
         result = np.array(difference, float)
         for axis, length, periodic in zip((0, 2), self.lengths, self.periodic):
             if periodic:
@@ -36,11 +55,26 @@ class Bed:
 
 @dataclass
 class Dune:
-    """One dune: `rows` (n) of its grains in the frame, their x, z (n) [m] with periodic images undone.
+    """One dune among the grains of a frame.
 
-    Centroid (3) [m]; size, crest and horns are of dune.csv [m]. `toe` and `lee_foot` are the ends of the centreline, up
-    and down the stream, infinite when no sand lies there. `side` (n): -1 in the left horn, +1 in the right, 0.
-    `surface` is that of its grains.
+    Attributes
+    ----------
+    rows : numpy.ndarray
+        (n) places of its grains in the frame.
+    x, z : numpy.ndarray
+        (n) places of its grains, periodic images undone [m].
+    centroid : numpy.ndarray
+        (3) centroid [m].
+    W, L, H, crest_x : float
+        Width, length, height and place of the crest, of dune.csv [m].
+    toe, lee_foot : float
+        Ends of the centreline, up and down the stream, infinite where no sand lies there [m].
+    horn_left, horn_right : float
+        Lengths of the horns, of dune.csv [m].
+    side : numpy.ndarray
+        (n) -1 for a grain in the left horn, +1 in the right, 0 in none.
+    surface : Surface
+        Surface of its grains.
     """
 
     rows: np.ndarray

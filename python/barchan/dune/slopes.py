@@ -19,8 +19,21 @@ FEWEST = 3            # columns that make a line
 
 @dataclass
 class Slopes:
-    """x, h (n) [m]: the centreline. Angles [degrees], NaN where a side has too few columns. brink_x [m]: where the
-    slip face begins; crest_height [m]. `faces`: (x, h) of the two ends of the fitted lines, stoss side first."""
+    """Slopes of a dune along its centreline.
+
+    Attributes
+    ----------
+    x, h : numpy.ndarray
+        (n) the centreline [m].
+    crest_height : float
+        Its highest point [m].
+    stoss, slip_face : float
+        Angles of the upstream and of the downstream side [degrees], NaN where a side has too few columns.
+    brink_x : float
+        Where the slip face begins [m].
+    faces : list
+        Of the stoss side and of the slip face (x, h) of the two ends of the fitted line, (2) each [m].
+    """
 
     x: np.ndarray
     h: np.ndarray
@@ -32,7 +45,20 @@ class Slopes:
 
 
 def slopes(dune: Dune, diameter: float) -> Slopes | None:
-    """Of a dune that has sand on its centreline, else None."""
+    """Slopes of a dune.
+
+    Parameters
+    ----------
+    dune : Dune
+        The dune.
+    diameter : float
+        Mean diameter of the grains [m].
+
+    Returns
+    -------
+    Slopes or None
+        None for a dune without sand on its centreline.
+    """
     if not np.isfinite(dune.lee_foot):
         return None
     x, h = dune.surface.profile(dune.centroid[2], HALF_WIDTH * diameter)
@@ -41,6 +67,22 @@ def slopes(dune: Dune, diameter: float) -> Slopes | None:
 
 
 def of_profile(x: np.ndarray, h: np.ndarray, crest_x: float) -> Slopes:
+    """Slopes of a profile of heights.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        (n) places along the flow, ascending [m].
+    h : numpy.ndarray
+        (n) heights [m].
+    crest_x : float
+        Place of the crest [m].
+
+    Returns
+    -------
+    Slopes
+        Of lines through the heights between 0.2 and 0.8 of the highest, and from the brink down to 0.2 of it.
+    """
     top = h.max()
     rising = (x < crest_x) & (h >= LOW * top) & (h <= HIGH * top)
     brink = find_brink(x, h, crest_x)
@@ -72,8 +114,21 @@ def find_brink(x: np.ndarray, h: np.ndarray, crest_x: float) -> float:
 
 
 def asymmetry(surface: Surface, z: float) -> float:
-    """Mean difference of the heights at equal distances left and right of the plane `z` over their mean sum: 0 for a
-    dune that is its own mirror image, 1 for one that lies on one side."""
+    """How far a dune is from being its own mirror image about a plane along the flow.
+
+    Parameters
+    ----------
+    surface : Surface
+        Surface of the dune.
+    z : float
+        Place of the plane across the flow [m].
+
+    Returns
+    -------
+    float
+        Mean difference of the heights at equal distances left and right of the plane over their mean sum: 0 for a dune
+        that is its own mirror image, 1 for one that lies on one side.
+    """
     mirrored = surface.at(surface.x, 2 * z - surface.z)
     whole = surface.h + mirrored
     return float(np.sum(abs(surface.h - mirrored)) / np.sum(whole)) if whole.any() else np.nan

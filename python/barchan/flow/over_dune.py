@@ -10,7 +10,20 @@ STILL = 0.01  # of U_delta: slower water has no direction
 
 
 def friction_velocity(run: Any, average: FlowAverage) -> float:
-    """u_star of the walls [m/s]: mean of history.csv over the window, else of the lowest cells."""
+    """Friction velocity of the walls during a time average.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    average : FlowAverage
+        Its mean flow.
+
+    Returns
+    -------
+    float
+        u_star [m/s]: the mean of history.csv over the window, else that of the mean flow in the lowest cells.
+    """
     history = run.history_columns
     if history is not None and "u_star" in history:
         inside = (history["t"] >= average.start) & (history["t"] <= average.end)
@@ -22,11 +35,23 @@ def friction_velocity(run: Any, average: FlowAverage) -> float:
 
 
 def in_streamline_axes(fields: dict[str, np.ndarray], still: float) -> dict[str, np.ndarray]:
-    """Rotates means and moments (arrays of one shape) into the local direction of the mean flow.
+    """Rotates means and second moments into the local direction of the mean flow.
 
-    The angle is kept within a quarter turn of x, so that u is negative in reversed flow; it is zero where
-    the water is slower than `still` [m/s] and so has no direction. Returns angle [rad], u along it [m/s]
-    and the moments along (uu), across (vv) and of both (uv) [m^2/s^2].
+    The angle is kept within a quarter turn of x, so that u is negative in reversed flow; it is zero where the water has
+    no
+    direction.
+
+    Parameters
+    ----------
+    fields : dict of str to numpy.ndarray
+        u, v [m/s], uu, vv, uv [m2/s2], arrays of one shape.
+    still : float
+        Speed below which water has no direction [m/s].
+
+    Returns
+    -------
+    dict of str to numpy.ndarray
+        Of the same shape: angle [rad], u along it [m/s], moments along (uu), across (vv) and of both (uv) [m2/s2].
     """
     u, v = fields["u"], fields["v"]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -40,7 +65,23 @@ def in_streamline_axes(fields: dict[str, np.ndarray], still: float) -> dict[str,
 
 
 def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> list[dict[str, Any]]:
-    """For each x/L the water above the surface: dicts of y_d [m] and SI fields, from the lowest cell up."""
+    """Profiles of the mean flow above the surface of a dune.
+
+    Parameters
+    ----------
+    average : FlowAverage
+        The mean flow.
+    outline : Outline
+        Outline of the dune.
+    stations : numpy.ndarray
+        (n) places along the dune, in units of its length from its toe.
+
+    Returns
+    -------
+    list of dict
+        (n) of station [1], x, z and height h of the surface [m], and, from the lowest cell up, arrays (m): distance y_d
+        from the surface [m], v [m/s] and what `in_streamline_axes` returns.
+    """
     points = outline.foot + stations * outline.length
     columns = average.above(points, outline.z)
     rotated = in_streamline_axes(columns.fields, STILL * average.top)
@@ -56,11 +97,25 @@ def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> lis
 
 
 def separation_bubble(average: FlowAverage, outline: Any, behind: float = 2.0) -> dict[str, float]:
-    """Where the mean flow in the lowest cells above the surface runs backwards behind the crest, in m.
+    """Where the mean flow in the lowest cells above the surface runs backwards behind the crest.
 
-    Along the plane of the outline, from its highest point to `behind` lengths of the dune after its lee foot. Returns
-    separation and reattachment (x [m]) and length [m], not numbers where no water runs backwards. It is known within a
-    cell along the flow, and its ends within the height of the lowest cell.
+    It is looked for in the plane of the outline, from its highest point. It is known within a cell along the flow, and
+    its
+    ends within the height of the lowest cell.
+
+    Parameters
+    ----------
+    average : FlowAverage
+        The mean flow.
+    outline : Outline
+        Outline of the dune.
+    behind : float, optional
+        How far behind the lee foot it is looked for, in lengths of the dune.
+
+    Returns
+    -------
+    dict of str to float
+        separation, reattachment (x) and length [m]; NaN where no water runs backwards.
     """
     crest = float(outline.x[np.argmax(outline.h)])
     end = min(outline.foot + (1.0 + behind) * outline.length, float(average.x[-1]))
@@ -72,9 +127,22 @@ def separation_bubble(average: FlowAverage, outline: Any, behind: float = 2.0) -
 
 
 def backflow(x: np.ndarray, u: np.ndarray) -> dict[str, float]:
-    """separation, reattachment and length [m] of the longest stretch with u (n) < 0 along x (n) [m], ascending.
+    """The longest stretch of reversed flow along a line.
 
-    The ends are where u is zero on straight lines between the points; a stretch that reaches an end of x is cut there.
+    Its ends are where u is zero on straight lines between the points; a stretch that reaches an end of the line is cut
+    there.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        (n) places, ascending [m].
+    u : numpy.ndarray
+        (n) velocity along the line [m/s].
+
+    Returns
+    -------
+    dict of str to float
+        separation, reattachment (x) and length [m]; NaN where u is nowhere negative.
     """
     back = np.concatenate([[False], u < 0, [False]])
     first, after = (np.nonzero(np.diff(back.astype(int)) == way)[0] for way in (1, -1))

@@ -29,7 +29,27 @@ def weights(centres: np.ndarray, at: float) -> tuple[int, float]:
 
 
 class FlowAverage:
-    """start, end of the window [s]; top is the plane mean of u in the uppermost row of cells [m/s]."""
+    """The mean flow and its second moments: flow_average.h5.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+
+    Attributes
+    ----------
+    start, end : float
+        The window of time [s].
+    x, y, z : numpy.ndarray
+        Centres of the cells [m].
+    top, bottom : float
+        Mean of u over the plane of the uppermost and of the lowest cells [m/s].
+
+    Raises
+    ------
+    MissingData
+        Where there is no such file, or no complete frame in it.
+    """
 
     def __init__(self, run: RunFolder) -> None:
         path = run.path / NAME
@@ -47,7 +67,20 @@ class FlowAverage:
             self.bottom = float(group["u"][:, 0, :].mean())
 
     def above(self, points: np.ndarray, z: float) -> Columns:
-        """Columns over each x of `points` in the plane `z` [m], linear between cell centres."""
+        """The flow over points of a plane along x, linear between cell centres.
+
+        Parameters
+        ----------
+        points : numpy.ndarray
+            (n) places along x [m].
+        z : float
+            Place of the plane across the flow [m].
+
+        Returns
+        -------
+        Columns
+            y (ny) [m] and fields u, v [m/s], uu, vv, uv [m2/s2], each (n, ny).
+        """
         k, beside = weights(self.z, z)
         result: dict[str, list[np.ndarray]] = {name: [] for name in USED}
         with self.file.open() as file:

@@ -1,20 +1,41 @@
 """Files of frames: grains.h5, fields.h5, tracks.h5 and flow_average.h5."""
 
+import operator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from barchan.errors import BarchanError
+from barchan.errors import BarchanError, seconds
 from barchan.io.hdf5 import Group, Root, open_file, patiently
 
 
 @dataclass
 class Grains:
-    """Grains of one frame: id (N), x (N, 3) [m], d (N) [m]; dune (N): its label, -1: none; u (N, 3) [m/s].
+    """Grains of one frame. What the frame has not is None.
 
-    heap (N): number of the heap that each came from, the place of its name in heaps; kind (N): that of its kind in
-    kinds. dune, u, heap and kind are None where the frame has none.
+    Attributes
+    ----------
+    time : float
+        Time [s].
+    id : numpy.ndarray
+        (N) ids, ascending.
+    x : numpy.ndarray
+        (N, 3) centres [m].
+    d : numpy.ndarray
+        (N) diameters [m].
+    dune : numpy.ndarray, optional
+        (N) label of the dune, -1: in none.
+    u : numpy.ndarray, optional
+        (N, 3) velocities [m/s].
+    heap : numpy.ndarray, optional
+        (N) number of the heap that each came from, the place of its name in `heaps`.
+    heaps : tuple of str
+        Names of the heaps.
+    kind : numpy.ndarray, optional
+        (N) number of the kind, the place of its name in `kinds`.
+    kinds : tuple of str
+        Names of the kinds.
     """
 
     time: float
@@ -70,6 +91,14 @@ class Flow:
     alpha_f: np.ndarray
 
 
+def whole(frame: object) -> int:
+    """The number of a frame; else a BarchanError."""
+    try:
+        return operator.index(frame)  # type: ignore[arg-type]
+    except TypeError:
+        raise BarchanError(f"frame must be a whole number, and is {frame!r}") from None
+
+
 def frame_names(file: Group) -> list[str]:
     """Of an open file: frame_000000 to frame_000249, then, in groups, frame_group_001/frame_000250 and so on."""
     names = [name for name in file if name.startswith("frame_")]
@@ -118,12 +147,11 @@ class FrameFile:
         if t is not None and frame is not None:
             raise BarchanError("give t or frame, not both")
         if t is None:
-            wanted = -1 if frame is None else int(frame)
+            wanted = -1 if frame is None else whole(frame)
             if not -count <= wanted < count:
                 raise BarchanError(f"no frame {wanted} in {self.path}: it has {count}, 0 to {count - 1}")
             return wanted % count
-        if isinstance(t, str) or np.ndim(t) != 0:
-            raise BarchanError(f"t must be a number, a time in seconds, and is {t!r}")
+        t = seconds("t", t)
         reach = np.diff(times).max() if count > 1 else 0.0
         if not times[0] - reach * (1 + 1e-9) <= t <= times[-1] + reach * (1 + 1e-9):
             raise BarchanError(f"no frame near t = {t:g} s in {self.path}: it has {times[0]:g} to {times[-1]:g} s")

@@ -16,7 +16,7 @@ ABSENT = 65535  # a grain that has left; positions use 0 to 65534
 COLOURS = 32
 
 
-def pack(run):
+def pack(run, most_frames=MOST_FRAMES, most_grains=MOST_GRAINS):
     """(facts, data): a dictionary for JSON, and the grains in base64.
 
     The data are unsigned 16-bit integers, little-endian: d (n), then for each frame x (n), y (n), z (n)
@@ -24,8 +24,8 @@ def pack(run):
     low + q (high - low)/65534 of its `bounds`, d for q d_max/65534.
     """
     file = run.need_grains()
-    chosen = evenly(len(file.frames), MOST_FRAMES)
-    kept, largest = kept_ids(run, chosen)
+    chosen = evenly(len(file.frames), most_frames)
+    kept, largest = kept_ids(run, chosen, most_grains)
     frames, times, diameters, group, groups = [], [], np.zeros(len(kept)), np.zeros(len(kept), "<u2"), ()
     for index in chosen:
         grains = run.frame(index)
@@ -49,7 +49,7 @@ def pack(run):
     words = [quantise(diameters, 0.0, facts["dMax"])]
     words += [quantise(x[:, axis], *bounds[axis]) for x in positions for axis in range(3)]
     words += [group] if groups else []
-    facts["note"] = note(len(kept), largest, len(chosen), len(file.frames))
+    facts["note"] = note(len(kept), largest, -(-largest // most_grains), len(chosen), len(file.frames))
     return facts, base64.b64encode(np.concatenate(words).tobytes()).decode()
 
 
@@ -58,11 +58,11 @@ def evenly(n, most):
     return np.unique(np.linspace(0, n - 1, min(n, most)).round().astype(int))
 
 
-def kept_ids(run, chosen):
+def kept_ids(run, chosen, most=MOST_GRAINS):
     """The ids to show, every k-th of the grains that are in any of the frames, and how many these are."""
     with run.grain_file.open() as file:
         ids = np.unique(np.concatenate([file[run.grain_file.frames[index][1]]["id"][:] for index in chosen]))
-    return ids[::max(1, -(-len(ids) // MOST_GRAINS))], len(ids)
+    return ids[::max(1, -(-len(ids) // most))], len(ids)
 
 
 def rows_of(grains, kept):
@@ -128,9 +128,8 @@ def quantise(values, low, high):
     return np.where(np.isfinite(values), words, ABSENT).astype("<u2")
 
 
-def note(n_kept, n_grains, n_frames, n_stored):
+def note(n_kept, n_grains, step, n_frames, n_stored):
     """What the reader does not see."""
-    step = -(-n_grains // MOST_GRAINS)
     shown = (f"All {n_grains:,} grains" if n_kept == n_grains else
              f"{n_kept:,} of {n_grains:,} grains (every {ordinal(step)} by its number, at its own size)")
     times = (f"all {n_frames} times" if n_frames == n_stored else

@@ -8,6 +8,7 @@ import math
 import os
 import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -91,7 +92,7 @@ def flatten(table, above=""):
     flat = {}
     for key, value in table.items():
         name = f"{above}{key}"
-        if isinstance(value, dict):
+        if isinstance(value, Mapping):
             flat.update(flatten(value, name + "."))
         else:
             flat[name] = value
@@ -99,7 +100,10 @@ def flatten(table, above=""):
 
 
 def lookup(config, key):
+    """The value of a key; entries of lists have numbers, from 1. None where there is none."""
     for part in key.split("."):
+        if isinstance(config, list):
+            config = {str(number): entry for number, entry in enumerate(config, 1)}
         config = config.get(part) if isinstance(config, dict) else None
     return config
 
