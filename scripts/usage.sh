@@ -25,6 +25,7 @@ usage: $command_name COMMAND [arguments]
       --resolved        print also the case with every default as TOML, after the numbers
       --resolved-only   print the case with every default as TOML, nothing else
   keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
+      --schema          all keys as JSON Schema, by which an editor checks and completes a case
   sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
       --out DIR         folder of the study (default: runs/<study name>)
       --only RUN ...    only these runs; patterns with * are allowed

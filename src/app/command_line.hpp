@@ -34,6 +34,7 @@ struct CommandLine {
   report::Shown shown = report::Shown::progress;   // --quiet, --verbose
   bool resolved = false;                           // --resolved: of check also the TOML
   bool resolved_only = false;  // --resolved-only: of check the TOML alone, for other programs
+  bool schema = false;         // --schema: of keys as JSON Schema
 };
 
 /// Reads the command line; prints nothing and never exits, so that one rank can speak for all.

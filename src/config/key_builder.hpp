@@ -59,6 +59,7 @@ class Keys {
         {.section = section_.name,
          .name = name,
          .type = type_text<Plain<T>>(),
+         .form = form_of<Plain<T>>(),
          .range = range,
          .unit = unit,
          .meaning = meaning,
