@@ -39,6 +39,7 @@ usage: $command_name COMMAND [arguments]
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
+      --temporal        one file with all frames (VTK 9.3, ParaView 5.12 and newer) in place of one a frame
   list [FOLDER]       runs below a folder (default: runs): status, time reached, age, last restart file, size
   info PATH           what a run or study folder, a result, restart file, table or case holds
 USAGE
