@@ -20,7 +20,7 @@ packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-op
 test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
   python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
-  python3-yaml  # the citation file
+  python3-yaml python3-jsonschema  # the citation file; the schema of a case
   nodejs node-jsdom)  # the report page
 docs_packages=(mkdocs mkdocs-material mkdocstrings mkdocstrings-python-handlers python3-nbconvert libjs-mathjax
   fonts-mathjax fonts-inter)

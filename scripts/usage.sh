@@ -28,6 +28,7 @@ usage: $command_name COMMAND [arguments]
       --grains N, --diameter LENGTH, --density KG/M3, --velocity M/S   mesh, steps and box follow from these
       --from CASE       based on another case instead
   keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
+      --schema          all keys as JSON Schema, by which an editor checks and completes a case
   sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
       --out DIR         folder of the study (default: runs/<study name>)
       --only RUN ...    only these runs; patterns with * are allowed
@@ -41,6 +42,7 @@ usage: $command_name COMMAND [arguments]
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
+      --temporal        one file with all frames (VTK 9.3, ParaView 5.12 and newer) in place of one a frame
   list [FOLDER]       runs below a folder (default: runs): status, time reached, age, last restart file, size
   info PATH           what a run or study folder, a result, restart file, table or case holds
 USAGE

@@ -82,10 +82,12 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
   CLI::App* run = add_command(Command::run, "run", "run a case");
   CLI::App* check =
       add_command(Command::check, "check", "validate a case; print what follows from its numbers");
-  add_command(Command::keys, "keys", "the keys of a case with range, unit, default and meaning")
-      ->add_option(
-          "SECTION", line.section,
-          "a section, as grains, or a key, as grains.skin (default: all, as docs/keys.md)");
+  CLI::App* keys = add_command(Command::keys, "keys",
+                               "the keys of a case with range, unit, default and meaning");
+  CLI::Option* section = keys->add_option(
+      "SECTION", line.section,
+      "a section, as grains, or a key, as grains.skin (default: all, as docs/keys.md)");
+  keys->add_flag("--schema", line.schema, "all as JSON Schema, for editors")->excludes(section);
   add_command(Command::info, "info", "what a run folder or a file holds")
       ->add_option("PATH", line.file,
                    "a run or study folder, a result, restart file, table or case")

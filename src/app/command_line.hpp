@@ -37,6 +37,7 @@ struct CommandLine {
   bool resolved = false;                          // --resolved: of check also the TOML
   NewCase new_case{};                             // of new
   bool resolved_only = false;  // --resolved-only: of check the TOML alone, for other programs
+  bool schema = false;         // --schema: of keys as JSON Schema
 };
 
 /// Reads the command line; prints nothing and never exits, so that one rank can speak for all.

@@ -22,6 +22,7 @@
 #include "src/base/report.hpp"
 #include "src/base/words.hpp"
 #include "src/config/keys_page.hpp"
+#include "src/config/schema.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -108,7 +109,9 @@ int execute(const CommandLine& line) {
       if (line.resolved_only) return run_check(line, std::cout);
       return with_kokkos(line, [&] { return run_check(line, std::cout); });
     case Command::keys:
-      std::cout << (line.section.empty() ? keys_page() : keys_text(line.section));
+      std::cout << (line.schema            ? case_schema()
+                    : line.section.empty() ? keys_page()
+                                           : keys_text(line.section));
       break;
     case Command::info:
       std::cout << as_input([&] { return describe_path(line.file); });

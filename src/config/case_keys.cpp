@@ -10,6 +10,7 @@ Key read_first(const char* name, const char* meaning) {
   return {.section = "case",
           .name = name,
           .type = "text, or array of them",
+          .form = {Form::Of::texts},
           .range = any,
           .unit = "",
           .meaning = meaning,

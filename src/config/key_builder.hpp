@@ -65,6 +65,7 @@ class Keys {
         Key{.section = section_.name,
             .name = name,
             .type = type_text<Plain<T>>(),
+            .form = form_of<Plain<T>>(),
             .range = range,
             .unit = unit,
             .meaning = meaning,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/config/config.hpp"
+#include "src/config/form.hpp"
 #include "src/config/values.hpp"
 
 namespace barchan {
@@ -19,6 +20,7 @@ inline constexpr const char* kAutomatic = "auto";
 struct Key {
   std::string section, name;
   std::string type;  // in words
+  Form form;         // the same for programs
   Range range;
   std::string unit;     // of its numbers; empty: none
   std::string meaning;  // one line

@@ -45,12 +45,6 @@ std::string row(const Section& section, const Key& key, const Config& defaults) 
                      key.fixed_by_restart ? " (R)" : "");
 }
 
-/// With every section there, and an entry in those that may be written many times.
-void prepare(const Section& section, Config& defaults) {
-  if (section.repeated()) section.append(defaults);
-  if (section.prepare) section.prepare(defaults, true);
-}
-
 /// Text in lines of at most 100 characters, all but the first indented.
 std::string wrapped(std::string_view text, std::size_t indent) {
   constexpr std::size_t kWidth = 100;
@@ -102,6 +96,15 @@ std::string entry(const Section& section, const Key& key, const Config& defaults
 
 }  // namespace
 
+Config with_every_section(const Sections& table) {
+  Config defaults;
+  for (const Section& section : table) {
+    if (section.repeated()) section.append(defaults);
+    if (section.prepare) section.prepare(defaults, true);
+  }
+  return defaults;
+}
+
 std::string keys_page(const Sections& table) {
   std::string page =
       "# Keys of a case\n\n"
@@ -111,9 +114,8 @@ std::string keys_page(const Sections& table) {
       "`sizes`, are never in d. `--set section.key=value` changes a key for one run.\nKeys marked "
       "(R) stay as they are in a restart. Numbers within these ranges may still be refused if they "
       "do not fit\nother keys.\n";
-  Config defaults;
+  const Config defaults = with_every_section(table);
   for (const Section& section : table) {
-    prepare(section, defaults);
     if (section.keys.empty()) continue;
     page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
                         section.required ? " (required)" : "");
@@ -128,10 +130,9 @@ std::string keys_text(std::string_view name, const Sections& table) {
   const bool is_section = std::ranges::any_of(table, [&](const Section& section) {
     return !section.keys.empty() && (section.name == name || section.name.ends_with(inner));
   });
-  Config defaults;
+  const Config defaults = with_every_section(table);
   std::string text;
   for (const Section& section : table) {
-    prepare(section, defaults);
     std::size_t width = 0;
     for (const Key& key : section.keys) width = std::max(width, key.name.size());
     const bool whole = section.name == name || section.name.ends_with(inner);

@@ -8,6 +8,9 @@
 
 namespace barchan {
 
+/// Defaults, with every section there and an entry in those that may be written many times.
+Config with_every_section(const Sections& table);
+
 /// docs/keys.md: a table of the keys of each section with range, unit, default and meaning.
 std::string keys_page(const Sections& table = sections());
 

@@ -49,6 +49,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
       folder_(prepare_folder(folder, run.restart_time, run.ranks)),
       output_(folder, run.provenance, run.restart_time, run.ranks, box_of(run)) {
   if (rank_of(run.ranks) != 0) return;
+  action_.start = time_now();
   report::log_to(folder_ / "log.txt", run.restart_time.has_value());
   if (run.provenance.inputs.empty()) {
     remove_name(folder_ / kInputsFile);
@@ -195,7 +196,12 @@ void ResultsWriter::write_restart() {
 
 void ResultsWriter::write_summary(const std::string& status, const std::string& message) {
   const auto summary = accounts_.summary(run_, status, message);
-  if (rank_of(run_.ranks) == 0) barchan::write_summary(folder_, summary);
+  if (rank_of(run_.ranks) != 0) return;
+  barchan::write_summary(folder_, summary);
+  if (action_.status == status) return;
+  action_.status = status;
+  action_.message = message;
+  write_ro_crate(folder_, run_.provenance, run_.config.notes, action_);
 }
 
 std::string ResultsWriter::write_failure(const StateError& problem) const {

@@ -1,6 +1,7 @@
 // What a run writes, and when.
 #pragma once
 
+#include "src/run/ro_crate.hpp"
 #include "src/run/run_accounts.hpp"
 #include "src/run/run_diagnostics.hpp"
 #include "src/run/run_folder.hpp"
@@ -20,7 +21,7 @@ class ResultsWriter {
   void write_due();
   /// A restart file, and the means over time up to it.
   void write_restart();
-  /// run.json.
+  /// run.json, and when the status changes ro-crate-metadata.json.
   void write_summary(const std::string& status, const std::string& message);
   /// Files to look at what went wrong in. Returns the message for the user with their names: that
   /// they cannot be written must not hide why the run failed.
@@ -40,6 +41,7 @@ class ResultsWriter {
   OutputFiles output_;
   WallClock::time_point last_restart_ = WallClock::now();
   int rows_unfed_ = 0;  // of history.csv, one after the other
+  CrateAction action_;  // of rank 0
 };
 
 }  // namespace barchan

@@ -18,6 +18,7 @@
 #include "src/parallel/communicator.hpp"
 #include "src/run/case_inputs.hpp"
 #include "src/run/history_table.hpp"
+#include "src/run/ro_crate.hpp"
 
 namespace barchan {
 
@@ -25,17 +26,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultNames[] = {"config.toml",       kInputsFile,
-                                        "run.json",          kHistoryTable.file,
-                                        kDuneTable.file,     kHeapTable.file,
-                                        kBodyTable.file,     "encounters.csv",
-                                        "fields.h5",         "fields.xdmf",
-                                        "grains.h5",         "grains.xdmf",
-                                        "tracks.h5",         "log.txt",
-                                        "statistics.csv",    "flow_average.h5",
-                                        "flow_average.xdmf", "force_map.csv",
-                                        "failure_grains.h5", "failure_grains.xdmf",
-                                        "failure_fields.h5", "failure_fields.xdmf"};
+/// A file of a run folder, and what it holds.
+struct ResultFile {
+  const char *name, *meaning;
+};
+constexpr ResultFile kResultFiles[] = {
+    {"config.toml", "the case with all defaults"},
+    {kInputsFile, "length and CRC-32 of the files that the case starts from"},
+    {"run.json", "summary: status, wall time, extremes, momentum budget"},
+    {kCrateFile, "this description of the folder, RO-Crate"},
+    {"log.txt", "log with all details"},
+    {kHistoryTable.file, "flow and grains against time"},
+    {kDuneTable.file, "size, place and horns of each dune against time"},
+    {kHeapTable.file, "grains of each heap in each dune against time"},
+    {kBodyTable.file, "forces and torques on the bodies against time"},
+    {"encounters.csv", "how dunes met each other"},
+    {"statistics.csv", "averages of the flow over planes and time"},
+    {"flow_average.h5", "averages of the flow over time in every cell"},
+    {"flow_average.xdmf", "description of flow_average.h5 for ParaView"},
+    {"force_map.csv", "mean force on the grains about the dune"},
+    {"fields.h5", "frames of the flow in every cell"},
+    {"fields.xdmf", "description of fields.h5 for ParaView"},
+    {"grains.h5", "frames of all grains"},
+    {"grains.xdmf", "description of grains.h5 for ParaView"},
+    {"tracks.h5", "frames of the positions of all grains"},
+    {"failure_grains.h5", "grains of the faulty state that stopped the run"},
+    {"failure_grains.xdmf", "description of failure_grains.h5 for ParaView"},
+    {"failure_fields.h5", "flow of the faulty state that stopped the run"},
+    {"failure_fields.xdmf", "description of failure_fields.h5 for ParaView"}};
 
 /// Tables that not every run has.
 template <class Record>
@@ -64,11 +82,14 @@ Provenance make_provenance(const Config& config) {
           .backend = device_name()};
 }
 
+std::string_view meaning_of(const fs::path& name) {
+  if (is_checkpoint_name(name)) return "complete state, from which the run can go on";
+  const auto* const file = std::ranges::find(kResultFiles, name, &ResultFile::name);
+  return file != std::end(kResultFiles) ? file->meaning : "";
+}
+
 bool is_result_name(const fs::path& name) {
-  const auto known = [](const fs::path& file) {
-    return std::ranges::count(kResultNames, file) > 0 || is_checkpoint_name(file);
-  };
-  return known(name) || (name.extension() == ".tmp" && known(name.stem()));
+  return !meaning_of(name.extension() == ".tmp" ? name.stem() : name).empty();
 }
 
 void check_tables(const fs::path& folder) {

@@ -22,6 +22,8 @@ std::string device_name();
 /// Title and resolved text of the case, version of the program, backend.
 Provenance make_provenance(const Config& config);
 
+/// What a file of this name holds, in words; empty for what a run does not write itself.
+std::string_view meaning_of(const std::filesystem::path& name);
 /// True for names of files that a new run removes from its folder; pictures and everything that is
 /// not ours stay.
 bool is_result_name(const std::filesystem::path& name);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A run under the launcher that a signal ends, alone or one of two ranks: exit code 1, one line that says which signal
-# and how to go on, and run.json does not say "running". What it says then works.
+# and how to go on, and run.json does not say "running", nor the RO-Crate "active". What it says then works.
 set -u
 # shellcheck source=tests/support/script.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
@@ -32,7 +32,10 @@ killed() {
   [ "$status" -eq 1 ] || fail "$out: exit code $status"
   grep -q '^  "status": "failed",$' "$out/run.json" || fail "$out: $(head -n 3 "$out/run.json")"
   grep -q "\"message\": \"ended by SIGKILL" "$out/run.json" || fail "$out: $(head -n 3 "$out/run.json")"
-  "$python" -m json.tool "$out/run.json" > /dev/null || fail "$out/run.json is broken"
+  grep -q '"@id": "http://schema.org/FailedActionStatus"' "$out/ro-crate-metadata.json" || fail "$out: crate not failed"
+  for json in run ro-crate-metadata; do
+    "$python" -m json.tool "$out/$json.json" > /dev/null || fail "$out/$json.json is broken"
+  done
   # The rank that is left may have been reading from the other's memory: MPI itself says so, and cannot be told not to.
   [ "$(grep -c "ended by SIGKILL" "$out.said")" -eq 1 ] &&
     ! grep -v "^warning: \|^barchan: ended\|^\[.*\] Read -1, expected [0-9]*, errno = 3$" "$out.said" ||

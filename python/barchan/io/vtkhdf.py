@@ -2,14 +2,15 @@
 
 VTKHDF 1.0 (VTK 9.1 and newer, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#hdf-file-formats)
 knows images and unstructured grids, and no time. Grains are vertices; the rectilinear mesh of the flow, which images
-cannot describe, is hexahedra. Values are not copied: they are links to the files of the run, which must stay beside.
+cannot describe, is hexahedra; bodies are triangles. Values are not copied: they are links to the files of the run,
+which must stay beside. vtkhdf_in_time.py writes the same in files with time.
 """
 
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -20,21 +21,55 @@ from barchan.io.hdf5 import Group, h5py
 from barchan.io.run_folder import RunFolder
 
 FOLDER = "vtkhdf"
-VERTEX, HEXAHEDRON = 1, 12  # types of cells of VTK
+VERTEX, TRIANGLE, HEXAHEDRON = 1, 5, 12  # types of cells of VTK
 SMALL = {"compression": "gzip", "shuffle": True}
 
 
-def write(run: RunFolder) -> list[Path]:
-    """Writes RUN_DIR/vtkhdf anew for all frames there are; returns the series of files, one for each kind."""
-    folder = run.path / FOLDER
+class Surface(Protocol):
+    """Triangles, as barchan.dune.body_surface.Surface."""
+
+    @property
+    def points(self) -> np.ndarray: ...  # (n, 3) [m]
+    @property
+    def triangles(self) -> np.ndarray: ...  # (m, 3), numbers of points
+    @property
+    def body(self) -> np.ndarray: ...  # (m), the number of the body
+
+
+def write(run: RunFolder, bodies: Surface | None = None) -> list[Path]:
+    """Writes RUN_DIR/vtkhdf anew for all frames there are.
+
+    Parameters
+    ----------
+    bodies
+        surfaces of the bodies of the case; None: there are none
+
+    Returns
+    -------
+    list of Path
+        The series of files, one for each kind, and the file of the bodies.
+
+    Raises
+    ------
+    MissingData
+        where the run has no frames.
+    """
+    kinds = kinds_of(run)
+    folder = writing.folder(run.path / FOLDER)
+    written = [_write_series(folder, kind, file) for kind, file in kinds]
+    named = {entry["name"] for one in written for entry in json.loads(one.read_text())["files"]}
+    if bodies is not None:
+        written.append(_write_bodies(folder / "bodies.hdf", bodies))
+    writing.only(folder, "*.hdf*", named | {one.name for one in written})
+    return written
+
+
+def kinds_of(run: RunFolder) -> list[tuple[str, FrameFile]]:
+    """("grains" or "fields", its file) of what the run has frames of. Raises MissingData where it has none."""
     kinds = [(kind, file) for kind, file in (("grains", run.grain_file), ("fields", run.field_file)) if file]
     if not kinds:
         raise MissingData("needs grains.h5 or fields.h5 with at least one frame")
-    writing.folder(folder)
-    series = [_write_series(folder, kind, file) for kind, file in kinds]
-    named = {entry["name"] for one in series for entry in json.loads(one.read_text())["files"]}
-    writing.only(folder, "*.hdf*", named | {one.name for one in series})
-    return series
+    return kinds
 
 
 def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
@@ -46,9 +81,8 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
             _write_mesh(mesh, root["grid"])
         for time, name in file.frames:
             path = folder / f"{kind}_{name.rpartition('frame_')[2]}.hdf"
-            with _new_file(path) as out:
-                top = out.create_group("VTKHDF")
-                top.attrs["Version"], top.attrs["Type"] = [1, 0], np.bytes_("UnstructuredGrid")
+            with new_file(path) as out:
+                top = top_group(out, (1, 0), "UnstructuredGrid")
                 top["FieldData/TimeValue"] = np.array([time])
                 if kind == "grains":
                     _add_grains(top, root[name], f"../{file.path.name}", name)
@@ -61,9 +95,25 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
 
 
 @contextmanager
-def _new_file(path: Path) -> Iterator[Any]:
+def new_file(path: Path) -> Iterator[Any]:
     with writing.replacing(path) as beside, h5py.File(beside, "x") as out:
         yield out
+
+
+def top_group(out: Any, version: tuple[int, int], kind: str) -> Any:
+    """The group of a file that readers of VTKHDF look at."""
+    top = out.create_group("VTKHDF")
+    top.attrs["Version"], top.attrs["Type"] = version, np.bytes_(kind)
+    return top
+
+
+def _write_bodies(path: Path, bodies: Surface) -> Path:
+    with new_file(path) as out:
+        top = top_group(out, (1, 0), "UnstructuredGrid")
+        top.create_dataset("Points", data=bodies.points, **SMALL)
+        _write_cells(top, len(bodies.points), bodies.triangles, TRIANGLE)
+        top["CellData/body"] = bodies.body
+    return path
 
 
 def _write_cells(group: Any, n_points: int, corners: np.ndarray, kind: int) -> None:
@@ -87,15 +137,21 @@ def _add_grains(top: Any, frame: Group, source: str, name: str) -> None:
 
 
 def _write_mesh(path: Path, grid: Group) -> None:
-    """Points and hexahedra, x fastest: one file for all frames."""
+    """One file for all frames."""
+    with new_file(path) as out:
+        write_mesh(out, grid)
+
+
+def write_mesh(group: Any, grid: Group) -> int:
+    """Points and hexahedra, x fastest; returns the number of these."""
     x, y, z = (grid[f"{axis}_face"][:] for axis in "xyz")
     points = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
     number = np.arange(len(points)).reshape(len(z), len(y), len(x))
     corners = [number[k:k - 1 or None, j:j - 1 or None, i:i - 1 or None].reshape(-1)
                for k in (0, 1) for j, i in ((0, 0), (0, 1), (1, 1), (1, 0))]
-    with _new_file(path) as out:
-        out.create_dataset("Points", data=points, **SMALL)
-        _write_cells(out, len(points), np.stack(corners, axis=1), HEXAHEDRON)
+    group.create_dataset("Points", data=points, **SMALL)
+    _write_cells(group, len(points), np.stack(corners, axis=1), HEXAHEDRON)
+    return len(corners[0])
 
 
 def _add_fields(top: Any, frame: Group, source: str, name: str, mesh: str) -> None:
