@@ -1,4 +1,4 @@
-"""What the launcher calls: python -m barchan plot RUN_DIR ..., vtk RUN_DIR ..., list [FOLDER], sweep PROGRAM ..."""
+"""What the launcher calls: python -m barchan plot, vtk, watch, list or sweep, and their arguments."""
 
 import os
 import sys
@@ -15,6 +15,10 @@ def main() -> int:
             from barchan import vtk
 
             return vtk.main(arguments)
+        if command == "watch":
+            from barchan import watch
+
+            return watch.main(arguments)
         if command == "list":
             from barchan import listing
 
@@ -28,7 +32,7 @@ def main() -> int:
     except BrokenPipeError:  # the reader of the output has seen enough, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | list [FOLDER] | "
+    print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | watch RUN_DIR | list [FOLDER] | "
           "sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
     return 2
 

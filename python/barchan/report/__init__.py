@@ -29,8 +29,11 @@ PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "list": "
           "analytics": "dune analytics"}
 
 
-def write_files(run):
-    """Writes report.html into the run folder; returns its path in a list."""
+def write_files(run, reload=None):
+    """Writes report.html into the run folder; returns its path in a list.
+
+    `reload`: seconds after which the page loads itself again, and then begins with the last time.
+    """
     summary = read_summary(run)
     if not (summary or run.config or run.history_columns or run.dune_columns):
         raise MissingData("needs at least run.json, config.toml or a table with a line in it")
@@ -42,6 +45,7 @@ def write_files(run):
         "player": player(facts, missing), "curves": curves(run),
         "phases": phases(summary), "rates": rates(summary), "config": config(run),
         "files": files(run), "commands": commands(run, summary), "next": next_steps(run),
+        "reload": f'<meta http-equiv="refresh" content="{math.ceil(reload)}">' if reload else "",
         "css": template("css"), "js": template("js"),
         "facts": grain_pictures.to_script(facts or {}), "data": data,
     }
