@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from barchan.errors import MissingData
 
@@ -210,7 +211,7 @@ def in_seconds(t: np.ndarray, values: np.ndarray) -> list[float]:
     return means or [np.nan]
 
 
-def varies(values: Any) -> bool:
+def varies(values: ArrayLike) -> bool:
     """Whether values differ by more than a thousandth, but for one in fifty. A constant flow rate does not.
 
     Parameters
@@ -223,7 +224,8 @@ def varies(values: Any) -> bool:
     bool
         Whether they do; not where none is finite.
     """
-    known = np.asarray(values)[np.isfinite(values)]
+    known = np.asarray(values, float)
+    known = known[np.isfinite(known)]
     if not known.size:
         return False
     low, high = np.percentile(known, [2, 98])

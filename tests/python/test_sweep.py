@@ -4,12 +4,14 @@ import datetime
 import os
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from barchan.errors import BarchanError
 from barchan.studies import sweep
-from barchan.studies.spec import as_toml
+from barchan.studies.spec import as_toml, read_study
 
 # Does as it is told by files beside it; a run leaves a folder as a run does.
 PROGRAM = """#!/bin/sh
@@ -121,3 +123,17 @@ def test_values_of_other_kinds_are_those_of_toml():
     for value in (None, object(), {1, 2}, 1j):
         with pytest.raises(TypeError, match="a case cannot have a value of type"):
             as_toml(value)
+
+
+def test_an_entry_of_a_list_is_varied(tmp_path):
+    """By its number, from 1, as --set has it; the base case gives its value."""
+    (tmp_path / "case.toml").write_text("[[fluid.schedule]]\nvelocity = 0.1\n[[fluid.schedule]]\nvelocity = 0.2\n")
+    text = '[study]\nbase = "case.toml"\n[vary]\n"fluid.schedule.{}.velocity" = [0.2, 0.3]\n'
+    (tmp_path / "study.toml").write_text(text.format(2))
+    options = SimpleNamespace(out=None, at_once=None, threads=None)
+    cases = {case.name: case.set_options() for case in read_study(tmp_path / "study.toml", options).cases}
+    assert cases == {"base": ["--set", "fluid.schedule.2.velocity=0.2"],
+                     "velocity-0.3": ["--set", "fluid.schedule.2.velocity=0.3"]}
+    (tmp_path / "study.toml").write_text(text.format(3))
+    with pytest.raises(BarchanError, match=r"\[vary\] fluid.schedule.3.velocity has no value in the base case"):
+        read_study(tmp_path / "study.toml", options)

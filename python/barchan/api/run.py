@@ -19,6 +19,7 @@ from barchan.io.study_folder import NAME
 
 if TYPE_CHECKING:
     from barchan.api.study import Study
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from pandas import DataFrame
     from pyvista import MultiBlock
@@ -298,7 +299,7 @@ class Run(RunFolder):
 
     # --- pictures
 
-    def figure(self, name: str, ax: Any = None, **options: Any) -> Figure:
+    def figure(self, name: str, ax: Axes | np.ndarray | None = None, **options: Any) -> Figure:
         """A figure of `./barchan plot`, without a file.
 
         Parameters

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from barchan.errors import optional
 from barchan.io import columns
 from barchan.io.study_folder import StudyFolder
 from barchan.api.run import Run, in_seconds
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from pandas import DataFrame
 
@@ -93,7 +96,7 @@ class Study(StudyFolder):
         keys = dict.fromkeys(key for case in self.cases for key in case.values if key != "case")
         return [key for key in keys if len({str(case.values.get(key)) for case in self.cases}) > 1]
 
-    def figure(self, name: str, ax: Any = None, key: str | None = None, **options: Any) -> Figure:
+    def figure(self, name: str, ax: Axes | np.ndarray | None = None, key: str | None = None, **options: Any) -> Figure:
         """A figure over the cases.
 
         Parameters

@@ -4,12 +4,14 @@ from typing import Any
 
 import numpy as np
 
+from barchan.dune.outline import Outline
 from barchan.io.flow_average import FlowAverage
+from barchan.io.run_folder import RunFolder
 
 STILL = 0.01  # of U_delta: slower water has no direction
 
 
-def friction_velocity(run: Any, average: FlowAverage) -> float:
+def friction_velocity(run: RunFolder, average: FlowAverage) -> float:
     """Friction velocity of the walls during a time average.
 
     Parameters
@@ -64,7 +66,7 @@ def in_streamline_axes(fields: dict[str, np.ndarray], still: float) -> dict[str,
             "uv": (c * c - s * s) * uv + c * s * (vv - uu)}
 
 
-def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> list[dict[str, Any]]:
+def profiles_at(average: FlowAverage, outline: Outline, stations: np.ndarray) -> list[dict[str, Any]]:
     """Profiles of the mean flow above the surface of a dune.
 
     Parameters
@@ -96,7 +98,7 @@ def profiles_at(average: FlowAverage, outline: Any, stations: np.ndarray) -> lis
     return result
 
 
-def separation_bubble(average: FlowAverage, outline: Any, behind: float = 2.0) -> dict[str, float]:
+def separation_bubble(average: FlowAverage, outline: Outline, behind: float = 2.0) -> dict[str, float]:
     """Where the mean flow in the lowest cells above the surface runs backwards behind the crest.
 
     It is looked for in the plane of the outline, from its highest point. It is known within a cell along the flow, and
