@@ -15,8 +15,9 @@ from pathlib import Path
 from barchan.errors import BarchanError
 from barchan.io.study_folder import run_name
 
-SECTIONS = ("study", "set", "vary", "grid", "case", "ensemble")
+SECTIONS = ("study", "set", "vary", "grid", "case", "cases", "ensemble")
 STUDY_KEYS = ("title", "base", "at_once", "threads")
+CASE_KEYS = ("name", "like", "set")
 ENSEMBLE_KEYS = ("realisations", "cases")
 REALISATION = "initial.realisation"
 
@@ -193,16 +194,29 @@ def all_combinations(lists, common, path):
             for values in itertools.product(*lists.values())]
 
 
+def tables_of(table):
+    """The sections [[case]], then the lines of [cases] as such sections."""
+    return [*table.get("case", []), *({"name": name, "like": keys.get("like", []),
+                                       "set": {key: value for key, value in keys.items() if key != "like"}}
+                                      for name, keys in table.get("cases", {}).items())]
+
+
 def named_cases(tables, common, path):
-    cases = []
+    cases, own = [], {}  # own: the values of each case without the common ones
     for table in tables:
         for key in table:
-            if key not in ("name", "set"):
-                raise unknown(key, ("name", "set"), f"{path}: [[case]]")
-        values = flatten(table.get("set", {}))
+            if key not in CASE_KEYS:
+                raise unknown(key, CASE_KEYS, f"{path}: [[case]]")
+        values, like = {}, table.get("like", [])
+        for other in [like] if isinstance(like, str) else like:
+            if other not in own:
+                raise StudyError(f'{path}: like "{other}": no case before it has this name')
+            values |= own[other]
+        values |= flatten(table.get("set", {}))
         name = table.get("name") or "_".join(label(key, value) for key, value in values.items())
         if not name or not re.fullmatch(r"[A-Za-z0-9_.+-]+", name) or name.startswith("."):
             raise StudyError(f'{path}: [[case]] name "{name}" must be of letters, digits and _ . + -')
+        own[name] = values
         cases.append(Case(name, {**common, **values}))
     return cases
 
@@ -229,16 +243,22 @@ def ensemble_of(cases, table, path):
 
 
 def check_kind(value, section, path):
-    """[[case]] is a list of sections, the others are sections."""
+    """[[case]] is a list of sections, the others are sections; those in [cases] are tables."""
     if section != "case":
         if not isinstance(value, dict):
             raise StudyError(f"{path}: {section} must be a section, [{section}]")
+        if section == "cases" and not all(isinstance(one, dict) for one in value.values()):
+            raise StudyError(f"{path}: [cases] must have a line NAME = {{ key = value }} for each")
     elif not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
         raise StudyError(f"{path}: case must be given as sections [[case]], one for each")
     else:
         for one in value:
             if not isinstance(one.get("name", ""), str) or not isinstance(one.get("set", {}), dict):
                 raise StudyError(f'{path}: [[case]] must have a name = "..." and a set = {{ key = value }}')
+    for one in value if section == "case" else value.values() if section == "cases" else ():
+        like = one.get("like", [])
+        if not isinstance(like, str) and not (isinstance(like, list) and all(isinstance(name, str) for name in like)):
+            raise StudyError(f"{path}: like must be the name of a case before it, or a list of them")
 
 
 def check_sections(table, path):
@@ -273,9 +293,9 @@ def read_study(path, options):
     if "vary" in table:
         cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base_config, common, path)
     cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), common, path)
-    cases += named_cases(table.get("case", []), common, path)
+    cases += named_cases(tables_of(table), common, path)
     if not cases:
-        raise StudyError(f"{path}: no cases: give [vary], [grid] or [[case]]")
+        raise StudyError(f"{path}: no cases: give [vary], [grid] or [cases]")
     realisations, cases = ensemble_of(cases, table.get("ensemble", {}), path)
     names = [case.run_name for case in cases]
     for name in names:
