@@ -51,7 +51,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
         restart: str | Path | None = None, overwrite: bool = False, **overrides: Any) -> Run:
     """Runs a case to its end and returns its Run; progress goes to standard error.
 
-    out: the run folder (default: runs/CASE); where it holds this run, finished, nothing is computed again.
+    out: the run folder (default: as of `barchan run`, runs/ and the path of the case below configs); where it holds this run, finished, nothing is computed again.
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
