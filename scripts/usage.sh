@@ -65,6 +65,7 @@ Environment:
   OMP_NUM_THREADS     threads per rank where --threads is not given
   BARCHAN_CPU         a level of instruction sets in place of the best that the processor has, e.g. x86-64-v3
   BARCHAN_PYTHON      the Python that draws (default: /usr/bin/python3)
+  BARCHAN_PICTURES    no: run draws no pictures
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
   BARCHAN_PRESET      release, generic, ci, relwithdebinfo, debug, thread, rehearsal, fuzz, coverage, cuda, hip, sycl

@@ -21,9 +21,9 @@ expect() {
   [ "$said" = "$wanted" ] || fail "'${*:2}': '$said', not '$wanted'"
 }
 
-expect "sweep setup" s
+expect "setup sweep" s
 expect "" nonsense x
-expect "--resume --restart" run case.toml --res
+expect "--restart --resume" run case.toml --res
 expect "quickstart.toml" run quick
 expect "field/sizes.toml" sweep field/
 expect "small/friction-3k.toml" sweep small/fr

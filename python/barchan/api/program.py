@@ -47,11 +47,17 @@ def check(case: str | Path, report: bool = False, **overrides: Any) -> dict[str,
     return tomllib.loads(resolved)
 
 
+def resolved(case: str | Path, **overrides: Any) -> dict[str, Any]:
+    """As `check`, at once: nothing is timed."""
+    return tomllib.loads(_call(["check", str(case), "--resolved-only", *_settings(overrides)]))
+
+
 def run(case: str | Path, out: str | Path | None = None, threads: int | None = None, ranks: int | None = None,
-        restart: str | Path | None = None, overwrite: bool = False, **overrides: Any) -> Run:
+        restart: str | Path | None = None, overwrite: bool = False, quiet: bool = False, **overrides: Any) -> Run:
     """Runs a case to its end and returns its Run; progress goes to standard error.
 
-    out: the run folder (default: as of `barchan run`, runs/ and the path of the case below configs); where it holds this run, finished, nothing is computed again.
+    out: the run folder (default: runs/ and the path of the case below configs); where it holds this run, finished,
+    nothing is computed again. quiet: says problems only and draws no pictures.
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
@@ -59,7 +65,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
     words = ["run", str(case), "--out", str(folder), *_settings(overrides)]
     for name, value in (("--threads", threads), ("--ranks", ranks), ("--restart", restart)):
         words += [name, str(value)] if value is not None else []
-    _call([*words, "--overwrite"] if overwrite else words)
+    _call([*words, *["--overwrite"] * overwrite, *["--quiet"] * quiet], {"BARCHAN_PICTURES": "no"} if quiet else {})
     return Run(folder)
 
 
@@ -86,12 +92,13 @@ def _settings(overrides: dict[str, Any]) -> list[str]:
     return words
 
 
-def _call(words: list[str]) -> str:
+def _call(words: list[str], environment: dict[str, str] | None = None) -> str:
     """What it prints; its messages also go to standard error as they come."""
     quiet = words[0] == "check"
     try:
         process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace")
+                                   stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace",
+                                   env={**os.environ, **(environment or {})})
     except OSError as error:
         raise BarchanError(f"cannot start {program()}: {error.strerror}") from error
     with process:  # at a Ctrl-C, which it gets too, it is waited for: it writes a restart file
