@@ -39,7 +39,8 @@ install(DIRECTORY "${metadata}/" COMPONENT program
   DESTINATION "${BARCHAN_INSTALL_PYTHONDIR}/barchan-${PROJECT_VERSION}.dist-info")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${barchan_doc_folder}" COMPONENT program)
 install(DIRECTORY docs notebooks DESTINATION "${barchan_doc_folder}" COMPONENT program)
-# The man page and the completion of the shell are made from what the installed launcher says of itself.
+install(FILES scripts/completion.bash DESTINATION share/bash-completion/completions RENAME barchan COMPONENT program)
+# The man page is made from what the installed launcher says of itself.
 install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND python3
   \"${PROJECT_SOURCE_DIR}/packaging/write_man.py\" \"\$ENV{DESTDIR}\" \"\${CMAKE_INSTALL_PREFIX}\" ${PROJECT_VERSION})"
   COMPONENT program)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The man page and the completion of bash, from `barchan --help` of an installation.
+"""The man page, from `barchan --help` of an installation.
 
 write_man.py DESTDIR PREFIX VERSION     called by cmake --install; DESTDIR may be empty
 """
@@ -9,21 +9,6 @@ import sys
 from pathlib import Path
 
 ENTRY = re.compile(r"^ {2,6}(\S.*?) {2,}(.*)$")  # of two columns, as in the lists of commands, options and variables
-OPTION = re.compile(r"--[a-z][a-z-]*")
-COMPLETION = """\
-# shellcheck shell=bash disable=SC2207
-# Completion of barchan for bash. For zsh: autoload -U bashcompinit && bashcompinit, then source this file.
-_barchan() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} words="" cases="" IFS=$'\\n'
-  case $COMP_CWORD:${{COMP_WORDS[1]}}:$word in
-    1:*) words="{commands}" ;;
-{options}
-    *:run:* | *:check:* | *:sweep:*) cases=$(cd '{cases}' && find . -name '*.toml' -printf '%P\\n') ;;
-  esac
-  COMPREPLY=($(compgen -W "${{words// /$IFS}}$cases" -- "$word"; [ -z "$cases" ] || compgen -f -- "$word"))
-}}
-complete -o bashdefault -o default -o filenames -F _barchan barchan
-"""
 
 
 def read(usage):
@@ -64,24 +49,13 @@ def man_page(usage, version, prefix):
     return "\n".join([*lines, ".SH SEE ALSO", f"The pages in {roff(prefix)}/share/doc/barchan/docs"]) + "\n"
 
 
-def completion(usage, prefix):
-    options = {}
-    for name, _, found in read(usage)[1]:
-        options[name.split()[0]] = [*OPTION.findall("\n".join(option for option, _ in found)), "--help"]
-    return COMPLETION.format(
-        commands=" ".join(options), cases=f"{prefix}/share/barchan/configs",
-        options="\n".join(f'    *:{name}:-*) words="{" ".join(found)}" ;;' for name, found in options.items()))
-
-
 def main(destdir, prefix, version):
     staged = destdir + prefix
     usage = subprocess.run([f"{staged}/bin/barchan", "--help"], check=True, capture_output=True, text=True).stdout
     usage = usage.replace(str(Path(staged).resolve()), prefix)
-    for name, text in (("man/man1/barchan.1", man_page(usage, version, prefix)),
-                       ("bash-completion/completions/barchan", completion(usage, prefix))):
-        path = Path(staged, "share", name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+    path = Path(staged, "share/man/man1/barchan.1")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(man_page(usage, version, prefix))
 
 
 main(*sys.argv[1:])

@@ -1,4 +1,4 @@
-# The help of the launcher, which reads it in. The man page and the completion of the shell are made from it.
+# The help of the launcher, which reads it in. The man page is made from it; the completion of the shell reads it.
 # shellcheck shell=bash
 # shellcheck disable=SC2154  # command_name, installed and shared are the launcher's
 usage() {
@@ -9,7 +9,7 @@ usage: $command_name COMMAND [arguments]
 
   run CASE.toml       run a case, then draw its pictures
       --set KEY=VALUE   change one key, e.g. grains.sliding_friction=0.4 (repeatable)
-      --out DIR         run folder (default: runs/<case name>)
+      --out DIR         run folder (default: runs/ and the path of the case below configs)
       --resume          continue from the last restart file, or begin if there is none
       --restart FILE    continue from a restart file, from the last one of a folder, or from "latest" of the run
       --overwrite       remove the results of an earlier run in the folder and begin again
@@ -30,7 +30,7 @@ usage: $command_name COMMAND [arguments]
   keys [NAME]         the keys of a case, of a section or of that name, with range, unit, default and meaning
       --schema          all keys as JSON Schema, by which an editor checks and completes a case
   sweep STUDY.toml    a parameter study: one run folder per case, continued where it was interrupted
-      --out DIR         folder of the study (default: runs/<study name>)
+      --out DIR         folder of the study (default: as of run)
       --only RUN ...    only these runs; patterns with * are allowed
       --at-once N       cases side by side (default: one for each core)
       --threads N       threads of each (default: all cores, shared by the cases)
@@ -71,6 +71,7 @@ Environment:
   OMP_NUM_THREADS     threads per rank where --threads is not given
   BARCHAN_CPU         a level of instruction sets in place of the best that the processor has, e.g. x86-64-v3
   BARCHAN_PYTHON      the Python that draws (default: /usr/bin/python3)
+  BARCHAN_PICTURES    no: run draws no pictures
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
   BARCHAN_PRESET      release, generic, ci, relwithdebinfo, debug, thread, rehearsal, fuzz, coverage, cuda, hip, sycl

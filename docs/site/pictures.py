@@ -4,10 +4,10 @@ Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil pytho
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36]
 
-    PYTHONPATH=python python3 docs/site/pictures.py runs/fed-dune fed
+    PYTHONPATH=python python3 docs/site/pictures.py runs/field/fed-dune fed
 
 film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png; fed:
-docs/fed-dune-grains.svg, with runs/unfed-dune beside.
+docs/fed-dune-grains.svg, with runs/field/unfed-dune beside.
 Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
 and z down the page, as in the figures of the program: the left horn is the upper one.
 """

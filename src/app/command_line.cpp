@@ -98,7 +98,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     command->add_option("--set", line.overrides, "change one key, e.g. grains.sliding_friction=0.4")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);  // one value each: `--set a=1 case.toml` must not take case.toml
-    command->add_option("--out", line.out, "run folder (default: runs/<case name>)")
+    command->add_option("--out", line.out, "run folder (default: runs/ and the path below configs)")
         ->type_name("DIR");
     command->add_option("--threads", line.threads, "threads per rank (default: all)")
         ->type_name("N")

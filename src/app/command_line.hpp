@@ -44,7 +44,7 @@ struct CommandLine {
 /// `version` is the text for --version. Throws InputError after bad usage.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);
 
-/// --out, or runs/<name of the case>.
+/// --out, or runs/ and the case_name().
 std::filesystem::path run_folder(const CommandLine& line);
 
 }  // namespace barchan

@@ -33,12 +33,6 @@ void end_if_asked() {
   throw Stopped{};
 }
 
-/// As short as it can be typed here.
-std::string shown(const fs::path& folder) {
-  const fs::path near = fs::absolute(folder).lexically_proximate(fs::current_path());
-  return near.empty() || *near.begin() == ".." ? folder.string() : near.string();
-}
-
 void warn_of(const Config& config, const std::vector<SizeClass>& sizes) {
   for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
 }
@@ -47,7 +41,7 @@ std::string numbers_of(const Config& config, const std::vector<SizeClass>& sizes
   return to_text(derive(config, sizes)) + memory_line(config, sizes);
 }
 
-fs::path start_file(const Case& source, const fs::path& beside, int realisation);
+fs::path start_file(const Case& source, const fs::path& runs, int realisation);
 enum class Role { asked_for, precursor };
 void run_locked(const Case& the_case, const RunOptions& options, Role role);
 
@@ -114,12 +108,12 @@ void set_aside(const fs::path& folder, const EarlierRun& earlier) {
 }
 
 /// Runs a start, or goes on with it, unless somebody else has done so while we waited.
-void make_start(const Case& source, const fs::path& beside, int realisation) {
+void make_start(const Case& source, const fs::path& runs, int realisation) {
   for (;;) {
-    const StartCase start = start_case(source, beside, realisation);
+    const StartCase start = start_case(source, runs, realisation);
     check_place(start.realised.config, {.folder = start.folder, .restart = start.earlier.restart});
     const auto lock = wait_for_lock(start.folder);
-    const auto& [first, realised, folder, earlier] = start_case(source, beside, realisation);
+    const auto& [first, realised, folder, earlier] = start_case(source, runs, realisation);
     // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
     if (broadcast(!earlier.same() && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
@@ -129,17 +123,17 @@ void make_start(const Case& source, const fs::path& beside, int realisation) {
     auto restart = earlier.same() ? earlier.restart : std::nullopt;
     if (!restart &&
         realised.config.time.end > first.config.time.end)  // the same flow some time later
-      restart = start_file(source, beside, realisation - 1);
+      restart = start_file(source, runs, realisation - 1);
     run_locked(realised, {.folder = folder, .restart = restart}, Role::precursor);
     return;
   }
 }
 
 /// The last state of a case, which is run in this realisation, or to its end, if it is missing.
-fs::path start_file(const Case& source, const fs::path& beside, int realisation) {
-  const bool done = start_case(source, beside, realisation).earlier.done();
-  if (!broadcast(done, MPI_COMM_WORLD)) make_start(source, beside, realisation);
-  const StartCase start = start_case(source, beside, realisation);
+fs::path start_file(const Case& source, const fs::path& runs, int realisation) {
+  const bool done = start_case(source, runs, realisation).earlier.done();
+  if (!broadcast(done, MPI_COMM_WORLD)) make_start(source, runs, realisation);
+  const StartCase start = start_case(source, runs, realisation);
   if (!start.earlier.done())
     throw std::runtime_error(start.folder.string() + " holds no restart file to start from");
   return *start.earlier.restart;
@@ -147,11 +141,11 @@ fs::path start_file(const Case& source, const fs::path& beside, int realisation)
 
 /// The files a case starts from; what is missing of them is run.
 InitialFiles start_files(const Case& the_case, const fs::path& folder) {
-  const fs::path beside = fs::absolute(folder).parent_path();
   const Config& config = the_case.config;
+  const fs::path runs = folder_of_runs(config.file, folder);
   const InitialConfig& initial = config.initial;
   const auto file = [&](const fs::path& source, const std::shared_ptr<const Case>& start) {
-    if (start) return start_file(*start, beside, initial.realisation);
+    if (start) return start_file(*start, runs, initial.realisation);
     return source.extension().empty() ? fs::path() : source;
   };
   InitialFiles files;
@@ -228,6 +222,8 @@ void run_one(const Case& the_case, RunOptions options, const CommandLine& line) 
   const fs::path& folder = options.folder;
   if (line.resume) options.restart = latest_checkpoint(folder);
   check_place(config, options);
+  if (!options.restart && !line.overwrite)
+    check_on_root([&] { check_earlier_places(the_case, folder); });
   const auto lock = try_to_lock(folder);
   if (!broadcast(lock.has_value(), MPI_COMM_WORLD)) {
     throw InputError(fmt::format("{} is in use by {}: wait for it, or take another --out",

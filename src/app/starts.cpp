@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path folder_beside(const fs::path& folder) { return fs::absolute(folder).parent_path(); }
-
 std::vector<SizeClass> sizes_of(const InitialGrains& grains) {
   std::map<std::pair<double, int>, std::int64_t> count;
   for (std::size_t g = 0; g < grains.size(); ++g) ++count[{grains.diameter[g], grains.kind_of(g)}];
@@ -37,9 +35,10 @@ std::vector<SizeClass> sizes_of(const InitialGrains& grains) {
 
 void add_missing(const Case& the_case, const fs::path& folder, std::vector<StartCase>& missing) {
   const Config& config = the_case.config;
+  const fs::path runs = folder_of_runs(config.file, folder);
   const auto add = [&](const std::shared_ptr<const Case>& source) {
     if (!source) return;
-    StartCase start = start_case(*source, folder_beside(folder), config.initial.realisation);
+    StartCase start = start_case(*source, runs, config.initial.realisation);
     const bool known = std::ranges::any_of(
         missing, [&](const StartCase& other) { return other.folder == start.folder; });
     if (known || start.earlier.done()) return;
@@ -60,33 +59,39 @@ PlannedGrains grains_in(const fs::path& file, const Config& config) {
 
 }  // namespace
 
+std::string shown(const fs::path& folder) {
+  const fs::path near = fs::absolute(folder).lexically_proximate(fs::current_path());
+  return near.empty() || *near.begin() == ".." ? folder.string() : near.string();
+}
+
 Case load_case_of(const CommandLine& line) {
   return load_case(line.file, line.overrides, [](const Config& config, const fs::path& file) {
     return grains_in(file, config).sizes;
   });
 }
 
-StartCase start_case(const Case& source, const fs::path& beside, int realisation) {
+StartCase start_case(const Case& source, const fs::path& runs, int realisation) {
   StartCase start{.first = source,
                   .realised = realisation_of(source, realisation),
                   .folder = {},
                   .earlier = {}};
   const Config &first = start.first.config, &config = start.realised.config;
   const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
-  start.folder = beside / (case_name(first.file) + other);
+  start.folder = runs / case_name(first.file);
+  start.folder += other;
   start.earlier = earlier_run(start.realised, start.folder);
   return start;
 }
 
 nlohmann::json inputs_to_record(const Case& the_case, const fs::path& folder) {
   nlohmann::json inputs;
+  const fs::path runs = folder_of_runs(the_case.config.file, folder);
   for (const auto& [key, file, source] : inputs_of(the_case)) {
     if (!source) {
       inputs[key] = content_key(file);
       continue;
     }
-    const StartCase start =
-        start_case(*source, folder_beside(folder), the_case.config.initial.realisation);
+    const StartCase start = start_case(*source, runs, the_case.config.initial.realisation);
     inputs[key] = recorded_inputs(start.folder);
     if (!inputs[key].is_object()) inputs[key] = inputs_to_record(start.realised, start.folder);
     inputs[key]["config"] = to_toml(start.realised.config);
@@ -98,6 +103,28 @@ std::vector<StartCase> missing_starts(const Case& the_case, const fs::path& fold
   std::vector<StartCase> missing;
   add_missing(the_case, folder, missing);
   return missing;
+}
+
+void check_earlier_places(const Case& the_case, const fs::path& folder) {
+  if (earlier_run(the_case, folder).done()) return;
+  const fs::path runs = folder_of_runs(the_case.config.file, folder);
+  std::string moves;
+  const auto look = [&](const Case& one, const fs::path& now) {
+    const fs::path before = runs / now.filename();
+    if (fs::exists(now) || !earlier_run(one, before).done()) return;
+    moves += fmt::format("\n  mkdir -p {}; mv {} {}", shown(now.parent_path()), shown(before),
+                         shown(now));
+  };
+  if (fs::absolute(folder) == runs / case_name(the_case.config.file)) look(the_case, folder);
+  if (moves.empty()) {
+    for (const StartCase& start : missing_starts(the_case, folder))
+      look(start.realised, start.folder);
+  }
+  if (moves.empty()) return;
+  throw InputError(
+      "results of an earlier version have another folder now; move them, or compute them again "
+      "with --overwrite:" +
+      moves);
 }
 
 namespace {
@@ -116,8 +143,8 @@ PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   }
   const fs::path& source = config.initial.grains;
   if (!the_case.grain_start) return grains_in(source, config);
-  const StartCase start =
-      start_case(*the_case.grain_start, folder_beside(folder), config.initial.realisation);
+  const StartCase start = start_case(*the_case.grain_start, folder_of_runs(config.file, folder),
+                                     config.initial.realisation);
   if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
   PlannedGrains planned = planned_grains(start.realised, start.folder);
   planned.sizes =

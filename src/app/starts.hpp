@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "src/app/command_line.hpp"
@@ -13,6 +14,9 @@
 #include "src/run/folder_checks.hpp"
 
 namespace barchan {
+
+/// A folder for messages, as short as it can be typed here.
+std::string shown(const std::filesystem::path& folder);
 
 /// The case of a command line. Throws ConfigError.
 Case load_case_of(const CommandLine& line);
@@ -25,8 +29,8 @@ struct StartCase {
   EarlierRun earlier;  // what is in the folder
 };
 
-/// A start in a realisation. Its folder is in `beside`, that of the run.
-StartCase start_case(const Case& source, const std::filesystem::path& beside, int realisation);
+/// A start in a realisation. Its folder is in `runs`, the folder_of_runs() of what starts from it.
+StartCase start_case(const Case& source, const std::filesystem::path& runs, int realisation);
 
 /// What recorded_inputs() gives of a run that begins now in `folder`: of a start what that one
 /// began from, if it says so.
@@ -34,6 +38,10 @@ nlohmann::json inputs_to_record(const Case& the_case, const std::filesystem::pat
 
 /// The starts whose results are missing, in the order in which a run in `folder` would make them.
 std::vector<StartCase> missing_starts(const Case& the_case, const std::filesystem::path& folder);
+
+/// Throws InputError if what a run in `folder` would compute is there, finished, in the folder that
+/// earlier versions took: runs/ and the last part of its name.
+void check_earlier_places(const Case& the_case, const std::filesystem::path& folder);
 
 /// The grains that a run will start with, as far as they are known before it.
 struct PlannedGrains {

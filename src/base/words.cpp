@@ -101,9 +101,32 @@ std::string nearest_file(const std::filesystem::path& path) {
   return fmt::format(" (did you mean {}?)", meant.string());
 }
 
-std::string case_name(const std::filesystem::path& file) {
-  const std::filesystem::path stem = file.stem();
-  return (stem == "." || stem == ".." ? file.filename() : stem).string();
+std::filesystem::path case_name(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  const fs::path whole = fs::absolute(file).lexically_normal(), stem = whole.stem();
+  fs::path below;  // the last folder called configs
+  bool found = false;
+  for (const fs::path& part : whole.parent_path()) {
+    if (part == "configs") {
+      below.clear();
+      found = true;
+    } else if (found) {
+      below /= part;
+    }
+  }
+  return below / (stem == "." || stem == ".." ? whole.filename() : stem);
+}
+
+std::filesystem::path folder_of_runs(const std::filesystem::path& file,
+                                     const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const fs::path whole = fs::absolute(folder);
+  const fs::path beside = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
+  fs::path root = beside, above = case_name(file).parent_path();
+  for (; !above.empty(); above = above.parent_path(), root = root.parent_path()) {
+    if (root.filename() != above.filename()) return beside;
+  }
+  return root;
 }
 
 std::string printable(std::string_view text, std::size_t longest) {

@@ -21,10 +21,15 @@ std::string did_you_mean(std::string_view close);
 /// there is none.
 std::string nearest_file(const std::filesystem::path& path);
 
-/// What a case is called by its file, and so its run folder by default: the name of the file
-/// without its last ending. The launcher (default_run_dir) and Python (run_name) have the same
-/// rule.
-std::string case_name(const std::filesystem::path& file);
+/// What a case is called by its file, and so its run folder in runs/ by default: the path below the
+/// last folder called configs, or else the name of the file, without its last ending. The launcher
+/// (default_run_dir) and Python (run_name) have the same rule.
+std::filesystem::path case_name(const std::filesystem::path& file);
+
+/// Where cases that the case `file` starts from have their run folders, each by its name: runs/ if
+/// `folder`, that of its own run, is runs/NAME or beside it; else the folder that `folder` is in.
+std::filesystem::path folder_of_runs(const std::filesystem::path& file,
+                                     const std::filesystem::path& folder);
 
 /// Text with what a terminal would obey or could not show spelt out: control characters and bytes
 /// that are not UTF-8 as \n, \x1b, \xff; `longest` bytes at most, then "...".

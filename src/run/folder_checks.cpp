@@ -39,15 +39,15 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-void check_start(const std::string& key, const std::string& source, const fs::path& folder) {
-  const fs::path start = source;
+void check_start(const std::string& key, const fs::path& start, const Config& config,
+                 const fs::path& folder) {
   const auto lost = [&](const std::string& what) {
     throw InputError(
         fmt::format("{} = {}: {} {}, whose results a new run removes; take another --out", key,
-                    source, what, folder.string()));
+                    start.string(), what, folder.string()));
   };
   if (start.extension() == ".toml") {
-    const fs::path results = fs::absolute(folder).parent_path() / case_name(start);
+    const fs::path results = folder_of_runs(config.file, folder) / case_name(start);
     if (same_folder(results, folder))
       lost("the results of that case go to the folder of this one,");
   } else if (!start.extension().empty() && is_result_name(start.filename()) &&
@@ -80,8 +80,8 @@ void check_out_folder(const fs::path& folder) {
 }
 
 void check_nothing_is_lost(const Config& config, const fs::path& folder) {
-  if (config.fluid) check_start("initial.fluid", config.initial.fluid, folder);
-  if (config.grains) check_start("initial.grains", config.initial.grains, folder);
+  if (config.fluid) check_start("initial.fluid", config.initial.fluid, config, folder);
+  if (config.grains) check_start("initial.grains", config.initial.grains, config, folder);
   const fs::path own = fs::path(folder) / "config.toml";
   std::error_code error;
   if (fs::equivalent(own, config.file, error) && read_text(own) != to_toml(config)) {

@@ -19,11 +19,12 @@ def runs(tmp_path_factory):
     """Folders with the names that the notebooks open: made-up runs and studies."""
     folder = tmp_path_factory.mktemp("runs")
     (folder / "quickstart").symlink_to(fake("--average"))
-    (folder / "friction-3k").symlink_to(fake("--study"))
+    (folder / "small").mkdir()
+    (folder / "small/friction-3k").symlink_to(fake("--study"))
     horns = folder / "horns"
     subprocess.run([sys.executable, ROOT / "tests/support/make_horn_run.py", horns / "base"], check=True)
-    (folder / "sizes").mkdir()
-    write_study(folder / "sizes", 0.1)
+    (folder / "field/sizes").mkdir(parents=True)
+    write_study(folder / "field/sizes", 0.1)
     return folder
 
 
@@ -32,7 +33,8 @@ def test_it_runs(path, runs, tmp_path):
     if path.stem in COMPUTES and "BARCHAN_PROGRAM" not in os.environ:
         pytest.skip("needs the program, whose path BARCHAN_PROGRAM has")
     if path.stem == "horn_grains":
-        (tmp_path / "friction-3k").symlink_to(runs / "horns")
+        (tmp_path / "small").mkdir()
+        (tmp_path / "small/friction-3k").symlink_to(runs / "horns")
     where = tmp_path if path.stem in (*COMPUTES, "horn_grains") else runs
     environment = {**os.environ, "BARCHAN_RUNS": str(where), "BARCHAN_QUICK": "1", "PYTHONPATH": str(ROOT / "python"),
                    "BARCHAN_CASE": str(ROOT / "tests/support/small_dune.toml"),

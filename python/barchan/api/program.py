@@ -79,9 +79,34 @@ def check(case: str | Path, overrides: Mapping[str, Any] | None = None, *, repor
     return tomllib.loads(resolved)
 
 
+def resolved(case: str | Path, overrides: Mapping[str, Any] | None = None, **keys: Any) -> dict[str, Any]:
+    """As `check`, at once: nothing is timed.
+
+    Parameters
+    ----------
+    case : str or pathlib.Path
+        The file of the case.
+    overrides : dict, optional
+        Keys in place of those of the file, as of `check`.
+    **keys
+        The same with `__` for the point.
+
+    Returns
+    -------
+    dict
+        {section: {key: value}}, in SI units.
+
+    Raises
+    ------
+    BadInput
+        Where the program refuses the case.
+    """
+    return tomllib.loads(_call(["check", str(case), "--resolved-only", *_settings(overrides, keys)]))
+
+
 def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: str | Path | None = None,
         threads: int | None = None, ranks: int | None = None, restart: str | Path | None = None,
-        overwrite: bool = False, **keys: Any) -> Run:
+        overwrite: bool = False, quiet: bool = False, **keys: Any) -> Run:
     """Runs a case to its end; progress goes to standard error.
 
     Parameters
@@ -91,7 +116,7 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
     overrides : dict, optional
         Keys in place of those of the file, as of `check`.
     out : str or pathlib.Path, optional
-        The run folder, else runs/CASE. Where it holds this run, finished, nothing is computed again.
+        The run folder, else runs/ and the path of the case below configs. Where it holds this run, finished, nothing is computed again.
     threads : int, optional
         Threads of each rank, else all cores, shared by the ranks.
     ranks : int, optional
@@ -100,6 +125,8 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
         A restart file to continue from, a folder (its last one) or "latest" (of this run).
     overwrite : bool, optional
         Whether the results of another run in the folder are removed.
+    quiet : bool, optional
+        Whether problems alone are said, and no pictures drawn.
     **keys
         The same with `__` for the point: `time__end=2.0`.
 
@@ -121,7 +148,7 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
     words = ["run", str(case), "--out", str(folder), *_settings(overrides, keys)]
     for name, value in (("--threads", threads), ("--ranks", ranks), ("--restart", restart)):
         words += [name, str(value)] if value is not None else []
-    _call([*words, "--overwrite"] if overwrite else words)
+    _call([*words, *["--overwrite"] * overwrite, *["--quiet"] * quiet], {"BARCHAN_PICTURES": "no"} if quiet else {})
     return Run(folder)
 
 
@@ -182,12 +209,13 @@ def _settings(overrides: Mapping[str, Any] | None, keys: dict[str, Any]) -> list
     return [word for name, value in given.items() for word in ("--set", f"{name}={value}")]
 
 
-def _call(words: list[str]) -> str:
+def _call(words: list[str], environment: dict[str, str] | None = None) -> str:
     """What it prints; its messages also go to standard error as they come."""
     quiet = words[0] == "check"
     try:
         process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace")
+                                   stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace",
+                                   env={**os.environ, **(environment or {})})
     except OSError as error:
         raise BarchanError(f"cannot start {program()}: {error.strerror}") from error
     with process:  # at a Ctrl-C, which it gets too, it is waited for: it writes a restart file

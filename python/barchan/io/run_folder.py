@@ -48,8 +48,9 @@ class RunFolder:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         if not self.path.exists():
-            meant = Path("runs") / path
-            hint = f" (did you mean {meant}?)" if meant.is_dir() else ""
+            runs = Path("runs")
+            meant = [other for other in (runs / path, *sorted(runs.glob(f"*/{self.path.name}"))) if other.is_dir()]
+            hint = f" (did you mean {meant[0]}?)" if meant else ""
             raise BarchanError(f"no such run folder: {path}{hint}")
         if not self.path.is_dir():
             raise BarchanError(f"not a run folder but a file: {path}")

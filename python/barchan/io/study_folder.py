@@ -4,6 +4,7 @@ Cases may be absent, unfinished or failed: what they have is used, `gaps` says w
 """
 
 import json
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -54,9 +55,10 @@ def symbol(key: str) -> str:
 
 def run_name(file: str | Path) -> str:
     """What a case or a study is called by its file, and so its folder in runs/: as case_name of src/base/words.hpp."""
-    name = Path(file).name
+    *folders, name = Path(os.path.abspath(file)).parts
+    above = len(folders) - folders[::-1].index("configs") if "configs" in folders else len(folders)
     stem = name[:dot] if (dot := name.rfind(".")) > 0 else name
-    return name if stem in (".", "..") else stem
+    return "/".join([*folders[above:], name if stem in (".", "..") else stem])
 
 
 def plain(text: str) -> str:

@@ -22,6 +22,7 @@ from pathlib import Path
 from barchan.errors import BarchanError
 from barchan.io import writing
 from barchan.io.run_folder import json_of, text_of, toml_of
+from barchan.io.study_folder import NAME
 from barchan.io.writing import appending
 from barchan.studies.spec import StudyError, read_study, unknown
 from barchan.studies.table import write_table
@@ -287,7 +288,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(prog="barchan sweep", description="Runs a parameter study.")
     parser.add_argument("program", help=argparse.SUPPRESS)
     parser.add_argument("study", metavar="STUDY.toml")
-    parser.add_argument("--out", metavar="DIR", help="folder of the study (default: runs/<study name>)")
+    parser.add_argument("--out", metavar="DIR", help="folder of the study (default: runs/ and the path below configs)")
     parser.add_argument("--only", metavar="RUN", nargs="+", help="these runs of it; patterns with * are taken")
     parser.add_argument("--at-once", type=int, metavar="N", help="cases side by side")
     parser.add_argument("--threads", type=int, metavar="N", help="threads of each (default: cores shared out)")
@@ -296,6 +297,15 @@ def parse(arguments):
     parser.add_argument("--list", action="store_true", help="show the cases, run nothing")
     parser.add_argument("--no-pictures", action="store_true")
     return parser.parse_args(arguments)
+
+
+def check_earlier_place(study):
+    """Earlier versions called the folder of a study by the last part of its name: StudyError if its results are there."""
+    earlier = Path("runs") / study.out.name
+    there = json_of(earlier / NAME)
+    if not study.out.exists() and (there.get("title"), there.get("base")) == (study.title, str(study.base)):
+        raise StudyError("results of an earlier version have another folder now; move them, or compute them again with "
+                         f"--overwrite:\n  mkdir -p {study.out.parent}; mv {earlier} {study.out}")
 
 
 def lock(folder):
@@ -340,6 +350,8 @@ def main(arguments):
             for case in chosen:
                 print(case.run_name, *case.set_options()[1::2])
             return 0
+        if not options.out and not options.overwrite:
+            check_earlier_place(study)
         held = lock(study.out)
         check_nobody_runs(study.out / case.run_name for case in chosen)
     except BarchanError as error:
