@@ -86,7 +86,7 @@ Json actions_before(const fs::path& file, const std::string& start) {
   return actions;
 }
 
-/// The entities themselves, by what refers to them.
+/// References to entities.
 Json references(const Json& entities) {
   Json ids = Json::array();
   for (const Json& entity : entities) ids.push_back(id_of(entity.at("@id")));

@@ -7,10 +7,10 @@ import re
 import subprocess
 import tomllib
 
+import jsonschema
 import pytest
 from fake_runs import ROOT
 
-jsonschema = pytest.importorskip("jsonschema")
 PROGRAM = os.environ.get("BARCHAN_PROGRAM", "")
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="needs the program, whose path BARCHAN_PROGRAM has")
 CASES = [path for path in sorted((ROOT / "configs").rglob("*.toml")) if "[study]" not in path.read_text()]

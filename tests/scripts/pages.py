@@ -76,7 +76,7 @@ def commands(text):
 
 
 def check_command(page, line, help_text, folder):
-    words = shlex.split(line)
+    words = shlex.split(line.split(" > ")[0])
     command, arguments = words[1], words[2:]
     if PLACEHOLDER.search(command):
         return None
