@@ -57,7 +57,7 @@ def run(case: str | Path, out: str | Path | None = None, threads: int | None = N
     """Runs a case to its end and returns its Run; progress goes to standard error.
 
     out: the run folder (default: runs/ and the path of the case below configs); where it holds this run, finished,
-    nothing is computed again. quiet: says problems only and draws no pictures.
+    nothing is computed again. quiet: prints nothing (warnings are in log.txt) and draws no pictures.
     overrides: section__key=value, such as time__end=2.0. Raises BadInput (refused), RunFailed or RunStopped with the
     program's message.
     """
@@ -93,8 +93,8 @@ def _settings(overrides: dict[str, Any]) -> list[str]:
 
 
 def _call(words: list[str], environment: dict[str, str] | None = None) -> str:
-    """What it prints; its messages also go to standard error as they come."""
-    quiet = words[0] == "check"
+    """What it prints; the messages of a run also go to standard error as they come, unless it is quiet."""
+    quiet = words[0] == "check" or "--quiet" in words
     try:
         process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace",
