@@ -43,8 +43,9 @@ class BarchanBmi:
     """A case as a component. SI units throughout; raises barchan.BarchanError.
 
     `initialize` takes a case, or a file of settings: case (relative to this file), out (run folder, default: that of
-    the case and "-bmi"), interval (time step of the component [s], default: output.dune_interval), spacing (of the map of
-    the bed [m], default: two mean diameters), threads, overwrite (of earlier results in `out`), set (keys of the case).
+    the case and "-bmi"), interval (time step of the component [s], default: output.dune_interval), spacing (of the map
+    of the bed [m], default: two mean diameters), threads, overwrite (of earlier results in `out`), set (keys of the
+    case).
     """
 
     def __init__(self) -> None:
@@ -296,7 +297,7 @@ class BarchanBmi:
         height = HeightMap(grains, (0, (columns - 0.5) * size, 0, (rows - 0.5) * size), size).h
         dune = _row(run.main_dune_columns, time, self._fluid_step) if run.dune_columns else {}
         flow = _row(run.history_columns, time, self._fluid_step)
-        now = {BED: height.T.ravel(), SHEAR: [flow.get("u_star", 0.0)], COUNT: [len(grains.d)],
+        now: dict[str, Any] = {BED: height.T.ravel(), SHEAR: [flow.get("u_star", 0.0)], COUNT: [len(grains.d)],
                **{name: [dune.get(column, math.nan)] for name, column in COLUMNS.items()}}
         for name, value in now.items():
             self._values.setdefault(name, np.zeros(len(value), OUTPUTS[name][1]))[:] = value

@@ -2,6 +2,8 @@
 
 import inspect
 import os
+import re
+import runpy
 
 import numpy as np
 import pytest
@@ -135,6 +137,20 @@ def test_a_speed_that_is_set_drives_the_flow(model, tmp_path):
     with pytest.raises(barchan.BadInput, match="mean_velocity"):
         model.update()
     assert model.get_current_time() == pytest.approx(0.005)
+
+
+@needs_program
+def test_the_loop_of_the_page(tmp_path, monkeypatch, capsys):
+    """As printed, for two updates of the small case."""
+    monkeypatch.setenv("BARCHAN", os.environ["BARCHAN_PROGRAM"])
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/results.md").read_text(), re.S | re.M)
+    loop = next(block for block in blocks if "BarchanBmi" in block)
+    settings(tmp_path, name="coupled.toml")
+    (tmp_path / "loop.py").write_text(loop.replace("< 0.6", "< 0.004").replace("< 0.01:", "< 1:"))
+    runpy.run_path("loop.py")
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 2 and ": 0.20 m/s, dune at " in said[0] and ": 0.22 m/s, dune at " in said[1]
 
 
 @needs_program

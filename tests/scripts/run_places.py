@@ -7,6 +7,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+CONFIGS = "configs"
+DUNE_A, DUNE_B, DUNE_C = (f"{CONFIGS}/{folder}/dune.toml" for folder in "abc")
 PROGRAM = os.environ["BARCHAN_PROGRAM"]
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
 HEAP = """[case]
@@ -53,42 +55,42 @@ def write_cases(work):
         (work / f"configs/{folder}/dune.toml").write_text(DUNE + 'grains = "../c/heap.toml"\n')
         (work / f"configs/{folder}/sizes.toml").write_text(STUDY.format(title))
     (work / "configs/c").mkdir()
-    (work / "configs/c/heap.toml").write_text(HEAP)
-    (work / "configs/c/dune.toml").write_text(DUNE + 'grains = "heap.toml"\n')
+    (work / "configs/c" / "heap.toml").write_text(HEAP)
+    (work / DUNE_C).write_text(DUNE + 'grains = "heap.toml"\n')
 
 
 def one_start_for_both(work):
-    call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml")
+    call(work, 0, *ONE_RANK, "run", DUNE_A)
     first = (work / "runs/c/heap/run.json").stat().st_mtime_ns
-    call(work, 0, *TWO_RANKS, "run", "configs/b/dune.toml")
+    call(work, 0, *TWO_RANKS, "run", DUNE_B)
     call(work / "configs", 0, *ONE_RANK, "run", "b/dune.toml", "--out", "../runs/b/again")  # beside: the same place
     check(f"run folders: {runs_in(work)}",
           runs_in(work) == {"runs/a/dune", "runs/b/dune", "runs/b/again", "runs/c/heap"})
     check("the shared start was computed twice", (work / "runs/c/heap/run.json").stat().st_mtime_ns == first)
-    call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml", "--out", "elsewhere/x/")
+    call(work, 0, *ONE_RANK, "run", DUNE_A, "--out", "elsewhere/x/")
     check(f"with --out: {runs_in(work / 'elsewhere')}", runs_in(work / "elsewhere") == {"x", "c/heap"})
     said = call(work, 0, sys.executable, "-m", "barchan", "list")
     check(f"list: {said}", all(f"\n{name} " in said for name in ("a/dune", "b/dune", "c/heap")))
-    said = call(work, 2, *ONE_RANK, "run", "configs/c/dune.toml", "--out", "runs/c/heap", "--overwrite")
+    said = call(work, 2, *ONE_RANK, "run", DUNE_C, "--out", "runs/c/heap", "--overwrite")
     check(f"a run over its own start: {said}", "the results of that case go to the folder of this one" in said)
 
 
 def results_of_an_earlier_version(work):
     (work / "runs/a/dune").rename(work / "runs/dune")
     for start in (ONE_RANK, TWO_RANKS):
-        said = call(work, 2, *start, "run", "configs/a/dune.toml")
+        said = call(work, 2, *start, "run", DUNE_A)
         check(f"it says: {said}", "mkdir -p runs/a; mv runs/dune runs/a/dune\n" in said)
         check("something was made", not (work / "runs/a/dune").exists())
-    call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml", "--set", "grains.restitution=0.3")  # another case: not there
+    call(work, 0, *ONE_RANK, "run", DUNE_A, "--set", "grains.restitution=0.3")  # another case: not there
     call(work, 0, "rm", "-r", "runs/a/dune")
     call(work, 0, "mv", "runs/dune", "runs/a/dune")
-    said = call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml")
+    said = call(work, 0, *ONE_RANK, "run", DUNE_A)
     check(f"the moved run: {said}", "already holds this run" in said)
     (work / "runs/c/heap").rename(work / "runs/heap")
-    said = call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml")  # done: nothing needs its start
-    said = call(work, 2, *ONE_RANK, "run", "configs/a/dune.toml", "--out", "runs/a/new")
+    said = call(work, 0, *ONE_RANK, "run", DUNE_A)  # done: nothing needs its start
+    said = call(work, 2, *ONE_RANK, "run", DUNE_A, "--out", "runs/a/new")
     check(f"of a start it says: {said}", "mv runs/heap runs/c/heap\n" in said)
-    call(work, 0, *ONE_RANK, "run", "configs/a/dune.toml", "--out", "runs/a/new", "--overwrite")
+    call(work, 0, *ONE_RANK, "run", DUNE_A, "--out", "runs/a/new", "--overwrite")
     check("with --overwrite the start was not computed", (work / "runs/c/heap/run.json").exists())
 
 
@@ -98,10 +100,10 @@ def studies(work):
         call(work, 0, *sweep, f"configs/{folder}/sizes.toml", "--no-pictures")
         check(f"the study of {folder}", (work / f"runs/{folder}/sizes/one/run.json").exists())
     (work / "runs/a/sizes").rename(work / "runs/sizes")
-    said = call(work, 2, *sweep, "configs/a/sizes.toml", "--no-pictures")
+    said = call(work, 2, *sweep, f"{CONFIGS}/a/sizes.toml", "--no-pictures")
     check(f"of a study it says: {said}", "mkdir -p runs/a; mv runs/sizes runs/a/sizes\n" in said)
     (work / "runs/b/sizes").rename(work / "runs/kept")
-    call(work, 0, *sweep, "configs/b/sizes.toml", "--no-pictures")  # runs/sizes is of another study
+    call(work, 0, *sweep, f"{CONFIGS}/b/sizes.toml", "--no-pictures")  # runs/sizes is of another study
 
 
 with tempfile.TemporaryDirectory() as name:

@@ -116,7 +116,8 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
     overrides : dict, optional
         Keys in place of those of the file, as of `check`.
     out : str or pathlib.Path, optional
-        The run folder, else runs/ and the path of the case below configs. Where it holds this run, finished, nothing is computed again.
+        The run folder, else runs/ and the path of the case below configs. Where it holds this run, finished, nothing
+        is computed again.
     threads : int, optional
         Threads of each rank, else all cores, shared by the ranks.
     ranks : int, optional
@@ -126,7 +127,7 @@ def run(case: str | Path, overrides: Mapping[str, Any] | None = None, *, out: st
     overwrite : bool, optional
         Whether the results of another run in the folder are removed.
     quiet : bool, optional
-        Whether problems alone are said, and no pictures drawn.
+        Whether nothing is printed (warnings are in log.txt) and no picture drawn.
     **keys
         The same with `__` for the point: `time__end=2.0`.
 
@@ -210,8 +211,8 @@ def _settings(overrides: Mapping[str, Any] | None, keys: dict[str, Any]) -> list
 
 
 def _call(words: list[str], environment: dict[str, str] | None = None) -> str:
-    """What it prints; its messages also go to standard error as they come."""
-    quiet = words[0] == "check"
+    """What it prints; the messages of a run also go to standard error as they come, unless it is quiet."""
+    quiet = words[0] == "check" or "--quiet" in words
     try:
         process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE if quiet else subprocess.STDOUT, text=True, errors="replace",
