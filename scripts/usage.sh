@@ -37,6 +37,7 @@ usage: $command_name COMMAND [arguments]
       --pdf, --svg      PDF files, SVG files besides the PNG files
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
+  watch RUN_DIR | CASE.toml   keep report.html of a running case up to date; the page reloads itself
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
   list [FOLDER]       runs below a folder (default: runs): status, time reached, age, last restart file, size
   info PATH           what a run or study folder, a result, restart file, table or case holds

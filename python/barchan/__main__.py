@@ -1,4 +1,4 @@
-"""What the launcher calls: python -m barchan plot RUN_DIR ..., vtk RUN_DIR ..., list [FOLDER], sweep PROGRAM ..."""
+"""What the launcher calls: python -m barchan plot RUN_DIR ..., vtk RUN_DIR ..., list [FOLDER], watch RUN_DIR ..."""
 
 import os
 import sys
@@ -19,6 +19,10 @@ def main() -> int:
             from barchan import listing
 
             return listing.main(arguments)
+        if command == "watch":
+            from barchan import watch
+
+            return watch.main(arguments)
         if command == "sweep":
             from barchan.studies import sweep
 
@@ -29,7 +33,7 @@ def main() -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     print("usage: python -m barchan plot RUN_DIR [FIGURE ...] | vtk RUN_DIR | list [FOLDER] | "
-          "sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
+          "watch RUN_DIR | sweep PROGRAM STUDY.toml [...]", file=sys.stderr)
     return 2
 
 

@@ -12,7 +12,7 @@ from barchan.io import columns
 
 PACKAGE = ROOT / "python/barchan"
 # Each may import itself and those before it.
-ORDER = ("errors", "stats", "io", "dune", "flow", "figures", "report", "plot", "vtk", "listing", "studies", "api",
+ORDER = ("errors", "stats", "io", "dune", "flow", "figures", "report", "plot", "vtk", "listing", "watch", "studies", "api",
          "__init__", "__main__")
 ONLY = {"matplotlib": ("figures", "report", "plot"), "h5py": ("io",), "pandas": (), "xarray": ("io",),
         "subprocess": ("figures", "studies", "api")}
