@@ -41,6 +41,7 @@ usage: $command_name COMMAND [arguments]
       --pdf, --svg      PDF files, SVG files besides the PNG files
       --time T, --from T, --to T   seconds, for figures of a moment and of means
       --debug           show where an unexpected error arose
+  watch RUN_DIR | CASE.toml   keep report.html of a running case up to date; the page reloads itself
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
       --temporal        one file with all frames (VTK 9.3, ParaView 5.12 and newer) in place of one a frame
   watch RUN_DIR       keeps report.html up to date while the run goes on; the page loads itself again

@@ -22,6 +22,7 @@ expect 2 "--ranks needs a number" run case.toml --ranks none
 expect 2 "--threads needs a number" run case.toml --threads=0
 expect 2 "run folder" plot
 expect 2 "run folder" vtk
+expect 2 "run folder or a case" watch
 expect 2 "run needs a case" run --quiet
 expect 2 "check needs a case" check
 expect 2 "info needs" info

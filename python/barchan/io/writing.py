@@ -26,11 +26,16 @@ def replacing(path: Path) -> Iterator[Path]:
         raise
 
 
-def write(path: Path, content: str | bytes) -> None:
-    """The whole of a file: a reader, or a kill at any moment, sees the old content or the new one."""
+def write(path: Path, content: str | bytes, date: float | None = None) -> None:
+    """The whole of a file: a reader, or a kill at any moment, sees the old content or the new one.
+
+    date: of the file, seconds since the epoch; without it that of now.
+    """
     with replacing(path) as beside:
         with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), "wb") as file:
             file.write(content.encode(errors="replace") if isinstance(content, str) else content)
+        if date is not None:
+            os.utime(beside, (date, date))
 
 
 def appending(path: Path) -> TextIO:

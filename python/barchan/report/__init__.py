@@ -7,6 +7,7 @@ tables and grains.h5, as far as they are there. All text from the run is escaped
 import math
 import re
 import shlex
+import time
 from datetime import datetime
 from html import escape
 from pathlib import Path
@@ -32,8 +33,10 @@ PHASES = {"exchange": "exchange of momentum", "grains": "grain steps", "list": "
 def write_files(run, reload=None):
     """Writes report.html into the run folder; returns its path in a list.
 
-    `reload`: seconds after which the page loads itself again, and then begins with the last time.
+    reload: seconds after which the page loads itself again, for a run that goes on; None: never. Such a page has the
+    date at which it was begun: it is older than what the run has written since.
     """
+    began = time.time()
     summary = read_summary(run)
     if not (summary or run.config or run.history_columns or run.dune_columns):
         raise MissingData("needs at least run.json, config.toml or a table with a line in it")
@@ -45,18 +48,25 @@ def write_files(run, reload=None):
         "player": player(facts, missing), "curves": curves(run),
         "phases": phases(summary), "rates": rates(summary), "config": config(run),
         "files": files(run), "commands": commands(run, summary), "next": next_steps(run),
-        "reload": f'<meta http-equiv="refresh" content="{math.ceil(reload)}">' if reload else "",
-        "css": template("css"), "js": template("js"),
+        "css": template("css"), "js": template("js"), **reloading(reload),
         "facts": grain_pictures.to_script(facts or {}), "data": data,
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template("html"))
     path = run.path / "report.html"
-    write(path, page)
+    write(path, page, None if reload is None else began)
     return [path]
 
 
 def template(ending):
     return (HERE / f"page.{ending}").read_text(encoding="utf-8")
+
+
+def reloading(seconds):
+    """What a page that loads itself again has more than another."""
+    if seconds is None:
+        return {"reload_after": "", "reload_js": "", "reload_note": ""}
+    return {"reload_after": f' data-reload="{seconds:g}"', "reload_js": f"<script>\n{template('reload.js')}</script>\n",
+            "reload_note": '<p class="quiet">The run goes on; this page loads itself again.</p>\n'}
 
 
 def read_summary(run):
