@@ -70,7 +70,7 @@ class Measurement:
         """Summary and last restart file of the case, or of its first part."""
         if case in self.done:
             return self.done[case]
-        table = tomllib.loads(case.read_text(encoding="utf-8"))
+        table = tomllib.loads(self.call("check", case, "--resolved-only"))
         starts = []
         for key, start in table["initial"].items():
             if isinstance(start, str) and start.endswith(".toml"):

@@ -116,7 +116,8 @@ stamp_of() { if [ -f "$out/steps/$1.stamp" ]; then cut -f 1 "$out/steps/$1.stamp
 key_of() {  # of all that results rest on
   {
     find -L "$build" "$cpu_build" -maxdepth 1 -type f -executable -print0 2> /dev/null | sort -zu | xargs -0r sha256sum
-    sha256sum "$case" "$dune_case" "$root"/configs/{channel-small,heap-3k}.toml "$root"/scripts/first_light*
+    sha256sum "$case" "$dune_case" "$root"/configs/{channel-small,heap-3k,paper/channel-mesh-1}.toml
+    sha256sum "$root"/scripts/first_light*
     echo "$stand_in $tiny $tests"
     nvidia-smi -L 2> /dev/null || true
   } | sha256sum

@@ -44,7 +44,6 @@ usage: $command_name COMMAND [arguments]
   watch RUN_DIR | CASE.toml   keep report.html of a running case up to date; the page reloads itself
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results
       --temporal        one file with all frames (VTK 9.3, ParaView 5.12 and newer) in place of one a frame
-  watch RUN_DIR       keeps report.html up to date while the run goes on; the page loads itself again
   list [FOLDER]       runs below a folder (default: runs): status, time reached, age, last restart file, size
   info PATH           what a run or study folder, a result, restart file, table or case holds
 USAGE

@@ -6,7 +6,6 @@ DNS: Moser, Kim & Mansour, Phys. Fluids 11, 943 (1999), Re_tau = 392 and 178.
 
 import datetime
 import json
-import tomllib
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from validation import tables
 from barchan.errors import BarchanError, MissingData
 from barchan.io.run_folder import RunFolder
 from barchan.io.tables import read_columns
+from barchan.studies.spec import load_case
 
 # saved as channel_<name>.csv: case in configs/validation, label, colour, line
 MESHES = {
@@ -68,7 +68,7 @@ def save(name, run_path, folder):
     config, identity = run.config, json.loads((run.path / "run.json").read_text())
     fluid, statistics = config["fluid"], config["statistics"]
     path = f"configs/validation/{SAVED[name][0]}.toml"
-    case = tomllib.loads((tables.ROOT / path).read_text())
+    case = load_case(tables.ROOT / path)
     if fluid["cells"][1] != case["fluid"]["cells"][1]:
         raise BarchanError(f'{run_path} has {fluid["cells"][1]} rows, {path} has {case["fluid"]["cells"][1]}')
     made = datetime.date.fromtimestamp(source.stat().st_mtime)

@@ -11,7 +11,7 @@ import pytest
 
 from barchan.errors import BarchanError
 from barchan.studies import sweep
-from barchan.studies.spec import as_toml, read_study
+from barchan.studies.spec import StudyError, as_toml, read_study
 
 # Does as it is told by files beside it; a run leaves a folder as a run does.
 PROGRAM = """#!/bin/sh
@@ -137,3 +137,38 @@ def test_an_entry_of_a_list_is_varied(tmp_path):
     (tmp_path / "study.toml").write_text(text.format(3))
     with pytest.raises(BarchanError, match=r"\[vary\] fluid.schedule.3.velocity has no value in the base case"):
         read_study(tmp_path / "study.toml", options)
+
+
+def read(folder, text):
+    (folder / "case.toml").write_text("[time]\nend = 1.0\n")
+    (folder / "study.toml").write_text(f'{text}\n[study]\nbase = "case.toml"\n')
+    return read_study(folder / "study.toml", SimpleNamespace(at_once=None, threads=None, out=None)).cases
+
+
+def test_cases_are_like_others(tmp_path):
+    cases = read(tmp_path, """
+set.time.end = 2.0
+[cases]
+plain = {}
+slow.fluid = { mean_velocity = 0.2, ramp_time = 1.0 }
+"rough-0.9" = { like = "slow", grains.sliding_friction = 0.9, fluid.ramp_time = 3.0 }
+both.like = ["rough-0.9", "slow"]
+""")
+    common, slow = {"time.end": 2.0}, {"fluid.mean_velocity": 0.2, "fluid.ramp_time": 1.0}
+    rough = {**slow, "grains.sliding_friction": 0.9, "fluid.ramp_time": 3.0}
+    assert {case.name: case.values for case in cases} == {
+        "plain": common, "slow": common | slow, "rough-0.9": common | rough, "both": common | rough | slow}
+
+
+def test_cases_as_sections_are_the_same(tmp_path):
+    sections = read(tmp_path, '[[case]]\nname = "a"\nset = { time.end = 3.0 }\n[[case]]\nname = "b"\nlike = ["a"]\n')
+    assert sections == read(tmp_path, "[cases]\na.time.end = 3.0\nb.like = 'a'\n")
+
+
+@pytest.mark.parametrize("text, says", [
+    ('a.like = "b"\nb = {}', 'like "b": no case before it has this name'), ("a.like = 3", "like must be the name"),
+    ("a.like = [3]", "like must be the name"), ("a = 3", "must have a line NAME"),
+    ('"a/b" = {}', "must be of letters")])
+def test_cases_that_cannot_be(tmp_path, text, says):
+    with pytest.raises(StudyError, match=says):
+        read(tmp_path, f"[cases]\n{text}\n")
