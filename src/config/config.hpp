@@ -229,6 +229,17 @@ struct BodyConfig {
   bool operator==(const BodyConfig&) const = default;
 };
 
+/// [[output.probe]]: a point, or points at equal distances on a line, at which the flow is written.
+struct ProbeConfig {
+  std::string name;                                // in tables and pictures, required
+  std::optional<std::array<double, 3>> at = {};    // the point [m]
+  std::optional<std::array<double, 3>> from = {};  // or the first point of a line [m],
+  std::optional<std::array<double, 3>> to = {};    // the last [m],
+  int points = 0;                                  // and how many there are
+  double interval = 0.01;                          // [s]
+  bool operator==(const ProbeConfig&) const = default;
+};
+
 /// [output], intervals in simulated seconds; 0 turns a file off.
 struct OutputConfig {
   double history_interval = 0.01;
@@ -237,6 +248,7 @@ struct OutputConfig {
   double fields_interval = 0.5;
   double tracks_interval = 0;  // ids and positions alone, in tracks.h5
   bool grain_forces = false;   // each force separately in grains.h5
+  std::vector<ProbeConfig> probes = {};
   bool operator==(const OutputConfig&) const = default;
 };
 
