@@ -47,7 +47,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
                         help="horn_origins, sectors: at T seconds, not at the end")
     parser.add_argument("--from", type=float, metavar="T", dest="start",
                         help="force_map, sectors, morphodynamics, flow_around_body, forces_on_bodies, laws, means, "
-                             "force_depth: means from T seconds on")
+                             "force_depth, probes: means from T seconds on")
     parser.add_argument("--to", type=float, metavar="T", dest="end", help="... up to T seconds")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     options = parser.parse_args(arguments)

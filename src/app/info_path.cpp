@@ -18,6 +18,7 @@
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/heap_shares.hpp"
+#include "src/diagnostics/probe_table.hpp"
 #include "src/initial/grain_table.hpp"
 #include "src/run/history_table.hpp"
 
@@ -94,6 +95,7 @@ std::string describe_csv(const fs::path& path) {
   if (told.empty()) told = describe_table(kDuneTable, rows);
   if (told.empty()) told = describe_table(kHeapTable, rows);
   if (told.empty()) told = describe_table(kBodyTable, rows);
+  if (told.empty()) told = describe_table(kProbeTable, rows);
   if (told.empty()) told = describe_table(kStatisticsTable, rows);
   if (!told.empty()) return told;
   const std::string& h = rows.header;

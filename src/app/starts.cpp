@@ -12,6 +12,7 @@
 #include "src/config/kinds.hpp"
 #include "src/config/realisation.hpp"
 #include "src/config/resolved.hpp"
+#include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
@@ -133,6 +134,7 @@ namespace {
 PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   check_passage(config);
+  check_probes(config);
   if (!config.grains) return {};
   if (const auto heaps = poured_heaps(config); !heaps.empty()) {
     PlannedGrains planned;

@@ -4,6 +4,7 @@
 #include "src/config/case_keys.hpp"
 #include "src/config/key_builder.hpp"
 #include "src/config/material_keys.hpp"
+#include "src/config/output_keys.hpp"
 
 namespace barchan {
 namespace {
@@ -214,19 +215,6 @@ void add_craters(Sections& all) {
       "depth below the mean height of the surface within the rim", required);
 }
 
-void add_output(Sections& all) {
-  Keys key(add(all, "output", "Intervals in simulated time; 0: no such file"),
-           [](auto& c) { return &c.output; });
-  using O = OutputConfig;
-  key("history_interval", &O::history_interval, at_least(0), "s", "interval of `history.csv`");
-  key("dune_interval", &O::dune_interval, at_least(0), "s", "interval of `dune.csv`");
-  key("grains_interval", &O::grains_interval, at_least(0), "s", "interval of `grains.h5`");
-  key("fields_interval", &O::fields_interval, at_least(0), "s", "interval of `fields.h5`");
-  key("tracks_interval", &O::tracks_interval, at_least(0), "s",
-      "interval of `tracks.h5`: only ids and positions of the grains");
-  key("grain_forces", &O::grain_forces, "write each force separately to `grains.h5`");
-}
-
 void add_restart(Sections& all) {
   Keys key(add(all, "restart", "Restart files, from which a run can go on"),
            [](auto& c) { return &c.restart; });
@@ -265,10 +253,10 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add :
-         {add_case,     add_time,       add_domain, add_fluid,   add_schedule, add_grains,
-          add_wall,     add_kinds,      add_pairs,  add_ambient, add_feed,     add_bodies,
-          add_coupling, add_initial,    add_pour,   add_heaps,   add_craters,  add_output,
-          add_restart,  add_statistics, add_solver}) {
+         {add_case,     add_time,    add_domain,     add_fluid,   add_schedule, add_grains,
+          add_wall,     add_kinds,   add_pairs,      add_ambient, add_feed,     add_bodies,
+          add_coupling, add_initial, add_pour,       add_heaps,   add_craters,  add_output,
+          add_probes,   add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

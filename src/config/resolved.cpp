@@ -38,6 +38,21 @@ std::vector<Difference> differences(const Config& a, const Config& b, const Sect
   return found;
 }
 
+/// Rows of probes.csv name a probe by its number: those that are there keep theirs.
+void check_probes_kept(const Config& config, const Config& written,
+                       std::vector<std::string>& conflicts) {
+  const std::vector<ProbeConfig>& here = config.output.probes;
+  for (std::size_t n = 0; n < written.output.probes.size(); ++n) {
+    ProbeConfig there = written.output.probes[n];
+    if (n < here.size()) there.interval = here[n].interval;
+    if (n < here.size() && here[n] == there) continue;
+    conflicts.push_back(fmt::format(
+        "[[output.probe]] {}: it was written with the probe \"{}\" there; keep it as it "
+        "was, and put new ones after it",
+        n + 1, there.name));
+  }
+}
+
 }  // namespace
 
 std::string title_of(const Section& section) {
@@ -76,6 +91,7 @@ std::vector<std::string> restart_conflicts(const Config& config, const Config& w
   section("[fluid]", config.fluid.has_value(), written.fluid.has_value());
   section("[grains]", config.grains.has_value(), written.grains.has_value());
   if (!conflicts.empty()) return conflicts;
+  check_probes_kept(config, written, conflicts);
   for (const auto& [key, here, there] : differences(config, written, table, true))
     conflicts.push_back(fmt::format("{} = {}: it was written with {}", key->dotted(), here, there));
   return conflicts;

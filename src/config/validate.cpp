@@ -13,6 +13,7 @@
 #include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/no_effect.hpp"
+#include "src/config/probe_checks.hpp"
 
 namespace barchan {
 namespace {
@@ -133,7 +134,7 @@ void check_initial(const Config& c, Findings& found) {
 }
 
 /// Of what is written, or sampled, at an interval: the steps are what they are.
-void check_interval(const Config& c, const char* key, double interval, Findings& found) {
+void check_interval(const Config& c, const std::string& key, double interval, Findings& found) {
   const double step = c.time.fluid_step, steps = interval / step;
   found.warning_if(steps > 1 && interval <= c.time.end && !is_whole(steps),
                    {key, "time.fluid_step"},
@@ -159,12 +160,14 @@ void check_output(const Config& c, Findings& found) {
   check("output.fields_interval", &O::fields_interval, c.fluid.has_value());
   check("output.tracks_interval", &O::tracks_interval, c.grains.has_value());
   const O& o = c.output;
+  for (std::size_t n = 0; n < o.probes.size(); ++n)
+    check_interval(c, fmt::format("output.probe.{}.interval", n + 1), o.probes[n].interval, found);
   const bool grains =
       c.grains && (o.dune_interval > 0 || o.grains_interval > 0 || o.tracks_interval > 0);
-  found.warning_if(
-      o.history_interval == 0 && !grains && !(c.fluid && o.fields_interval > 0) && !c.statistics,
-      {"output.history_interval"},
-      "is 0 as all other intervals: the run leaves nothing but its last state");
+  found.warning_if(o.history_interval == 0 && !grains && !(c.fluid && o.fields_interval > 0) &&
+                       !c.statistics && o.probes.empty(),
+                   {"output.history_interval"},
+                   "is 0 as all other intervals: the run leaves nothing but its last state");
 }
 
 void check_statistics(const Config& c, Findings& found) {
@@ -208,6 +211,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   check_initial(c, found);
   check_effects(c, found);
   check_output(c, found);
+  check_probe_keys(c, found);
   check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);
   found.all.insert(found.all.end(), of_sizes.begin(), of_sizes.end());

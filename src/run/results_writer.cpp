@@ -76,6 +76,7 @@ void ResultsWriter::write_due() {
   const bool history = clock.due(run_.config.output.history_interval);
   if (history) write_history();
   if (history && clock.step > 0) write_bodies();
+  write_probes();
   write_frames();
   if (clock.step == 0) return;
   if (restart_due() && clock.step < clock.end) write_restart();
@@ -151,6 +152,15 @@ void ResultsWriter::write_bodies() {
   const auto rows = accounts_.bodies.take(run_.clock.time(), run_.coupled_step);
   if (rank_of(run_.ranks) != 0) return;
   for (const BodyRecord& body : rows) append_record(folder_, body);
+}
+
+void ResultsWriter::write_probes() {
+  Probes* const probes = diagnostics_.probes();
+  for (std::size_t n = 0; probes != nullptr && n < probes->count(); ++n) {
+    if (!run_.clock.due(run_.config.output.probes[n].interval)) continue;
+    const auto rows = probes->sample(n, *run_.state.fluid, run_.clock.time());
+    if (rank_of(run_.ranks) == 0) append_records(folder_, rows);
+  }
 }
 
 void ResultsWriter::write_frames() {

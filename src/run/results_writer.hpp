@@ -31,6 +31,7 @@ class ResultsWriter {
   double check_grain_step();
   void write_history();
   void write_bodies();
+  void write_probes();
   void write_frames();
   bool restart_due() const;
 

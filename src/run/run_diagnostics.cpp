@@ -24,6 +24,7 @@ DuneDomain dune_domain(const Config& config) {
 }  // namespace
 
 RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_domain(run.config)) {
+  if (!run.config.output.probes.empty()) probes_.emplace(run.config);
   const auto& config = run.config.statistics;
   if (!config) return;
   statistics_.emplace(*run.config.fluid, run.state.fluid->grid);

@@ -6,6 +6,7 @@
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/force_map.hpp"
 #include "src/diagnostics/heap_shares.hpp"
+#include "src/diagnostics/probes.hpp"
 #include "src/output/output_files.hpp"
 #include "src/run/run_state.hpp"
 
@@ -35,6 +36,8 @@ class RunDiagnostics {
   bool sample_due() const;
   /// Adds the state of now to the means.
   void sample();
+  /// The probes of the case; nothing without any.
+  Probes* probes() { return probes_ ? &*probes_ : nullptr; }
   /// statistics.csv, flow_average.h5 and force_map.csv.
   void write(const std::filesystem::path& folder, const OutputFiles& output);
 
@@ -49,6 +52,7 @@ class RunDiagnostics {
   std::optional<FlowStatistics> statistics_;
   std::optional<FlowAverage> flow_average_;
   std::optional<ForceMap> force_map_;
+  std::optional<Probes> probes_;
 };
 
 }  // namespace barchan

@@ -5,6 +5,7 @@
 #include <Kokkos_Core.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
@@ -13,6 +14,7 @@
 #include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/heap_shares.hpp"
+#include "src/diagnostics/probe_table.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -40,6 +42,7 @@ constexpr ResultFile kResultFiles[] = {
     {kDuneTable.file, "size, place and horns of each dune against time"},
     {kHeapTable.file, "grains of each heap in each dune against time"},
     {kBodyTable.file, "forces and torques on the bodies against time"},
+    {kProbeTable.file, "flow at the probes against time"},
     {"encounters.csv", "how dunes met each other"},
     {"statistics.csv", "averages of the flow over planes and time"},
     {"flow_average.h5", "averages of the flow over time in every cell"},
@@ -61,10 +64,13 @@ void cut_if_there(const fs::path& folder, const CsvTable<Record>& table, double 
   if (fs::exists(folder / table.file)) cut_table(folder / table.file, table.header(), t);
 }
 template <class Record>
-void append_or_begin(const fs::path& folder, const CsvTable<Record>& table, const Record& record) {
+void append_or_begin(const fs::path& folder, const CsvTable<Record>& table,
+                     std::span<const Record> records) {
   const fs::path file = folder / table.file;
-  if (!fs::exists(file)) cut_table(file, table.header(), record.t);
-  append_text(file, table.line(record));
+  if (!fs::exists(file)) cut_table(file, table.header(), records.front().t);
+  std::string lines;
+  for (const Record& record : records) lines += table.line(record);
+  append_text(file, lines);
 }
 
 }  // namespace
@@ -97,6 +103,7 @@ void check_tables(const fs::path& folder) {
   text_of_table(folder / kDuneTable.file, kDuneTable.header());
   text_of_table(folder / kHeapTable.file, kHeapTable.header());
   text_of_table(folder / kBodyTable.file, kBodyTable.header());
+  text_of_table(folder / kProbeTable.file, kProbeTable.header());
 }
 
 std::string status_in(const fs::path& run_json) {
@@ -129,6 +136,7 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
     cut_table(folder / kDuneTable.file, kDuneTable.header(), t);
     cut_if_there(folder, kHeapTable, t);
     cut_if_there(folder, kBodyTable, t);
+    cut_if_there(folder, kProbeTable, t);
   }
   synchronise(communicator);
   return folder;
@@ -143,11 +151,15 @@ void append_record(const fs::path& folder, const DuneRecord& record) {
 }
 
 void append_record(const fs::path& folder, const HeapShare& record) {
-  append_or_begin(folder, kHeapTable, record);
+  append_or_begin(folder, kHeapTable, std::span(&record, 1));
 }
 
 void append_record(const fs::path& folder, const BodyRecord& record) {
-  append_or_begin(folder, kBodyTable, record);
+  append_or_begin(folder, kBodyTable, std::span(&record, 1));
+}
+
+void append_records(const fs::path& folder, std::span<const ProbeRecord> records) {
+  append_or_begin(folder, kProbeTable, records);
 }
 
 void write_summary(const fs::path& folder, const nlohmann::ordered_json& summary) {

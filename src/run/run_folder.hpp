@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 
 #include "src/config/config.hpp"
 #include "src/io/hdf5_file.hpp"
@@ -16,6 +17,7 @@ struct BodyRecord;
 struct DuneRecord;
 struct HeapShare;
 struct HistoryRecord;
+struct ProbeRecord;
 
 /// Backend and what it runs on, in words.
 std::string device_name();
@@ -44,6 +46,8 @@ void append_record(const std::filesystem::path& folder, const HistoryRecord& rec
 void append_record(const std::filesystem::path& folder, const DuneRecord& record);
 void append_record(const std::filesystem::path& folder, const HeapShare& record);
 void append_record(const std::filesystem::path& folder, const BodyRecord& record);
+/// The same for the lines of a probe in probes.csv, at least one.
+void append_records(const std::filesystem::path& folder, std::span<const ProbeRecord> records);
 /// Replaces run.json as a whole. Numbers that are not finite become null.
 void write_summary(const std::filesystem::path& folder, const nlohmann::ordered_json& summary);
 

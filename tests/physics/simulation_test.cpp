@@ -49,6 +49,12 @@ TEST(Simulation, RestartContinuesBitwise) {
   whole.statistics.emplace();
   whole.statistics->interval = 2 * whole.time.fluid_step;
   whole.statistics->fields = whole.statistics->grain_forces = true;
+  whole.output.probes = {{.name = "point", .at = {{0.01, 0.003, 0.003}}, .interval = 1e-9},
+                         {.name = "line",
+                          .from = {{0.002, 0, 0.001}},
+                          .to = {{0.002, 0.003, 0.001}},
+                          .points = 4,
+                          .interval = 3 * whole.time.fluid_step}};
   Config half = whole;
   half.time.end = whole.time.end / 2;
   const auto at_once = run(whole, scratch / "whole");
@@ -58,7 +64,7 @@ TEST(Simulation, RestartContinuesBitwise) {
   const auto in_parts = run(whole, scratch / "parts", middle);
   expect_same_state(at_once, in_parts);
   for (const char* table :
-       {"history.csv", "dune.csv", "bodies.csv", "statistics.csv", "force_map.csv"}) {
+       {"history.csv", "dune.csv", "bodies.csv", "probes.csv", "statistics.csv", "force_map.csv"}) {
     const std::string text = read_text(scratch / "whole" / table);
     EXPECT_GT(text.size(), 500u) << table;
     EXPECT_EQ(text, read_text(scratch / "parts" / table)) << table;

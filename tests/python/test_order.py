@@ -12,8 +12,8 @@ from barchan.io import columns
 
 PACKAGE = ROOT / "python/barchan"
 # Each may import itself and those before it.
-ORDER = ("errors", "stats", "io", "dune", "flow", "figures", "report", "plot", "vtk", "listing", "watch", "studies", "api",
-         "bmi", "__init__", "__main__")
+ORDER = ("errors", "stats", "io", "dune", "flow", "figures", "report", "plot", "vtk", "listing", "watch", "studies",
+         "api", "bmi", "__init__", "__main__")
 ONLY = {"matplotlib": ("figures", "report", "plot"), "h5py": ("io",), "pandas": (), "xarray": ("io",),
         "subprocess": ("figures", "studies", "api")}
 
@@ -68,7 +68,8 @@ def test_units_are_those_of_the_documents():
     """docs/files.md, which a test of the program compares with what it writes."""
     page = (ROOT / "docs/files.md").read_text()
     for heading, ours in (("## history.csv", columns.HISTORY), ("## dune.csv", columns.DUNES),
-                          ("## bodies.csv", columns.BODIES), ("## statistics.csv", columns.STATISTICS),
+                          ("## bodies.csv", columns.BODIES), ("## probes.csv", columns.PROBES),
+                          ("## statistics.csv", columns.STATISTICS),
                           ("## heaps.csv", columns.HEAPS)):
         theirs = units_of(page, heading)
         assert len(theirs) > 4

@@ -12,6 +12,7 @@
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
 #include "src/diagnostics/heap_shares.hpp"
+#include "src/diagnostics/probe_table.hpp"
 #include "src/run/history_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -62,8 +63,9 @@ TEST(CsvTable, IsCutToTheStep) {
 
 TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {
   const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/files.md");
-  for (const std::string& columns : {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(),
-                                     kBodyTable.page(), kStatisticsTable.page()}) {
+  for (const std::string& columns :
+       {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(), kBodyTable.page(),
+        kProbeTable.page(), kStatisticsTable.page()}) {
     EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos) << "docs/files.md must have:\n"
                                                                    << columns;
   }

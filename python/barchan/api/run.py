@@ -96,6 +96,20 @@ class Run(RunFolder):
         return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
 
     @cached_property
+    def probes(self) -> DataFrame:
+        """probes.csv, indexed by (probe, point, t [s]); run.probes.loc["wake", 0] is one point.
+
+        x, y, z [m]; u, v, w [m/s]; p [Pa]; wall_shear_x, wall_shear_z [Pa]: the shear stress on the floor below.
+        """
+        if self.probe_columns is None:
+            raise MissingData("needs probes.csv with at least one line: [[output.probe]]")
+        tables = self.probe_columns
+        joined = {key: np.concatenate([table[key] for table in tables.values()]) for key in columns.PROBES}
+        joined["point"] = joined["point"].astype(int)
+        joined["probe"] = np.repeat(list(tables), [len(table["t"]) for table in tables.values()])
+        return labelled.data_frame(joined, columns.PROBES).set_index(["probe", "point", "t"]).sort_index()
+
+    @cached_property
     def statistics(self) -> DataFrame:
         """statistics.csv, indexed by y [m]: averages over planes and time."""
         return self._read("statistics.csv", columns.STATISTICS, "[statistics]").set_index("y")

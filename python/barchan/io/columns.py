@@ -94,6 +94,20 @@ BODIES = {
     "grain_torque_z": ("N m", "torque of the grains about z"),
     "n_contacts": ("1", "grains that touch the body"),
 }
+PROBES = {
+    "t": ("s", "time"),
+    "probe": ("1", "number of the probe"),
+    "point": ("1", "number of the point on its line"),
+    "x": ("m", "place of the point along the flow"),
+    "y": ("m", "height of the point"),
+    "z": ("m", "place of the point across the flow"),
+    "u": ("m s-1", "velocity of the water along the flow"),
+    "v": ("m s-1", "velocity of the water upwards"),
+    "w": ("m s-1", "velocity of the water across the flow"),
+    "p": ("Pa", "pressure of the water"),
+    "wall_shear_x": ("Pa", "shear stress on the floor along the flow"),
+    "wall_shear_z": ("Pa", "shear stress on the floor across the flow"),
+}
 STATISTICS = {
     "y": ("m", "height of the cell layer"),
     "y_plus": ("1", "height in wall units"),

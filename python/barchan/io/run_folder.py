@@ -125,6 +125,19 @@ class RunFolder:
         return {int(number): {name: column[table["body"] == number] for name, column in table.items()}
                 for number in numbers}
 
+    @cached_property
+    def probe_columns(self) -> dict[str, dict[str, np.ndarray]] | None:
+        """probes.csv as {name of the probe: {column: values (n)}}, None where there is none."""
+        table = self._table("probes.csv")
+        if table is None:
+            return None
+        output = self.config.get("output", {})
+        known = output.get("probe", []) if isinstance(output, dict) else []
+        numbers = np.unique(table["probe"]).astype(int)
+        names = [str(known[n].get("name", n)) if n < len(known) else f"probe {n}" for n in numbers]
+        return {name: {key: column[table["probe"] == number] for key, column in table.items()}
+                for number, name in zip(numbers, names)}
+
     @property
     def main_dune_columns(self) -> dict[str, np.ndarray]:
         """Columns of the dune with the smallest label: the largest of the first time."""

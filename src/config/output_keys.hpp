@@ -1,0 +1,11 @@
+// Keys of [output] and [[output.probe]].
+#pragma once
+
+#include "src/config/keys.hpp"
+
+namespace barchan {
+
+void add_output(Sections& all);
+void add_probes(Sections& all);
+
+}  // namespace barchan

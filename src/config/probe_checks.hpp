@@ -1,0 +1,11 @@
+// Checks of [[output.probe]].
+#pragma once
+
+#include "src/config/config.hpp"
+#include "src/config/findings.hpp"
+
+namespace barchan {
+
+void check_probe_keys(const Config& config, Findings& found);
+
+}  // namespace barchan
