@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "kernels/grains/stable_step.hpp"
+#include "kernels/grains/contact_law.hpp"
+#include "kernels/grains/step_limit.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
