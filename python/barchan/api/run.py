@@ -80,9 +80,7 @@ class Run(RunFolder):
         """
         if self.dune_columns is None:
             raise MissingData("needs dune.csv with at least one line")
-        tables = list(self.dune_columns.values())
-        joined = {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
-        joined["dune"] = joined["dune"].astype(int)
+        joined = labelled.together(self.dune_columns, whole="dune")
         return labelled.data_frame(joined, columns.DUNES).set_index(["dune", "t"])
 
     @cached_property
@@ -90,9 +88,7 @@ class Run(RunFolder):
         """bodies.csv, indexed by (body, t [s]); run.body_forces.loc[0] is the first [[body]]."""
         if self.body_columns is None:
             raise MissingData("needs bodies.csv with at least one line")
-        tables = list(self.body_columns.values())
-        joined = {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
-        joined["body"] = joined["body"].astype(int)
+        joined = labelled.together(self.body_columns, whole="body")
         return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
 
     @cached_property
@@ -104,8 +100,7 @@ class Run(RunFolder):
         if self.probe_columns is None:
             raise MissingData("needs probes.csv with at least one line: [[output.probe]]")
         tables = self.probe_columns
-        joined = {key: np.concatenate([table[key] for table in tables.values()]) for key in columns.PROBES}
-        joined["point"] = joined["point"].astype(int)
+        joined = labelled.together(tables, whole="point")
         joined["probe"] = np.repeat(list(tables), [len(table["t"]) for table in tables.values()])
         return labelled.data_frame(joined, columns.PROBES).set_index(["probe", "point", "t"]).sort_index()
 

@@ -1,5 +1,6 @@
 """Tables and grains with their names and units: pandas, imported where it is first needed. Figures do without."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,13 @@ def data_frame(columns: dict[str, np.ndarray], about: dict[str, tuple[str, str]]
     frame.attrs["units"] = {name: about[name][0] for name in columns if name in about}
     frame.attrs["long_names"] = {name: about[name][1] for name in columns if name in about}
     return frame
+
+
+def together(tables: Mapping[Any, dict[str, np.ndarray]], whole: str) -> dict[str, np.ndarray]:
+    """Columns of several tables, one after another; those of the column `whole` as integers."""
+    joined = {name: np.concatenate([table[name] for table in tables.values()])
+              for name in next(iter(tables.values()))}
+    return {**joined, whole: joined[whole].astype(int)}
 
 
 def grains_frame(time: float, columns: dict[str, np.ndarray]) -> Any:
