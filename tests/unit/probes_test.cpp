@@ -79,7 +79,9 @@ TEST(Probes, OfAPoiseuilleFlowErrWithTheSquareOfTheCells) {
       worst = std::max(worst, std::abs(flow.at(0.01, here, 0.01).u - parabola(0, 0, here, 0)));
     }
     EXPECT_LT(worst, dy * dy / 4 * (1 + 1e-9));  // |u''| dy^2 / 8
-    if (before > 0) EXPECT_NEAR(before / worst, 4, 0.7);
+    if (before > 0) {
+      EXPECT_NEAR(before / worst, 4, 0.7);
+    }
     before = worst;
   }
 }
