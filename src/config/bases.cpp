@@ -113,10 +113,14 @@ bool ConfigReader::is_switched_off(const std::string& dotted, const std::string&
 
 void ConfigReader::drop_switched_off() {
   ConfigReader trial = *this;
-  Findings found;
-  check_effects(trial.read(), found);
-  for (const Finding& finding : found.all) {
-    if (is_switched_off(finding.keys[0], finding.keys[1])) drop(finding.keys[0]);
+  const Config config = trial.read();
+  for (const Section& section : table_) {
+    for (const Key& key : section.keys) {
+      const std::string dotted = key.dotted();
+      if (tree_.find(dotted) == nullptr || !key.text(config, 0)) continue;
+      const std::string_view by = switched_off_by(dotted, config);
+      if (!by.empty() && is_switched_off(dotted, std::string(by))) drop(dotted);
+    }
   }
 }
 

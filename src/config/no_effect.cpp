@@ -1,6 +1,5 @@
 #include "src/config/no_effect.hpp"
 
-#include <algorithm>
 #include <string_view>
 
 #include "src/config/keys.hpp"
@@ -84,11 +83,12 @@ void check_effects(const Config& c, Findings& found) {
   }
 }
 
-bool has_effect(const std::string& dotted, const Config& config) {
-  return std::ranges::none_of(kNeeds, [&](const Need& need) {
+std::string_view switched_off_by(const std::string& dotted, const Config& config) {
+  for (const Need& need : kNeeds) {
     const bool meant = need.key == dotted || dotted.starts_with(std::string(need.key) + ".");
-    return meant && !need.met(config);
-  });
+    if (meant && !need.met(config)) return need.rests_on;
+  }
+  return {};
 }
 
 }  // namespace barchan

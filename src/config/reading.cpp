@@ -168,7 +168,8 @@ void ConfigReader::settle_lengths(Config& config, double diameter, bool tell) {
       Node value{key.by_default, {}};
       if (diameter == 0 || !is_in_diameters(value) || tree_.find(key.dotted()) != nullptr) continue;
       make_metres(value, diameter);
-      if (key.text(config, 0) && has_effect(key.dotted(), config)) key.read(value, config, 0);
+      if (key.text(config, 0) && switched_off_by(key.dotted(), config).empty())
+        key.read(value, config, 0);
     }
   }
 }

@@ -181,6 +181,12 @@ TEST_F(Bases, LoseWhatIsLeftOutAndWhatHasNoEffect) {
   const Config c = load_config(path);
   EXPECT_FALSE(c.grains->feed);
   EXPECT_EQ(c.grains->sizes, (std::vector<SizeClass>{{3e-4, 5}}));
+  // A length in d, too, where the base has no flow any more.
+  write("coupled.toml", coupled_case() + "[coupling]\nsmoothing_length = \"2 d\"\n");
+  EXPECT_EQ(load(write("grains.toml",
+                       "[case]\nbase = \"coupled.toml\"\nwithout = [\"fluid\", "
+                       "\"initial.fluid\"]\n")),
+            Lines{});
   // The elastic constants of the base mean nothing to linear springs; those of the case are told.
   write("hard.toml", grain_case("youngs_modulus = 1e6\n"));
   const std::string linear =
