@@ -95,7 +95,7 @@ def check_command(page, line, help_text, folder):
         done = call(PROGRAM, "check", arguments[0], "--resolved-only", *changes, folder=folder)
     elif command == "sweep" and arguments:
         done = call(sys.executable, "-m", "barchan", "sweep", PROGRAM, arguments[0], "--list", folder=folder)
-    elif command == "keys":
+    elif command in ("keys", "new"):
         done = call(PROGRAM, *words[1:], folder=folder)
     elif command == "plot":
         return check_figures(page, line, arguments)

@@ -124,7 +124,8 @@ TEST(Probes, ALineHasItsEndsAndEqualDistances) {
   }
   Flow flow(linear);
   flow.config.output.probes = {{.name = "point", .at = {{0.01, 0.01, 0.01}}}, line};
-  const auto rows = Probes(flow.config).sample(1, flow.fluid, 0);
+  Probes probes(flow.config);
+  const auto rows = probes.sample(1, flow.fluid, 0);
   ASSERT_EQ(rows.size(), 5u);
   for (std::size_t n = 0; n < 5; ++n) {
     EXPECT_EQ(rows[n].probe, 1);

@@ -17,7 +17,7 @@ from barchan.stats import in_window
 PANELS = (
     ("velocity (m/s)", {"u": "$u$", "v": "$v$", "w": "$w$"}),
     ("pressure (Pa)", {"p": None}),
-    ("shear stress on the floor (Pa)", {"wall_shear_x": "along $x$", "wall_shear_z": "along $z$"}),
+    ("floor shear stress (Pa)", {"wall_shear_x": "along $x$", "wall_shear_z": "along $z$"}),
 )
 QUANTITIES = ("u", "v", "w", "p", "wall_shear_x", "wall_shear_z")
 COLOURS = (style.BLUE, style.VERMILLION, style.GREEN)
@@ -33,7 +33,7 @@ def draw(run, ax=None, start=None, end=None):
             draw_line(row, means_along(table, start, end))
         else:
             draw_point(row, table)
-        row[0].set_title(plain(name), loc="left")
+        row[1].set_title(plain(name))  # the others have legends there
     keep(figure, "probes", kept(probes, start, end), most=None)
     return figure
 
