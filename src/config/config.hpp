@@ -232,10 +232,9 @@ struct BodyConfig {
 /// [[output.probe]]: a point, or points at equal distances on a line, at which the flow is written.
 struct ProbeConfig {
   std::string name;  // in tables and pictures, required
-  std::optional<std::array<double, 3>> at = {}, from = {},
-                                       to = {};  // a point, or a line's ends [m]
-  int points = 0;                                // of a line, with its ends
-  double interval = 0.01;                        // [s]
+  std::optional<std::array<double, 3>> at = {}, from = {}, to = {};  // or a line's ends [m]
+  int points = 0;                                                    // of a line, with its ends
+  double interval = 0.01;                                            // [s]
   bool operator==(const ProbeConfig&) const = default;
 };
 
