@@ -223,12 +223,10 @@ struct BodyConfig {
 
 /// [[output.probe]]: a point, or points at equal distances on a line, at which the flow is written.
 struct ProbeConfig {
-  std::string name;                                // in tables and pictures, required
-  std::optional<std::array<double, 3>> at = {};    // the point [m]
-  std::optional<std::array<double, 3>> from = {};  // or the first point of a line [m],
-  std::optional<std::array<double, 3>> to = {};    // the last [m],
-  int points = 0;                                  // and how many there are
-  double interval = 0.01;                          // [s]
+  std::string name;  // in tables and pictures, required
+  std::optional<std::array<double, 3>> at = {}, from = {}, to = {};  // or a line's ends [m]
+  int points = 0;                                                    // of a line, with its ends
+  double interval = 0.01;                                            // [s]
   bool operator==(const ProbeConfig&) const = default;
 };
 
