@@ -15,8 +15,10 @@ struct AverageToFrame {
   ConstFieldRef face;
   int di = 0, dj = 0, dk = 0;
   FrameField out;
+  int i0 = 0, j0 = 0, k0 = 0;  // the cell of the first entry of `out`
   KOKKOS_FUNCTION void operator()(int i, int j, int k) const {
-    out(i, j, k) = static_cast<float>(0.5 * (face(i, j, k) + face(i + di, j + dj, k + dk)));
+    out(i - i0, j - j0, k - k0) =
+        static_cast<float>(0.5 * (face(i, j, k) + face(i + di, j + dj, k + dk)));
   }
 };
 

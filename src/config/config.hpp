@@ -22,9 +22,8 @@ struct PlaneVelocity {
 
 /// [time]
 struct TimeConfig {
-  double end = 0;  // [s], required
-  // In a case both steps are chosen by default (steps.hpp).
-  double fluid_step = 2.5e-4;   // [s]; without [fluid] the interval between checks and output
+  double end = 0;               // [s], required
+  double fluid_step = 2.5e-4;   // [s]; in a case both steps are chosen by default (steps.hpp)
   double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
   double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
   bool operator==(const TimeConfig&) const = default;
@@ -157,11 +156,10 @@ struct CouplingConfig {
 
 /// [initial] grains = { pour = {...} }: a jittered lattice above the floor that settles.
 struct PourConfig {
-  PourShape shape = PourShape::cone;  // or a bed over the whole floor
-  // x, z of the cone [m]; in a case Lx/5, Lz/2 by default.
-  std::array<double, 2> centre{0.04, 0.05};
-  double radius = 0;       // of the unrelaxed cone's foot [m]
-  double drop_height = 0;  // lowest grain above the floor [m]
+  PourShape shape = PourShape::cone;         // or a bed over the whole floor
+  std::array<double, 2> centre{0.04, 0.05};  // x, z [m]; in a case Lx/5, Lz/2 by default
+  double radius = 0;                         // of the unrelaxed cone's foot [m]
+  double drop_height = 0;                    // lowest grain above the floor [m]
   std::uint64_t seed = 1;
   bool operator==(const PourConfig&) const = default;
 };
@@ -230,6 +228,15 @@ struct ProbeConfig {
   bool operator==(const ProbeConfig&) const = default;
 };
 
+/// [[output.slice]]: the layer of cells at a place, with all fields of the flow.
+struct SliceConfig {
+  std::string name;  // of its file, required
+  BodyAxis normal = BodyAxis::y;
+  double at = 0;          // place along the normal [m], required
+  double interval = 0.1;  // [s]
+  bool operator==(const SliceConfig&) const = default;
+};
+
 /// [output], intervals in simulated seconds; 0 turns a file off.
 struct OutputConfig {
   double history_interval = 0.01;
@@ -239,6 +246,7 @@ struct OutputConfig {
   double tracks_interval = 0;  // ids and positions alone, in tracks.h5
   bool grain_forces = false;   // each force separately in grains.h5
   std::vector<ProbeConfig> probes = {};
+  std::vector<SliceConfig> slices = {};
   bool operator==(const OutputConfig&) const = default;
 };
 

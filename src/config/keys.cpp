@@ -253,10 +253,10 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add :
-         {add_case,     add_time,    add_domain,     add_fluid,   add_schedule, add_grains,
-          add_wall,     add_kinds,   add_pairs,      add_ambient, add_feed,     add_bodies,
-          add_coupling, add_initial, add_pour,       add_heaps,   add_craters,  add_output,
-          add_probes,   add_restart, add_statistics, add_solver}) {
+         {add_case,     add_time,    add_domain,  add_fluid,      add_schedule, add_grains,
+          add_wall,     add_kinds,   add_pairs,   add_ambient,    add_feed,     add_bodies,
+          add_coupling, add_initial, add_pour,    add_heaps,      add_craters,  add_output,
+          add_probes,   add_slices,  add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

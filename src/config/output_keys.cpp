@@ -34,4 +34,18 @@ void add_probes(Sections& all) {
   key("interval", &P::interval, above(0), "s", "interval of its rows");
 }
 
+void add_slices(Sections& all) {
+  Section& section = all.emplace_back(
+      Section{.name = "output.slice",
+              .meaning = "Layers of cells whose fields are written to `slice_NAME.h5`, as "
+                         "`fields.h5` is for all cells"});
+  auto key = repeated_keys(section, [](auto& c) { return &c.output.slices; });
+  using S = SliceConfig;
+  key("name", &S::name, at_most(60), "", "name of the file: letters, digits, _ and -", required);
+  key("normal", &S::normal, "axis across the layer");
+  key("at", &S::at, at_least(0), "m", "place along `normal`: the layer of cells that holds it",
+      required);
+  key("interval", &S::interval, above(0), "s", "interval of its frames");
+}
+
 }  // namespace barchan

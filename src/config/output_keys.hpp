@@ -7,5 +7,6 @@ namespace barchan {
 
 void add_output(Sections& all);
 void add_probes(Sections& all);
+void add_slices(Sections& all);
 
 }  // namespace barchan

@@ -2,6 +2,9 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "src/config/names.hpp"
 
 namespace barchan {
@@ -57,7 +60,32 @@ void check_probe_inside(const ProbeConfig& probe, std::size_t n, const std::arra
   check("to", probe.to);
 }
 
+void check_slice(const std::vector<SliceConfig>& slices, std::size_t n,
+                 const std::array<double, 3>& size, Findings& found) {
+  const SliceConfig& slice = slices[n];
+  const auto key = [&](const char* name) { return fmt::format("output.slice.{}.{}", n + 1, name); };
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  };
+  found.error_if(slice.name.empty() || !std::ranges::all_of(slice.name, is_plain), {key("name")},
+                 "must be of letters, digits, _ and -: it is part of a file name");
+  for (std::size_t before = 0; before < n; ++before)
+    found.error_if(slices[before].name == slice.name, {key("name")},
+                   "must be another one: \"{}\" is the name of an earlier slice", slice.name);
+  const double length = size[static_cast<std::size_t>(slice.normal)];
+  found.error_if(slice.at > length, {key("at"), "domain.size"},
+                 "must be inside the domain, 0 to {:.6g} m", length);
+}
+
 }  // namespace
+
+void check_slice_keys(const Config& c, Findings& found) {
+  const std::vector<SliceConfig>& slices = c.output.slices;
+  if (found.error_if(!c.fluid && !slices.empty(), {"output.slice", "fluid"},
+                     "must be absent without a [fluid] section"))
+    return;
+  for (std::size_t n = 0; n < slices.size(); ++n) check_slice(slices, n, c.size, found);
+}
 
 void check_probe_keys(const Config& c, Findings& found) {
   const std::vector<ProbeConfig>& probes = c.output.probes;

@@ -1,4 +1,4 @@
-// Checks of [[output.probe]].
+// Checks of [[output.probe]] and [[output.slice]].
 #pragma once
 
 #include "src/config/config.hpp"
@@ -7,5 +7,6 @@
 namespace barchan {
 
 void check_probe_keys(const Config& config, Findings& found);
+void check_slice_keys(const Config& config, Findings& found);
 
 }  // namespace barchan

@@ -162,10 +162,12 @@ void check_output(const Config& c, Findings& found) {
   const O& o = c.output;
   for (std::size_t n = 0; n < o.probes.size(); ++n)
     check_interval(c, fmt::format("output.probe.{}.interval", n + 1), o.probes[n].interval, found);
+  for (std::size_t n = 0; n < o.slices.size(); ++n)
+    check_interval(c, fmt::format("output.slice.{}.interval", n + 1), o.slices[n].interval, found);
   const bool grains =
       c.grains && (o.dune_interval > 0 || o.grains_interval > 0 || o.tracks_interval > 0);
   found.warning_if(o.history_interval == 0 && !grains && !(c.fluid && o.fields_interval > 0) &&
-                       !c.statistics && o.probes.empty(),
+                       !c.statistics && o.probes.empty() && o.slices.empty(),
                    {"output.history_interval"},
                    "is 0 as all other intervals: the run leaves nothing but its last state");
 }
@@ -212,6 +214,7 @@ std::vector<Finding> validate(const Config& c, const std::vector<SizeClass>& siz
   check_effects(c, found);
   check_output(c, found);
   check_probe_keys(c, found);
+  check_slice_keys(c, found);
   check_statistics(c, found);
   const std::vector<Finding> of_sizes = check_grain_sizes(c, sizes);
   found.all.insert(found.all.end(), of_sizes.begin(), of_sizes.end());

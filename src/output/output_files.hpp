@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "src/config/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/frame_file.hpp"
@@ -33,11 +34,14 @@ class OutputFiles {
   /// images within `box`, but where something has gone wrong.
   OutputFiles(const std::filesystem::path& folder, const Provenance& provenance,
               std::optional<double> restart_time = {}, MPI_Comm communicator = MPI_COMM_SELF,
-              const PeriodicBox& box = {});
+              const PeriodicBox& box = {}, std::span<const SliceConfig> slices = {});
 
   /// u, v, w at the cell centres (mean of the two faces), p, alpha_f, nu_t; single precision.
   /// Upper faces are read from the ghost layer, which must be valid.
   void write_fields(const FluidState& fluid, double t, std::int64_t step);
+
+  /// The same fields in one layer of cells, slice_NAME.h5.
+  void write_slice(const SliceConfig& slice, const FluidState& fluid, double t, std::int64_t step);
 
   /// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
   using DuneLabels = std::optional<std::vector<int>>;
@@ -69,6 +73,7 @@ class OutputFiles {
   MPI_Comm communicator_;
   PeriodicBox box_;
   FrameFile fields_, grains_, tracks_;
+  std::map<std::string, FrameFile> slices_;
 };
 
 }  // namespace barchan

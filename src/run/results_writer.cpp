@@ -47,7 +47,8 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
       diagnostics_(diagnostics),
       accounts_(accounts),
       folder_(prepare_folder(folder, run.restart_time, run.ranks)),
-      output_(folder, run.provenance, run.restart_time, run.ranks, box_of(run)) {
+      output_(folder, run.provenance, run.restart_time, run.ranks, box_of(run),
+              run.config.output.slices) {
   if (rank_of(run.ranks) != 0) return;
   action_.start = time_now();
   report::log_to(folder_ / "log.txt", run.restart_time.has_value());
@@ -180,6 +181,9 @@ void ResultsWriter::write_frames() {
   }
   if (tracks) output_.write_tracks(*now.grains, t, clock.step, dunes);
   if (now.fluid && clock.due(o.fields_interval)) output_.write_fields(*now.fluid, t, clock.step);
+  for (const SliceConfig& slice : o.slices) {
+    if (clock.due(slice.interval)) output_.write_slice(slice, *now.fluid, t, clock.step);
+  }
 }
 
 /// By simulated time, or by the wall clock of rank 0.

@@ -90,6 +90,10 @@ Provenance make_provenance(const Config& config) {
 
 std::string_view meaning_of(const fs::path& name) {
   if (is_checkpoint_name(name)) return "complete state, from which the run can go on";
+  if (name.string().starts_with("slice_")) {
+    if (name.extension() == ".h5") return "frames of the flow in a layer of cells";
+    if (name.extension() == ".xdmf") return "description of a slice for ParaView";
+  }
   const auto* const file = std::ranges::find(kResultFiles, name, &ResultFile::name);
   return file != std::end(kResultFiles) ? file->meaning : "";
 }
