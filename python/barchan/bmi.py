@@ -279,14 +279,14 @@ class BarchanBmi:
     def _run(self, step: int, overwrite: bool) -> Run:
         """The program to the end of this fluid step, from its last state; at first from the start of the case."""
         end = step * self._fluid_step
-        keys = {**self._keys, "time__end": end}
+        keys = {**self._keys, "time__end": end, "time__fluid_step": self._fluid_step}  # also at another speed
         for name, own in self._own.items():  # output at the end, and where the case wants it
             whole = own > 0 and abs(end / own - round(end / own)) < 1e-6
             keys[f"output__{name}"] = own if whole else end
         if SPEED in self._values:
             keys["fluid__mean_velocity"] = float(self._values[SPEED][0])
-        return program.run(self._case, self._out, self._threads, restart="latest" if self._step else None,
-                           overwrite=overwrite, quiet=True, **keys)
+        return program.run(self._case, out=self._out, threads=self._threads, overwrite=overwrite, quiet=True,
+                           restart="latest" if self._step else None, **keys)
 
     def _take(self, run: Run) -> None:
         """The values of the present time, into the arrays that get_value_ptr() has given away."""

@@ -83,5 +83,5 @@ def test_the_figure_has_a_row_for_each_and_its_numbers(run):
 
 def test_a_run_without_probes_says_so():
     for ask in (lambda run: run.probes, lambda run: run.figure("probes")):
-        with pytest.raises(barchan.MissingData, match=r"probes.csv with at least one line: \[\[output.probe\]\]"):
+        with pytest.raises(barchan.MissingData, match=r"needs probes.csv .*\[\[output.probe\]\]"):
             ask(barchan.open(fake()))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -286,7 +285,12 @@ class Run(RunFolder):
         run.fields.u.sel(time=0.8, z=0.02, method="nearest") reads one plane of one frame. Raises MissingData where
         fields.h5 has no frame.
         """
-        return self._xarray().dataset(self.need_fields())
+        return labelled.xarray_fields().dataset(self.need_fields())
+
+    @cached_property
+    def slices(self) -> dict[str, Dataset]:
+        """Layers of cells by the names of [[output.slice]], each as `fields`; {} where there is none."""
+        return {name: labelled.xarray_fields().dataset(file) for name, file in self.slice_files.items()}
 
     @cached_property
     def flow_average(self) -> Dataset:
@@ -297,14 +301,7 @@ class Run(RunFolder):
         file = self.frame_file("flow_average.h5", ("u", "v", "alpha_f"))
         if file is None:
             raise MissingData("needs flow_average.h5: a run with statistics.fields = true")
-        return self._xarray().average(file)
-
-    @staticmethod
-    def _xarray() -> ModuleType:
-        optional("xarray", "xarray")
-        from barchan.io import fields
-
-        return fields
+        return labelled.xarray_fields().average(file)
 
     # --- pictures
 

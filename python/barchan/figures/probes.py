@@ -1,4 +1,5 @@
-"""probes: velocity, pressure and shear stress on the floor at the probes of a run (probes.csv), a row for each.
+"""probes: velocity, pressure and shear stress on the floor at the probes of a run (probes.csv), a row for each; and
+maps of the velocity in its slices (slice_NAME.h5) at the end.
 
 Of a point against time; of a line means over the second half of the run, or over the window of --from and --to, with
 a band of one standard deviation, against the distance from its first point. Of an upright line the height is upwards.
@@ -24,17 +25,21 @@ COLOURS = (style.BLUE, style.VERMILLION, style.GREEN)
 
 
 def draw(run, ax=None, start=None, end=None):
-    probes = run.probe_columns
-    if probes is None:
-        raise MissingData("needs probes.csv with at least one line: [[output.probe]]")
-    figure, rows = style.panels(ax, len(probes), len(PANELS), figsize=(style.FULL_WIDTH, 0.2 + 2.0 * len(probes)))
+    probes, slices = run.probe_columns or {}, run.slice_files
+    count = len(probes) + len(slices)
+    if count == 0:
+        raise MissingData("needs probes.csv or slice_NAME.h5: [[output.probe]], [[output.slice]]")
+    figure, rows = style.panels(ax, count, len(PANELS), figsize=(style.FULL_WIDTH, 0.2 + 2.0 * count))
     for (name, table), row in zip(probes.items(), rows):
         if np.any(table["point"] > 0):
             draw_line(row, means_along(table, start, end))
         else:
             draw_point(row, table)
         row[1].set_title(plain(name))  # the others have legends there
-    keep(figure, "probes", kept(probes, start, end), most=None)
+    if probes:
+        keep(figure, "probes", kept(probes, start, end), most=None)
+    for (name, file), row in zip(slices.items(), rows[len(probes):]):
+        keep(figure, f"slice_{name}", draw_slice(row, name, file))
     return figure
 
 
@@ -94,6 +99,30 @@ def draw_line(row, means):
         words = (label, "height $y$ (mm)") if upright else ("distance along the line (mm)", label)
         axes.set(xlabel=words[0], ylabel=words[1])
         legend_of(axes, columns)
+
+
+def draw_slice(row, name, file):
+    """Maps of u, v and w in the last frame; what is drawn, a line for each cell."""
+    time, group = file.frames[-1][:2]
+    with file.open() as content:
+        faces = {axis: content[f"grid/{axis}_face"][:] for axis in "xyz"}
+        flow = {part: content[f"{group}/{part}"][:] for part in "uvw"}
+    normal = min("xyz", key=lambda axis: len(faces[axis]))
+    across, up = {"x": ("z", "y"), "y": ("x", "z"), "z": ("x", "y")}[normal]
+    for axes, (part, values) in zip(row, flow.items()):
+        plane = np.squeeze(values, axis="zyx".index(normal))  # rows are along the first of z, y, x that is left
+        plane = plane if "zyx".index(up) < "zyx".index(across) else plane.T
+        most = float(np.abs(plane).max()) or 1.0
+        signed = plane.min() < 0
+        image = axes.pcolormesh(1e3 * faces[across], 1e3 * faces[up], plane, rasterized=True, vmax=most,
+                                vmin=-most if signed else 0.0, cmap="RdBu_r" if signed else "viridis")
+        axes.set(aspect="equal", xlabel=f"${across}$ (mm)", ylabel=f"${up}$ (mm)")
+        axes.figure.colorbar(image, ax=axes, location="bottom", label=f"${part}$ (m/s)")
+    middle = float(faces[normal].mean())
+    row[1].set_title(f"{plain(name)}: ${normal}$ = {1e3 * middle:.3g} mm, $t$ = {time:.3g} s")
+    centres = {axis: 0.5 * (at[1:] + at[:-1]) for axis, at in faces.items()}
+    z, y, x = (part.ravel() for part in np.meshgrid(centres["z"], centres["y"], centres["x"], indexing="ij"))
+    return {"x": x, "y": y, "z": z, **{part: values.ravel() for part, values in flow.items()}}
 
 
 def legend_of(axes, columns):

@@ -51,7 +51,7 @@ def table(*entries: Entry) -> dict[str, Entry]:
 
 
 GRAINS, FIELDS, HISTORY, DUNES, MEANS = "grains.h5", "fields.h5", "history.csv", "dune.csv", "statistics.csv"
-BODIES, PROBES = "bodies.csv", "probes.csv"
+BODIES, PROBES = "bodies.csv", "probes.csv|slice_NAME.h5"
 
 OF_RUN = table(
     Entry("topviews", "figures.topviews", "the grains from above at several times", (GRAINS,)),
@@ -91,7 +91,8 @@ OF_RUN = table(
           ("tracks.h5|grains.h5",)),
     Entry("scour", "figures.scour", "depth of the bed around each body against time, map of the bed at the end",
           (GRAINS,)),
-    Entry("probes", "figures.probes", "the flow at points against time, means along lines (--from, --to)", (PROBES,)),
+    Entry("probes", "figures.probes", "the flow at points against time, means along lines (--from, --to), slices",
+          (PROBES,)),
 )
 OF_STUDY = table(
     Entry("topviews", "figures.topviews_study", "the grains from above, a row per time, a column per value",

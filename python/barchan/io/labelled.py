@@ -1,6 +1,7 @@
 """Tables and grains with their names and units: pandas, imported where it is first needed. Figures do without."""
 
 from collections.abc import Mapping
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,14 @@ def data_frame(columns: dict[str, np.ndarray], about: dict[str, tuple[str, str]]
     frame.attrs["units"] = {name: about[name][0] for name in columns if name in about}
     frame.attrs["long_names"] = {name: about[name][1] for name in columns if name in about}
     return frame
+
+
+def xarray_fields() -> ModuleType:
+    """The module that makes Datasets of the flow."""
+    optional("xarray", "xarray")
+    from barchan.io import fields
+
+    return fields
 
 
 def together(tables: Mapping[Any, dict[str, np.ndarray]], whole: str) -> dict[str, np.ndarray]:

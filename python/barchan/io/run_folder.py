@@ -71,6 +71,13 @@ class RunFolder:
     def field_file(self) -> FrameFile | None:
         return self.frame_file("fields.h5", ("u", "v", "alpha_f"))
 
+    @cached_property
+    def slice_files(self) -> dict[str, FrameFile]:
+        """{name: file} of the layers of cells, slice_NAME.h5, that have a frame."""
+        files = {path.stem.removeprefix("slice_"): self.frame_file(path.name, ("u", "v", "alpha_f"))
+                 for path in sorted(self.path.glob("slice_*.h5"))}
+        return {name: file for name, file in files.items() if file is not None}
+
     def need_grains(self) -> FrameFile:
         if self.grain_file is None:
             raise MissingData("needs grains.h5 with at least one frame")
