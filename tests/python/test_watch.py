@@ -106,7 +106,7 @@ def test_a_run_of_another_machine_is_believed(folder):
 
 @pytest.mark.parametrize("name, says", [("nothing", "no such run folder: nothing"), ("runs/a.csv", "not a run folder"),
                                         ("empty", "no run in empty: it has no run.json"),
-                                        ("configs/mine.toml", "no such run folder: runs/mine")])
+                                        ("cases/mine.toml", "no such run folder: runs/mine")])
 def test_what_is_no_run_is_told(tmp_path, monkeypatch, capsys, name, says):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty").mkdir()
