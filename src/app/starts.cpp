@@ -14,6 +14,7 @@
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
+#include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/io/seal.hpp"
@@ -66,8 +67,11 @@ std::string shown(const fs::path& folder) {
 }
 
 Case load_case_of(const CommandLine& line) {
+  // Not checked_grains: the box of the case may be given in their diameters.
   return load_case(line.file, line.overrides, [](const Config& config, const fs::path& file) {
-    return grains_in(file, config).sizes;
+    InitialGrains grains = as_input([&] { return read_grains(file); });
+    take_kinds(grains, *config.grains, file.string());
+    return sizes_of(grains);
   });
 }
 

@@ -10,7 +10,9 @@ import faults
 
 ENVIRONMENT = {**faults.ENVIRONMENT, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 SMALL = ("--grains", "150", "--diameter", "0.3mm")
-SHORT = ("--set", "output.grains_interval=0.01", "--set", "output.dune_interval=0.01")
+SETTINGS = {f"output.{name}_interval": 0.01 for name in ("grains", "dune", "tracks", "fields")} | {
+    "statistics.start": 0, "statistics.grain_forces": "true"}
+SHORT = [word for key, value in SETTINGS.items() for word in ("--set", f"{key}={value}")]
 
 
 def barchan(folder, *words, ranks=1):
