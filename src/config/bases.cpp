@@ -58,9 +58,11 @@ Node ConfigReader::with_bases(Node own, const fs::path& file, std::vector<fs::pa
   Node all{NodeTable{}, own.where};
   const Node *bases = own.find(kBase), *without = own.find(kWithout);
   for (const Node& name : entries_of(bases)) add_base(all, name, file, chain);
-  if (without != nullptr && bases == nullptr)
+  if (without != nullptr && bases == nullptr) {
     report_at(without, nullptr, kWithout, "must come with a base");
-  for (const Node& name : entries_of(without)) leave_out(all, name);
+  } else {
+    for (const Node& name : entries_of(without)) leave_out(all, name);
+  }
   if (bases != nullptr || without != nullptr) {
     erase(own, kBase);
     erase(own, kWithout);

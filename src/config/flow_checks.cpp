@@ -111,7 +111,8 @@ void check_flow_at_start(const Config& c, Findings& found) {
                    "velocity; start from another case or \"turbulent\", or give a ramp_time");
   const PlaneVelocity first = velocity_at_start(schedule);
   const double reynolds = 2 * c.size[1] * std::hypot(first.x, first.z) / fluid.kinematic_viscosity;
-  found.warning_if(reynolds > 2000 && c.initial.fluid == "still" && !c.grains && c.bodies.empty() &&
+  found.warning_if(reynolds > 2000 && fluid.schedule.empty() && fluid.ramp_time == 0 &&
+                       c.initial.fluid == "still" && !c.grains && c.bodies.empty() &&
                        fluid.turbulence != Turbulence::none,
                    {"initial.fluid", "fluid.mean_velocity"},
                    "begins without turbulence, which takes long to arise by itself; \"turbulent\" "

@@ -157,10 +157,11 @@ void read_case(ConfigReader& reading, const Context& context, Loaded& loaded) {
   settle(reading, config, heaps.empty() ? of_start : result.sizes, starts.problems.empty());
   if (result.sizes.empty() && starts.grains.result.config.grains) result.sizes = of_start;
   if (starts.problems.empty()) {
-    if (is_case(config.initial.fluid))
-      report(check_start(config, starts.flow.result.config, true), reading);
-    if (is_case(config.initial.grains))
-      report(check_start(config, starts.grains.result.config, false), reading);
+    const auto check = [&](const Config& start, bool flow) {
+      if (!start.file.empty()) report(check_start(config, start, flow), reading);
+    };
+    check(starts.flow.result.config, true);
+    check(starts.grains.result.config, false);
   }
   report(validate(config, result.sizes), reading);
   if (is_case(config.initial.fluid))

@@ -43,7 +43,7 @@ expect "morphodynamics morphology" plot runs/dune mor
 expect "fig2" plot runs/dune --pdf morphology fig2
 expect "runs" run case.toml --out = run
 expect "" run case.toml --threads ""
-expect "--help" keys --
+expect "--help --schema" keys --
 [ ! -e hacked ] || fail "a name of a file was obeyed"
 
 finish "completion: fine"

@@ -74,7 +74,7 @@ TEST(CommandLine, VersionAndHelpEndWell) {
 TEST(CommandLine, BadUsageIsToldAsSuch) {
   expect_bad({}, "subcommand is required");
   expect_bad({"rnu", "case.toml"},
-             "unknown command \"rnu\" (did you mean \"run\"?); there are run, check, info");
+             "unknown command \"rnu\" (did you mean \"run\"?); there are run, check, new, info");
   expect_bad({"run"}, "CASE is required");
   expect_bad({"run", "a.toml", "b.toml"}, "b.toml");
   expect_bad({"run", "a.toml", "--sett", "a=1"}, "--sett");

@@ -85,7 +85,7 @@ TEST(Pour, HasAPlaceInItsBox) {
       "sizes = [[2e-4, 50]]\n[initial]\ngrains = { pour = { radius = 3e-3 } }\n";
   const Config c = load_config_text(text, "case.toml");
   EXPECT_EQ(c.initial.pour->centre, (std::array{0.01, 0.015}));
-  EXPECT_TRUE(problems(text, {"initial.grains.pour.shape=bed"}).empty());
+  EXPECT_EQ(problems(text, {"initial.grains={ pour = { shape = \"bed\" } }"}), Lines{});
 }
 
 TEST(Steps, FollowTheRules) {
@@ -199,7 +199,8 @@ TEST_F(Bases, LoseWhatIsLeftOutAndWhatHasNoEffect) {
 TEST_F(Bases, MustBeCases) {
   const auto told = [&](const std::string& lines, const std::string& why) {
     const std::string path = write("case.toml", "[case]\n" + lines + "\n" + grain_case());
-    EXPECT_EQ(load(path), only(path + ":2: [case] " + why));
+    const auto line = std::count(lines.begin(), lines.end(), '\n') + 2;
+    EXPECT_EQ(load(path), only(fmt::format("{}:{}: [case] {}", path, line, why)));
   };
   write("base.toml", grain_case());
   write("study.toml", "[study]\nbase = \"base.toml\"\n");

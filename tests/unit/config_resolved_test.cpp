@@ -34,7 +34,7 @@ void for_each_key(const Test& test) {
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
       SCOPED_TRACE(key.dotted());
-      test(key);
+      if (key.form.of != Form::Of::texts) test(key);  // those are done with before a case is read
     }
   }
 }
@@ -90,6 +90,10 @@ TEST(ConfigKeys, ARestartKeepsWhatItsNumbersRestOn) {
     Config after = before;
     ASSERT_TRUE(change(key, after));
     const Lines conflicts = restart_conflicts(after, before), changed = changed_keys(after, before);
+    if (key.section == "output.probe" && key.name != "interval") {  // keeps its number in the table
+      ASSERT_EQ(conflicts.size(), 1u);
+      return;
+    }
     ASSERT_EQ(conflicts.size() + changed.size(), 1u);
     const std::string now = *key.text(after, 0), was = key.text(before, 0).value_or("absent");
     if (key.fixed_by_restart) {
@@ -207,7 +211,8 @@ TEST(ConfigResolved, ACaseIsTheSameInOtherWords) {
     std::ofstream(folder / "config.toml") << text;
     return is_written_in(folder / "config.toml", config);
   };
-  const Config c = load_config_text(test::grain_case(), "case.toml");
+  const Config c = load_config_text(test::grain_case(), "case.toml",
+                                    {"time.fluid_step=2.5e-4", "time.grain_step=2.5e-6"});
   EXPECT_FALSE(is_written_in(folder / "config.toml", c));
   EXPECT_TRUE(says(to_toml(c), c));
   EXPECT_TRUE(says("# a comment\n" + test::grain_case("density = 2500\n"), c));

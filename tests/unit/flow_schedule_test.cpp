@@ -73,7 +73,7 @@ TEST(FlowSchedule, TheLargestSpeedSetsWhatFollows) {
   Config c = load_config_text(fluid_case("[[fluid.schedule]]\ntime = 0\nvelocity = 0.1\n"
                                          "[[fluid.schedule]]\ntime = 0.5\nvelocity = [0.3, -0.4]\n"
                                          "ramp = 0.1\namplitude = [0.06, 0.08]\nperiod = 0.2\n"),
-                              "case.toml");
+                              "case.toml", {"time.fluid_step=2.5e-4"});
   FluidNumbers n = *derive(c, {}).fluid;
   EXPECT_NEAR(n.bulk_velocity, 0.6, 1e-15);
   EXPECT_NEAR(n.u_star, friction_velocity(0.6, 0.025, 1e-6), 1e-15);
@@ -137,7 +137,7 @@ TEST(FlowSchedule, WhatItMustNotSayIsTold) {
       {from, "time = 0.5\nvelocity = 0.1\nspeed = 3", "[fluid.schedule] speed: unknown key"},
       {from, "time = 0.5\nvelocity = 20", "must keep the CFL number below 1"}};
   for (const auto& [first, second, words] : mistakes) {
-    const Lines lines = problems(with(first, second));
+    const Lines lines = problems(with(first, second), {"time.fluid_step=2.5e-4"});
     ASSERT_EQ(lines.size(), 2u) << words;
     EXPECT_NE(lines[0].find(words), std::string::npos) << lines[0];
   }
