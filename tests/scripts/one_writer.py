@@ -134,7 +134,7 @@ def leaves_files_of_others(work):
 def write_cases(work, names):
     """Cases that start from one flow and one heap."""
     work.mkdir()
-    (work / "chan.toml").write_text(SHARED.format(end=0.05, step="") + FLUID + '[initial]\nfluid = "turbulent"\n')
+    (work / "chan.toml").write_text(SHARED.format(end=0.3, step="") + FLUID + '[initial]\nfluid = "turbulent"\n')
     (work / "heap.toml").write_text(SHARED.format(end=0.01, step=GRAIN_STEP) + GRAINS + POURED)
     for name in names:
         starts = '[initial]\nfluid = "chan.toml"\ngrains = "heap.toml"\n'
