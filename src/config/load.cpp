@@ -112,8 +112,8 @@ Starts load_starts(Config& config, ConfigReader& reading, const Context& context
 
 /// Of the grains of a start; empty if it has none, or they are not known.
 std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts,
-                                      const SizesInFile& sizes_in) {
-  if (!config.grains) return {};
+                                      const ConfigReader& reading, const SizesInFile& sizes_in) {
+  if (!config.grains || reading.is_bad("initial.grains")) return {};
   const Case& start = starts.grains.result;
   if (start.config.grains) return with_kinds_of(*config.grains, *start.config.grains, start.sizes);
   const fs::path& file = config.initial.grains;
@@ -153,7 +153,7 @@ void read_case(ConfigReader& reading, const Context& context, Loaded& loaded) {
                             "realisations would all be the same");
   }
   if (config.grains) result.sizes = heaps.empty() ? poured_sizes(*config.grains) : sizes_of(heaps);
-  const std::vector<SizeClass> of_start = sizes_of_start(config, starts, context.sizes_in);
+  const std::vector<SizeClass> of_start = sizes_of_start(config, starts, reading, context.sizes_in);
   settle(reading, config, heaps.empty() ? of_start : result.sizes, starts.problems.empty());
   if (result.sizes.empty() && starts.grains.result.config.grains) result.sizes = of_start;
   if (starts.problems.empty()) {

@@ -54,7 +54,7 @@ VALUES = [
           '[initial] fluid = "still"', "case.toml | cells"),
     Entry("cells for a terabyte", "-[fluid] first_cell_height ;; [fluid] cells = [2000, 2000, 1000] ;; " + FLUID_STEP +
           "1e-7 ;; [time] grain_step = 1e-7 ;; [time] end = 1e-5", "needs about | GB | fluid.cells"),
-    Entry("a length of no unit", '[grains] skin = "3 dd"', '@skin | a number of metres, or of mean grain diameters as in "3 d"'),
+    Entry("a length of no unit", '[grains] skin = "3 dd"', '@skin | a number of metres, or a length as "0.2 mm"'),
     Entry("a length below zero", '[coupling] smoothing_length = "-3 d"', "@smoothing_length | at least 0"),
     Entry("diameters of a table", '[coupling] smoothing_length = "3 d"', "@smoothing_length | must be in metres", base=TABLE,
           files={"grains.csv": "id,diameter,x,y,z\n"}),

@@ -13,7 +13,7 @@ def line(name, command, says, **more):
 
 
 COMMAND_LINE = [
-    line("no command", "''", "unknown command | run, check, info"),
+    line("no command", "''", "unknown command | run, check, new, info"),
     line("--ranks to the program", RUN + " --ranks 2", "--ranks | mpirun"),
     line("--set of a section", SET + "grains=3", "--set grains | must be a section, [grains]"),
     line("OMP_NUM_THREADS of rubbish", RUN, "", edits=SHORT, code=0,
