@@ -23,10 +23,6 @@ def main() -> int:
             from barchan import listing
 
             return listing.main(arguments)
-        if command == "watch":
-            from barchan import watch
-
-            return watch.main(arguments)
         if command == "sweep":
             from barchan.studies import sweep
 

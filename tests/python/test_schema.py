@@ -36,7 +36,8 @@ def load(path):
 
 def changed(dotted, value):
     """The case of a dune with a key that has this value, or without the key: None."""
-    case = copy.deepcopy(load(ROOT / "configs/quickstart.toml"))
+    name = "channel-small" if value is None else "quickstart"  # the second is based on the first, and may lack keys
+    case = copy.deepcopy(load(ROOT / f"configs/{name}.toml"))
     *outer, name = dotted.split(".")
     section = case
     for part in outer:
