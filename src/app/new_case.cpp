@@ -27,8 +27,6 @@ struct File {
   std::string text;
 };
 
-double rounded(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
-
 /// A multiple of 4, at least 8: the transforms of the pressure like small factors.
 int cells_along(double length, double size) {
   return std::max(8, 4 * static_cast<int>(std::lround(length / size / 4)));

@@ -23,11 +23,6 @@ struct WrittenLength {
   std::string_view unit;
 };
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
 std::optional<WrittenLength> parse(std::string_view text) {
   text = without_blanks(text);
   WrittenLength length;
@@ -39,13 +34,6 @@ std::optional<WrittenLength> parse(std::string_view text) {
   return known ? std::optional(length) : std::nullopt;
 }
 
-/// Rounded to so many significant decimal digits.
-double rounded(double x, int digits) {
-  const std::string text = fmt::format("{:.{}g}", x, digits);
-  std::from_chars(text.data(), text.data() + text.size(), x);
-  return x;
-}
-
 /// [m]; as one would write it: 0.2 mm is 2e-4, and 3 d of 0.2 mm are 6e-4, to the last digit.
 double metres_of(const WrittenLength& length, double diameter) {
   const bool in_diameters = length.unit == kDiameters;
@@ -55,6 +43,12 @@ double metres_of(const WrittenLength& length, double diameter) {
 }
 
 }  // namespace
+
+double rounded(double x, int digits) {
+  const std::string text = fmt::format("{:.{}g}", x, digits);
+  std::from_chars(text.data(), text.data() + text.size(), x);
+  return x;
+}
 
 double nominal_diameter(double mean) { return rounded(mean, 3); }
 

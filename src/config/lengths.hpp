@@ -5,6 +5,9 @@
 
 namespace barchan {
 
+/// A number of so many significant decimal digits.
+double rounded(double x, int digits);
+
 /// The d of a case [m]: the mean diameter rounded to three digits, so that a few grains more or
 /// less have the same mesh.
 double nominal_diameter(double mean);

@@ -100,11 +100,6 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
   return {};
 }
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
 /// What the parser says, with the two most frequent causes named.
 std::string in_plain_words(std::string_view said) {
   if (said.find("control characters other than TAB") != said.npos)
@@ -151,6 +146,11 @@ std::string no_part(const Node& at, std::string_view above, std::string_view nam
 }
 
 }  // namespace
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
 
 std::string to_string(const Location& where) {
   return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;

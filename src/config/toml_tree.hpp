@@ -17,6 +17,9 @@ struct Location {
   int line = 0;
 };
 
+/// A text without the blanks before and after it.
+std::string_view without_blanks(std::string_view text);
+
 /// "file.toml:14", or the file alone when there is no line.
 std::string to_string(const Location& where);
 

@@ -13,7 +13,7 @@
 #include "src/config/kinds.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/no_effect.hpp"
-#include "src/config/probe_checks.hpp"
+#include "src/config/output_checks.hpp"
 
 namespace barchan {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/config/probe_checks.hpp"
+#include "src/config/output_checks.hpp"
 
 #include <fmt/ranges.h>
 
