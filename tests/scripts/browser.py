@@ -24,7 +24,7 @@ const at = (value) => {
   element("scrubber").dispatchEvent(new Event("input"));
   return [picture("top"), picture("side"), element("time").textContent];
 };
-await wait(300);
+await until(() => element("scrubber").value > 0 && colours("top") >= 10);
 const end = at(16), start = at(0), again = at(16);
 found.colours = [colours("top"), colours("side")];
 found.moved = end.map((shown, i) => shown !== start[i]);
@@ -34,11 +34,15 @@ found.curves = [...document.querySelectorAll(".plot svg")].map((plot) => plot.ge
 
 # A run in a notebook is a frame in a page, as high as what is in it.
 IN_A_CELL = """
-await wait(300);
-const frame = document.querySelector("iframe"), canvas = frame.contentDocument.getElementById("top");
-const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-found.colours = new Set(new Uint32Array(data.buffer)).size;
-found.hidden = frame.contentDocument.documentElement.scrollHeight - frame.clientHeight;
+const frame = document.querySelector("iframe"), canvas = () => frame.contentDocument.getElementById("top");
+const colours = () => {
+  const data = canvas().getContext("2d").getImageData(0, 0, canvas().width, canvas().height).data;
+  return new Set(new Uint32Array(data.buffer)).size;
+};
+const hidden = () => frame.contentDocument.documentElement.scrollHeight - frame.clientHeight;
+await until(() => canvas() && colours() >= 10 && hidden() <= 1);
+found.colours = colours();
+found.hidden = hidden();
 """
 
 

@@ -18,24 +18,30 @@ import browser  # noqa: E402
 
 LOADED = {"script": "src", "img": "src", "video": "src", "source": "src", "iframe": "src"}
 FORMULAS = """
-await wait(4000);
 const all = document.querySelectorAll(".arithmatex");
+await until(() => all.length && [...all].every((one) => one.querySelector(".mjx-chtml")));
 found.formulas = all.length;
 found.typeset = [...all].filter((one) => one.querySelector(".mjx-chtml")).length;
 found.errors = document.querySelectorAll(".mjx-merror, .merror").length;
 """
+# A word that no page has empties the list, so that what is seen after it belongs to the word typed next.
 SEARCH = """
 const field = document.querySelector("[data-md-component=search-query]");
+const links = () => [...document.querySelectorAll(".md-search-result__link")];
+const type = (word) => {
+  field.value = word;
+  field.dispatchEvent(new Event("input", { bubbles: true }));
+  field.dispatchEvent(new KeyboardEvent("keyup", { bubbles: true }));
+};
 document.getElementById("__search").checked = true;
 field.focus();
 found.results = {};
 for (const word of WORDS) {
-  field.value = word;
-  field.dispatchEvent(new Event("input", { bubbles: true }));
-  field.dispatchEvent(new KeyboardEvent("keyup", { bubbles: true }));
-  await wait(600);
-  found.results[word] = [...document.querySelectorAll(".md-search-result__link")].map(
-    (link) => link.getAttribute("href").replace(/^.*\\/|[?#].*$/g, ""));
+  type("qqqqq");
+  await until(() => !links().length);
+  type(word);
+  await until(() => links().length);
+  found.results[word] = links().map((link) => link.getAttribute("href").replace(/^.*\\/|[?#].*$/g, ""));
 }
 document.getElementById("__search").checked = false;
 """
@@ -108,7 +114,7 @@ def check_in_browser(wrong, kept):
         if f"{page}.html" not in first:
             wrong.append(f"the search for {word} finds {first}, not {page}.html")
     for page in ("index", "first-dune", "files", "validation"):
-        visit(page, "await wait(500);", 400)
+        visit(page, "", 400)
     if kept:
         visit("index", "", 1280, True)
         visit("keys", "", 400)

@@ -1,38 +1,39 @@
-"""A real browser without a screen (Chromium), driven by a script that is added to a copy of a page."""
-import html
+"""A real browser without a screen (Chromium), which looks at a page as a reader does, in real time."""
+import base64
+import itertools
 import json
 import os
-import re
+import select
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 SKIPPED = 77
-# What a page has done wrong is collected from the start; what the probe finds is written into the page's text.
-BEFORE = """<script>
+# Seconds that a page, or one thing looked for in it, may take on a busy machine.
+PATIENCE = 100
+# What a page has done wrong is collected from the start.
+BEFORE = """
 window.faults = [];
 addEventListener("error", (event) =>
   faults.push(event.message || `cannot load ${event.target.src || event.target.href}`), true);
 addEventListener("unhandledrejection", (event) => faults.push(String(event.reason)));
-</script>
 """
-AFTER = """<script>
-addEventListener("load", async () => {
-  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const found = {};
+PROBE = """(async () => {
+  const found = {}, wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const until = async (met) => {
+    for (const start = performance.now(); !met() && performance.now() - start < LIMIT;) await wait(50);
+  };
+  await until(() => document.readyState === "complete");
   try { await (async () => { PROBE })(); } catch (error) { faults.push(`probe: ${error}`); }
   found.too_wide = document.documentElement.scrollWidth - innerWidth;
   found.from_elsewhere = performance.getEntriesByType("resource").map((entry) => entry.name)
     .filter((name) => name.startsWith("http"));
   found.faults = faults;
-  const text = document.createElement("pre");
-  text.id = "found-by-probe";
-  text.textContent = JSON.stringify(found);
-  document.body.append(text);
-});
-</script>
+  return found;
+})()
 """
 
 
@@ -45,30 +46,70 @@ def chromium():
     return found
 
 
+class Chromium:
+    """A running browser that is spoken to in the DevTools protocol, over a pair of pipes."""
+
+    def __init__(self, profile):
+        command = [chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
+                   f"--user-data-dir={profile}", "--remote-debugging-pipe"]
+        # The browser reads from file 3 and writes into file 4.
+        self.process = subprocess.Popen(["sh", "-c", 'exec "$@" 3<&0 4>&1 >/dev/null', "sh", *command],
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.numbers, self.heard, self.session = itertools.count(1), b"", {}
+        target = self.ask("Target.createTarget", url="about:blank")["targetId"]
+        self.session = {"sessionId": self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.communicate()
+
+    def message(self, deadline):
+        """The next message of the browser."""
+        while b"\0" not in self.heard:
+            if not select.select([self.process.stdout], [], [], max(0, deadline - time.monotonic()))[0]:
+                raise AssertionError(f"the browser has said nothing for {PATIENCE} s")
+            more = os.read(self.process.stdout.fileno(), 1 << 16)
+            if not more:
+                raise AssertionError("the browser has ended")
+            self.heard += more
+        first, _, self.heard = self.heard.partition(b"\0")
+        return json.loads(first)
+
+    def ask(self, method, **params):
+        """The answer to one request."""
+        number, deadline = next(self.numbers), time.monotonic() + PATIENCE
+        request = {"id": number, "method": method, "params": params} | self.session
+        self.process.stdin.write(json.dumps(request).encode() + b"\0")
+        self.process.stdin.flush()
+        while True:
+            said = self.message(deadline)
+            if said.get("id") == number:
+                if "error" in said:
+                    raise AssertionError(f"{method}: {said['error']}")
+                return said["result"]
+
+
 def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
     """What `probe` (JavaScript that fills `found`) finds in the page, with `faults`, `too_wide` (pixels that the page
-    is wider than the window) and `from_elsewhere` (what it loads by http). picture: where to put a screenshot."""
-    page = Path(page)
-    text = page.read_text()
-    copy = page.with_name(f"probed-{page.name}")
-    copy.write_text(re.sub(r"<head>", lambda head: head[0] + BEFORE, text, count=1)
-                    .replace("</body>", AFTER.replace("PROBE", probe) + "</body>"))
-    with tempfile.TemporaryDirectory() as profile:
-        common = [chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
-                  f"--user-data-dir={profile}", f"--window-size={width},{height}", "--virtual-time-budget=20000",
-                  f"--blink-settings=preferredColorScheme={0 if dark else 1}"]
-        try:
-            dump = subprocess.run([*common, "--dump-dom", copy.as_uri()], capture_output=True, text=True, timeout=120,
-                                  check=True).stdout
-            if picture:
-                subprocess.run([*common, f"--screenshot={picture}", page.as_uri()], capture_output=True, timeout=120,
-                               check=True)
-        finally:
-            copy.unlink()
-    said = re.search(r'<pre id="found-by-probe">(.*?)</pre>', dump, re.S)
-    if said is None:
-        raise AssertionError(f"{page}: the probe has not come to its end")
-    return json.loads(html.unescape(said[1]))
+    is wider than the window) and `from_elsewhere` (what it loads by http). The probe waits with `await until(() =>
+    ...)` for what a page does after it is loaded. picture: where to put a screenshot."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, Chromium(profile) as browser:
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        browser.ask("Page.enable")
+        browser.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        browser.ask("Emulation.setEmulatedMedia", features=[scheme])
+        browser.ask("Page.addScriptToEvaluateOnNewDocument", source=BEFORE)
+        browser.ask("Page.navigate", url=Path(page).resolve().as_uri())
+        text = PROBE.replace("PROBE", probe).replace("LIMIT", str(1000 * PATIENCE / 2))
+        said = browser.ask("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in said:
+            raise AssertionError(f"{page}: {said['exceptionDetails']}")
+        if picture:
+            Path(picture).write_bytes(base64.b64decode(browser.ask("Page.captureScreenshot")["data"]))
+        return said["result"]["value"]
 
 
 def problems(name, found):
