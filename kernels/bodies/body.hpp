@@ -1,39 +1,32 @@
 // A solid body at rest, as flow and grains meet it.
 #pragma once
 
-#include "kernels/bodies/body_shapes.hpp"
+#include "kernels/bodies/box.hpp"
+#include "kernels/bodies/cylinder.hpp"
+#include "kernels/bodies/dune.hpp"
+#include "kernels/bodies/fence.hpp"
+#include "kernels/bodies/half_sphere.hpp"
+#include "kernels/bodies/sphere.hpp"
+#include "kernels/bodies/wave.hpp"
+#include "kernels/math/one_of.hpp"
 
 namespace barchan {
 
-enum class BodyForm {
-  cylinder,
-  cylinder_x,
-  cylinder_z,
-  sphere,
-  half_sphere,
-  box,
-  fence,
-  dune,
-  wave
-};
+using BodyShapes = Alternatives<shapes::Cylinder, shapes::Sphere, shapes::HalfSphere, shapes::Box,
+                                shapes::Fence, shapes::Dune, shapes::Wave>;
 
-/// One [[body]]. What a form does not need is not looked at.
+/// One [[body]].
 struct Body {
-  BodyForm form = BodyForm::cylinder;
-  Vec3 foot;                    // middle of its underside [m]; of a dune below the crest
-  Real cosine = 1, sine = 0;    // of the angle by which it is turned from x towards z
-  Real lx = 0, lz = 0;          // periods of the domain [m]
-  Real radius = 0, height = 0;  // [m]
-  Vec2 half_size;               // along x, along z [m]; 0: no ends there
-  Real stoss = 0, lee = 0;      // of a dune [m]
-  Real spacing = 0;             // of posts, or the wavelength [m]
-  int posts = 0;
+  OneOf<BodyShapes> shape;
+  Vec3 foot;                  // middle of its underside [m]; of a dune below the crest
+  Real cosine = 1, sine = 0;  // of the angle by which it is turned from x towards z
+  Real lx = 0, lz = 0;        // periods of the domain [m]
 
   /// Distance from x, which may be outside the domain, and normal of the nearest image.
   KOKKOS_INLINE_FUNCTION ToSurface to_surface(const Vec3& x) const {
     const Vec3 s = from_foot(x);
     const Vec3 p{cosine * s.x + sine * s.z, s.y, cosine * s.z - sine * s.x};
-    const ToSurface at = of_form(p);
+    const ToSurface at = shape.visit([&](const auto& it) { return it.to_surface(p); });
     const Vec3& n = at.normal;
     return {at.distance, {cosine * n.x - sine * n.z, n.y, cosine * n.z + sine * n.x}};
   }
@@ -49,34 +42,7 @@ struct Body {
   /// Radius of curvature where a grain touches it [m]; 0: as a flat wall. Grains are far smaller
   /// than a cylinder, so the line of contact that it lacks does not count.
   KOKKOS_FORCEINLINE_FUNCTION Real curvature() const {
-    return form == BodyForm::sphere || form == BodyForm::half_sphere ? radius : Real(0);
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION ToSurface of_form(const Vec3& p) const {
-    switch (form) {
-      case BodyForm::cylinder:
-        return to_cylinder(p, radius, height);
-      case BodyForm::cylinder_x:
-        return to_lying_cylinder(p, radius, half_size.x);
-      case BodyForm::cylinder_z: {
-        const ToSurface at = to_lying_cylinder({p.z, p.y, p.x}, radius, half_size.z);
-        return {at.distance, {at.normal.z, at.normal.y, at.normal.x}};
-      }
-      case BodyForm::sphere:
-        return to_sphere(p, radius);
-      case BodyForm::half_sphere:
-        return to_half_sphere(p, radius);
-      case BodyForm::box:
-        return to_box(p, half_size, height);
-      case BodyForm::fence:
-        return to_fence(p, radius, height, spacing, posts);
-      case BodyForm::dune:
-        return to_dune(p, height, stoss, lee, half_size.z);
-      case BodyForm::wave:
-        return to_wave(p, height, spacing);
-    }
-    return {};
+    return shape.visit([](const auto& it) { return it.curvature(); });
   }
 };
 

@@ -1,9 +1,13 @@
 // Drag of the fluid on one grain: one small type per law.
+// `DragLaws` at the end lists those that a case can choose.
 // Every law returns beta [kg/s] with F_drag = beta (u_f - u_p) on ONE grain, u_f the interstitial
 // velocity, force in the sense of model A (no further 1 / alpha_f). Finite at zero slip.
 #pragma once
 
-#include "kernels/grains/grain.hpp"
+#include <numbers>
+
+#include "kernels/grains/sphere.hpp"
+#include "kernels/math/alternatives.hpp"
 
 namespace barchan {
 
@@ -54,6 +58,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real ergun(const LocalFlow& f) {
 /// below. Re = alpha_f d slip / nu. As CFDEM's GidaspowDrag evaluates it (no cap at Re > 1000);
 /// Lima et al. (2022) B2 with its misprints put right. Limit: Schiller-Naumann at alpha_f = 1.
 struct Gidaspow {
+  static constexpr Named named{"gidaspow",
+                               "Gidaspow (1994): Wen & Yu (1966), and Ergun (1952) where dense"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     return f.alpha_f > Real(0.8) ? wen_yu(f) : ergun(f);
   }
@@ -67,6 +73,7 @@ KOKKOS_INLINE_FUNCTION Real wen_yu_share(Real alpha_f) {
          Real(0.5);
 }
 struct GidaspowBlended {
+  static constexpr Named named{"gidaspow_blended", "the same blended, Huilin & Gidaspow (2003)"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real phi = wen_yu_share(f.alpha_f);
     return (1 - phi) * ergun(f) + phi * wen_yu(f);
@@ -75,6 +82,7 @@ struct GidaspowBlended {
 
 /// Di Felice (1994) with C_d of Dalla Valle (1948); Re = alpha_f d slip / nu; alpha_f >= 0.3.
 struct DiFelice {
+  static constexpr Named named{"di_felice", "Di Felice (1994)"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real alpha = f.alpha_f > Real(0.3) ? f.alpha_f : Real(0.3);
     const Real re_per_slip = alpha * f.rho_f * f.d_p / f.mu_f;
@@ -91,6 +99,7 @@ struct DiFelice {
 
 /// Koch & Hill (2001); Re = alpha_f d slip / nu; alpha_f >= 0.4.
 struct KochHill {
+  static constexpr Named named{"koch_hill", "Koch & Hill (2001)"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real alpha = f.alpha_f > Real(0.4) ? f.alpha_f : Real(0.4);
     const Real s = 1 - alpha > Real(1e-12) ? 1 - alpha : Real(1e-12);
@@ -127,6 +136,7 @@ KOKKOS_INLINE_FUNCTION TerminalDrag terminal_drag(const LocalFlow& f) {
 
 /// Syamlal & O'Brien (1987).
 struct SyamlalOBrien {
+  static constexpr Named named{"syamlal_obrien", "Syamlal & O'Brien (1987)"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const TerminalDrag d = terminal_drag(f);
     return sphere_volume(f.d_p / 2) * Real(0.75) * d.root * d.root * f.rho_f * f.alpha_f /
@@ -137,6 +147,8 @@ struct SyamlalOBrien {
 /// The paper's B2-B6 with the misprints put right: Wen-Yu's form with the C_d of Syamlal-O'Brien.
 /// No published program evaluates this mixture; offered for comparison.
 struct PaperRepaired {
+  static constexpr Named named{"paper_repaired",
+                               "Lima et al. (2022), B2 to B6, misprints put right"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const TerminalDrag d = terminal_drag(f);
     return sphere_volume(f.d_p / 2) * Real(0.75) * d.root * d.root * f.rho_f *
@@ -148,7 +160,9 @@ struct PaperRepaired {
 /// alpha_f y + s y^2 + 0.064 alpha_f y^3, y = d / d_mean (Sauter mean); Re = alpha_f d_mean slip /
 /// nu.
 struct Beetstra {
+  static constexpr Named named{"beetstra", "Beetstra et al. (2007), for mixtures of sizes"};
   Real d_mean = 0;  // sum n d^3 / sum n d^2 of all grains [m]
+  static Beetstra from(Real sauter_diameter) { return {.d_mean = sauter_diameter}; }
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real a = f.alpha_f, s = 1 - a, y = f.d_p / d_mean;
     const Real reynolds = reynolds_number(f, a, d_mean) + Real(1e-12);
@@ -165,7 +179,11 @@ struct Beetstra {
 
 /// No drag: for tests and sensitivity runs.
 struct NoDrag {
+  static constexpr Named named{"none", "no drag"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow&) const { return 0; }
 };
+
+using DragLaws = Alternatives<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired,
+                              GidaspowBlended, NoDrag>;
 
 }  // namespace barchan

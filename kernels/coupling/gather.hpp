@@ -28,9 +28,9 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 steady_force(const SubmergedWeight& weight,
 
 /// u_f, beta_p, m_f, a and the steady forces of each grain. beta_p is that of the slip at the start
 /// of the step; the drag itself follows the grain and its share of fluid, m_f.
-template <class DragLaw>
+template <class Law>
 struct GatherFluid {
-  DragLaw law;
+  Law law;
   Real rho_f = 0, mu_f = 0;
   Real dt = 0;
   SubmergedWeight weight;

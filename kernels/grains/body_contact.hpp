@@ -42,6 +42,7 @@ struct NearBodies {
 /// none touches none.
 struct MarkNearBodies {
   Bodies bodies;
+  Real law_reach = 0;  // [m]
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Vec3*> x_reference;  // where a grain was when its skin was new
   Kokkos::View<std::uint8_t*> touching, near;
@@ -51,7 +52,7 @@ struct MarkNearBodies {
     unsigned bits = 0;
     for (int b = 0; b < bodies.n; ++b) {
       // Twice the skin: the distance to a hill may fall somewhat faster than a grain goes.
-      const Real reach = grain.r + 2 * grain.skin;
+      const Real reach = grain.r + 2 * grain.skin + law_reach;
       if (bodies.body[b].distance(x_reference(g)) < reach) bits |= 1u << b;
     }
     near(g) = static_cast<std::uint8_t>(bits);
@@ -103,7 +104,8 @@ struct BodyContacts {
     for (int p = first; p < near.n && near.grain(p) == g; ++p) {
       const int b = near.body(p);
       const ToSurface at = bodies.body[b].to_surface(grains(g).x);
-      const bool touches = grains(g).r - at.distance > 0;
+      const Real r = grains(g).r, r_eff = effective_radius(bodies.body[b], r);
+      const bool touches = in_contact(law.table.of(law_at(g)), r_eff, r - at.distance);
       near.touches(p) = touches ? 1 : 0;
       if (!touches) continue;
       now |= 1u << b;
@@ -114,6 +116,9 @@ struct BodyContacts {
   }
 
  private:
+  KOKKOS_FORCEINLINE_FUNCTION std::uint8_t law_at(int g) const {
+    return Law::kMany ? law_entry(kind(g), 0) : std::uint8_t{0};
+  }
   KOKKOS_FUNCTION void add(int p, const ToSurface& at, bool touched, ContactSum& sum) const {
     const int g = near.grain(p), b = near.body(p);
     const GrainKinematics& grain = grains(g);
@@ -125,14 +130,13 @@ struct BodyContacts {
                            .omega_difference = grain.omega,
                            .r_eff = effective_radius(bodies.body[b], grain.r),
                            .m_eff = grain.m};
-    const int entry = law.table.at(Law::kMany ? law_entry(kind(g), 0) : std::uint8_t{0});
     ContactResult history;
     if (touched) history.xi_t = xi_t(g, b);
     if constexpr (Law::Rolling::has_history)
       if (touched) history.rolling = rolling(g, b);
     const ContactResult result =
-        contact_force(law.table.stiffness[entry](pair.r_eff, pair.m_eff, delta_n), law.rolling,
-                      law.table.friction[entry], pair, history, law.dt);
+        contact_force(law.table.of(law_at(g))(pair.r_eff, pair.m_eff, delta_n), law.rolling,
+                      law.table.friction[law.table.at(law_at(g))], pair, history, law.dt);
     xi_t(g, b) = result.xi_t;
     if constexpr (Law::Rolling::has_history) rolling(g, b) = result.rolling;
     sum.force = sum.force + vec4(result.force);

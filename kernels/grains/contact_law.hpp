@@ -8,6 +8,7 @@
 
 #include <numbers>
 
+#include "kernels/math/alternatives.hpp"
 #include "kernels/math/vec3.hpp"
 
 namespace barchan {
@@ -38,25 +39,55 @@ KOKKOS_FORCEINLINE_FUNCTION Real damping_ratio(Real restitution) {
   return -log_e / Kokkos::sqrt(log_e * log_e + std::numbers::pi_v<Real> * std::numbers::pi_v<Real>);
 }
 
-/// One contact's springs and dashpots.
+/// What the force between two surfaces comes from.
+struct ContactMaterial {
+  Elastic a, b;
+  Real restitution = 1;
+  Real linear_stiffness = 0;  // [N/m]
+};
+
+/// One contact's elastic normal force, tangential spring, and dashpots.
 struct ContactStiffness {
-  Real k_n, k_t;          // [N/m]
+  Real elastic;           // [N]; negative: attraction
+  Real k_t;               // [N/m]
   Real gamma_n, gamma_t;  // [kg/s], >= 0
 };
 
+/// Largest distance of two surfaces in contact [m]: 0, unless the law has a reach of its own
+/// because it attracts.
+template <class Law>
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real reach(const Law& law, Real r_eff) {
+  if constexpr (requires { law.reach(r_eff); }) {
+    return law.reach(r_eff);
+  } else {
+    return 0;
+  }
+}
+template <class Law>
+KOKKOS_FORCEINLINE_FUNCTION constexpr bool in_contact(const Law& law, Real r_eff, Real delta_n) {
+  return delta_n > -reach(law, r_eff);
+}
+
 /// Hertz normal spring (A6), Mindlin tangential spring (A7), damping of Tsuji et al. (1992) in the
 /// form of Antypov & Elliott (2011), which returns e exactly when the attractive tail is kept
-/// (A9, A10). r_eff, delta_n [m]; m_eff [kg]. Limits: k_n -> 0 as delta_n -> 0; e = 1: no damping.
+/// (A9, A10). r_eff, delta_n [m]; m_eff [kg]. Limits: no force as delta_n -> 0; e = 1: no damping.
 struct HertzMindlin {
+  static constexpr Named named{"hertz_mindlin",
+                               "Hertz (1881), Mindlin (1949), Tsuji et al. (1992)"};
   Real e_eff = 0, g_eff = 0;  // [Pa]
   Real damping = 0;           // damping_ratio(e)
 
+  static HertzMindlin from(const ContactMaterial& m) {
+    return {.e_eff = effective_youngs_modulus(m.a, m.b),
+            .g_eff = effective_shear_modulus(m.a, m.b),
+            .damping = damping_ratio(m.restitution)};
+  }
   KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real r_eff, Real m_eff,
                                                           Real delta_n) const {
     const Real a = Kokkos::sqrt(r_eff * delta_n);  // radius of the contact area [m]
     const Real root = Kokkos::sqrt(a * m_eff);
     const Real two_root_5_6 = Real(1.8257418583505537);  // 2 sqrt(5/6)
-    return {.k_n = Real(4) / 3 * e_eff * a,
+    return {.elastic = Real(4) / 3 * e_eff * a * delta_n,
             .k_t = 8 * g_eff * a,
             .gamma_n = two_root_5_6 * damping * Kokkos::sqrt(2 * e_eff) * root,
             .gamma_t = two_root_5_6 * damping * Kokkos::sqrt(8 * g_eff) * root};
@@ -66,17 +97,23 @@ struct HertzMindlin {
 /// Linear spring-dashpot: constant k_n, k_t = 2/7 k_n, the damping of the same restitution,
 /// gamma = 2 damping sqrt(m_eff k) (Schaefer, Dippel & Wolf 1996).
 struct LinearSpring {
+  static constexpr Named named{"linear", "springs of `linear_stiffness`, Schaefer et al. (1996)"};
   Real k_n = 0;      // [N/m]
   Real damping = 0;  // damping_ratio(e)
 
-  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real, Real m_eff, Real) const {
+  static LinearSpring from(const ContactMaterial& m) {
+    return {.k_n = m.linear_stiffness, .damping = damping_ratio(m.restitution)};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real, Real m_eff, Real delta_n) const {
     const Real k_t = Real(2) / 7 * k_n;
-    return {.k_n = k_n,
+    return {.elastic = k_n * delta_n,
             .k_t = k_t,
             .gamma_n = 2 * damping * Kokkos::sqrt(m_eff * k_n),
             .gamma_t = 2 * damping * Kokkos::sqrt(m_eff * k_t)};
   }
 };
+
+using ContactModels = Alternatives<HertzMindlin, LinearSpring>;
 
 /// What a rolling law sees of one contact.
 struct RollingContact {
@@ -105,6 +142,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c,
 
 /// No rolling resistance.
 struct NoRolling {
+  static constexpr Named named{"none", "no resistance"};
   static constexpr bool has_history = false;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact&, const Vec3&) const {
     return {};
@@ -114,6 +152,8 @@ struct NoRolling {
 /// EPSD2: k_r = k_t R_eff^2, no dashpot (Ai et al. 2011 with the stiffness of Iwashita & Oda 1998;
 /// the model the paper's programs evaluate). Torque on i [N m].
 struct Epsd2 {
+  static constexpr Named named{
+      "epsd2", "a spring of k_t R^2, Ai et al. (2011), as in the programs behind the paper"};
   static constexpr bool has_history = true;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3& torque) const {
     return limited_rolling_spring(c, c.k_t * c.r_eff * c.r_eff, torque);
@@ -123,8 +163,11 @@ struct Epsd2 {
 /// The paper's A12-A13 (Derakhshani et al. 2015): k_r = mu_r R_eff F_n / theta_m, which reaches the
 /// limit mu_r R_eff F_n when the contact has rolled by theta_m [rad].
 struct ThetaM {
+  static constexpr Named named{
+      "theta_m", "a spring that slips at `rolling_theta_m`, Derakhshani et al. (2015)"};
   static constexpr bool has_history = true;
   Real theta_m = Real(0.1);
+  static ThetaM from(Real theta_m) { return {.theta_m = theta_m}; }
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3& torque) const {
     return limited_rolling_spring(c, c.mu_r * c.r_eff * c.f_n / theta_m, torque);
   }
@@ -133,6 +176,7 @@ struct ThetaM {
 /// Constant directional torque mu_r R_eff F_n against the relative rolling (Ai et al. 2011, model
 /// A).
 struct ConstantTorque {
+  static constexpr Named named{"cdt", "a constant torque, Ai et al. (2011)"};
   static constexpr bool has_history = false;
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3&) const {
     const Vec3 spin = rolling_velocity(c);
@@ -141,10 +185,12 @@ struct ConstantTorque {
   }
 };
 
+using RollingModels = Alternatives<NoRolling, Epsd2, ThetaM, ConstantTorque>;
+
 /// Geometry and relative motion of a touching pair (i, j); for a wall j stands still.
 struct ContactPair {
   Vec3 normal;            // unit, from j to i
-  Real delta_n;           // overlap, A1, > 0 [m]
+  Real delta_n;           // overlap, A1 [m]
   Vec3 slip;              // velocity of i relative to j at the contact point [m/s]
   Vec3 omega_difference;  // omega_i - omega_j [rad/s]
   Real r_eff, m_eff;      // A2 [m], A3 [kg]
@@ -173,11 +219,11 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 contact_slip(const Vec3& velocity_difference,
 
 /// Contact force, Lima et al. (2022) eqs 8-10 with A6-A13 as the programs behind the paper
 /// evaluate them (docs/theory-grains.md):
-///   F_n = k_n delta_n - gamma_n v_n                     (attractive tail kept)
+///   F_n = elastic - gamma_n v_n                         (attractive tail kept)
 ///   xi_t <- tangent-plane part of (xi_t + v_t dt)
 ///   |k_t xi_t| <= mu F_c:  F_t = -k_t xi_t - gamma_t v_t, shortened to mu F_c where it is longer
 ///   else                   F_t = -mu F_c xi_t/|xi_t|, xi_t shortened to the limit (re-sticks)
-/// F_c = |F_n|, or k_n delta_n in the Coulomb limit of Chung & Ooi (2011).
+/// F_c = |F_n|, or the elastic force in the Coulomb limit of Chung & Ooi (2011).
 /// `history` is the result of the previous grain step (zero at first touch); dt [s].
 template <class Rolling>
 KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& k,
@@ -187,7 +233,7 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& 
                                                         const ContactResult& history, Real dt) {
   const Real v_n = dot(pair.slip, pair.normal);
   const Vec3 v_t = fma(-v_n, pair.normal, pair.slip);
-  const Real elastic = k.k_n * pair.delta_n, dashpot = -k.gamma_n * v_n;
+  const Real elastic = k.elastic, dashpot = -k.gamma_n * v_n;
   const Real f_n = elastic + dashpot;
 
   Vec3 xi = fma(dt, v_t, history.xi_t);

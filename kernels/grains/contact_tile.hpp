@@ -15,7 +15,7 @@ struct ContactTile {
   static constexpr bool kRolls = Law::kRolls;
   static constexpr int kVector = kTile < 8 ? kTile : 8;  // contacts in the widest vectors
 
-  SoaTile normal;                               // and the overlap [m], 0 where the two do not touch
+  SoaTile normal;                               // and the overlap [m], minus the reach if apart
   SoaTile slip;                                 // [m/s]
   SoaTile omega_difference;                     // [rad/s]
   AosTile xi_t;                                 // [m], before and after
@@ -23,7 +23,8 @@ struct ContactTile {
   AosTile force;                                // result [N], and the overlap [m]
   AosTile n_cross_f_t;                          // result [N]
   alignas(64) Real r_eff[kTile], m_eff[kTile];  // [m], [kg]
-  alignas(64) Real k_n[kTile], k_t[kTile], gamma_n[kTile], gamma_t[kTile];  // [N/m], [kg/s]
+  alignas(64) Real elastic[kTile], k_t[kTile], gamma_n[kTile],
+      gamma_t[kTile];                           // [N], [N/m], [kg/s]
   std::uint8_t law_of[Law::kMany ? kTile : 1];  // entry in the table of laws; of one kind not used
   SoaTile new_force, new_n_cross_f_t, new_xi_t, new_rolling;
 
@@ -32,8 +33,16 @@ struct ContactTile {
     return (n + kVector - 1) / kVector * kVector;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION int entry(const Law& law, int q) const {
-    return law.table.at(law_of[Law::kMany ? q : 0]);
+  KOKKOS_FORCEINLINE_FUNCTION std::uint8_t law_at(int q) const {
+    if constexpr (Law::kMany) {
+      return law_of[q];
+    } else {
+      return 0;
+    }
+  }
+  /// After evaluate().
+  KOKKOS_FORCEINLINE_FUNCTION bool touches(const Law& law, int q) const {
+    return in_contact(law.table.of(law_at(q)), r_eff[q], force[q].w());
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void store(int q, const ContactPair& pair) {
@@ -57,8 +66,8 @@ struct ContactTile {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION void find_stiffness(const Law& law, int q) {
-    const ContactStiffness k = law.table.stiffness[entry(law, q)](r_eff[q], m_eff[q], normal.w[q]);
-    k_n[q] = k.k_n, k_t[q] = k.k_t, gamma_n[q] = k.gamma_n, gamma_t[q] = k.gamma_t;
+    const ContactStiffness k = law.table.of(law_at(q))(r_eff[q], m_eff[q], normal.w[q]);
+    elastic[q] = k.elastic, k_t[q] = k.k_t, gamma_n[q] = k.gamma_n, gamma_t[q] = k.gamma_t;
   }
   KOKKOS_FORCEINLINE_FUNCTION void find_force(const Law& law, int q) {
     const Real delta_n = normal.w[q];
@@ -74,9 +83,9 @@ struct ContactTile {
     if constexpr (Law::Rolling::has_history) history.rolling = rolling.vec(q);
     const ContactResult result = contact_force(
         ContactStiffness{
-            .k_n = k_n[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
-        law.rolling, law.table.friction[entry(law, q)], pair, history, law.dt);
-    const Real on = delta_n > 0 ? 1 : 0;
+            .elastic = elastic[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
+        law.rolling, law.table.friction[law.table.at(law_at(q))], pair, history, law.dt);
+    const Real on = in_contact(law.table.of(law_at(q)), r_eff[q], delta_n) ? 1 : 0;
     new_force.store(q, on * result.force, delta_n);
     new_n_cross_f_t.store(q, on * result.n_cross_f_t, 0);
     new_xi_t.store(q, on * result.xi_t, 0);

@@ -25,6 +25,9 @@ struct LawTable {
   Friction friction[kSize];
 
   KOKKOS_FORCEINLINE_FUNCTION static int at(std::uint8_t entry) { return many ? entry : 0; }
+  KOKKOS_FORCEINLINE_FUNCTION const StiffnessLaw& of(std::uint8_t entry) const {
+    return stiffness[at(entry)];
+  }
 };
 
 /// The law of contacts between grains, or of grains with walls, and its grain step.

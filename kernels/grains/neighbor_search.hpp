@@ -109,7 +109,7 @@ struct OuterColumn {
   KOKKOS_FORCEINLINE_FUNCTION bool is_forward() const { return dx > 0 || (dx == 0 && dz > 0); }
 };
 
-/// Walks the candidates of one grain and calls f(j) for each within the radii and skins of both.
+/// Walks the candidates of one grain and calls f(j) for each within the extents of both.
 struct PairSearch {
   SearchColumns columns;
   Kokkos::View<const GrainKinematics*> grains;
@@ -122,13 +122,13 @@ struct PairSearch {
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int c, int begin, const Action& action) const {
     const GrainKinematics& a = grains(i);
-    const Real own = a.r + a.skin, highest = a.x.y + (own + occupied.widest(c));
+    const Real own = columns.extent(a), highest = a.x.y + (own + occupied.widest(c));
     const int end = occupied.start(c + 1);
     for (int j = begin; j < end; ++j) {
       const GrainKinematics& b = grains(j);
       if (b.x.y > highest) break;  // sorted by height
       const Vec3 s = box.nearest_image(a.x - b.x);
-      const Real cutoff = own + (b.r + b.skin);
+      const Real cutoff = own + columns.extent(b);
       if (dot(s, s) < cutoff * cutoff && (i < n_owned || j < n_owned)) action(j);
     }
   }

@@ -104,11 +104,20 @@ struct PairForces {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
     const Vec3 s = box.nearest_image(a.x - b.x);
-    const Real reach = a.r + b.r + margin;
-    const bool near = dot(s, s) < reach * reach;
+    const Real most =
+        a.r + b.r + (margin + reach(stiffness_of(p), effective_pair(a.r, b.r, a.m, b.m).r));
+    const bool near = dot(s, s) < most * most;
     // One condition: a branch on `near` alone would go either way, often against the guess.
     if (static_cast<int>(!near) & list.touching(p)) clear(p);
     return near;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION const auto& stiffness_of(int p) const {
+    if constexpr (Law::kMany) {
+      return law.table.of(list.law(p));
+    } else {
+      return law.table.of(0);
+    }
   }
 
   KOKKOS_FUNCTION void clear(int p) const {
@@ -159,8 +168,9 @@ struct PairForces {
     const Real r_a = s.r_a[q], r_b = s.r_b[q];
     const EffectivePair effective = effective_pair(r_a, r_b, s.m_a[q], s.m_b[q]);
     const Real overlap = r_a + r_b - distance;
-    const bool touches = overlap > 0;
-    const Real delta_n = touches ? overlap : 0;
+    const auto& stiffness = law.table.of(s.contacts.law_at(q));
+    const Real delta_n =
+        in_contact(stiffness, effective.r, overlap) ? overlap : -reach(stiffness, effective.r);
     const Vec3 omega_a = s.omega_a.vec(q), omega_b = s.omega_b.vec(q);
     const Real arm_a = r_a - delta_n / 2, arm_b = r_b - delta_n / 2;
     s.arm_a[q] = arm_a, s.arm_b[q] = arm_b;
@@ -181,7 +191,7 @@ struct PairForces {
 
   KOKKOS_FORCEINLINE_FUNCTION void store_history(const Contacts& c, int q, int p) const {
     list.xi_t(p) = c.xi_t.vec(q);
-    list.touching(p) = c.force[q].w() > 0 ? 1 : 0;
+    list.touching(p) = c.touches(law, q) ? 1 : 0;
     if constexpr (kRolls) list.rolling(p) = c.rolling.vec(q);
     if (keep_force) list.force(p) = c.force.vec(q);
   }

@@ -34,8 +34,9 @@ inline constexpr int kMaxColumns = 65535;
 /// rank, a piece of the Morton curve from `origin` on, come before those of others.
 struct SearchColumns {
   int nx = 1, nz = 1;
-  int rings = 1;        // 1 or 2
-  Real max_narrow = 0;  // radius + skin of a grain that is not wide, at most [m]
+  int rings = 1;                                  // 1 or 2
+  Real max_narrow = 0;                            // extent of a grain that is not wide, at most [m]
+  Real half_reach = 0;                            // of the contact law between two surfaces [m]
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
@@ -61,8 +62,12 @@ struct SearchColumns {
     const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
     return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
   }
+  /// Radius, skin and half the reach of the law: pairs closer than the sum of two are listed [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real extent(const GrainKinematics& grain) const {
+    return grain.r + grain.skin + half_reach;
+  }
   KOKKOS_FORCEINLINE_FUNCTION bool is_wide(const GrainKinematics& grain) const {
-    return rings > 1 && grain.r + grain.skin > max_narrow;
+    return rings > 1 && extent(grain) > max_narrow;
   }
   /// Column at an offset of (dx, dz) columns; false outside the domain.
   KOKKOS_FUNCTION bool neighbor(std::uint32_t column, int dx, int dz, std::uint32_t& result) const {
@@ -103,7 +108,7 @@ struct OccupiedColumns {
   Kokkos::View<int*> start;                      // (n + 1) first grain of each
   Kokkos::View<int*> of_grain;                   // (grains) occupied column of each grain
   Kokkos::View<int* [kForwardColumns]> forward;  // (n) occupied column or -1
-  Kokkos::View<Real*> widest;                    // (n) largest radius + skin [m]
+  Kokkos::View<Real*> widest;                    // (n) largest extent [m]
 
   /// Position of a column id in `id`, or -1.
   KOKKOS_FUNCTION int find(std::uint32_t column) const {
@@ -150,7 +155,7 @@ struct LinkColumns {
   KOKKOS_FUNCTION void operator()(int c) const {
     Real widest = 0;
     for (int g = occupied.start(c); g < occupied.start(c + 1); ++g)
-      widest = Kokkos::max(widest, grains(g).r + grains(g).skin);
+      widest = Kokkos::max(widest, columns.extent(grains(g)));
     occupied.widest(c) = widest;
     const int dx[kForwardColumns] = {0, 1, 1, 1};
     const int dz[kForwardColumns] = {1, -1, 0, 1};

@@ -26,10 +26,10 @@ struct TangentialOfPairs {
     const int i = list.i(p), j = list.j(p);
     const GrainKinematics &a = grains(i), &b = grains(j);
     const Real overlap = a.r + b.r - norm(box.nearest_image(a.x - b.x));
-    if (!(overlap > 0)) return;
     const EffectivePair effective = effective_pair(a.r, b.r, a.m, b.m);
-    const int entry = laws.at(list.has_laws() ? list.law(p) : std::uint8_t{0});
-    const ContactStiffness k = laws.stiffness[entry](effective.r, effective.m, overlap);
+    const auto& law = laws.of(list.has_laws() ? list.law(p) : std::uint8_t{0});
+    if (!in_contact(law, effective.r, overlap)) return;
+    const ContactStiffness k = law(effective.r, effective.m, overlap);
     add(i, k);
     add(j, k);
     const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
@@ -55,12 +55,11 @@ struct StableStepOfGrains {
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);
-    const auto& law =
-        laws.stiffness[laws.at(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0})];
+    const auto& law = laws.of(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0});
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
     const auto add = [&](Real overlap, Real r_eff) {
-      if (!(overlap > 0)) return;
+      if (!in_contact(law, r_eff, overlap)) return;
       const ContactStiffness k = law(r_eff, grain.m, overlap);
       stiffness += k.k_t, damping += k.gamma_t;
       take(stable_step(k.k_t, k.gamma_t, kSlipInertia * grain.m));

@@ -30,7 +30,7 @@ struct Walls {
   /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
   KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, Real margin) const {
     for (int w = 0; w < shapes.n; ++w) {
-      if (shapes.at(w, grains(g).x).overlap(grains(g)) > -margin) return 1;
+      if (shapes.at(w, grains(g).x).overlap(grains(g)) > -(margin + reach_of(g, w))) return 1;
     }
     touching(g) = 0;
     return 0;
@@ -48,7 +48,9 @@ struct Walls {
       const std::uint8_t before = touching(g);
       std::uint8_t now = 0;
       for (int w = 0; w < shapes.n; ++w) {
-        if (shapes.at(w, grains(g).x).overlap(grains(g)) <= 0) continue;
+        const Real overlap = shapes.at(w, grains(g).x).overlap(grains(g));
+        if (!in_contact(stiffness_of(g), shapes.effective_radius(w, grains(g).r), overlap))
+          continue;
         const std::uint8_t bit = static_cast<std::uint8_t>(1u << w);
         now = static_cast<std::uint8_t>(now | bit);
         load(s, n, g, w, (before & bit) != 0);
@@ -63,6 +65,16 @@ struct Walls {
   }
 
  private:
+  KOKKOS_FORCEINLINE_FUNCTION const auto& stiffness_of(int g) const {
+    if constexpr (Law::kMany) {
+      return law.table.of(law_entry(kind(g), 0));
+    } else {
+      return law.table.of(0);
+    }
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real reach_of(int g, int w) const {
+    return reach(stiffness_of(g), shapes.effective_radius(w, grains(g).r));
+  }
   KOKKOS_FORCEINLINE_FUNCTION void load(Tile& s, int q, int g, int w, bool touched) const {
     const GrainKinematics& grain = grains(g);
     const Plane plane = shapes.at(w, grain.x);

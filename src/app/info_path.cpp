@@ -141,7 +141,7 @@ std::string describe_case(const fs::path& path) {
   for (const HeapConfig& heap :
        c.initial.heaps.empty() ? std::vector<HeapConfig>() : poured_heaps(c)) {
     told += fmt::format("heap     {}: {} of {} grains\n", printable(heap.name, 60),
-                        kChoiceNames<HeapShape>[std::size_t(heap.shape)], count_of(heap.sizes));
+                        word_of(heap.shape), count_of(heap.sizes));
   }
   const auto start = [&](const char* name, const fs::path& file) {
     if (file.extension() == ".toml" || file.extension() == ".h5" || file.extension() == ".csv")

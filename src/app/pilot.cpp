@@ -89,7 +89,7 @@ RunState start(const Config& config, const InitialGrains& grains) {
   SystemState state;
   if (config.fluid) {
     state.fluid = make_fluid_state(make_grid(config, pencils.get()));
-    set_uniform_flow(config, *state.fluid);
+    set_flow(UniformFlow{}, config, *state.fluid);
   }
   if (config.grains) state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
   return {config, std::move(pencils), std::move(state)};

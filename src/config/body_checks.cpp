@@ -1,7 +1,7 @@
 #include "src/config/body_checks.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,48 +13,25 @@
 namespace barchan {
 namespace {
 
-constexpr double kFewCells = 4;    // across a body
-constexpr int kMostPosts = 10000;  // of a fence: far more than a flow or a picture can show
+constexpr double kFewCells = 4;  // across a body
 
 std::string key_of(std::size_t n, std::string_view key) {
   return fmt::format("body.{}.{}", n + 1, key);
 }
 
-/// Which keys a shape takes beside name, shape, centre and base, and which of them it needs.
-struct ShapeKeys {
-  std::vector<std::string_view> needs, takes = {};
-};
-
-ShapeKeys keys_of(const BodyConfig& body) {
-  switch (body.shape) {
-    case BodyShape::cylinder:
-      if (body.axis == BodyAxis::y) return {{"radius", "height"}, {"axis"}};
-      return {{"radius"}, {"axis", "length"}};
-    case BodyShape::sphere:
-    case BodyShape::half_sphere:
-      return {{"radius"}};
-    case BodyShape::box:
-      return {{"height"}, {"size", "angle"}};
-    case BodyShape::fence:
-      return {{"radius", "height", "spacing", "length"}, {"angle"}};
-    case BodyShape::dune:
-      return {{"height", "size", "lee"}};
-    case BodyShape::wave:
-      return {{"height", "wavelength"}};
-  }
-  return {};
-}
-
 /// What a body is called in messages.
 std::string words_for(const BodyConfig& body) {
-  const std::string_view shape = kChoiceNames<BodyShape>[static_cast<std::size_t>(body.shape)];
-  if (body.shape != BodyShape::cylinder) return fmt::format("shape = \"{}\"", shape);
-  return body.axis == BodyAxis::y ? "an upright cylinder" : "a lying cylinder";
+  std::string words = fmt::format("shape = \"{}\"", body.shape.word());
+  BodyShapes::with(body.shape, [&]<class Shape>() {
+    if constexpr (requires { Shape::words(body); }) words = Shape::words(body);
+  });
+  return words;
 }
 
 /// The keys that its shape needs, and no other ones; true if all is well.
 bool check_keys(const Config& c, std::size_t n, Findings& found) {
-  const ShapeKeys shape = keys_of(c.bodies[n]);
+  ShapeKeys shape;
+  BodyShapes::with(c.bodies[n].shape, [&]<class S>() { shape = S::keys(c.bodies[n]); });
   const auto holds = [](const std::vector<std::string_view>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -81,30 +58,23 @@ bool check_keys(const Config& c, std::size_t n, Findings& found) {
   return well;
 }
 
+/// Adds what a shape says of its body, if it says something; true if all is well.
+bool check(const std::optional<ShapeFault>& fault, std::size_t n, Findings& found) {
+  if (!fault) return true;
+  KeyNames keys;
+  for (const std::string_view key : fault->keys)
+    keys.push_back(key.find('.') == key.npos ? key_of(n, key) : std::string(key));
+  return !found.error_if(true, keys, "{}",
+                         fmt::format(fmt::runtime(fault->message), fault->number));
+}
+
 /// What keys cannot say one by one; true if all is well.
 bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
-  if (body.shape == BodyShape::box)
-    return !found.error_if(body.angle != 0 && (body.size[0] == 0 || body.size[1] == 0),
-                           {key_of(n, "angle"), key_of(n, "size")},
-                           "must be absent for a box through the whole domain");
-  if (body.shape == BodyShape::fence) {
-    const double posts = 1 + body.length / body.spacing;
-    return !found.error_if(body.spacing <= 2 * body.radius,
-                           {key_of(n, "spacing"), key_of(n, "radius")},
-                           "must be above the diameter of a post, {:.3g} m", 2 * body.radius) &&
-           !found.error_if(posts > kMostPosts, {key_of(n, "spacing"), key_of(n, "length")},
-                           "must be at least {:.3g} m: a fence has at most {} posts",
-                           body.length / (kMostPosts - 1), kMostPosts);
-  }
-  if (body.shape != BodyShape::dune) return true;
-  if (found.error_if(body.base > 0, {key_of(n, "base"), key_of(n, "shape")},
-                     "must be at most 0 with shape = \"dune\", which stands on the floor"))
-    return false;
-  if (found.error_if(body.size[0] == 0 || body.size[1] == 0, {key_of(n, "size")},
-                     "must be above 0 along x and along z"))
-    return false;
-  return !found.error_if(body.lee >= body.size[0], {key_of(n, "lee"), key_of(n, "size")},
-                         "must be below the length of the dune, {:.3g} m", body.size[0]);
+  bool well = true;
+  BodyShapes::with(body.shape, [&]<class Shape>() {
+    if constexpr (requires { Shape::fault(body); }) well = check(Shape::fault(body), n, found);
+  });
+  return well;
 }
 
 bool is_through(const BodyExtent& extent, const Config& c, std::size_t axis) {
@@ -125,7 +95,7 @@ void check_place(const Config& c, std::size_t n, Findings& found) {
                  {key_of(n, "base"), "domain.size"},
                  "must leave a part of the body in the domain: it reaches from {:.4g} to {:.4g} m",
                  extent.low[1], extent.high[1]);
-  const bool box = c.bodies[n].shape == BodyShape::box && c.bodies[n].angle == 0;
+  const bool box = c.bodies[n].shape.is<shapes::Box>() && c.bodies[n].angle == 0;
   const bool blocks =
       (box || is_through(extent, c, 0)) && is_through(extent, c, 1) && is_through(extent, c, 2);
   found.error_if(blocks, {key_of(n, "shape"), "domain.size"},
@@ -135,17 +105,10 @@ void check_place(const Config& c, std::size_t n, Findings& found) {
 /// What the periods of the domain ask for: a place knows the image whose foot is nearest.
 void check_periods(const Config& c, std::size_t n, Findings& found) {
   const BodyConfig& body = c.bodies[n];
-  if (body.shape == BodyShape::dune)
-    found.error_if(std::max(body.lee, body.size[0] - body.lee) > c.size[0] / 2,
-                   {key_of(n, "size"), key_of(n, "lee"), "domain.size"},
-                   "must not reach farther from the crest than half the length of the domain, "
-                   "{:.4g} m",
-                   c.size[0] / 2);
-  if (body.shape != BodyShape::wave) return;
-  const double waves = c.size[0] / body.wavelength;
-  found.error_if(
-      std::abs(waves - std::round(waves)) > 1e-6 * waves, {key_of(n, "wavelength"), "domain.size"},
-      "must fit into the length of the domain, {:.4g} m, a whole number of times", c.size[0]);
+  BodyShapes::with(body.shape, [&]<class Shape>() {
+    if constexpr (requires { Shape::misfit(body, 1.0); })
+      check(Shape::misfit(body, c.size[0]), n, found);
+  });
 }
 
 /// Along the floor against the cells, upwards against the lowest rows.
@@ -154,8 +117,8 @@ void check_resolution(const Config& c, std::size_t n, Findings& found) {
   double cell = c.size[0] / nx;
   if (nz > 1) cell = std::max(cell, c.size[2] / nz);
   const double first = c.fluid->first_cell_height, row = first > 0 ? first : c.size[1] / ny;
-  const double across = smallest_width(c.bodies[n]) / cell;
-  const double upwards = body_height(c.bodies[n]) / row;
+  const Footprint foot = footprint(c.bodies[n]);
+  const double across = foot.narrowest / cell, upwards = foot.height / row;
   found.warning_if(across < kFewCells, {key_of(n, "shape"), "fluid.cells"},
                    "has {:.1f} cells across its smallest width; below {} the flow hardly sees it",
                    across, kFewCells);

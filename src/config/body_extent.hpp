@@ -14,13 +14,6 @@ struct BodyExtent {
 };
 BodyExtent body_extent(const BodyConfig& body, const std::array<double, 3>& domain);
 
-/// Posts of a fence.
-int fence_posts(const BodyConfig& fence);
-
-/// Its height [m].
-double body_height(const BodyConfig& body);
-
-/// Its smallest size along the floor [m]: a diameter, a side, a wavelength.
-double smallest_width(const BodyConfig& body);
+Footprint footprint(const BodyConfig& body);
 
 }  // namespace barchan

@@ -9,14 +9,11 @@ void add_bodies(Sections& all) {
       .name = "body",
       .meaning = "Solids at rest in the flow and among the grains, at most eight; each shape takes "
                  "some of the keys",
-      .most = kMostBodiesOfCase});
+      .most = kMostBodies});
   auto key = repeated_keys(section, [](auto& c) { return &c.bodies; });
   using B = BodyConfig;
   key("name", &B::name, at_most(60), "", "name in tables, files and pictures", required_and_fixed);
-  key("shape", &B::shape,
-      "a fence is a row of upright cylinders; a dune has straight slopes over two half ellipses; "
-      "a wave is a floor of sine shape",
-      required_and_fixed);
+  key("shape", &B::shape, "form of the body", required_and_fixed);
   key("centre", &B::centre, any, "m",
       "[x, z] of the middle; of a dune or a wave: of a crest (a wave has no z)", fixed_by_restart);
   key("base", &B::base, between(-1e6, 1e6), "m",

@@ -117,9 +117,9 @@ struct GrainConfig {
   Material material;      // keys directly in [grains]
   Material wall;          // [grains.wall], defaults to `material`
   CoulombLimit coulomb_limit = CoulombLimit::total;
-  RollingModel rolling_model = RollingModel::epsd2;
+  RollingModel rolling_model = RollingModel::of<Epsd2>();
   double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)
-  ContactModel contact_model = ContactModel::hertz_mindlin;
+  ContactModel contact_model = ContactModel::of<HertzMindlin>();
   double linear_stiffness = 0;   // [N/m], contact_model = "linear" only, then required
   std::vector<SizeClass> sizes;  // for `pour`; otherwise the initial file decides
   bool frozen = false;
@@ -145,7 +145,7 @@ struct ForceSwitches {  // coupling.forces
 
 /// [coupling]
 struct CouplingConfig {
-  DragLaw drag = DragLaw::gidaspow;
+  DragLaw drag = DragLaw::of<Gidaspow>();
   VoidFraction void_fraction = VoidFraction::divided;
   Exchange exchange = Exchange::by_row;
   double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
@@ -185,37 +185,38 @@ struct CraterConfig {
   bool operator==(const CraterConfig&) const = default;
 };
 
-/// Flows to start from that are not in a file.
-inline constexpr std::array kFlowWords{"still", "uniform", "turbulent"};
-
 /// [initial]
 struct InitialConfig {
-  std::filesystem::path fluid = "still";  // or another of flow_words, or an absolute path
-  std::filesystem::path grains = {};      // an absolute path; empty with `pour`
+  std::filesystem::path fluid = StillFlow::named.word;  // or of another start flow, or a path
+  std::filesystem::path grains = {};                    // an absolute path; empty with `pour`
   std::optional<PourConfig> pour = {};
   std::vector<HeapConfig> heaps = {};
   std::vector<CraterConfig> craters = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"
   int realisation = 1;     // of an ensemble: its random numbers are those of seed + realisation - 1
+  template <class Flow>
+  bool starts_as() const {
+    return fluid == Flow::named.word;
+  }
   bool operator==(const InitialConfig&) const = default;
 };
 
-/// [[body]]: a solid at rest in the flow and among the grains. Which shape takes which keys:
-/// body_checks.cpp. Lengths of 0 are not given.
+/// [[body]]: a solid at rest in the flow and among the grains. Which keys a shape takes it says
+/// itself. Lengths of 0 are not given.
 struct BodyConfig {
-  std::string name;                       // in tables and pictures, required
-  BodyShape shape = BodyShape::cylinder;  // required
-  std::array<double, 2> centre{};         // x, z of its middle; of a dune of its crest [m]
-  double base = 0;                        // of its underside above the floor [m]
-  BodyAxis axis = BodyAxis::y;            // of a cylinder
-  double radius = 0;                      // of a cylinder, a sphere, a fence's posts [m]
-  double height = 0;                      // [m]; of a wave from trough to crest
-  double length = 0;                      // of a lying cylinder; of a fence between end posts [m]
-  std::array<double, 2> size{};           // of a box, a dune: along x, along z [m]
-  double lee = 0;                         // length of a dune's lee side, of all its length [m]
-  double spacing = 0;                     // of a fence's posts, between their axes [m]
-  double wavelength = 0;                  // [m]
-  double angle = 0;                       // by which box and fence are turned from x to z [rad]
+  std::string name;                // in tables and pictures, required
+  BodyShape shape;                 // required
+  std::array<double, 2> centre{};  // x, z of its middle; of a dune of its crest [m]
+  double base = 0;                 // of its underside above the floor [m]
+  Axis axis = Axis::y;             // of a cylinder
+  double radius = 0;               // of a cylinder, a sphere, a fence's posts [m]
+  double height = 0;               // [m]; of a wave from trough to crest
+  double length = 0;               // of a lying cylinder; of a fence between end posts [m]
+  std::array<double, 2> size{};    // of a box, a dune: along x, along z [m]
+  double lee = 0;                  // length of a dune's lee side, of all its length [m]
+  double spacing = 0;              // of a fence's posts, between their axes [m]
+  double wavelength = 0;           // [m]
+  double angle = 0;                // by which box and fence are turned from x to z [rad]
   bool operator==(const BodyConfig&) const = default;
 };
 
@@ -231,7 +232,7 @@ struct ProbeConfig {
 /// [[output.slice]]: the layer of cells at a place, with all fields of the flow.
 struct SliceConfig {
   std::string name;  // of its file, required
-  BodyAxis normal = BodyAxis::y;
+  Axis normal = Axis::y;
   double at = 0;          // place along the normal [m], required
   double interval = 0.1;  // [s]
   bool operator==(const SliceConfig&) const = default;
@@ -271,13 +272,13 @@ struct StatisticsConfig {
 struct SolverConfig {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int max_iterations = 200;
-  Preconditioner preconditioner = Preconditioner::local_fft;
+  Preconditioner preconditioner = Preconditioner::of<RelaxedFft>();
   bool operator==(const SolverConfig&) const = default;
 };
 
-/// As many as a case may have: kernels hold tables of the first two, a grain the number of its heap
-/// in a byte, of which one value is none.
-inline constexpr int kMostKinds = 4, kMostBodiesOfCase = 8, kMostHeaps = 255;
+/// As many as a case may have: a grain has the number of its heap in a byte, of which one value is
+/// none.
+inline constexpr int kMostHeaps = 255;
 
 struct Config {
   std::filesystem::path file;  // where it came from

@@ -94,25 +94,25 @@ void check_flow_at_start(const Config& c, Findings& found) {
   const std::vector<FlowTarget> schedule = flow_schedule(fluid);
   const bool held = velocity_at_start(schedule) != PlaneVelocity{};
   const bool pushed = fluid.pressure_gradient.value_or(0) != 0;
-  found.error_if(c.initial.fluid == "turbulent" && !held && !pushed,
+  found.error_if(c.initial.starts_as<TurbulentFlow>() && !held && !pushed,
                  {"initial.fluid", "fluid.mean_velocity", "fluid.pressure_gradient",
                   "fluid.schedule", "fluid.schedule.velocity"},
                  "must come with a mean_velocity or pressure_gradient, which sets its log law{}",
                  schedule.empty() ? "" : "; the schedule begins at rest");
   found.error_if(
-      c.initial.fluid == "uniform" && !held,
+      c.initial.starts_as<UniformFlow>() && !held,
       {"initial.fluid", "fluid.mean_velocity", "fluid.schedule", "fluid.schedule.velocity"},
       "must come with a mean_velocity, which it starts at{}",
       schedule.empty() ? "" : "; the schedule begins at rest");
-  found.warning_if(held && schedule.front().ramp == 0 && c.initial.fluid == "still" && c.grains &&
-                       !c.grains->frozen,
+  found.warning_if(held && schedule.front().ramp == 0 && c.initial.starts_as<StillFlow>() &&
+                       c.grains && !c.grains->frozen,
                    {"initial.fluid", "fluid.mean_velocity", "fluid.ramp_time"},
                    "accelerates within one step and throws the grains to about half of the "
                    "velocity; start from another case or \"turbulent\", or give a ramp_time");
   const PlaneVelocity first = velocity_at_start(schedule);
   const double reynolds = 2 * c.size[1] * std::hypot(first.x, first.z) / fluid.kinematic_viscosity;
   found.warning_if(reynolds > 2000 && fluid.schedule.empty() && fluid.ramp_time == 0 &&
-                       c.initial.fluid == "still" && !c.grains && c.bodies.empty() &&
+                       c.initial.starts_as<StillFlow>() && !c.grains && c.bodies.empty() &&
                        fluid.turbulence != Turbulence::none,
                    {"initial.fluid", "fluid.mean_velocity"},
                    "begins without turbulence, which takes long to arise by itself; \"turbulent\" "

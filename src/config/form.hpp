@@ -32,8 +32,8 @@ struct Form {
 template <class T>
 Form form_of() {
   using enum Form::Of;
-  if constexpr (std::is_enum_v<T>) {
-    return {choice, 0, {kChoiceNames<T>.begin(), kChoiceNames<T>.end()}};
+  if constexpr (HasWords<T>) {
+    return {choice, 0, {words_of<T>().begin(), words_of<T>().end()}};
   } else if constexpr (std::is_same_v<T, bool>) {
     return {truth};
   } else if constexpr (std::is_integral_v<T>) {

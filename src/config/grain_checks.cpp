@@ -182,10 +182,10 @@ void check_grains(const Config& c, Findings& found) {
     rolls = rolls || kind.material.rolling_friction > 0;
   for (const PairConfig& pair : grains.pairs)
     rolls = rolls || pair.rolling_friction.value_or(0) > 0;
-  found.error_if(rolls && grains.rolling_model == RollingModel::none,
+  found.error_if(rolls && grains.rolling_model.is<NoRolling>(),
                  {"grains.rolling_model", "grains.rolling_friction"},
                  "contradicts a rolling_friction above 0");
-  const bool linear = grains.contact_model == ContactModel::linear;
+  const bool linear = grains.contact_model.is<LinearSpring>();
   found.error_if(linear && grains.linear_stiffness == 0,
                  {"grains.linear_stiffness", "grains.contact_model"},
                  "must be above 0 with contact_model = \"linear\"");
@@ -229,7 +229,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
           n.d_max, narrowest))
     return found.all;
   if (!c.grains->frozen) {
-    const bool hertz = c.grains->contact_model == ContactModel::hertz_mindlin;
+    const bool hertz = c.grains->contact_model.is<HertzMindlin>();
     (hertz ? check_hertz_step : check_linear_step)(c, n, found);
   }
   // The hole between three glued spheres is 0.155 of their diameter wide.

@@ -68,7 +68,7 @@ class Keys {
             .form = form_of<Plain<T>>(),
             .range = range,
             .unit = unit,
-            .meaning = meaning,
+            .meaning = meaning_of<Plain<T>>(meaning),
             .required = (rule & required) != 0,
             .by_default = {},
             .takes_diameters =

@@ -113,9 +113,9 @@ void add_feed(Sections& all) {
       [](auto& c) { return c.grains ? &c.grains->feed : nullptr; });
   using F = FeedConfig;
   key("amount", &F::amount,
-      "\"given\": at `rate`, with the size distribution of the initial grains; \"lost\": as many "
-      "as "
-      "leave, with their sizes");
+      "\"given\": at `rate`, with the size distribution of the initial grains; \"as_lost\": as "
+      "many "
+      "as leave, with their sizes");
   key("rate", &F::rate, between(0, 1e9), "1/s",
       "grains per second; required with `amount` \"given\"");
   key("start", &F::start, at_least(0), "s", "time from which grains enter, and losses count");
@@ -154,9 +154,10 @@ void add_initial(Sections& all) {
   Keys key(add(all, "initial", "The state at t = 0"), [](auto& c) { return &c.initial; });
   using I = InitialConfig;
   key("fluid", &I::fluid,
-      "\"still\", \"uniform\" (at the bulk velocity everywhere), \"turbulent\" (a log law with "
-      "perturbations), a restart file `.h5`, or the end of a case `.toml`; from other cells of the "
-      "same box it is interpolated");
+      meaning_of<Choice<StartFlows>>(
+          "a restart file `.h5`, or the end of a case `.toml`, from other cells of the same box "
+          "interpolated; or a word")
+          .c_str());
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
   key("seed", &I::seed, "random seed of the perturbations of \"turbulent\"");
@@ -243,8 +244,7 @@ void add_solver(Sections& all) {
       "residual over right-hand side (2-norms) at which iterations stop");
   key("max_iterations", &S::max_iterations, at_least(1), "",
       "largest number of iterations of the conjugate gradients in a step");
-  key("preconditioner", &S::preconditioner,
-      "direct solve by FFT; \"local_fft\" adds a relaxation in cells with grains");
+  key("preconditioner", &S::preconditioner, "preconditioner of the pressure equation");
 }
 
 }  // namespace

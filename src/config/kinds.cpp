@@ -44,7 +44,7 @@ void check_use(const GrainConfig& grains, Findings& found) {
   found.error_if(
       grains.density != GrainConfig{}.density && all_differ(&KindConfig::density, grains.density),
       {"grains.density", "grains.kind"}, "must be absent: every [[grains.kind]] has its own");
-  if (grains.contact_model != ContactModel::linear) return;
+  if (!grains.contact_model.is<LinearSpring>()) return;
   for (std::size_t k = 0; k < grains.kinds.size(); ++k) {
     const KindConfig& kind = grains.kinds[k];
     const Material &own = kind.material, &common = grains.material;

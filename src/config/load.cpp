@@ -28,12 +28,12 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
   if (node == nullptr || node->table() != nullptr || reading.is_bad(key)) return;
-  if (flow && std::count(kFlowWords.begin(), kFlowWords.end(), start.string()) > 0) return;
+  if (flow && std::ranges::count(StartFlows::words, start.string()) > 0) return;
   if (start.extension() != ".h5" && start.extension() != ".toml" &&
       (flow || start.extension() != ".csv")) {
     return reading.report_error(
         key, flow ? fmt::format("must be \"{}\" or a file ending in .h5, .toml",
-                                fmt::join(kFlowWords, "\", \""))
+                                fmt::join(StartFlows::words, "\", \""))
                   : "must be a file ending in .csv, .h5, .toml, or { pour = {...} }");
   }
   const fs::path path = fs::absolute(reading.folder_of(key) / start).lexically_normal();
@@ -145,7 +145,7 @@ void read_case(ConfigReader& reading, const Context& context, Loaded& loaded) {
   Starts starts = load_starts(config, reading, context);
   const std::vector<HeapConfig> heaps = poured_heaps(config);
   result.random =
-      (config.fluid && (config.initial.fluid == "turbulent" || starts.flow.result.random)) ||
+      (config.fluid && (config.initial.starts_as<TurbulentFlow>() || starts.flow.result.random)) ||
       (config.grains && (!heaps.empty() || starts.grains.result.random));
   if (config.initial.realisation > 1 && !result.random && starts.problems.empty()) {
     reading.report_conflict("initial.realisation",

@@ -19,7 +19,7 @@ void add_kinds(Sections& all) {
               .meaning = "Grains of several kinds, at most four; what a kind leaves out is as in "
                          "`[grains]`",
               .like = "grains",
-              .most = kMostKinds});
+              .most = kMaxKinds});
   const auto list = [](auto& c) { return c.grains ? &c.grains->kinds : nullptr; };
   auto key = repeated_keys(section, list);
   using K = KindConfig;
@@ -47,7 +47,7 @@ void add_pairs(Sections& all) {
       Section{.name = "grains.pair",
               .meaning = "Contacts of two kinds with each other; what is not given is the "
                          "geometric mean of both kinds",
-              .most = kMostKinds * (kMostKinds - 1) / 2});
+              .most = kMaxKinds * (kMaxKinds - 1) / 2});
   auto key = repeated_keys(section, [](auto& c) { return c.grains ? &c.grains->pairs : nullptr; });
   using P = PairConfig;
   key("kinds", &P::kinds, "names of the two kinds", required);

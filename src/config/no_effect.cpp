@@ -10,7 +10,7 @@ namespace {
 bool has_fluid(const Config& c) { return c.fluid.has_value(); }
 bool has_grains(const Config& c) { return c.grains.has_value(); }
 bool is_hertzian(const Config& c) {
-  return !c.grains || c.grains->contact_model == ContactModel::hertz_mindlin;
+  return !c.grains || c.grains->contact_model.is<HertzMindlin>();
 }
 
 constexpr const char* kWithoutFluid = "must be absent without a [fluid] section";
@@ -38,7 +38,7 @@ constexpr Need kNeeds[] = {
      [](const Config& c) { return c.fluid->turbulence == Turbulence::wale; },
      "must be absent unless turbulence = \"wale\""},
     {"grains.rolling_theta_m", "grains.rolling_model",
-     [](const Config& c) { return c.grains->rolling_model == RollingModel::theta_m; },
+     [](const Config& c) { return c.grains->rolling_model.is<ThetaM>(); },
      "must be absent unless rolling_model = \"theta_m\""},
     {"grains.youngs_modulus", "grains.contact_model", is_hertzian, kWithSprings},
     {"grains.poisson_ratio", "grains.contact_model", is_hertzian, kWithSprings},

@@ -21,7 +21,7 @@ Case realisation_of(const Case& the_case, int realisation) {
   Case other = the_case;
   if (realisation == 1) return other;
   Config& config = other.config;
-  if (config.fluid && !config.grains && config.initial.fluid == "turbulent") {
+  if (config.fluid && !config.grains && config.initial.starts_as<TurbulentFlow>()) {
     config.time.end += (realisation - 1) * turnover(config);
   } else if (other.random) {
     config.initial.realisation = realisation;

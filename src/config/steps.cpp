@@ -41,9 +41,8 @@ double stable_step_in_bed(double d, double d_mean, double density, double weight
   constexpr int layers = 15, contacts = 6;
   const Elastic elastic{.youngs_modulus = material.youngs_modulus,
                         .poisson_ratio = material.poisson_ratio};
-  const HertzMindlin law{.e_eff = effective_youngs_modulus(elastic, elastic),
-                         .g_eff = effective_shear_modulus(elastic, elastic),
-                         .damping = damping_ratio(material.restitution)};
+  const HertzMindlin law =
+      HertzMindlin::from({.a = elastic, .b = elastic, .restitution = material.restitution});
   const double mass = density * std::numbers::pi / 6 * d * d * d;
   const ContactStiffness k = law(d / 4, mass / 2, static_overlap(layers, d_mean, weight, material));
   return stable_step(contacts * k.k_t, contacts * k.gamma_t, kSpinInertia * mass);
@@ -53,7 +52,7 @@ double stable_step_in_bed(double d, double d_mean, double density, double weight
 double limit_of(const SizeClass& size, double d_mean, const Config& config) {
   const GrainConfig& grains = *config.grains;
   const KindConfig kind = all_kinds(grains)[static_cast<std::size_t>(size.kind)];
-  if (grains.contact_model == ContactModel::linear) {
+  if (grains.contact_model.is<LinearSpring>()) {
     const double mass = kind.density * std::numbers::pi / 6 * std::pow(size.diameter, 3);
     return 0.1 * linear_contact_time(mass, grains.linear_stiffness);
   }

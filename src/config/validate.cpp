@@ -101,7 +101,7 @@ void check_fluid(const Config& c, Findings& found) {
                  {"coupling.forces", "fluid.bottom"},
                  "must not hold \"wall_drag\" over a free-slip bottom, which is no wall to drag");
   check_flow_at_start(c, found);
-  found.error_if(c.initial.fluid == "turbulent" && fluid.kinematic_viscosity == 0,
+  found.error_if(c.initial.starts_as<TurbulentFlow>() && fluid.kinematic_viscosity == 0,
                  {"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");
   found.error_if(fluid.uniform_height > 0 && fluid.first_cell_height == 0,
                  {"fluid.uniform_height", "fluid.first_cell_height"},
@@ -117,7 +117,7 @@ void check_fluid(const Config& c, Findings& found) {
 }
 
 void check_initial(const Config& c, Findings& found) {
-  found.error_if(!c.fluid && c.initial.fluid != "still", {"initial.fluid", "fluid"},
+  found.error_if(!c.fluid && !c.initial.starts_as<StillFlow>(), {"initial.fluid", "fluid"},
                  "must be absent without a [fluid] section");
   const bool given = c.initial.pour.has_value() || !c.initial.grains.empty();
   const bool heaps = !c.initial.heaps.empty();

@@ -16,58 +16,43 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "src/base/enum_names.hpp"
 #include "src/config/config.hpp"
 #include "src/config/toml_tree.hpp"
 
 namespace barchan {
 
-// The names of the choices, in the order of the values of each enum.
-using namespace std::string_view_literals;
-constexpr auto names_of(Turbulence) { return std::array{"none"sv, "wale"sv}; }
-constexpr auto names_of(WallFlow) { return std::array{"no_slip"sv, "free_slip"sv}; }
-constexpr auto names_of(CoulombLimit) { return std::array{"total"sv, "elastic"sv}; }
-constexpr auto names_of(RollingModel) {
-  return std::array{"none"sv, "epsd2"sv, "theta_m"sv, "cdt"sv};
+/// A value that is one of a few words: an enumerator, or a type of a list.
+template <class T>
+concept HasWords = std::is_enum_v<T> || requires {
+  T::Of::words;
+};
+template <HasWords T>
+constexpr const auto& words_of() {
+  if constexpr (std::is_enum_v<T>) {
+    return kEnumNames<T>;
+  } else {
+    return T::Of::words;
+  }
 }
-constexpr auto names_of(ContactModel) { return std::array{"hertz_mindlin"sv, "linear"sv}; }
-constexpr auto names_of(GrainBoundaryX) {
-  return std::array{"exit"sv, "periodic"sv, "wall"sv, "follow"sv};
+template <HasWords T>
+constexpr std::string_view word_of(T value) {
+  if constexpr (std::is_enum_v<T>) {
+    return kEnumNames<T>[static_cast<std::size_t>(value)];
+  } else {
+    return value.word();
+  }
 }
-constexpr auto names_of(GrainBoundaryZ) { return std::array{"periodic"sv, "wall"sv}; }
-constexpr auto names_of(GrainFloor) { return std::array{"smooth"sv, "glued"sv}; }
-constexpr auto names_of(PourShape) { return std::array{"cone"sv, "bed"sv}; }
-constexpr auto names_of(HeapShape) { return std::array{"cone"sv, "ridge"sv, "bed"sv}; }
-constexpr auto names_of(FeedAmount) { return std::array{"given"sv, "as_lost"sv}; }
-constexpr auto names_of(BodyShape) {
-  return std::array{"cylinder"sv, "sphere"sv, "half_sphere"sv, "box"sv,
-                    "fence"sv,    "dune"sv,   "wave"sv};
-}
-constexpr auto names_of(BodyAxis) { return std::array{"x"sv, "y"sv, "z"sv}; }
-constexpr auto names_of(DragLaw) {
-  return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
-                    "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
-}
-constexpr auto names_of(Exchange) { return std::array{"by_row"sv, "interpolated"sv, "smoothed"sv}; }
-constexpr auto names_of(VoidFraction) {
-  return std::array{"divided"sv, "cfdem_faithful"sv, "centre"sv};
-}
-constexpr auto names_of(Preconditioner) { return std::array{"fft"sv, "local_fft"sv}; }
 
-template <class Choice>
-inline constexpr auto kChoiceNames = names_of(Choice{});
-
-// A value added at the end of an enum without its name here fails these.
-static_assert(kChoiceNames<RollingModel>.size() == std::size_t(RollingModel::cdt) + 1);
-static_assert(kChoiceNames<GrainBoundaryX>.size() == std::size_t(GrainBoundaryX::follow) + 1);
-static_assert(kChoiceNames<GrainFloor>.size() == std::size_t(GrainFloor::glued) + 1);
-static_assert(kChoiceNames<PourShape>.size() == std::size_t(PourShape::bed) + 1);
-static_assert(kChoiceNames<HeapShape>.size() == std::size_t(HeapShape::bed) + 1);
-static_assert(kChoiceNames<FeedAmount>.size() == std::size_t(FeedAmount::as_lost) + 1);
-static_assert(kChoiceNames<BodyShape>.size() == std::size_t(BodyShape::wave) + 1);
-static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
-static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
-static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
-static_assert(kChoiceNames<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
+/// The meaning of a key, and of each alternative that it names.
+template <class T>
+std::string meaning_of(std::string meaning) {
+  if constexpr (requires { T::Of::named; }) {
+    for (const Named& one : T::Of::named)
+      meaning += fmt::format("; \"{}\": {}", one.word, one.meaning);
+  }
+  return meaning;
+}
 
 /// The members of coupling.forces, by name.
 struct ForceName {
@@ -136,11 +121,15 @@ requires std::is_integral_v<T> Mismatch convert(const Node& node, T& value) {
   return {};
 }
 
-template <class Choice>
-requires std::is_enum_v<Choice> Mismatch convert(const Node& node, Choice& value) {
+template <HasWords T>
+Mismatch convert(const Node& node, T& value) {
   std::size_t at = 0;
-  const Mismatch mismatch = convert_name(node, kChoiceNames<Choice>, at);
-  value = static_cast<Choice>(at);
+  const Mismatch mismatch = convert_name(node, words_of<T>(), at);
+  if constexpr (std::is_enum_v<T>) {
+    value = static_cast<T>(at);
+  } else {
+    value = {at};
+  }
   return mismatch;
 }
 
@@ -173,9 +162,9 @@ std::string toml_text(const Node& node);
 template <class T>
 requires std::is_integral_v<T> std::string toml_text(T value) { return fmt::format("{}", value); }
 
-template <class Choice>
-requires std::is_enum_v<Choice> std::string toml_text(Choice value) {
-  return toml_text(kChoiceNames<Choice>[static_cast<std::size_t>(value)]);
+template <HasWords T>
+std::string toml_text(T value) {
+  return toml_text(word_of(value));
 }
 
 template <class T, std::size_t N>
@@ -220,8 +209,8 @@ Mismatch check(const T& value, const Range& range) {
 /// What one writes for it, in words: "number", "array of 3 numbers", or the choices.
 template <class T>
 std::string type_text() {
-  if constexpr (std::is_enum_v<T>) {
-    return fmt::format("\"{}\"", fmt::join(kChoiceNames<T>, "\", \""));
+  if constexpr (HasWords<T>) {
+    return fmt::format("\"{}\"", fmt::join(words_of<T>(), "\", \""));
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true or false";
   } else if constexpr (std::is_integral_v<T>) {

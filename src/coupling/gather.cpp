@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "kernels/coupling/beside_bodies.hpp"
@@ -14,19 +13,6 @@
 namespace barchan {
 
 namespace {
-
-DragModel make_drag(DragLaw law, Real sauter_diameter) {
-  const std::map<DragLaw, DragModel> models{
-      {DragLaw::gidaspow, Gidaspow{}},
-      {DragLaw::di_felice, DiFelice{}},
-      {DragLaw::koch_hill, KochHill{}},
-      {DragLaw::syamlal_obrien, SyamlalOBrien{}},
-      {DragLaw::beetstra, Beetstra{.d_mean = sauter_diameter}},
-      {DragLaw::paper_repaired, PaperRepaired{}},
-      {DragLaw::gidaspow_blended, GidaspowBlended{}},
-      {DragLaw::none, NoDrag{}}};
-  return models.at(law);
-}
 
 FluidForces forces_of(const ForceSwitches& f) {
   return {f.drag,   f.pressure_gradient, f.stress, f.added_mass, f.buoyancy, f.lift,
@@ -40,7 +26,7 @@ Gather::Gather(const Config& config, const GrainState& grains, const CouplingGri
     : grid_(grid),
       fields_(fields),
       forces_(forces_of(config.coupling.forces)),
-      drag_(make_drag(config.coupling.drag, grains.sauter_diameter)),
+      drag_(DragLaws::make(config.coupling.drag, grains.sauter_diameter)),
       weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
                           config.grains->gravity[2]},
               .displaced = forces_.buoyancy ? Real(config.fluid->density) : 0},

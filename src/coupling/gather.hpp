@@ -1,17 +1,12 @@
 // From the flow to the grains.
 #pragma once
 
-#include <variant>
-
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 
 namespace barchan {
-
-using DragModel = std::variant<Gidaspow, DiFelice, KochHill, SyamlalOBrien, Beetstra, PaperRepaired,
-                               GidaspowBlended, NoDrag>;
 
 /// Velocity, share of fluid, drag coefficient and steady forces of the fluid at each grain, before
 /// the grain steps of a fluid step. Grid and fields outlive it.
@@ -46,7 +41,7 @@ class Gather {
   const CouplingGrid& grid_;
   CouplingFields& fields_;
   FluidForces forces_;
-  DragModel drag_;
+  DragLaws::Variant drag_;
   SubmergedWeight weight_;
   Real rho_f_, nu_;
   bool has_floor_;       // no slip at y = 0

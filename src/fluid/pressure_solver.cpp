@@ -98,7 +98,7 @@ void PressureSolver::fill_ghosts_near(Field& f) const {
 
 /// z = M^-1 r.
 void PressureSolver::precondition() {
-  if (config_.preconditioner == Preconditioner::local_fft) {
+  if (config_.preconditioner.is<RelaxedFft>()) {
     local_.apply(poisson_, r_, z_, e_);
   } else {
     poisson_.solve(r_, z_);
@@ -113,7 +113,7 @@ void PressureSolver::launch_once(const char* label, const Functor& functor) cons
 
 /// P p = b - E (the relaxed guess), relaxed; r = b - A p.
 void PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
-  const bool relaxes = config_.preconditioner == Preconditioner::local_fft;
+  const bool relaxes = config_.preconditioner.is<RelaxedFft>();
   const MPI_Comm ranks = ranks_of(grid_);
   fill_ghosts_near(p);
   if (relaxes) {
@@ -159,7 +159,7 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Region& near, Fi
                                      Real tolerance) {
   near_ = &near;
   const MPI_Comm ranks = ranks_of(grid_);
-  if (config_.preconditioner == Preconditioner::local_fft) local_.update(c, near, z_);
+  if (config_.preconditioner.is<RelaxedFft>()) local_.update(c, near, z_);
   start(c, b, p);
   local_.take_room(b);  // which is no longer needed
   numbers_.fetch();

@@ -9,19 +9,12 @@ namespace barchan {
 
 namespace {
 
-template <class Stiffness>
-Stiffness make_law(const GrainConfig& config, const Material& a, const Material& b,
-                   const Material& contact) {
-  const Real damping = damping_ratio(contact.restitution);
-  if constexpr (std::is_same_v<Stiffness, LinearSpring>) {
-    return {.k_n = config.linear_stiffness, .damping = damping};
-  } else {
-    const Elastic first{.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio};
-    const Elastic second{.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio};
-    return {.e_eff = effective_youngs_modulus(first, second),
-            .g_eff = effective_shear_modulus(first, second),
-            .damping = damping};
-  }
+ContactMaterial contact_material(const GrainConfig& config, const Material& a, const Material& b,
+                                 const Material& contact) {
+  return {.a = {.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio},
+          .b = {.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio},
+          .restitution = contact.restitution,
+          .linear_stiffness = config.linear_stiffness};
 }
 
 Friction friction_of(const Material& m, CoulombLimit limit) {
@@ -35,12 +28,11 @@ template <class Fill>
 LawTables filled(const GrainConfig& config, const GrainKinds& kinds, const Fill& fill) {
   if (kinds.count() > kMaxKinds) throw std::length_error("more kinds of grains than kMaxKinds");
   LawTables tables;
-  if (config.contact_model == ContactModel::linear) tables = LawTable<LinearSpring, true>{};
+  ContactModels::with(config.contact_model,
+                      [&]<class Stiffness>() { tables = LawTable<Stiffness, true>{}; });
   std::visit(fill, tables);
   return tables;
 }
-
-static_assert(kMostKinds == kMaxKinds);
 
 /// Restitution and friction of two materials that nothing is said of; elastic constants are those
 /// of each side.
@@ -81,8 +73,8 @@ LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds) {
     for (int a = 0; a < kinds.count(); ++a) {
       for (int b = 0; b < kinds.count(); ++b) {
         const Material& contact = kinds.contact(a, b);
-        table.stiffness[law_entry(a, b)] =
-            make_law<Stiffness>(config, kinds.contact(a, a), kinds.contact(b, b), contact);
+        table.stiffness[law_entry(a, b)] = Stiffness::from(
+            contact_material(config, kinds.contact(a, a), kinds.contact(b, b), contact));
         table.friction[law_entry(a, b)] = friction_of(contact, config.coulomb_limit);
       }
     }
@@ -93,7 +85,7 @@ LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds) {
   return filled(config, kinds, [&]<class Stiffness>(LawTable<Stiffness, true>& table) {
     for (int a = 0; a < kinds.count(); ++a) {
       table.stiffness[law_entry(a, 0)] =
-          make_law<Stiffness>(config, kinds.contact(a, a), config.wall, config.wall);
+          Stiffness::from(contact_material(config, kinds.contact(a, a), config.wall, config.wall));
       table.friction[law_entry(a, 0)] = friction_of(config.wall, config.coulomb_limit);
     }
   });

@@ -32,7 +32,10 @@ GrainKinds kinds_of(const GrainConfig& config);
 /// Their densities [kg/m^3].
 std::vector<Real> densities_of(const GrainConfig& config);
 
-using LawTables = std::variant<LawTable<HertzMindlin, true>, LawTable<LinearSpring, true>>;
+/// One table of the case's contact model.
+template <class Stiffness>
+using LawTableOfMany = LawTable<Stiffness, true>;
+using LawTables = ContactModels::VariantOf<LawTableOfMany>;
 
 /// Laws of the contacts of all kinds with each other.
 LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds);

@@ -14,22 +14,22 @@ namespace barchan {
 
 namespace {
 
-RollingLaw make_rolling(const GrainConfig& grains, const GrainKinds& kinds) {
+RollingModels::Variant make_rolling(const GrainConfig& grains, const GrainKinds& kinds) {
   bool rolls = grains.wall.rolling_friction != 0;
   for (const Material& m : kinds.material) rolls = rolls || m.rolling_friction != 0;
   for (const auto& [pair, m] : kinds.unlike) rolls = rolls || m.rolling_friction != 0;
   if (!rolls) return NoRolling{};  // every model vanishes with mu_r
-  switch (grains.rolling_model) {
-    case RollingModel::epsd2:
-      return Epsd2{};
-    case RollingModel::theta_m:
-      return ThetaM{.theta_m = grains.rolling_theta_m};
-    case RollingModel::cdt:
-      return ConstantTorque{};
-    case RollingModel::none:
-      break;
-  }
-  return NoRolling{};
+  return RollingModels::make(grains.rolling_model, grains.rolling_theta_m);
+}
+
+/// Of any contact of that effective radius [m].
+Real largest_reach(const LawTables& tables, Real r_eff) {
+  Real largest = 0;
+  const auto look = [&](const auto& table) {
+    for (const auto& law : table.stiffness) largest = std::max(largest, reach(law, r_eff));
+  };
+  std::visit(look, tables);
+  return largest;
 }
 
 int tiles_of(int n) { return (n + kTile - 1) / kTile; }
@@ -57,12 +57,13 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains)
 
 GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds)
     : ranks_(grains.ranks),
-      list_(config, grains.r_max, grains.ranks),
       many_kinds_(kinds.count() > 1),
       pair_laws_(laws_of_pairs(*config.grains, kinds)),
       wall_laws_(laws_of_walls(*config.grains, kinds)),
+      list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2)),
       rolling_(make_rolling(*config.grains, kinds)),
-      on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_)) {
+      on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),
+                 largest_reach(wall_laws_, grains.r_max)) {
   list_.with_laws = many_kinds_;
   add_walls(config, grains.r_max);
   using WallHistory = decltype(grains.wall_xi_t);

@@ -12,8 +12,6 @@
 
 namespace barchan {
 
-using RollingLaw = std::variant<NoRolling, Epsd2, ThetaM, ConstantTorque>;
-
 /// What the contacts look like now.
 struct ContactSummary {
   std::int64_t n_contacts = 0;  // grain-grain
@@ -85,10 +83,10 @@ class GrainSolver {
   int launch_ahead(GrainState& grains, int s, int n, Real dt);
 
   MPI_Comm ranks_;
-  NeighborList list_;
   bool many_kinds_;
   LawTables pair_laws_, wall_laws_;
-  RollingLaw rolling_;
+  NeighborList list_;
+  RollingModels::Variant rolling_;
   WallShapes walls_;
   GrainsOnBodies on_bodies_;
   int ahead_ = kOnHost ? 1 : 16;

@@ -16,7 +16,7 @@ Real GrainSolver::strongest_on_body(Real r_max) const {
   Real strongest = 0;
   with_laws([&](const auto&, const auto& of_walls) {
     for (const auto& stiffness : of_walls.stiffness)
-      strongest = std::max(strongest, stiffness(r_max, 1, 2 * r_max).k_n * 2 * r_max);
+      strongest = std::max(strongest, stiffness(r_max, 1, 2 * r_max).elastic);
   });
   return strongest;
 }

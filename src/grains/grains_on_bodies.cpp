@@ -11,8 +11,11 @@
 
 namespace barchan {
 
-GrainsOnBodies::GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling)
-    : bodies_(make_bodies(config)), reach_(config.size[0] + config.size[1] + config.size[2]) {
+GrainsOnBodies::GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling,
+                               Real law_reach)
+    : bodies_(make_bodies(config)),
+      law_reach_(law_reach),
+      farthest_(config.size[0] + config.size[1] + config.size[2]) {
   if (!any()) return;
   const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
   const auto n_bodies = static_cast<std::size_t>(bodies_.n);
@@ -32,7 +35,7 @@ void GrainsOnBodies::begin(const GrainState& grains, int n, Real strongest) {
   const Real pairs = 4 * static_cast<Real>(grains.n_initial + grains.feed.n_fed + 1);
   const Real unit = std::exp2(std::ceil(std::log2(n * strongest * pairs)) - 62);
   per_force_ = 1 / unit;
-  per_torque_ = per_force_ / std::exp2(std::ceil(std::log2(reach_)));
+  per_torque_ = per_force_ / std::exp2(std::ceil(std::log2(farthest_)));
   most_ = std::exp2(Real(62)) / pairs;
   Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), totals_, 0);
   if (near_.n > 0) Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), near_.load, 0);
@@ -47,6 +50,7 @@ void GrainsOnBodies::find(const GrainState& grains, std::int64_t rebuilds) {
   Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), sums_, ContactSum{});
   Kokkos::parallel_for("grains: mark near bodies", items(grains.n),
                        MarkNearBodies{.bodies = bodies_,
+                                      .law_reach = law_reach_,
                                       .grains = grains.kin,
                                       .x_reference = grains.x_reference,
                                       .touching = grains.body_touching,

@@ -22,7 +22,8 @@ struct GrainsOnBody {
 class GrainsOnBodies {
  public:
   /// Allocates the history of contacts if the case has bodies.
-  GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling);
+  /// `law_reach`: of the contact law between two surfaces [m].
+  GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling, Real law_reach = 0);
 
   bool any() const { return bodies_.n > 0; }
   const Bodies& bodies() const { return bodies_; }
@@ -43,7 +44,8 @@ class GrainsOnBodies {
   void sum_pairs() const;
 
   Bodies bodies_;
-  Real reach_ = 0;  // farther from a foot no contact is [m]
+  Real law_reach_ = 0;
+  Real farthest_ = 0;  // farther from a foot no contact is [m]
   NearBodies near_;
   std::int64_t found_at_ = -1;  // rebuilds of the neighbour list
   int n_steps_ = 0;

@@ -34,7 +34,8 @@ struct NewGrain {
 /// with the same bits: which grain is the first depends on the places of the two columns alone.
 class NeighborList {
  public:
-  NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF);
+  /// `reach`: of the contact law between two surfaces [m].
+  NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0);
 
   /// Sorts, searches, carries the history over. `drop` removes grains that leave.
   void rebuild(GrainState& grains, bool drop);

@@ -65,9 +65,9 @@ void check_grains(const InitialGrains& grains, const std::filesystem::path& file
 }
 
 std::uint8_t as_kind(std::int64_t kind, const std::filesystem::path& file) {
-  if (kind >= 0 && kind < kMostKinds) return static_cast<std::uint8_t>(kind);
+  if (kind >= 0 && kind < kMaxKinds) return static_cast<std::uint8_t>(kind);
   throw std::runtime_error(fmt::format("{}: it holds a kind of grains {}, of at most {}",
-                                       file.string(), kind, kMostKinds - 1));
+                                       file.string(), kind, kMaxKinds - 1));
 }
 
 /// Grains beyond a side that is periodic in the case that wrote them: here it may be none.

@@ -195,7 +195,7 @@ void set_owned(Field& f, const Grid& grid, const Value& value) {
 
 }  // namespace
 
-void set_turbulent_flow(const Config& config, FluidState& fluid) {
+void set_flow(TurbulentFlow, const Config& config, FluidState& fluid) {
   const Grid& grid = fluid.grid;
   const FluidConfig& setup = config.fluid.value();
   const FluidNumbers numbers = *derive(config, {}).fluid;
@@ -233,7 +233,7 @@ void set_turbulent_flow(const Config& config, FluidState& fluid) {
   });
 }
 
-void set_uniform_flow(const Config& config, FluidState& fluid) {
+void set_flow(UniformFlow, const Config& config, FluidState& fluid) {
   const PlaneVelocity bulk = velocity_at_start(flow_schedule(config.fluid.value()));
   Kokkos::deep_copy(fluid.u.x.storage, bulk.x);
   Kokkos::deep_copy(fluid.u.z.storage, bulk.z);

@@ -1,4 +1,4 @@
-// A flow to start from that soon becomes turbulent.
+// The flows to start from that are not in a file.
 #pragma once
 
 #include "src/config/config.hpp"
@@ -11,10 +11,13 @@ namespace barchan {
 /// vortices near the walls and random oblique waves, together 10 % of the bulk velocity (RMS of the
 /// three components). The vortices lie along x, or along z if the flow goes more along z. The same
 /// `initial.seed` gives the same flow. Ghosts are not set. `config.fluid` must be there.
-void set_turbulent_flow(const Config& config, FluidState& fluid);
+void set_flow(TurbulentFlow, const Config& config, FluidState& fluid);
+
+/// Leaves the flow as a new state is, at rest.
+inline void set_flow(StillFlow, const Config&, FluidState&) {}
 
 /// Sets the velocity to the bulk velocity of t = 0 in every cell: the walls begin to slow
 /// it in the first step, by the ghosts. Those are not set. `config.fluid` must be there.
-void set_uniform_flow(const Config& config, FluidState& fluid);
+void set_flow(UniformFlow, const Config& config, FluidState& fluid);
 
 }  // namespace barchan

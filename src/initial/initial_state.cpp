@@ -69,8 +69,9 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
     fluid.has_history = false;
     return fluid;
   }
-  if (config.initial.fluid == "turbulent") set_turbulent_flow(config, fluid);
-  if (config.initial.fluid == "uniform") set_uniform_flow(config, fluid);
+  StartFlows::for_each([&]<class Flow>() {
+    if (config.initial.starts_as<Flow>()) set_flow(Flow{}, config, fluid);
+  });
   return fluid;
 }
 

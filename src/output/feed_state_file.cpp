@@ -31,7 +31,7 @@ std::vector<GrainBody> load_bodies(const CheckpointReader& file, const std::stri
   for (std::size_t k = 0; k + 2 < numbers.size(); k += kBodyNumbers) {
     bodies.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
     const auto& [r, m, kind] = bodies.back();
-    if (!(r > 0 && m > 0 && kind >= 0 && kind < kMostKinds))
+    if (!(r > 0 && m > 0 && kind >= 0 && kind < kMaxKinds))
       file.fail(name + " holds a grain that makes no sense");
   }
   return bodies;

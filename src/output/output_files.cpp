@@ -183,11 +183,11 @@ CellBlock layer_of(const SliceConfig& slice, const Grid& grid) {
   CellBlock block = all_cells(grid);
   const auto axis = static_cast<std::size_t>(slice.normal);
   int n = 0;
-  if (slice.normal == BodyAxis::y) {
+  if (slice.normal == Axis::y) {
     const auto faces = host_copy(grid.y_face_);
     while (n + 1 < grid.ny && faces(n + 2) <= slice.at) ++n;
   } else {
-    const double width = slice.normal == BodyAxis::x ? grid.dx : grid.dz;
+    const double width = slice.normal == Axis::x ? grid.dx : grid.dz;
     n = std::min(static_cast<int>(slice.at / width), block.last[axis] - 1);
   }
   block.first[axis] = n;

@@ -16,19 +16,19 @@ Config across_all() {
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->boundary_z = GrainBoundaryZ::periodic;
   c.grains->material.rolling_friction = c.grains->wall.rolling_friction = 0.1;
-  c.grains->rolling_model = RollingModel::epsd2;
+  c.grains->rolling_model = RollingModel::of<Epsd2>();
   const BodyConfig pipe{.name = "pipe",
-                        .shape = BodyShape::cylinder,
+                        .shape = BodyShape::of<shapes::Cylinder>(),
                         .centre = {0.004, 0.002},
                         .base = 1e-3,
-                        .axis = BodyAxis::x,
+                        .axis = Axis::x,
                         .radius = 1e-3};
   BodyConfig other = pipe;
   other.name = "other", other.centre = {0.004, 0.0045};
   c.bodies = {pipe,
               other,
               {.name = "ball",
-               .shape = BodyShape::sphere,
+               .shape = BodyShape::of<shapes::Sphere>(),
                .centre = {0.004, 0.00325},
                .base = 4e-4,
                .radius = 3e-4}};

@@ -212,7 +212,7 @@ TEST(FluidOverRanks, FlowFromAnotherMeshAsOnOneRank) {
   Config other = test::flow_config({16, 9, 10}, kSize, 8e-4);
   other.fluid->mean_velocity = 0.25;
   FluidState from = make_fluid_state(make_grid(other));
-  set_turbulent_flow(other, from);
+  set_flow(TurbulentFlow{}, other, from);
   test::set_random(from.p, from.grid, 7);
   test::set_random(from.nu_t, from.grid, 8);
   for (const int along_x : test::shapes(kCells)) {
@@ -257,11 +257,11 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
 /// A box that ends where cells do, and a sphere that ranks cut.
 std::vector<BodyConfig> two_bodies() {
   BodyConfig box, sphere;
-  box.name = "box", box.shape = BodyShape::box;
+  box.name = "box", box.shape = BodyShape::of<shapes::Box>();
   box.centre = {kSize[0] * 10 / 21, kSize[2] * 8 / 15};
   box.size = {kSize[0] * 4 / 21, kSize[2] * 4 / 15};
   box.height = 0.0071;
-  sphere.name = "sphere", sphere.shape = BodyShape::sphere;
+  sphere.name = "sphere", sphere.shape = BodyShape::of<shapes::Sphere>();
   sphere.centre = {0.041, 0.0061};
   sphere.radius = 0.0055, sphere.base = 0.009;
   return {box, sphere};

@@ -29,7 +29,7 @@ Config box(std::array<double, 3> size) {
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->boundary_z = GrainBoundaryZ::periodic;
   c.grains->material.rolling_friction = 0.1;
-  c.grains->rolling_model = RollingModel::epsd2;
+  c.grains->rolling_model = RollingModel::of<Epsd2>();
   return c;
 }
 

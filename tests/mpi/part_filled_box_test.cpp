@@ -40,7 +40,7 @@ const Surroundings kSurroundings[] = {
     {"post",
      [](Config& c) {
        c.bodies = {{.name = "post",
-                    .shape = BodyShape::cylinder,
+                    .shape = BodyShape::of<shapes::Cylinder>(),
                     .centre = {0.0212, 0.0101},
                     .radius = 4e-4,
                     .height = 0.004}};

@@ -35,7 +35,7 @@ FluidState developed_flow(Config c, const InitialGrains& grains, double seconds)
   c.grains->frozen = true;
   test::CoupledRun run(c, grains);
   FluidState& flow = *run.state.fluid;
-  set_turbulent_flow(c, flow);
+  set_flow(TurbulentFlow{}, c, flow);
   run.fill_ghosts();
   double drive = 0;
   const int n_steps = static_cast<int>(std::lround(seconds / c.time.fluid_step));

@@ -24,7 +24,7 @@ Config channel_with_post(Exchange exchange, double smoothing) {
   c.solver.pressure_tolerance = 1e-10;
   c.time.fluid_step = 2e-3;
   c.bodies = {{.name = "post",
-               .shape = BodyShape::cylinder,
+               .shape = BodyShape::of<shapes::Cylinder>(),
                .centre = {1.5e-3, 1.7e-3},
                .radius = 7e-4,
                .height = 1.1e-3}};

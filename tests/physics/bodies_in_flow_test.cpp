@@ -28,7 +28,7 @@ BodyConfig body_of(BodyShape shape, std::array<double, 2> centre) {
 }
 
 BodyConfig step_over_everything(double height) {
-  BodyConfig body = body_of(BodyShape::box, {0, 0});
+  BodyConfig body = body_of(BodyShape::of<shapes::Box>(), {0, 0});
   body.height = height;
   return body;
 }
@@ -135,10 +135,10 @@ TEST(BodiesInFlow, CouetteFlowIsExactOnStretchedRows) {
 }
 
 /// In the middle of a square of this size, shifted by `shift` across its axis.
-BodyConfig rod_along(BodyAxis axis, double radius, double size, double shift) {
+BodyConfig rod_along(Axis axis, double radius, double size, double shift) {
   const double across = size / 2 + shift;
-  BodyConfig rod = body_of(BodyShape::cylinder,
-                           axis == BodyAxis::x ? std::array{0.0, across} : std::array{across, 0.0});
+  BodyConfig rod = body_of(BodyShape::of<shapes::Cylinder>(),
+                           axis == Axis::x ? std::array{0.0, across} : std::array{across, 0.0});
   rod.axis = axis;
   rod.radius = radius;
   rod.base = size / 2 - radius;
@@ -152,7 +152,7 @@ double measured_permeability_along(double c, int n, double shift) {
   Config config = laminar({2, n, n}, {2 * size / n, size, size}, nu, kTolerance);
   config.fluid->bottom = WallFlow::free_slip;
   config.fluid->pressure_gradient = 1;
-  config.bodies = {rod_along(BodyAxis::x, a, size, shift * size / n)};
+  config.bodies = {rod_along(Axis::x, a, size, shift * size / n)};
   FlowRun run(config);
   run.start_uniform(0);
   run_until_steady(run, size / n);
@@ -183,7 +183,7 @@ double measured_drag_across(double c, int n, double shift) {
   Config config = laminar({n, n, 1}, {size, size, size / n}, nu, kTolerance);
   config.fluid->bottom = WallFlow::free_slip;
   config.fluid->pressure_gradient = 1e-2;
-  config.bodies = {rod_along(BodyAxis::z, a, size, shift * size / n)};
+  config.bodies = {rod_along(Axis::z, a, size, shift * size / n)};
   FlowRun run(config);
   run.start_uniform(0);
   run_until_steady(run, size / n);
@@ -224,7 +224,7 @@ TEST(BodiesInFlow, ASphereOnTheFloorHasONeillsDragAndTorque) {
   Config config = laminar({8 * cells, 4 * cells, 8 * cells}, {8 * r, 4 * r, 8 * r}, nu, 1e-6);
   config.fluid->top = WallFlow::no_slip;
   config.fluid->top_velocity = rate * 4 * r;
-  config.bodies = {body_of(BodyShape::sphere, {4 * r, 4 * r})};
+  config.bodies = {body_of(BodyShape::of<shapes::Sphere>(), {4 * r, 4 * r})};
   config.bodies[0].radius = r;
   FlowRun run(config);
   run.start([&](int, int j, int) { return rate * run.h.y(j); });
@@ -244,8 +244,8 @@ TEST(BodiesInFlow, MomentumThatTheWaterLosesIsOnBodiesAndFloor) {
   config.fluid->first_cell_height = 0.0012;
   config.fluid->turbulence = Turbulence::wale;
   config.fluid->schedule = {{.time = 0, .velocity = {0.2, 0.05}}};
-  BodyConfig sphere = body_of(BodyShape::sphere, {0.013, 0.009}),
-             post = body_of(BodyShape::cylinder, {0.033, 0.021});
+  BodyConfig sphere = body_of(BodyShape::of<shapes::Sphere>(), {0.013, 0.009}),
+             post = body_of(BodyShape::of<shapes::Cylinder>(), {0.033, 0.021});
   sphere.radius = 0.0053, sphere.base = 0.004;
   post.name = "post";
   post.radius = 0.0047, post.height = 0.0132;
@@ -297,7 +297,7 @@ TEST(BodiesInFlow, ATurnedCaseHasTurnedLoads) {
   const auto loads_of = [](bool turned) {
     std::array<int, 3> cells{20, 10, 14};
     std::array<double, 3> size{0.04, 0.02, 0.028};
-    BodyConfig box = body_of(BodyShape::box, {0.0151, 0.0123});
+    BodyConfig box = body_of(BodyShape::of<shapes::Box>(), {0.0151, 0.0123});
     box.size = {0.0077, 0.0055}, box.height = 0.0083;
     if (turned) {
       std::swap(cells[0], cells[2]), std::swap(size[0], size[2]);
@@ -329,7 +329,7 @@ TEST(BodiesInFlow, ATurnedCaseHasTurnedLoads) {
 TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
   Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5, kTolerance);
   config.fluid->mean_velocity = 0.28;
-  BodyConfig half = body_of(BodyShape::half_sphere, {0.0171, 0.0144});
+  BodyConfig half = body_of(BodyShape::of<shapes::HalfSphere>(), {0.0171, 0.0144});
   half.radius = 0.0097;
   config.bodies = {half};
   FlowRun run(config);
@@ -369,7 +369,7 @@ TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
 TEST(BodiesInFlow, AStepInWhichAGrainLeavesHasAPressure) {
   Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5, kTolerance);
   config.fluid->mean_velocity = 0.28;
-  config.bodies = {body_of(BodyShape::half_sphere, {0.0171, 0.0144})};
+  config.bodies = {body_of(BodyShape::of<shapes::HalfSphere>(), {0.0171, 0.0144})};
   config.bodies[0].radius = 0.0097;
   FlowRun run(config, Fraction::variable);
   run.start_uniform(0.28);

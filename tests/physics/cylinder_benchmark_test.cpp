@@ -54,8 +54,8 @@ struct Benchmark {
     fluid.mean_velocity = u;
     BodyConfig cylinder;
     cylinder.name = "cylinder";
-    cylinder.shape = BodyShape::cylinder;
-    cylinder.axis = BodyAxis::z;
+    cylinder.shape = BodyShape::of<shapes::Cylinder>();
+    cylinder.axis = Axis::z;
     cylinder.centre = {kCentreX, h / 2};
     cylinder.radius = kDiameter / 2;
     cylinder.base = kCentreY - kDiameter / 2;

@@ -27,8 +27,8 @@ FlowRun upper_half(int n) {
   config.fluid->mean_velocity = kSpeed;
   BodyConfig cylinder;
   cylinder.name = "cylinder";
-  cylinder.shape = BodyShape::cylinder;
-  cylinder.axis = BodyAxis::z;
+  cylinder.shape = BodyShape::of<shapes::Cylinder>();
+  cylinder.axis = Axis::z;
   cylinder.centre = {kCentre, h / 2};
   cylinder.radius = kDiameter / 2;
   cylinder.base = -kDiameter / 2;

@@ -149,7 +149,7 @@ FlowRun turbulent_run(const PlaneVelocity& velocity) {
   Config config = flow_config({16, 12, 16}, {0.03, 0.02, 0.03}, 8e-4);
   config.fluid->mean_velocity = velocity;
   FlowRun run(config);
-  set_turbulent_flow(config, run.fluid);
+  set_flow(TurbulentFlow{}, config, run.fluid);
   run.solver.fill_ghosts(run.fluid);
   for (int s = 0; s < 40; ++s) run.advance(5e-4);
   return run;
@@ -172,7 +172,7 @@ TEST(DrivenFlow, TurbulenceStartsAlongTheVelocity) {
        {PlaneVelocity{0.28, 0}, PlaneVelocity{-0.2, 0.1}, PlaneVelocity{0.1, -0.2}}) {
     config.fluid->mean_velocity = velocity;
     FluidState fluid = make_fluid_state(make_grid(config));
-    set_turbulent_flow(config, fluid);
+    set_flow(TurbulentFlow{}, config, fluid);
     EXPECT_NEAR(bulk_velocity(fluid), velocity.x, 1e-14);
     EXPECT_NEAR(bulk_velocity_across(fluid), velocity.z, 1e-14);
   }

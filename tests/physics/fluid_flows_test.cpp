@@ -159,7 +159,7 @@ TEST(FluidFlow, ANewSolverContinuesBitForBit) {
   test::set_field(exchange.conductance_x, grid, in_corner(300));
   const auto run = [&](bool change_solver) {
     FluidState fluid = make_fluid_state(grid);
-    set_turbulent_flow(config, fluid);
+    set_flow(TurbulentFlow{}, config, fluid);
     for (Field alpha : {fluid.alpha_f, fluid.alpha_f_previous}) {
       test::set_field(alpha, grid,
                       [](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? 0.5 : 1; });
@@ -192,7 +192,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   config.time.fluid_step = 1e-3;
   FlowRun run(config);
   FluidState& fluid = run.fluid;
-  set_turbulent_flow(config, fluid);
+  set_flow(TurbulentFlow{}, config, fluid);
   run.solver.fill_ghosts(fluid);
   EXPECT_NEAR(bulk_velocity(fluid), 0.28, 1e-14);
   Field rest("rest", run.grid);
@@ -202,7 +202,7 @@ TEST(FluidFlow, TurbulentStartHasTheBulkVelocityNoDivergenceAndASeed) {
   const auto of_seed = [&](int seed) {
     config.initial.seed = seed;
     FluidState again = make_fluid_state(run.grid);
-    set_turbulent_flow(config, again);
+    set_flow(TurbulentFlow{}, config, again);
     return test::to_host(again.u.x)(5, 3, 7);
   };
   const double u = test::to_host(fluid.u.x)(5, 3, 7);

@@ -84,7 +84,7 @@ class FreeBed {
     c.grains->gravity = {-9.81, 0, 0};
     c.grains->boundary_x = GrainBoundaryX::wall;
     c.grains->skin = 2e-5;
-    c.grains->contact_model = ContactModel::linear;
+    c.grains->contact_model = ContactModel::of<LinearSpring>();
     c.grains->linear_stiffness = 20;
     for (Material* m : {&c.grains->material, &c.grains->wall}) {
       m->sliding_friction = 0;

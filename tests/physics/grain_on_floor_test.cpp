@@ -150,7 +150,7 @@ TEST(GrainMotion, RollsToRestUnderThePapersThetaM) {
   const Real mu_r = 0.2, r = 1e-4, v0 = 0.05;
   for (const Real theta_m : {0.1, 0.5}) {
     OnFloor floor(stiff(0.6, mu_r), r, 2500);
-    floor.config.grains->rolling_model = RollingModel::theta_m;
+    floor.config.grains->rolling_model = RollingModel::of<ThetaM>();
     floor.config.grains->rolling_theta_m = theta_m;
     const Real period = 2 * std::numbers::pi * std::sqrt(1.4 * r * theta_m / (mu_r * kG));
     const RollingStop stop = roll_to_rest(floor, v0, 5e-7, 3 * period);
@@ -211,7 +211,8 @@ OnFloor rolling_floor(RollingModel model, Real mu_r) {
 // tan(slope) > mu_r: pure rolling with a = (5/7) g cos(slope) (tan(slope) - mu_r).
 TEST(GrainSlope, RollsWhenTheSlopeExceedsRollingFriction) {
   const Real mu_r = 0.2;
-  for (const RollingModel model : {RollingModel::epsd2, RollingModel::theta_m, RollingModel::cdt}) {
+  for (const RollingModel model : {RollingModel::of<Epsd2>(), RollingModel::of<ThetaM>(),
+                                   RollingModel::of<ConstantTorque>()}) {
     for (const Real slope : {0.25, 0.4}) {
       const Acceleration a = accelerate(rolling_floor(model, mu_r), slope, 0.04);
       expect_relative("rolling down, a", a.linear,
@@ -225,13 +226,13 @@ TEST(GrainSlope, RollsWhenTheSlopeExceedsRollingFriction) {
 // that passes the limit, to (1 + (d - 1/2)/(1 - d)) theta_s, by the balance of energy.
 TEST(GrainSlope, StaysWhenRollingFrictionHolds) {
   const Real mu_r = 0.2;
-  for (const RollingModel model : {RollingModel::epsd2, RollingModel::theta_m}) {
+  for (const RollingModel model : {RollingModel::of<Epsd2>(), RollingModel::of<ThetaM>()}) {
     for (const Real part : {0.4, 0.9}) {
       const Real slope = std::atan(part * mu_r);
       const OnFloor floor = rolling_floor(model, mu_r);
       const Real normal = floor.mass() * kG * std::cos(slope);
       const Real k_t = floor.law()(kRadius, floor.mass(), floor.overlap_under(normal)).k_t;
-      const bool paper = model == RollingModel::theta_m;
+      const bool paper = model.is<ThetaM>();
       const Real held = paper ? 0.01 : mu_r * normal / (k_t * kRadius);
       GrainBench bench = floor.start(0, 0, slope);
       const Real x0 = bench.grain(1).x.x;

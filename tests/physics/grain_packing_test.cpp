@@ -97,7 +97,7 @@ void set_shear(const GrainState& s) {
 
 // A bed under gravity dragged along x by a force that grows with height; restitution 0.1.
 TEST(CoulombCone, IsNeverLeftInAShearedPacking) {
-  for (const RollingModel model : {RollingModel::none, RollingModel::epsd2}) {
+  for (const RollingModel model : {RollingModel::of<NoRolling>(), RollingModel::of<Epsd2>()}) {
     Config config = packing_config(0.004);
     config.grains->material.sliding_friction = 0.4;
     config.grains->material.rolling_friction = 0.1;

@@ -24,7 +24,7 @@ TEST(GrainsOnBodies, AGrainSinksInByHertz) {
     bench.advance(60000, 5e-7);
     bench.advance(10, 5e-7);  // the mean of these alone
     const GrainKinematics k = bench.grain(1);
-    const bool round = shape.shape == BodyShape::sphere || shape.shape == BodyShape::half_sphere;
+    const bool round = shape.shape.is<shapes::Sphere>() || shape.shape.is<shapes::HalfSphere>();
     const Real r_eff = round ? kRadius * shape.radius / (kRadius + shape.radius) : kRadius;
     const Real weight = k.m * kG;
     const Real sinks = std::pow(3 * weight / (4 * e_eff(config) * std::sqrt(r_eff)), 2.0 / 3);
@@ -111,7 +111,7 @@ Slide slide(const Material& m, bool on_dune, Real angle, Real time) {
   Vec3 weight{0, -kG, 0};
   if (on_dune) {  // its stoss side rises along x
     config.bodies = {{.name = "dune",
-                      .shape = BodyShape::dune,
+                      .shape = BodyShape::of<shapes::Dune>(),
                       .centre = {0.0085, 0.005},
                       .height = 0.008 * std::tan(angle),
                       .size = {0.009, 0.009},
@@ -120,7 +120,7 @@ Slide slide(const Material& m, bool on_dune, Real angle, Real time) {
     add_grain(g, 2 * kRadius, foot + kRadius * Vec3{-sine, cosine, 0});
   } else {
     config.bodies = {{.name = "box",
-                      .shape = BodyShape::box,
+                      .shape = BodyShape::of<shapes::Box>(),
                       .centre = {0.005, 0.005},
                       .height = 0.001,
                       .size = {0.009, 0.009}}};

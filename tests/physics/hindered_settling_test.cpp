@@ -78,10 +78,10 @@ void check(const char* name, DragLaw code, const Law& law, double alpha) {
 
 /// Gidaspow's law jumps at 0.8: Wen-Yu just above, Ergun just below.
 TEST(HinderedSettling, GidaspowsForceBalance) {
-  check("Gidaspow", DragLaw::gidaspow, test::wen_yu_force, 0.9);
-  check("Gidaspow", DragLaw::gidaspow, test::wen_yu_force, 0.805);
-  check("Gidaspow", DragLaw::gidaspow, test::ergun_force, 0.795);
-  check("Gidaspow", DragLaw::gidaspow, test::ergun_force, 0.7);
+  check("Gidaspow", DragLaw::of<Gidaspow>(), test::wen_yu_force, 0.9);
+  check("Gidaspow", DragLaw::of<Gidaspow>(), test::wen_yu_force, 0.805);
+  check("Gidaspow", DragLaw::of<Gidaspow>(), test::ergun_force, 0.795);
+  check("Gidaspow", DragLaw::of<Gidaspow>(), test::ergun_force, 0.7);
 }
 
 /// Huilin & Gidaspow (2003): phi of Wen-Yu and 1 - phi of Ergun.
@@ -92,13 +92,13 @@ double blended_force(double v, double alpha, double d, const test::Water& w) {
 
 TEST(HinderedSettling, BlendedForceBalanceAcrossPointEight) {
   for (const double alpha : {0.805, 0.8, 0.79}) {
-    check("Gidaspow blended", DragLaw::gidaspow_blended, blended_force, alpha);
+    check("Gidaspow blended", DragLaw::of<GidaspowBlended>(), blended_force, alpha);
   }
 }
 
 TEST(HinderedSettling, DiFelicesForceBalance) {
   for (const double alpha : {0.9, 0.8, 0.7}) {
-    check("Di Felice", DragLaw::di_felice, test::di_felice_force, alpha);
+    check("Di Felice", DragLaw::of<DiFelice>(), test::di_felice_force, alpha);
   }
 }
 

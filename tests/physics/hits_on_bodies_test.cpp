@@ -154,7 +154,7 @@ TEST(HitsOnBodies, TheBodyGetsWhatAGrainThatSlidesAndRollsLoses) {
 TEST(HitsOnBodies, AHitTakesAsLongAsHertzSays) {
   for (const std::size_t which : {std::size_t{3}, std::size_t{5}}) {
     BodyConfig shape = all_shapes()[which];
-    if (shape.shape == BodyShape::sphere) shape.radius = 2 * kRadius;
+    if (shape.shape.is<shapes::Sphere>()) shape.radius = 2 * kRadius;
     const Config config = with_bodies(material(0, 1), {shape});
     const Real top = body_extent(shape, config.size).high[1], speed = 0.1, dt = 5e-9;
     Hit hit(config, {0.005, top + 1.01 * kRadius, 0.005}, {0, -speed, 0}, {}, {0, 1, 0});
@@ -165,7 +165,7 @@ TEST(HitsOnBodies, AHitTakesAsLongAsHertzSays) {
       steps += touches_body(hit.bench) ? 1 : 0;
       deepest = std::max(deepest, top + kRadius - hit.bench.grain(1).x.y);
     }
-    const bool round = shape.shape == BodyShape::sphere;
+    const bool round = shape.shape.is<shapes::Sphere>();
     const Real r_eff = round ? kRadius * shape.radius / (kRadius + shape.radius) : kRadius;
     const Real stiffness = Real(4) / 3 * e_eff(config) * std::sqrt(r_eff);
     const Real m = hit.bench.grain(1).m;

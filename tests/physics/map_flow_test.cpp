@@ -81,7 +81,7 @@ TEST(MapFlow, ShearBetweenALidAndTheFloorIsExactOnEveryMesh) {
 
 TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {
   FlowRun from(mesh({24, 16, 18}, 5e-4));
-  set_turbulent_flow(from.config, from.fluid);
+  set_flow(TurbulentFlow{}, from.config, from.fluid);
   for (const auto& [cells, first] :
        {std::pair{std::array{36, 30, 20}, 2e-4}, std::pair{std::array{16, 11, 24}, 1e-3}}) {
     FlowRun to(mesh(cells, first));
@@ -99,7 +99,7 @@ TEST(MapFlow, AFlowAcrossKeepsItsBulkVelocity) {
   Config coarse = mesh({24, 16, 18}, 5e-4), fine = mesh({36, 30, 20}, 2e-4);
   coarse.fluid->mean_velocity = fine.fluid->mean_velocity = {0, -0.28};
   FlowRun from(coarse), to(fine);
-  set_turbulent_flow(coarse, from.fluid);
+  set_flow(TurbulentFlow{}, coarse, from.fluid);
   map_flow(fine, from.fluid, to.fluid);
   EXPECT_NEAR(bulk_velocity_across(from.fluid), -0.28, 1e-14);
   EXPECT_NEAR(bulk_velocity_across(to.fluid), -0.28, 1e-14);
@@ -108,7 +108,7 @@ TEST(MapFlow, AFlowAcrossKeepsItsBulkVelocity) {
 
 TEST(MapFlow, OnTheSameMeshNothingChanges) {
   FlowRun from(mesh({24, 16, 18}, 5e-4)), to(from.config);
-  set_turbulent_flow(from.config, from.fluid);
+  set_flow(TurbulentFlow{}, from.config, from.fluid);
   from.solver.fill_ghosts(from.fluid);
   map_flow(to.config, from.fluid, to.fluid);
   EXPECT_LT(largest_difference(from.fluid.u.x, to.fluid.u.x, from.grid), 1e-13);
@@ -119,7 +119,7 @@ TEST(MapFlow, BetweenGrainsTheFlowOfTheMixtureHasNoDivergence) {
   Config coarse = mesh({24, 16, 18}, 5e-4), fine = mesh({36, 30, 20}, 2e-4);
   coarse.grains = fine.grains = GrainConfig{};
   FlowRun from(coarse), to(fine);
-  set_turbulent_flow(coarse, from.fluid);
+  set_flow(TurbulentFlow{}, coarse, from.fluid);
   const auto heap = [&](int i, int j, int k) {
     return i > 8 && i < 14 && j < 5 && k > 6 && k < 12 ? 0.45 : 1.0;
   };

@@ -182,8 +182,8 @@ TEST(FluidPressure, IterationsForAHeap) {
     EXPECT_LE(report.residual, 1e-6);
     return report.iterations;
   };
-  EXPECT_LE(iterations(Preconditioner::fft), 20);
-  EXPECT_LE(iterations(Preconditioner::local_fft), 6);
+  EXPECT_LE(iterations(Preconditioner::of<PlainFft>()), 20);
+  EXPECT_LE(iterations(Preconditioner::of<RelaxedFft>()), 6);
 }
 
 /// The inner product <a, M^-1 b> must not depend on the order, or conjugate gradients mislead.
@@ -210,7 +210,7 @@ TEST(FluidPressure, UniformMobilityTakesOneIteration) {
   test::set_random(b, grid, 10);
   const Boundary boundary(grid, WallFlow::no_slip, WallFlow::free_slip);
   const PressureReport report =
-      solve(boundary, grid, Preconditioner::local_fft, uniform_mobility(grid), b, p, 1e-10);
+      solve(boundary, grid, Preconditioner::of<RelaxedFft>(), uniform_mobility(grid), b, p, 1e-10);
   EXPECT_EQ(report.iterations, 1);
   EXPECT_LE(report.residual, 1e-10);
 }
@@ -284,7 +284,8 @@ TEST(FluidPressureDirect, RandomFractionsAgreeWithASparseFactorisation) {
   for (const std::array<int, 3> n :
        {std::array{8, 6, 10}, std::array{9, 5, 7}, std::array{16, 4, 3}, std::array{5, 12, 8}}) {
     const Grid grid = test::stretched_grid(n, {0.05, 0.025, 0.036}, 0.5 * 0.025 / n[1]);
-    for (const Preconditioner kind : {Preconditioner::local_fft, Preconditioner::fft}) {
+    for (const Preconditioner kind :
+         {Preconditioner::of<RelaxedFft>(), Preconditioner::of<PlainFft>()}) {
       seed += 2;
       worst = std::max(worst, disagreement(random_mixture(grid, seed), seed + 1, kind));
     }
@@ -295,7 +296,8 @@ TEST(FluidPressureDirect, RandomFractionsAgreeWithASparseFactorisation) {
 
 TEST(FluidPressure, AgreesWithADirectSparseSolveOfAHeap) {
   const Mixture m = heap(test::stretched_grid({12, 7, 9}, {0.05, 0.025, 0.036}, 1e-3));
-  for (const Preconditioner kind : {Preconditioner::local_fft, Preconditioner::fft}) {
+  for (const Preconditioner kind :
+       {Preconditioner::of<RelaxedFft>(), Preconditioner::of<PlainFft>()}) {
     test::expect_below("pressure in a heap against a sparse factorisation, over the largest",
                        disagreement(m, 8, kind), 1e-9);
   }

@@ -42,7 +42,7 @@ TEST(Simulation, RestartContinuesBitwise) {
   whole.grains->floor = GrainFloor::glued;  // three histories of contact with the floor
   whole.grains->floor_diameter = 2e-4;
   whole.bodies = {{.name = "post",
-                   .shape = BodyShape::cylinder,
+                   .shape = BodyShape::of<shapes::Cylinder>(),
                    .centre = {0.008, 0.003},
                    .radius = 5e-4,
                    .height = 0.002}};
@@ -78,7 +78,7 @@ TEST(Simulation, RestartOfAFlowAroundABodyContinuesBitwise) {
     Config whole = coupled_config();
     if (!with_grains) whole.grains.reset(), whole.initial.pour.reset();
     BodyConfig post;
-    post.name = "post", post.shape = BodyShape::cylinder;
+    post.name = "post", post.shape = BodyShape::of<shapes::Cylinder>();
     post.centre = {0.0093, 0.0031};
     post.radius = 0.00083, post.height = 0.0041;
     whole.bodies = {post};
@@ -271,7 +271,8 @@ TEST(Simulation, WritesEveryFileOfARun) {
   EXPECT_EQ(json.at("status"), "done");
   EXPECT_EQ(json.at("steps"), 20);
   std::istringstream keys(
-      "message title version git_hash backend device threads ranks simulated_seconds fluid_step wall_seconds "
+      "message title version git_hash backend device threads ranks simulated_seconds fluid_step "
+      "wall_seconds "
       "phases grain_steps_per_second cell_steps_per_second pressure_iterations_mean "
       "pressure_iterations_max max_cfl max_overlap max_continuity_residual ledger grains_initial "
       "grains_inside grains_left");

@@ -26,7 +26,7 @@ double measured_shift(int n, double shift) {
   config.fluid->top_velocity = kLid;
   BodyConfig wave;
   wave.name = "wave";
-  wave.shape = BodyShape::wave;
+  wave.shape = BodyShape::of<shapes::Wave>();
   wave.centre = {shift * h, 0};
   wave.base = base;
   wave.height = 2 * kAmplitude;

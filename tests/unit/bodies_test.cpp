@@ -18,36 +18,44 @@ constexpr std::array<double, 3> kDomain{0.1, 0.04, 0.08};
 std::vector<BodyConfig> all_bodies() {
   using S = BodyShape;
   const std::array<double, 2> at{0.05, 0.04};
-  return {{.name = "cylinder", .shape = S::cylinder, .centre = at, .radius = 0.006, .height = 0.01},
+  return {{.name = "cylinder",
+           .shape = S::of<shapes::Cylinder>(),
+           .centre = at,
+           .radius = 0.006,
+           .height = 0.01},
           {.name = "along x",
-           .shape = S::cylinder,
+           .shape = S::of<shapes::Cylinder>(),
            .centre = at,
            .base = 0.005,
-           .axis = BodyAxis::x,
+           .axis = Axis::x,
            .radius = 0.006,
            .length = 0.02},
           {.name = "along z",
-           .shape = S::cylinder,
+           .shape = S::of<shapes::Cylinder>(),
            .centre = at,
            .base = 0.005,
-           .axis = BodyAxis::z,
+           .axis = Axis::z,
            .radius = 0.006,
            .length = 0.02},
-          {.name = "sphere", .shape = S::sphere, .centre = at, .base = 0.004, .radius = 0.006},
+          {.name = "sphere",
+           .shape = S::of<shapes::Sphere>(),
+           .centre = at,
+           .base = 0.004,
+           .radius = 0.006},
           {.name = "half sphere",
-           .shape = S::half_sphere,
+           .shape = S::of<shapes::HalfSphere>(),
            .centre = at,
            .base = 0.004,
            .radius = 0.006},
           {.name = "box",
-           .shape = S::box,
+           .shape = S::of<shapes::Box>(),
            .centre = at,
            .base = 0.002,
            .height = 0.008,
            .size = {0.02, 0.01},
            .angle = 0.5},
           {.name = "fence",
-           .shape = S::fence,
+           .shape = S::of<shapes::Fence>(),
            .centre = at,
            .radius = 0.002,
            .height = 0.01,
@@ -102,9 +110,12 @@ TEST(Bodies, NoDistanceGrowsFasterThanTheWay) {
 
 TEST(Bodies, TheNormalIsTheGradientOfTheDistance) {
   std::vector<BodyConfig> bodies = all_bodies();
-  bodies.push_back({.name = "wave", .shape = BodyShape::wave, .height = 0.004, .wavelength = 0.05});
+  bodies.push_back({.name = "wave",
+                    .shape = BodyShape::of<shapes::Wave>(),
+                    .height = 0.004,
+                    .wavelength = 0.05});
   bodies.push_back({.name = "dune",
-                    .shape = BodyShape::dune,
+                    .shape = BodyShape::of<shapes::Dune>(),
                     .centre = {0.05, 0.04},
                     .height = 0.006,
                     .size = {0.03, 0.02},
@@ -117,7 +128,7 @@ TEST(Bodies, TheNormalIsTheGradientOfTheDistance) {
       const Vec3 x = samples.place();
       const ToSurface at = body.to_surface(x);
       // Of hills only the surface has the gradient.
-      const bool hill = config.shape == BodyShape::wave || config.shape == BodyShape::dune;
+      const bool hill = config.shape.is<shapes::Wave>() || config.shape.is<shapes::Dune>();
       const Vec3 place = hill ? x - at.distance * at.normal : x;
       if (hill && std::abs(body.distance(place)) > 1e-5) continue;
       const double h = 1e-8;
@@ -129,7 +140,7 @@ TEST(Bodies, TheNormalIsTheGradientOfTheDistance) {
       smooth += norm(gradient - normal) < (hill ? 1e-2 : 1e-5);
     }
     EXPECT_GT(smooth, 900) << config.name;
-    if (config.shape != BodyShape::wave && config.shape != BodyShape::dune) {
+    if (!config.shape.is<shapes::Wave>() && !config.shape.is<shapes::Dune>()) {
       EXPECT_GT(smooth, 1980) << config.name;  // the rest is next to an edge
     }
   }
@@ -161,7 +172,7 @@ TEST(Bodies, ThereIsAsMuchInsideAsTheShapeHolds) {
 /// A dune's foot, crest and slopes; a wave's crests and troughs.
 TEST(Bodies, HillsAreAsHighAsTheyShould) {
   const Body dune = body_of({.name = "dune",
-                             .shape = BodyShape::dune,
+                             .shape = BodyShape::of<shapes::Dune>(),
                              .centre = {0.05, 0.04},
                              .height = 0.006,
                              .size = {0.03, 0.02},
@@ -174,7 +185,7 @@ TEST(Bodies, HillsAreAsHighAsTheyShould) {
   EXPECT_NEAR(dune.distance({0.055, 0.003 + 0.002, 0.04}),
               0.002 * std::cos(std::atan(0.006 / 0.01)), 1e-15);
   const Body wave = body_of({.name = "wave",
-                             .shape = BodyShape::wave,
+                             .shape = BodyShape::of<shapes::Wave>(),
                              .centre = {0.01, 0},
                              .base = 0.001,
                              .height = 0.004,
@@ -200,8 +211,14 @@ TEST(Bodies, AreSeenThroughThePeriodicSides) {
 TEST(Bodies, TheNearestIsTheOneThatIsDeepest) {
   Config c;
   c.size = kDomain;
-  c.bodies = {{.name = "a", .shape = BodyShape::sphere, .centre = {0.02, 0.04}, .radius = 0.005},
-              {.name = "b", .shape = BodyShape::sphere, .centre = {0.06, 0.04}, .radius = 0.01}};
+  c.bodies = {{.name = "a",
+               .shape = BodyShape::of<shapes::Sphere>(),
+               .centre = {0.02, 0.04},
+               .radius = 0.005},
+              {.name = "b",
+               .shape = BodyShape::of<shapes::Sphere>(),
+               .centre = {0.06, 0.04},
+               .radius = 0.01}};
   const Bodies bodies = make_bodies(c);
   EXPECT_EQ(bodies.nearest({0.03, 0.005, 0.04}).body, 0);
   EXPECT_EQ(bodies.nearest({0.045, 0.01, 0.04}).body, 1);

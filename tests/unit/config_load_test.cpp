@@ -34,7 +34,7 @@ TEST(ConfigLoad, ReadsWhatIsWrittenAndKeepsOtherDefaults) {
   ASSERT_TRUE(c.grains.has_value());
   EXPECT_EQ(c.grains->material.restitution, 0.4);
   EXPECT_EQ(c.grains->material.sliding_friction, Material{}.sliding_friction);
-  EXPECT_EQ(c.grains->rolling_model, RollingModel::cdt);
+  EXPECT_EQ(c.grains->rolling_model, RollingModel::of<ConstantTorque>());
   EXPECT_EQ(c.grains->gravity, (std::array<double, 3>{1, -9, 0.5}));
   EXPECT_EQ(c.grains->sizes, (std::vector<SizeClass>{{0.2e-3, 100}}));
   EXPECT_EQ(c.restart.keep, 3);

@@ -60,8 +60,7 @@ TEST(Coupling, LedgerClosesToRoundOff) {
 
 TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
   for (const VoidFraction v : {VoidFraction::divided, VoidFraction::centre}) {
-    for (const DragLaw law : {DragLaw::di_felice, DragLaw::koch_hill, DragLaw::syamlal_obrien,
-                              DragLaw::beetstra, DragLaw::paper_repaired}) {
+    for (const DragLaw law : DragLaw::all()) {
       Config config = coupled_config();
       config.coupling.void_fraction = v;
       config.coupling.drag = law;
@@ -77,7 +76,7 @@ TEST(Coupling, LedgerClosesWithLiftTorqueAndWallDrag) {
   Config config = coupled_config();
   ForceSwitches& forces = config.coupling.forces;
   forces.lift = forces.torque = forces.wall_drag = true;
-  config.coupling.drag = DragLaw::gidaspow_blended;
+  config.coupling.drag = DragLaw::of<GidaspowBlended>();
   Coupled c(config);
   c.advance(30);
   const auto& entries = c.step.ledger().entries();
@@ -300,11 +299,11 @@ TEST(Coupling, BulkVelocityIsHeld) {
 double thrown(bool uniform_start) {
   Config c = test::water_box({8, 8, 8}, {4e-3, 4e-3, 4e-3});
   c.fluid->mean_velocity = 0.2;
-  c.coupling.drag = DragLaw::none;
+  c.coupling.drag = DragLaw::of<NoDrag>();
   InitialGrains grain;
   test::add_grain(grain, 2e-4, {2e-3, 2e-3, 2e-3});
   test::CoupledRun run(c, grain);
-  if (uniform_start) set_uniform_flow(c, *run.state.fluid);
+  if (uniform_start) set_flow(UniformFlow{}, c, *run.state.fluid);
   run.fill_ghosts();
   run.advance(2);
   return run.velocity_of(1).x / 0.2;

@@ -1,7 +1,7 @@
 // Drag laws against the reference table and their limits.
 #include <gtest/gtest.h>
 
-#include "kernels/coupling/drag.hpp"
+#include "src/config/choices.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {
@@ -33,12 +33,12 @@ TEST(Drag, IsFiniteAtZeroSlipAndStokesWhenAlone) {
   EXPECT_NEAR(SchillerNaumann{}(water(1, 0)), stokes, 1e-12 * stokes);
   EXPECT_NEAR(Gidaspow{}(water(1, 0)), stokes, 1e-12 * stokes);
   EXPECT_NEAR(Beetstra{.d_mean = 2e-4}(water(1, 0)), stokes * 1.064, 1e-4 * stokes);
-  for (const Real alpha : {0.4, 0.7, 0.9, 1.0}) {
-    const LocalFlow flow = water(alpha, 0);
-    for (const Real beta :
-         {Gidaspow{}(flow), DiFelice{}(flow), KochHill{}(flow), SyamlalOBrien{}(flow),
-          PaperRepaired{}(flow), Beetstra{.d_mean = 2e-4}(flow)}) {
-      EXPECT_TRUE(std::isfinite(beta) && beta > 0) << alpha;
+  for (const DragLaw choice : DragLaw::all()) {
+    const auto law = DragLaws::make(choice, Real(2e-4));
+    for (const Real alpha : {0.4, 0.7, 0.9, 1.0}) {
+      const Real beta = std::visit([&](const auto& l) { return l(water(alpha, 0)); }, law);
+      EXPECT_TRUE(std::isfinite(beta)) << choice.word() << ' ' << alpha;
+      EXPECT_EQ(beta > 0, !choice.is<NoDrag>()) << choice.word() << ' ' << alpha;
     }
   }
 }

@@ -221,7 +221,7 @@ TEST(GrainFeed, AFeedWithoutBodiesComesBackFromItsRestartFile) {
 TEST(GrainFeed, IsRefusedWhereABodyTakesAllItsPlaces) {
   Config c = fed_case(FeedAmount::given, 1000);
   c.bodies = {{.name = "step",
-               .shape = BodyShape::box,
+               .shape = BodyShape::of<shapes::Box>(),
                .centre = {1e-3, 2e-3},
                .height = 1e-3,
                .size = {1e-3, 4e-3}}};

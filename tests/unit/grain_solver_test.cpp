@@ -230,7 +230,7 @@ AngularMomentum angular_momentum(const GrainBench& c) {
 
 // Also of pairs whose grains two chunks share, which add up their forces in a way of their own.
 TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
-  for (const RollingModel model : {RollingModel::epsd2, RollingModel::theta_m, RollingModel::cdt}) {
+  for (const RollingModel model : RollingModel::all()) {
     Config config = grain_config();
     config.grains->material.rolling_friction = 0.3;
     config.grains->rolling_model = model;
@@ -295,7 +295,8 @@ TEST(GrainSolver, AGraphChangesNothing) {
 
 // A pair that has parted leaves no force or torque behind, whatever the rolling law remembers.
 TEST(GrainSolver, GrainsThatTouchNothingFeelNothing) {
-  for (const RollingModel model : {RollingModel::none, RollingModel::epsd2, RollingModel::cdt}) {
+  for (const RollingModel model : {RollingModel::of<NoRolling>(), RollingModel::of<Epsd2>(),
+                                   RollingModel::of<ConstantTorque>()}) {
     Config config = grain_config();
     config.size = {0.003, 0.003, 0.003};
     config.grains->material.rolling_friction = 0.1;
@@ -320,7 +321,7 @@ TEST(GrainSolver, GrainsThatTouchNothingFeelNothing) {
     }
     EXPECT_GT(n_free, 300);
     EXPECT_LT(n_free, c.state.n - 100);
-    EXPECT_EQ(n_wrong, 0) << "rolling model " << static_cast<int>(model);
+    EXPECT_EQ(n_wrong, 0) << "rolling model " << model.word();
   }
 }
 

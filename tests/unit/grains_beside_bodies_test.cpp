@@ -25,7 +25,7 @@ const std::vector<SizeClass> kSizes = {{1.5e-4, 50}, {2e-4, 900}, {2.5e-4, 50}};
 
 BodyConfig post(std::array<double, 2> centre, double radius) {
   return {.name = "post",
-          .shape = BodyShape::cylinder,
+          .shape = BodyShape::of<shapes::Cylinder>(),
           .centre = centre,
           .radius = radius,
           .height = 0.004};

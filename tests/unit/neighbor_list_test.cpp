@@ -27,8 +27,9 @@ PairSet listed_pairs(const GrainState& s) {
   return pairs;
 }
 
-/// All pairs closer than the radii, and with_skins the skins, of both, by comparing each with each.
-PairSet all_pairs(const GrainState& s, bool with_skins, Real lx, Real lz) {
+/// All pairs closer than the radii, and with_skins the skins, of both and the reach of the law, by
+/// comparing each with each.
+PairSet all_pairs(const GrainState& s, bool with_skins, Real lx, Real lz, Real reach = 0) {
   const auto kin = host_copy(s.kin);
   const auto id = host_copy(s.id);
   PairSet pairs;
@@ -38,7 +39,7 @@ PairSet all_pairs(const GrainState& s, bool with_skins, Real lx, Real lz) {
       if (lx > 0) d.x -= lx * std::round(d.x / lx);
       if (lz > 0) d.z -= lz * std::round(d.z / lz);
       const Real skins = with_skins ? kin(a).skin + kin(b).skin : 0;
-      if (norm(d) < kin(a).r + kin(b).r + skins) pairs.insert(std::minmax(id(a), id(b)));
+      if (norm(d) < kin(a).r + kin(b).r + skins + reach) pairs.insert(std::minmax(id(a), id(b)));
     }
   }
   return pairs;
@@ -97,15 +98,18 @@ TEST_P(NeighborListShapes, NoPairIsMissedAndNoneIsListedTwice) {
   c.grains->boundary_z = shape.z;
   const Real lx = shape.x == GrainBoundaryX::periodic ? c.size[0] : 0;
   const Real lz = shape.z == GrainBoundaryZ::periodic ? c.size[2] : 0;
-  GrainState s = make_grain_state(random_grains(1200, c.size, 7), 2500);
-  NeighborList list(c, s.r_max);
-  for (int round = 0; round < 3; ++round) {
-    list.rebuild(s, false);
-    EXPECT_EQ(listed_pairs(s), all_pairs(s, true, lx, lz)) << "round " << round;
-    use_up_skins(s, 0.999);
-    const PairSet listed = listed_pairs(s);
-    for (const auto& pair : all_pairs(s, false, lx, lz)) EXPECT_TRUE(listed.count(pair));
-    drift(s, 3e-4);
+  for (const Real reach : {0.0, 5e-5}) {
+    GrainState s = make_grain_state(random_grains(1200, c.size, 7), 2500);
+    NeighborList list(c, s.r_max, MPI_COMM_SELF, reach);
+    for (int round = 0; round < 3; ++round) {
+      list.rebuild(s, false);
+      EXPECT_EQ(listed_pairs(s), all_pairs(s, true, lx, lz, reach)) << "round " << round;
+      use_up_skins(s, 0.999);
+      const PairSet listed = listed_pairs(s), near = all_pairs(s, false, lx, lz, reach);
+      EXPECT_FALSE(near.empty());
+      for (const auto& pair : near) EXPECT_TRUE(listed.count(pair));
+      drift(s, 3e-4);
+    }
   }
 }
 

@@ -15,7 +15,7 @@ constexpr double kHeight = 6e-3;
 
 BodyConfig box(double x, double z, double along, double across, double height = kHeight) {
   return {.name = "box",
-          .shape = BodyShape::box,
+          .shape = BodyShape::of<shapes::Box>(),
           .centre = {1e-3 * x, 1e-3 * z},
           .height = height,
           .size = {1e-3 * along, 1e-3 * across}};
@@ -46,13 +46,16 @@ TEST(Passage, IsLookedForOnTheMesh) {
   EXPECT_FALSE(passes({box(4, 3, 2, 6, 5.5e-3)}, 0));              // half a cell is none
   EXPECT_TRUE(passes({box(4, 3, 2, 6, 5.4e-3)}, 0));
   const BodyConfig post{.name = "post",
-                        .shape = BodyShape::cylinder,
+                        .shape = BodyShape::of<shapes::Cylinder>(),
                         .centre = {4e-3, 3e-3},
                         .radius = 3e-3,
                         .height = kHeight};
   EXPECT_FALSE(passes({post}, 0));
-  const BodyConfig wave{
-      .name = "wave", .shape = BodyShape::wave, .base = 5e-3, .height = 2e-3, .wavelength = 6e-3};
+  const BodyConfig wave{.name = "wave",
+                        .shape = BodyShape::of<shapes::Wave>(),
+                        .base = 5e-3,
+                        .height = 2e-3,
+                        .wavelength = 6e-3};
   EXPECT_FALSE(passes({wave}, 0));
 }
 

@@ -137,7 +137,7 @@ TEST(Probes, ALineHasItsEndsAndEqualDistances) {
 TEST(Probes, InABodyAreRefused) {
   Flow flow(linear);
   flow.config.bodies = {{.name = "post",
-                         .shape = BodyShape::cylinder,
+                         .shape = BodyShape::of<shapes::Cylinder>(),
                          .centre = {0.02, 0.015},
                          .radius = 0.004,
                          .height = 0.01}};

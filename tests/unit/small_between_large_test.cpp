@@ -19,7 +19,7 @@ const Real kCrease = std::sqrt((kLarge + kSmall) * (kLarge + kSmall) - kLarge * 
 /// The large ones are so heavy that they stand still.
 Config two_sizes() {
   Config config = bench_config({.restitution = 0.5, .sliding_friction = 0.5}, 2500, kLarge);
-  config.grains->contact_model = ContactModel::linear;
+  config.grains->contact_model = ContactModel::of<LinearSpring>();
   config.grains->linear_stiffness = 1e4;
   config.grains->kinds = {
       {.name = "small", .density = 2500, .material = config.grains->material, .sizes = {}},

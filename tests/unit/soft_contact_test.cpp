@@ -50,7 +50,8 @@ TEST(SoftContact, GrainsThatTurnTogetherDoNotRoll) {
   const SoftPair pair;
   Config config = grain_config();
   config.grains->material.rolling_friction = 0.3;
-  for (const RollingModel model : {RollingModel::epsd2, RollingModel::theta_m, RollingModel::cdt}) {
+  for (const RollingModel model : {RollingModel::of<Epsd2>(), RollingModel::of<ThetaM>(),
+                                   RollingModel::of<ConstantTorque>()}) {
     config.grains->rolling_model = model;
     for (const Real omega_b : {200, -100}) {
       const GrainBench c = pair.start(200, omega_b, config);
