@@ -13,7 +13,7 @@ struct Box {
   Vec2 half;
   Real height = 0;
 
-  static ShapeKeys keys(const auto&) { return {{"height"}, {"size", "angle"}}; }
+  static ShapeKeys keys(const auto&) { return {.needs = {"height"}, .takes = {"size", "angle"}}; }
   static Box from(const auto& body) { return {{body.size[0] / 2, body.size[1] / 2}, body.height}; }
   static Footprint footprint(const auto& body) {
     const Real c = std::abs(std::cos(body.angle)), s = std::abs(std::sin(body.angle));
@@ -23,9 +23,9 @@ struct Box {
             .height = body.height,
             .narrowest = narrower(x, z)};
   }
-  static std::optional<ShapeFault> fault(const auto& body) {
+  static ShapeFault fault(const auto& body) {
     if (body.angle == 0 || (body.size[0] > 0 && body.size[1] > 0)) return {};
-    return ShapeFault{{"angle", "size"}, "must be absent for a box through the whole domain"};
+    return {{"angle", "size"}, "must be absent for a box through the whole domain"};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static constexpr Real curvature() { return 0; }

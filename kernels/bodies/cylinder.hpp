@@ -12,8 +12,8 @@ struct Cylinder {
   Real radius = 0, height = 0, half_length = 0;
 
   static ShapeKeys keys(const auto& body) {
-    if (body.axis == Axis::y) return {{"radius", "height"}, {"axis"}};
-    return {{"radius"}, {"axis", "length"}};
+    if (body.axis == Axis::y) return {.needs = {"radius", "height"}, .takes = {"axis"}};
+    return {.needs = {"radius"}, .takes = {"axis", "length"}};
   }
   static const char* words(const auto& body) {
     return body.axis == Axis::y ? "an upright cylinder" : "a lying cylinder";

@@ -13,7 +13,7 @@ struct Dune {
   static constexpr Named named{"dune", "straight slopes over two half ellipses"};
   Real height = 0, stoss = 0, lee = 0, half_width = 0;
 
-  static ShapeKeys keys(const auto&) { return {{"height", "size", "lee"}}; }
+  static ShapeKeys keys(const auto&) { return {.needs = {"height", "size", "lee"}}; }
   static Dune from(const auto& body) {
     return {body.height, body.size[0] - body.lee, body.lee, body.size[1] / 2};
   }
@@ -25,22 +25,22 @@ struct Dune {
             .narrowest = narrower(body.size[0], body.size[1]),
             .middle_x = body.lee - half_x};  // the centre is that of the crest
   }
-  static std::optional<ShapeFault> fault(const auto& body) {
+  static ShapeFault fault(const auto& body) {
     if (body.base > 0)
-      return ShapeFault{{"base", "shape"},
-                        "must be at most 0 with shape = \"dune\", which stands on the floor"};
+      return {{"base", "shape"},
+              "must be at most 0 with shape = \"dune\", which stands on the floor"};
     if (body.size[0] == 0 || body.size[1] == 0)
-      return ShapeFault{{"size"}, "must be above 0 along x and along z"};
+      return {{"size"}, "must be above 0 along x and along z"};
     if (body.lee < body.size[0]) return {};
     return ShapeFault{
         {"lee", "size"}, "must be below the length of the dune, {:.3g} m", body.size[0]};
   }
-  static std::optional<ShapeFault> misfit(const auto& body, Real lx) {
+  static ShapeFault misfit(const auto& body, Real lx) {
     if (std::max(body.lee, body.size[0] - body.lee) <= lx / 2) return {};
-    return ShapeFault{{"size", "lee", "domain.size"},
-                      "must not reach farther from the crest than half the length of the domain, "
-                      "{:.4g} m",
-                      lx / 2};
+    return {{"size", "lee", "domain.size"},
+            "must not reach farther from the crest than half the length of the domain, "
+            "{:.4g} m",
+            lx / 2};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static constexpr Real curvature() { return 0; }

@@ -17,7 +17,7 @@ struct Fence {
   int posts = 0;
 
   static ShapeKeys keys(const auto&) {
-    return {{"radius", "height", "spacing", "length"}, {"angle"}};
+    return {.needs = {"radius", "height", "spacing", "length"}, .takes = {"angle"}};
   }
   static Fence from(const auto& body) {
     return {{Axis::y, body.radius, body.height}, body.spacing, posts_of(body)};
@@ -31,14 +31,14 @@ struct Fence {
     return {
         .half_x = s * half + r, .half_z = c * half + r, .height = body.height, .narrowest = 2 * r};
   }
-  static std::optional<ShapeFault> fault(const auto& body) {
+  static ShapeFault fault(const auto& body) {
     if (body.spacing <= 2 * body.radius)
       return ShapeFault{
           {"spacing", "radius"}, "must be above the diameter of a post, {:.3g} m", 2 * body.radius};
     if (1 + body.length / body.spacing <= kMostPosts) return {};
-    return ShapeFault{{"spacing", "length"},
-                      "must be at least {:.3g} m: a fence has at most 10000 posts",
-                      body.length / (kMostPosts - 1)};
+    return {{"spacing", "length"},
+            "must be at least {:.3g} m: a fence has at most 10000 posts",
+            body.length / (kMostPosts - 1)};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static constexpr Real curvature() { return 0; }

@@ -10,7 +10,7 @@ struct HalfSphere {
   static constexpr Named named{"half_sphere", "the upper half of a sphere"};
   Real radius = 0;
 
-  static ShapeKeys keys(const auto&) { return {{"radius"}}; }
+  static ShapeKeys keys(const auto&) { return {.needs = {"radius"}}; }
   static HalfSphere from(const auto& body) { return {body.radius}; }
   static Footprint footprint(const auto& body) {
     const Real r = body.radius;

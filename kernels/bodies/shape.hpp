@@ -13,10 +13,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <optional>
 #include <string_view>
-#include <vector>
 
 #include "kernels/math/alternatives.hpp"
 #include "kernels/math/vec3.hpp"
@@ -62,9 +61,9 @@ KOKKOS_FORCEINLINE_FUNCTION ToSurface to_hill(Real y, Real f, Real f_x, Real f_z
   return {scale * (y - f), {-scale * f_x, scale, -scale * f_z}};
 }
 
-/// Names of keys of [[body]] beside name, shape, centre and base.
+/// Names of keys of [[body]] beside name, shape, centre and base; empty: none.
 struct ShapeKeys {
-  std::vector<std::string_view> needs, takes = {};
+  std::array<std::string_view, 4> needs{}, takes{};
 };
 
 /// The box around a shape, with sides along the axes of the domain [m].
@@ -77,8 +76,8 @@ struct Footprint {
 
 /// What is wrong with a body: keys, the one to change first, and a message about a number.
 struct ShapeFault {
-  std::vector<std::string_view> keys;
-  const char* message;
+  std::array<std::string_view, 3> keys{};
+  const char* message = nullptr;  // nullptr: all is well
   Real number = 0;
 };
 

@@ -9,7 +9,7 @@ struct Sphere {
   static constexpr Named named{"sphere", "its lowest point at `base`"};
   Real radius = 0;
 
-  static ShapeKeys keys(const auto&) { return {{"radius"}}; }
+  static ShapeKeys keys(const auto&) { return {.needs = {"radius"}}; }
   static Sphere from(const auto& body) { return {body.radius}; }
   static Footprint footprint(const auto& body) {
     const Real r = body.radius;

@@ -13,17 +13,17 @@ struct Wave {
   static constexpr Named named{"wave", "a floor of sine shape along x"};
   Real height = 0, wavelength = 0;
 
-  static ShapeKeys keys(const auto&) { return {{"height", "wavelength"}}; }
+  static ShapeKeys keys(const auto&) { return {.needs = {"height", "wavelength"}}; }
   static Wave from(const auto& body) { return {body.height, body.wavelength}; }
   static Footprint footprint(const auto& body) {
     return {.height = body.height, .narrowest = body.wavelength};
   }
-  static std::optional<ShapeFault> misfit(const auto& body, Real lx) {
+  static ShapeFault misfit(const auto& body, Real lx) {
     const Real waves = lx / body.wavelength;
     if (std::abs(waves - std::round(waves)) <= 1e-6 * waves) return {};
-    return ShapeFault{{"wavelength", "domain.size"},
-                      "must fit into the length of the domain, {:.4g} m, a whole number of times",
-                      lx};
+    return {{"wavelength", "domain.size"},
+            "must fit into the length of the domain, {:.4g} m, a whole number of times",
+            lx};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static constexpr Real curvature() { return 0; }

@@ -6,6 +6,7 @@
 #include "kernels/coupling/row_exchange.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "kernels/math/raise_to.hpp"
 
 namespace barchan {

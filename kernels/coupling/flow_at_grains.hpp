@@ -8,6 +8,7 @@
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 

@@ -6,6 +6,7 @@
 #include "kernels/coupling/flow_at_grains.hpp"
 #include "kernels/coupling/shear_forces.hpp"
 #include "kernels/coupling/sphere_in_fluid.hpp"
+#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/grains/grain.hpp"
+#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 

@@ -4,6 +4,7 @@
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/sphere_in_fluid.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
+#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 

@@ -1,7 +1,6 @@
 // A grain as its neighbours see it, and what contacts do to it.
 #pragma once
 
-#include "kernels/grains/sphere.hpp"
 #include "kernels/math/vec4.hpp"
 
 namespace barchan {

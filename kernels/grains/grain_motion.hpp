@@ -4,6 +4,7 @@
 
 #include "kernels/grains/half_kick.hpp"
 #include "kernels/grains/list_validity.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "kernels/grains/tile.hpp"
 
 namespace barchan {

@@ -3,6 +3,7 @@
 
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/pair_list.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {

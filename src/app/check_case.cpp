@@ -11,7 +11,6 @@
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
-#include "src/parallel/communicator.hpp"
 
 namespace barchan {
 

@@ -21,9 +21,9 @@
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/base/words.hpp"
-#include "src/config/keys_page.hpp"
-#include "src/config/schema.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/toml/keys_page.hpp"
+#include "src/toml/schema.hpp"
 
 namespace barchan {
 namespace {

@@ -8,13 +8,12 @@
 #include <fstream>
 #include <vector>
 
-#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
-#include "src/config/lengths.hpp"
 #include "src/config/load.hpp"
 #include "src/config/mesh.hpp"
 #include "src/config/validate.hpp"
+#include "src/toml/lengths.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "src/base/errors.hpp"
 #include "src/coupling/state_checks.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/initial_flow.hpp"

@@ -8,9 +8,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
+#include "src/config/ensemble_member.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
-#include "src/config/realisation.hpp"
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
@@ -77,7 +77,7 @@ Case load_case_of(const CommandLine& line) {
 
 StartCase start_case(const Case& source, const fs::path& runs, int realisation) {
   StartCase start{.first = source,
-                  .realised = realisation_of(source, realisation),
+                  .realised = ensemble_member(source, realisation),
                   .folder = {},
                   .earlier = {}};
   const Config &first = start.first.config, &config = start.realised.config;

@@ -1,18 +1,21 @@
 #include "src/config/body_checks.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <array>
 #include <string_view>
 #include <vector>
 
 #include "src/config/body_extent.hpp"
-#include "src/config/keys.hpp"
-#include "src/config/names.hpp"
-#include "src/config/values.hpp"
+#include "src/toml/keys.hpp"
+#include "src/toml/names.hpp"
+#include "src/toml/values.hpp"
 
 namespace barchan {
 namespace {
 
+using namespace std::string_view_literals;
+
+constexpr std::array kKeysOfAll{"name"sv, "shape"sv, "centre"sv, "base"sv};
 constexpr double kFewCells = 4;  // across a body
 
 std::string key_of(std::size_t n, std::string_view key) {
@@ -32,8 +35,8 @@ std::string words_for(const BodyConfig& body) {
 bool check_keys(const Config& c, std::size_t n, Findings& found) {
   ShapeKeys shape;
   BodyShapes::with(c.bodies[n].shape, [&]<class S>() { shape = S::keys(c.bodies[n]); });
-  const auto holds = [](const std::vector<std::string_view>& names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+  const auto holds = [](const auto& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
   };
   Config plain;
   plain.bodies = {BodyConfig{}};
@@ -47,9 +50,7 @@ bool check_keys(const Config& c, std::size_t n, Findings& found) {
         well = !found.error_if(!given, {key_of(n, key.name), key_of(n, "shape")},
                                "must be above 0 with {}", words_for(c.bodies[n])) &&
                well;
-      if (needed || holds(shape.takes, key.name) ||
-          holds({"name", "shape", "centre", "base"}, key.name))
-        continue;
+      if (needed || holds(shape.takes, key.name) || holds(kKeysOfAll, key.name)) continue;
       well = !found.error_if(given, {key_of(n, key.name), key_of(n, "shape")},
                              "must be absent with {}", words_for(c.bodies[n])) &&
              well;
@@ -59,13 +60,12 @@ bool check_keys(const Config& c, std::size_t n, Findings& found) {
 }
 
 /// Adds what a shape says of its body, if it says something; true if all is well.
-bool check(const std::optional<ShapeFault>& fault, std::size_t n, Findings& found) {
-  if (!fault) return true;
+bool check(const ShapeFault& fault, std::size_t n, Findings& found) {
+  if (fault.message == nullptr) return true;
   KeyNames keys;
-  for (const std::string_view key : fault->keys)
-    keys.push_back(key.find('.') == key.npos ? key_of(n, key) : std::string(key));
-  return !found.error_if(true, keys, "{}",
-                         fmt::format(fmt::runtime(fault->message), fault->number));
+  for (const std::string_view key : fault.keys)
+    if (!key.empty()) keys.push_back(key.find('.') == key.npos ? key_of(n, key) : std::string(key));
+  return !found.error_if(true, keys, "{}", fmt::format(fmt::runtime(fault.message), fault.number));
 }
 
 /// What keys cannot say one by one; true if all is well.

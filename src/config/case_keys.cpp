@@ -1,21 +1,24 @@
 #include "src/config/case_keys.hpp"
 
-#include "src/config/key_builder.hpp"
+#include "src/config/case_values.hpp"
+#include "src/toml/key_builder.hpp"
 
 namespace barchan {
 namespace {
 
 /// A key that is done with before any other is read (bases.cpp).
 Key read_first(const char* name, const char* meaning) {
-  return {.section = "case",
-          .name = name,
-          .type = "text, or array of them",
-          .form = {Form::Of::texts},
-          .range = any,
-          .unit = "",
-          .meaning = meaning,
-          .read = [](const Node&, Config&, std::size_t) { return Mismatch(); },
-          .text = [](const Config&, std::size_t) { return std::optional<std::string>(); }};
+  return {
+      .section = "case",
+      .name = name,
+      .type = "text, or array of them",
+      .form = {.of = Form::Of::any_of,
+               .parts = {{Form::Of::text}, {.of = Form::Of::list, .parts = {{Form::Of::text}}}}},
+      .range = any,
+      .unit = "",
+      .meaning = meaning,
+      .read = [](const Node&, Config&, std::size_t) { return Mismatch(); },
+      .text = [](const Config&, std::size_t) { return std::optional<std::string>(); }};
 }
 
 }  // namespace

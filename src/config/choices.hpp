@@ -5,8 +5,8 @@
 #include "kernels/bodies/body.hpp"
 #include "kernels/coupling/drag.hpp"
 #include "kernels/fluid/preconditioners.hpp"
-#include "kernels/fluid/start_flows.hpp"
-#include "kernels/grains/law_table.hpp"
+#include "kernels/fluid/start_flows.hpp"  // IWYU pragma: export
+#include "kernels/grains/law_table.hpp"   // IWYU pragma: export
 
 namespace barchan {
 

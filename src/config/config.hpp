@@ -276,8 +276,7 @@ struct SolverConfig {
   bool operator==(const SolverConfig&) const = default;
 };
 
-/// As many as a case may have: a grain has the number of its heap in a byte, of which one value is
-/// none.
+/// The most that a byte of a grain can name, one value being none.
 inline constexpr int kMostHeaps = 255;
 
 struct Config {

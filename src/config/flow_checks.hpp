@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/config/config.hpp"
-#include "src/config/findings.hpp"
+#include "src/toml/findings.hpp"
 
 namespace barchan {
 

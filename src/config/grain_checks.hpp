@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/config/config.hpp"
-#include "src/config/findings.hpp"
+#include "src/toml/findings.hpp"
 
 namespace barchan {
 

@@ -10,7 +10,7 @@
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
-#include "src/config/names.hpp"
+#include "src/toml/names.hpp"
 
 namespace barchan {
 namespace {

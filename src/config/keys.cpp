@@ -1,10 +1,11 @@
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 #include "src/config/body_keys.hpp"
 #include "src/config/case_keys.hpp"
-#include "src/config/key_builder.hpp"
+#include "src/config/case_values.hpp"
 #include "src/config/material_keys.hpp"
 #include "src/config/output_keys.hpp"
+#include "src/toml/key_builder.hpp"
 
 namespace barchan {
 namespace {
@@ -248,6 +249,8 @@ void add_solver(Sections& all) {
 }
 
 }  // namespace
+
+std::shared_ptr<Config> blank_config() { return std::make_shared<Config>(); }
 
 const Sections& sections() {
   static const Sections all = [] {

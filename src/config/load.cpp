@@ -8,14 +8,14 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
-#include "src/config/case_text.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
 #include "src/config/kinds.hpp"
-#include "src/config/lengths.hpp"
-#include "src/config/reading.hpp"
 #include "src/config/steps.hpp"
 #include "src/config/validate.hpp"
+#include "src/toml/case_text.hpp"
+#include "src/toml/lengths.hpp"
+#include "src/toml/reading.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;
@@ -46,6 +46,13 @@ void resolve_start(ConfigReader& reading, const std::string& key, fs::path& star
     reading.report_error(key, fmt::format("must be a file that exists; there is no {}{}",
                                           path.string(), nearest_file(path)));
   }
+}
+
+Config as_read(ConfigReader& reading, const fs::path& file) {
+  Config config;
+  config.file = file;
+  reading.read(config);
+  return config;
 }
 
 struct Loaded {
@@ -128,7 +135,8 @@ std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts
 /// Gives the keys that rest on the grains their values. `sizes`: of the grains that are poured,
 /// here or in the case that this one starts from; of others [grains] sizes need not be true.
 void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes, bool tell) {
-  reading.settle_lengths(config, sizes.empty() ? 0 : nominal_diameter(mean_diameter(sizes)), tell);
+  // The d of a case is rounded, so that a few grains more or less have the same mesh.
+  reading.settle_lengths(config, sizes.empty() ? 0 : rounded(mean_diameter(sizes), 3), tell);
   std::optional<PourConfig>& pour = config.initial.pour;
   if (pour && pour->shape == PourShape::cone && !reading.tree().find("initial.grains.pour.centre"))
     pour->centre = {config.size[0] / 5, config.size[2] / 2};
@@ -139,9 +147,10 @@ void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>&
 }
 
 /// Reads what stands in a file, its bases and the assignments, and checks it against its starts.
-void read_case(ConfigReader& reading, const Context& context, Loaded& loaded) {
+void read_case(ConfigReader& reading, const fs::path& file, const Context& context,
+               Loaded& loaded) {
   Case& result = loaded.result;
-  Config& config = result.config = reading.read();
+  Config& config = result.config = as_read(reading, file);
   Starts starts = load_starts(config, reading, context);
   const std::vector<HeapConfig> heaps = poured_heaps(config);
   result.random =
@@ -185,7 +194,7 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
   parsed = reading.problems().empty();
   reading.set(overrides);
   if (parsed) reading.drop_switched_off();
-  if (parsed) read_case(reading, context, loaded);
+  if (parsed) read_case(reading, file, context, loaded);
   const auto by_line = [](const Problem& a, const Problem& b) {
     return unsigned(a.where.line) - 1 < unsigned(b.where.line) - 1;  // no line: last
   };
@@ -237,12 +246,13 @@ Config load_config_text(std::string_view text, const fs::path& file,
 }
 
 Config config_as_written(std::string_view resolved, const fs::path& file) {
-  return ConfigReader(resolved, file).read();
+  ConfigReader reading(resolved, file);
+  return as_read(reading, file);
 }
 
 bool says(std::string_view resolved, const Config& config) {
   ConfigReader reading(resolved, config.file);
-  return reading.read() == config && !reading.has_bad_keys();
+  return as_read(reading, config.file) == config && !reading.has_bad_keys();
 }
 
 bool is_written_in(const fs::path& file, const Config& config) {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "src/config/names.hpp"
+#include "src/toml/names.hpp"
 
 namespace barchan {
 namespace {

@@ -1,6 +1,7 @@
 #include "src/config/output_keys.hpp"
 
-#include "src/config/key_builder.hpp"
+#include "src/config/case_values.hpp"
+#include "src/toml/key_builder.hpp"
 
 namespace barchan {
 

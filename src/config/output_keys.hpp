@@ -1,7 +1,7 @@
 // Keys of [output] and [[output.probe]].
 #pragma once
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 

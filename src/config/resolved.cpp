@@ -4,7 +4,8 @@
 
 #include <optional>
 
-#include "src/config/keys.hpp"
+#include "src/config/config.hpp"
+#include "src/toml/keys_page.hpp"
 
 namespace barchan {
 namespace {
@@ -54,11 +55,6 @@ void check_probes_kept(const Config& config, const Config& written,
 }
 
 }  // namespace
-
-std::string title_of(const Section& section) {
-  return section.repeated() ? fmt::format("[[{}]]", section.name)
-                            : fmt::format("[{}]", section.name);
-}
 
 std::string to_toml(const Config& config, const Sections& table) {
   std::string text;

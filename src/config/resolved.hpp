@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 
@@ -20,8 +20,5 @@ std::vector<std::string> restart_conflicts(const Config& config, const Config& w
 /// The other keys that differ, as in "grains.sliding_friction 0.6 -> 0.4".
 std::vector<std::string> changed_keys(const Config& config, const Config& written,
                                       const Sections& table = sections());
-
-/// The head of a section as it stands in a file, "[grains]".
-std::string title_of(const Section& section);
 
 }  // namespace barchan

@@ -1,5 +1,7 @@
 #include "src/config/synonyms.hpp"
 
+#include "src/toml/vocabulary.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

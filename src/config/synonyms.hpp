@@ -66,11 +66,4 @@ constexpr Synonym kSynonyms[] = {
     {"voidFractionModel", "", "coupling.void_fraction"},
 };
 
-/// The keys that `word`, written in `section`, stands for in other programs; empty: none known.
-std::string_view keys_meant_by(std::string_view word, std::string_view section);
-
-/// Why a key (`value` empty) or a value of a key, as TOML, is no longer there; empty if it is, or
-/// never was.
-std::string removal(std::string_view dotted, std::string_view value);
-
 }  // namespace barchan

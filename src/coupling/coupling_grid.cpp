@@ -3,6 +3,7 @@
 #include "kernels/coupling/beside_bodies.hpp"
 #include "kernels/coupling/deposit.hpp"
 #include "src/config/derived.hpp"
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/parallel/decomposition.hpp"
 
 namespace barchan {

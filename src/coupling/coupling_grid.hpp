@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kernels/coupling/flow_at_grains.hpp"
-#include "src/coupling/deposit_stencil.hpp"
 #include "src/coupling/smoother.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"

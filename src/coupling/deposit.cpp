@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernels/grains/sphere.hpp"
 #include "src/parallel/poison.hpp"
 #include "src/parallel/tally_cells.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "src/diagnostics/dune_shape.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"

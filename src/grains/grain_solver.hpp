@@ -3,7 +3,6 @@
 
 #include <variant>
 
-#include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/grains_on_bodies.hpp"

@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "kernels/grains/law_table.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/config/kinds.hpp"
+#include "kernels/grains/law_table.hpp"
 
 namespace barchan {
 

@@ -8,7 +8,6 @@
 #include "src/base/words.hpp"
 #include "src/io/xdmf.hpp"
 #include "src/output/long_names.hpp"
-#include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
 
 namespace barchan {

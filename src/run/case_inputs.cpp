@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/config/realisation.hpp"
+#include "src/config/ensemble_member.hpp"
 #include "src/io/seal.hpp"
 
 namespace barchan {
@@ -38,7 +38,7 @@ std::optional<fs::path> changed_input(const nlohmann::json& recorded, const Case
       if (text(there) != content_key(file)) return file;
       continue;
     }
-    const Case realised = realisation_of(*start, the_case.config.initial.realisation);
+    const Case realised = ensemble_member(*start, the_case.config.initial.realisation);
     if (!there.is_object() || !says(text(there.value("config", nlohmann::json())), realised.config))
       return file;
     if (const auto behind = changed_input(there, realised)) return behind;

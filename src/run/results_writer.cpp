@@ -7,7 +7,6 @@
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/coupling/grain_forces.hpp"
-#include "src/diagnostics/gathered_grains.hpp"
 #include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"

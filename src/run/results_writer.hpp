@@ -1,6 +1,7 @@
 // What a run writes, and when.
 #pragma once
 
+#include "src/base/errors.hpp"
 #include "src/run/ro_crate.hpp"
 #include "src/run/run_accounts.hpp"
 #include "src/run/run_diagnostics.hpp"

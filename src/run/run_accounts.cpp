@@ -6,10 +6,6 @@
 
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
-#include "src/fluid/domain.hpp"
-#include "src/output/grain_state_file.hpp"
-#include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/run_folder.hpp"

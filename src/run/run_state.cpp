@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
@@ -11,7 +12,6 @@
 #include "src/initial/overlaps.hpp"
 #include "src/output/grain_state_file.hpp"
 #include "src/output/state_file.hpp"
-#include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/run_folder.hpp"
 

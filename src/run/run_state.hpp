@@ -3,7 +3,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/coupling/coupled_step.hpp"
 #include "src/diagnostics/dune_shape.hpp"

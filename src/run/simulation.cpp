@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/errors.hpp"
 #include "src/base/stop_request.hpp"
 #include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"

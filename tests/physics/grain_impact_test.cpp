@@ -3,6 +3,7 @@
 // tests/reference/dem_*.csv. Spinning and oblique impacts: chung_ooi_spin_test.cpp.
 #include <algorithm>
 
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_bench.hpp"
 #include "tests/support/saved_results.hpp"
 

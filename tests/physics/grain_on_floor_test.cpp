@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 # Each folder may include itself and those before it. ARCHITECTURE.md draws them.
 kernel_rooms=(math bodies fluid grains coupling diagnostics)
-src_rooms=(base parallel config io bodies fluid grains coupling output initial diagnostics run app)
+src_rooms=(base toml parallel config io bodies fluid grains coupling output initial diagnostics run app)
 
 max_lines=400          # anywhere
 max_lines_of_program=300  # in src/ and kernels/
@@ -17,8 +17,10 @@ complain() {
   failures=$((failures + 1))
 }
 
-# Standard headers that make sense on a device. No strings, streams, clocks, containers.
-device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdint|cstring|limits|numbers|tuple|type_traits|utility'
+# Standard headers that make sense on a device, and what alternatives need to name themselves. No strings, streams,
+# clocks, containers.
+device_headers='algorithm|array|bit|cfloat|climits|cmath|concepts|cstddef|cstdint|cstring|limits|numbers|string_view'
+device_headers+='|tuple|type_traits|utility|variant'
 
 mapfile -d '' sources < <(find kernels src tests perf \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
 includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[>"]' "${sources[@]}" |

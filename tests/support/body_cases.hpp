@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "src/bodies/make_bodies.hpp"
 #include "src/config/body_extent.hpp"
 #include "tests/support/grain_bench.hpp"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan::test {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/config/keys.hpp"
 #include "src/config/synonyms.hpp"
+#include "src/toml/keys.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

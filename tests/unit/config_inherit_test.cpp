@@ -7,7 +7,6 @@
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
-#include "src/config/steps.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "src/base/words.hpp"
-#include "src/config/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -7,6 +7,7 @@
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/grain.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 
 namespace barchan {

@@ -3,6 +3,7 @@
 
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/parallel/poison.hpp"

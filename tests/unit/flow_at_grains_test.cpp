@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/grains/sphere.hpp"
 #include "src/fluid/poisson_fft.hpp"
 #include "tests/support/coupled_run.hpp"
 

@@ -1,5 +1,6 @@
 // Grains that come in, those that leave a window that follows its dune, and their accounts.
 #include "src/grains/grain_feed.hpp"
+#include "kernels/grains/sphere.hpp"
 
 #include <gtest/gtest.h>
 

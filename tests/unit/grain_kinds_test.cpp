@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/grains/contact_geometry.hpp"
 #include "src/parallel/mirror.hpp"
 #include "tests/support/grain_bench.hpp"
 

@@ -6,6 +6,7 @@
 #include "kernels/coupling/frozen_grains.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/half_kick.hpp"
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_bench.hpp"
 #include "tests/support/launch_counter.hpp"
 

@@ -2,10 +2,11 @@
 // check, write, compare and document it. A key is one line.
 #include <gtest/gtest.h>
 
-#include "src/config/key_builder.hpp"
-#include "src/config/keys_page.hpp"
-#include "src/config/reading.hpp"
+#include "src/config/case_values.hpp"
 #include "src/config/resolved.hpp"
+#include "src/toml/key_builder.hpp"
+#include "src/toml/keys_page.hpp"
+#include "src/toml/reading.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {
@@ -32,7 +33,8 @@ Config read(const std::string& text, std::vector<std::string>& problems,
             const std::vector<std::string>& set = {}) {
   ConfigReader reader(text, "case.toml", table());
   reader.set(set);
-  Config config = reader.read();
+  Config config;
+  reader.read(config);
   for (const Problem& p : reader.problems()) problems.push_back(to_string(p.where) + ": " + p.text);
   return config;
 }

@@ -1,5 +1,5 @@
 // What reaches the parser of TOML, and what is kept from it: strings and comments by the grammar.
-#include "src/config/toml_tree.hpp"
+#include "src/toml/toml_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernels/grains/sphere.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan {

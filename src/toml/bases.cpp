@@ -4,11 +4,10 @@
 #include <algorithm>
 
 #include "src/base/words.hpp"
-#include "src/config/case_text.hpp"
-#include "src/config/dotted.hpp"
-#include "src/config/keys.hpp"
-#include "src/config/no_effect.hpp"
-#include "src/config/reading.hpp"
+#include "src/toml/case_text.hpp"
+#include "src/toml/dotted.hpp"
+#include "src/toml/keys.hpp"
+#include "src/toml/reading.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;
@@ -115,12 +114,13 @@ bool ConfigReader::is_switched_off(const std::string& dotted, const std::string&
 
 void ConfigReader::drop_switched_off() {
   ConfigReader trial = *this;
-  const Config config = trial.read();
+  const std::shared_ptr<Config> config = blank_config();
+  trial.read(*config);
   for (const Section& section : table_) {
     for (const Key& key : section.keys) {
       const std::string dotted = key.dotted();
-      if (tree_.find(dotted) == nullptr || !key.text(config, 0)) continue;
-      const std::string_view by = switched_off_by(dotted, config);
+      if (tree_.find(dotted) == nullptr || !key.text(*config, 0)) continue;
+      const std::string_view by = switched_off_by(dotted, *config);
       if (!by.empty() && is_switched_off(dotted, std::string(by))) drop(dotted);
     }
   }

@@ -1,16 +1,12 @@
 // Lengths as a case may write them: a number of metres, or a text such as "0.2 mm" or "3 d".
 #pragma once
 
-#include "src/config/values.hpp"
+#include "src/toml/values.hpp"
 
 namespace barchan {
 
 /// A number of so many significant decimal digits.
 double rounded(double x, int digits);
-
-/// The d of a case [m]: the mean diameter rounded to three digits, so that a few grains more or
-/// less have the same mesh.
-double nominal_diameter(double mean);
 
 /// True if a value, or one in its list, is a text in mean grain diameters.
 bool is_in_diameters(const Node& value);

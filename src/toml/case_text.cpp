@@ -1,4 +1,4 @@
-#include "src/config/case_text.hpp"
+#include "src/toml/case_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include "src/base/words.hpp"
-#include "src/config/dotted.hpp"
-#include "src/config/keys.hpp"
-#include "src/config/reading.hpp"
-#include "src/config/synonyms.hpp"
+#include "src/toml/dotted.hpp"
+#include "src/toml/keys.hpp"
+#include "src/toml/reading.hpp"
 
 namespace barchan {
 namespace {

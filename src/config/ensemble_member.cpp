@@ -1,4 +1,4 @@
-#include "src/config/realisation.hpp"
+#include "src/config/ensemble_member.hpp"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ double turnover(const Config& config) {
 
 }  // namespace
 
-Case realisation_of(const Case& the_case, int realisation) {
+Case ensemble_member(const Case& the_case, int realisation) {
   Case other = the_case;
   if (realisation == 1) return other;
   Config& config = other.config;

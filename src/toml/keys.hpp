@@ -1,5 +1,5 @@
 // The table of all keys of a configuration. ConfigReader, checking, writing, the comparison with a
-// restart and docs/keys.md walk it: a new key is a member in config.hpp and a line in keys.cpp.
+// restart and docs/keys.md walk it.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "src/config/config.hpp"
-#include "src/config/form.hpp"
-#include "src/config/values.hpp"
+#include "src/toml/form.hpp"
+#include "src/toml/values.hpp"
+#include "src/toml/vocabulary.hpp"
 
 namespace barchan {
 
@@ -57,9 +57,5 @@ struct Section {
   std::size_t most = std::numeric_limits<std::size_t>::max();
   bool repeated() const { return append != nullptr; }
 };
-
-/// In the order in which they are written.
-using Sections = std::vector<Section>;
-const Sections& sections();
 
 }  // namespace barchan

@@ -4,12 +4,15 @@
 #include <string>
 #include <string_view>
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 
 /// Defaults, with every section there and an entry in those that may be written many times.
-Config with_every_section(const Sections& table);
+std::shared_ptr<const Config> with_every_section(const Sections& table);
+
+/// The head of a section as it stands in a file, "[grains]".
+std::string title_of(const Section& section);
 
 /// docs/keys.md: a table of the keys of each section with range, unit, default and meaning.
 std::string keys_page(const Sections& table = sections());

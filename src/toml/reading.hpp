@@ -7,15 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "src/config/config.hpp"
-#include "src/config/toml_tree.hpp"
+#include "src/toml/toml_tree.hpp"
+#include "src/toml/vocabulary.hpp"
 
 namespace barchan {
 
 struct Key;
-struct Section;
-using Sections = std::vector<Section>;
-const Sections& sections();
 
 /// One file that is read, and what is wrong with it.
 class ConfigReader {
@@ -31,9 +28,9 @@ class ConfigReader {
   /// contact_model need not delete the elastic constants. Layers: bases, the file, assignments.
   void drop_switched_off();
 
-  /// The configuration; what cannot be read keeps its default and is a problem. Lengths in
-  /// diameters, and steps that are "auto", are still to be settled.
-  Config read();
+  /// Reads into a case of defaults; what cannot be read keeps its default and is a problem.
+  /// Lengths in diameters, and values that are "auto", are still to be settled.
+  void read(Config& config);
   /// Sets the lengths that are given in diameters, or by default are. `diameter`: the d of the
   /// case [m]; 0: not known, which is a problem where a length is given. `tell`: as such.
   void settle_lengths(Config& config, double diameter, bool tell);

@@ -1,5 +1,5 @@
 // The only file that includes toml++: it is heavy to compile.
-#include "src/config/toml_tree.hpp"
+#include "src/toml/toml_tree.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "src/config/reading.hpp"
+#include "src/toml/reading.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,11 +7,9 @@
 #include <fmt/format.h>
 
 #include "src/base/words.hpp"
-#include "src/config/dotted.hpp"
-#include "src/config/keys.hpp"
-#include "src/config/lengths.hpp"
-#include "src/config/no_effect.hpp"
-#include "src/config/synonyms.hpp"
+#include "src/toml/dotted.hpp"
+#include "src/toml/keys.hpp"
+#include "src/toml/lengths.hpp"
 
 namespace barchan {
 namespace {
@@ -76,9 +74,7 @@ void ConfigReader::set(const std::vector<std::string>& assignments) {
   }
 }
 
-Config ConfigReader::read() {
-  Config config;
-  config.file = file_;
+void ConfigReader::read(Config& config) {
   for (const Section& section : table_) read(section, config);
   find_unknown("", tree_, names_in(""));
   for (const Section& section : table_) {
@@ -92,7 +88,6 @@ Config ConfigReader::read() {
       find_unknown(section.name, *node, known);
     }
   }
-  return config;
 }
 
 void ConfigReader::read(const Section& section, Config& config) {

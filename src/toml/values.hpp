@@ -16,9 +16,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "kernels/math/alternatives.hpp"
 #include "src/base/enum_names.hpp"
-#include "src/config/config.hpp"
-#include "src/config/toml_tree.hpp"
+#include "src/toml/toml_tree.hpp"
 
 namespace barchan {
 
@@ -44,6 +44,11 @@ constexpr std::string_view word_of(T value) {
   }
 }
 
+/// What the program says of a type of its own: a type in words, `type()`, and for programs,
+/// `form()` (form.hpp); beside it convert, toml_text and check of that type.
+template <class T>
+struct ValueKind;
+
 /// The meaning of a key, and of each alternative that it names.
 template <class T>
 std::string meaning_of(std::string meaning) {
@@ -53,21 +58,6 @@ std::string meaning_of(std::string meaning) {
   }
   return meaning;
 }
-
-/// The members of coupling.forces, by name.
-struct ForceName {
-  std::string_view name;
-  bool ForceSwitches::*on;
-};
-inline constexpr std::array<ForceName, 8> kForceNames{
-    {{"drag", &ForceSwitches::drag},
-     {"pressure_gradient", &ForceSwitches::pressure_gradient},
-     {"stress", &ForceSwitches::stress},
-     {"added_mass", &ForceSwitches::added_mass},
-     {"buoyancy", &ForceSwitches::buoyancy},
-     {"lift", &ForceSwitches::lift},
-     {"torque", &ForceSwitches::torque},
-     {"wall_drag", &ForceSwitches::wall_drag}}};
 
 /// What a number may be: each of an array, each diameter of size classes; of a text the bytes. Wide
 /// on purpose: what is merely unusual is the user's business, but powers of it must be numbers.
@@ -100,12 +90,9 @@ using Mismatch = std::optional<std::string>;
 
 /// From TOML; after a mismatch the value is of no use.
 Mismatch convert(const Node& node, double& value);
-Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
 Mismatch convert(const Node& node, std::filesystem::path& value);
-Mismatch convert(const Node& node, std::vector<SizeClass>& value);
-Mismatch convert(const Node& node, ForceSwitches& value);
 /// The index of the name that the node holds.
 Mismatch convert_name(const Node& node, std::span<const std::string_view> names, std::size_t& at);
 
@@ -151,11 +138,6 @@ Mismatch convert(const Node& node, std::array<T, N>& value) {
 std::string toml_text(std::string_view text);
 /// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
 std::string toml_text(double value);
-std::string toml_text(const PlaneVelocity& value);
-std::string toml_text(const std::vector<SizeClass>& value);
-std::string toml_text(const ForceSwitches& value);
-/// The names that coupling.forces may hold.
-std::string all_forces();
 /// As one would write it in a file, cut after 60 characters.
 std::string toml_text(const Node& node);
 
@@ -194,10 +176,6 @@ template <class T>
 Mismatch check(const T& value, const Range& range) {
   if constexpr (std::is_integral_v<T>) {
     return check(static_cast<double>(value), range);
-  } else if constexpr (std::is_same_v<T, SizeClass>) {
-    return check(value.diameter, range);
-  } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
-    return check(std::array{value.x, value.z}, range);
   } else if constexpr (requires { value.data(); }) {
     for (const auto& element : value) {
       if (const Mismatch mismatch = check(element, range)) return mismatch;
@@ -209,7 +187,9 @@ Mismatch check(const T& value, const Range& range) {
 /// What one writes for it, in words: "number", "array of 3 numbers", or the choices.
 template <class T>
 std::string type_text() {
-  if constexpr (HasWords<T>) {
+  if constexpr (requires { ValueKind<T>::type(); }) {
+    return ValueKind<T>::type();
+  } else if constexpr (HasWords<T>) {
     return fmt::format("\"{}\"", fmt::join(words_of<T>(), "\", \""));
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true or false";
@@ -217,14 +197,8 @@ std::string type_text() {
     return "integer";
   } else if constexpr (std::is_floating_point_v<T>) {
     return "number";
-  } else if constexpr (std::is_same_v<T, PlaneVelocity>) {
-    return "number or [x, z]";
   } else if constexpr (std::is_convertible_v<T, std::string>) {  // a path, too
     return "text";
-  } else if constexpr (std::is_same_v<T, ForceSwitches>) {
-    return "array of " + all_forces();
-  } else if constexpr (std::is_same_v<T, std::vector<SizeClass>>) {
-    return "array of [diameter, count]";
   } else {
     return fmt::format("array of {} {}s", T{}.size(), type_text<typename T::value_type>());
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/config/toml_tree.hpp"
+#include "src/toml/toml_tree.hpp"
 
 namespace barchan {
 

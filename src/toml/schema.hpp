@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 

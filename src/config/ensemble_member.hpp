@@ -1,4 +1,4 @@
-// Members of an ensemble: the same case from another packing and another moment of the flow.
+// Members of an ensemble: the same case from another packing, or from a later moment of the flow.
 #pragma once
 
 #include "src/config/load.hpp"
@@ -8,6 +8,6 @@ namespace barchan {
 /// A case that others start from, in a realisation (1: as it stands). Turbulent flow without grains
 /// goes on for one turnover, depth over friction velocity, per realisation: the same run at another
 /// time. All else takes other random numbers (initial.realisation). What draws none stays as it is.
-Case realisation_of(const Case& the_case, int realisation);
+Case ensemble_member(const Case& the_case, int realisation);
 
 }  // namespace barchan

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/config/keys.hpp"
+#include "src/toml/keys.hpp"
 
 namespace barchan {
 
@@ -44,7 +44,7 @@ template <class Get>
 class Keys {
  public:
   Keys(Section& section, Get get) : section_(section), get_(get) {
-    if constexpr (requires(Config c) { get(c)->emplace(); }) {
+    if constexpr (requires { get(std::declval<Config&>())->emplace(); }) {
       section.prepare = [get](Config& c, bool in_file) {
         if (auto* parent = get(c); in_file && parent != nullptr) parent->emplace();
       };
@@ -72,7 +72,7 @@ class Keys {
             .required = (rule & required) != 0,
             .by_default = {},
             .takes_diameters =
-                unit == std::string_view("m") && !std::is_same_v<T, std::vector<SizeClass>>,
+                unit == std::string_view("m") && form_of<Plain<T>>().of != Form::Of::list,
             .fixed_by_restart = (rule & fixed_by_restart) != 0,
             .read =
                 [get = get_, member, range](const Node& node, Config& config, std::size_t entry) {

@@ -1,4 +1,4 @@
-#include "src/config/lengths.hpp"
+#include "src/toml/lengths.hpp"
 
 #include <fmt/format.h>
 
@@ -49,8 +49,6 @@ double rounded(double x, int digits) {
   std::from_chars(text.data(), text.data() + text.size(), x);
   return x;
 }
-
-double nominal_diameter(double mean) { return rounded(mean, 3); }
 
 bool is_in_diameters(const Node& value) {
   if (const auto* list = std::get_if<NodeArray>(&value.value))

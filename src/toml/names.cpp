@@ -1,4 +1,4 @@
-#include "src/config/names.hpp"
+#include "src/toml/names.hpp"
 
 namespace barchan {
 

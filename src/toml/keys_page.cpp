@@ -1,4 +1,4 @@
-#include "src/config/keys_page.hpp"
+#include "src/toml/keys_page.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/config/resolved.hpp"
 
 namespace barchan {
 namespace {
@@ -96,11 +95,16 @@ std::string entry(const Section& section, const Key& key, const Config& defaults
 
 }  // namespace
 
-Config with_every_section(const Sections& table) {
-  Config defaults;
+std::string title_of(const Section& section) {
+  return section.repeated() ? fmt::format("[[{}]]", section.name)
+                            : fmt::format("[{}]", section.name);
+}
+
+std::shared_ptr<const Config> with_every_section(const Sections& table) {
+  const std::shared_ptr<Config> defaults = blank_config();
   for (const Section& section : table) {
-    if (section.repeated()) section.append(defaults);
-    if (section.prepare) section.prepare(defaults, true);
+    if (section.repeated()) section.append(*defaults);
+    if (section.prepare) section.prepare(*defaults, true);
   }
   return defaults;
 }
@@ -114,13 +118,13 @@ std::string keys_page(const Sections& table) {
       "`sizes`, are never in d. `--set section.key=value` changes a key for one run.\nKeys marked "
       "(R) stay as they are in a restart. Numbers within these ranges may still be refused if they "
       "do not fit\nother keys.\n";
-  const Config defaults = with_every_section(table);
+  const auto defaults = with_every_section(table);
   for (const Section& section : table) {
     if (section.keys.empty()) continue;
     page += fmt::format("\n## {}\n\n{}{}.\n\n", title_of(section), section.meaning,
                         section.required ? " (required)" : "");
     page += "| key | type, range, unit | default | meaning |\n|---|---|---|---|\n";
-    for (const Key& key : section.keys) page += row(section, key, defaults);
+    for (const Key& key : section.keys) page += row(section, key, *defaults);
   }
   return page;
 }
@@ -130,7 +134,7 @@ std::string keys_text(std::string_view name, const Sections& table) {
   const bool is_section = std::ranges::any_of(table, [&](const Section& section) {
     return !section.keys.empty() && (section.name == name || section.name.ends_with(inner));
   });
-  const Config defaults = with_every_section(table);
+  const auto defaults = with_every_section(table);
   std::string text;
   for (const Section& section : table) {
     std::size_t width = 0;
@@ -139,7 +143,7 @@ std::string keys_text(std::string_view name, const Sections& table) {
     std::string entries;
     for (const Key& key : section.keys) {
       if (whole || key.dotted() == name || (key.name == name && !is_section))
-        entries += entry(section, key, defaults, width);
+        entries += entry(section, key, *defaults, width);
     }
     if (entries.empty()) continue;
     std::string head = wrapped(section.meaning + (section.required ? " (required)." : "."), 0);

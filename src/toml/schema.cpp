@@ -1,10 +1,10 @@
-#include "src/config/schema.hpp"
+#include "src/toml/schema.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "src/config/keys_page.hpp"
+#include "src/toml/keys_page.hpp"
 
 namespace barchan {
 namespace {
@@ -14,21 +14,21 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kLength =
     R"(^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s*(d|m|cm|mm|um)\s*$)";  // "3 d", "0.2 mm"
 
-Json one_of(std::initializer_list<Json> kinds) { return {{"anyOf", Json::array_t(kinds)}}; }
+Json one_of(const Json::array_t& kinds) { return {{"anyOf", kinds}}; }
 
 Json array_of(const Json& element, std::size_t count) {
   return {{"type", "array"}, {"items", element}, {"minItems", count}, {"maxItems", count}};
 }
 
 /// A number in its range, or a length with its unit.
-Json number_in(const Key& key) {
-  const bool whole = key.form.of == Form::Of::integer || key.form.of == Form::Of::natural;
+Json number_in(const Key& key, Form::Of of) {
+  const bool whole = of != Form::Of::number;
   const Range& range = key.range;
   Json number{{"type", whole ? "integer" : "number"}};
   const auto bound = [&](double value) { return whole ? Json(std::int64_t(value)) : Json(value); };
   if (range.min > -Range::infinite)
     number["minimum"] = bound(range.min);
-  else if (key.form.of == Form::Of::natural)
+  else if (of == Form::Of::natural)
     number["minimum"] = 0;
   if (range.above_min) number["exclusiveMinimum"] = true;
   if (range.max < Range::infinite) number["maximum"] = bound(range.max);
@@ -37,44 +37,43 @@ Json number_in(const Key& key) {
   return one_of({number, {{"type", "string"}, {"pattern", kLength}}});
 }
 
-Json single(const Key& key) {
-  switch (key.form.of) {
+Json schema_of(const Key& key, const Form& form);
+
+Json single(const Key& key, const Form& form) {
+  Json::array_t parts;
+  for (const Form& part : form.parts) parts.push_back(schema_of(key, part));
+  switch (form.of) {
     case Form::Of::choice:
-      return {{"enum", key.form.names}};
+      return {{"enum", form.names}};
     case Form::Of::truth:
       return {{"type", "boolean"}};
     case Form::Of::integer:
     case Form::Of::natural:
     case Form::Of::number:
-      return number_in(key);
-    case Form::Of::velocity:
-      return one_of({number_in(key), array_of(number_in(key), 2)});
+      return number_in(key, form.of);
+    case Form::Of::positive:
+      return {{"type", "integer"}, {"minimum", 1}};
     case Form::Of::text: {
       Json text{{"type", "string"}};
       if (key.range.max < Range::infinite) text["maxLength"] = std::int64_t(key.range.max);
       return text;
     }
-    case Form::Of::texts: {
-      const Json text{{"type", "string"}};
-      return one_of({text, {{"type", "array"}, {"items", text}}});
-    }
-    case Form::Of::forces: {
-      Json names = Json::array();
-      for (const ForceName& force : kForceNames) names.push_back(force.name);
-      return {{"type", "array"}, {"items", {{"enum", names}}}};
-    }
-    case Form::Of::sizes: {
-      Json pair = array_of(Json::array_t{number_in(key), {{"type", "integer"}, {"minimum", 1}}}, 2);
-      return {{"type", "array"}, {"items", pair}};
-    }
-    case Form::Of::other:
-      break;
+    case Form::Of::any_of:
+      return one_of(parts);
+    case Form::Of::list:
+      return {{"type", "array"}, {"items", parts.front()}};
+    case Form::Of::tuple:
+      return array_of(parts, parts.size());
   }
   return Json::object();
 }
 
+Json schema_of(const Key& key, const Form& form) {
+  return form.count > 0 ? array_of(single(key, form), form.count) : single(key, form);
+}
+
 Json schema_of(const Section& section, const Key& key, const Config& defaults) {
-  Json value = key.form.count > 0 ? array_of(single(key), key.form.count) : single(key);
+  Json value = schema_of(key, key.form);
   if (key.by_default == kAutomatic) value = one_of({value, {{"enum", Json::array({kAutomatic})}}});
   const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
   const std::string like =
@@ -151,7 +150,7 @@ std::string case_schema(const Sections& table) {
   const Section file{.name = ""};
   Json schema{{"$schema", "http://json-schema.org/draft-04/schema#"},
               {"title", "A case of Barchan"}};
-  schema.update(object_of(file, table, with_every_section(table)));
+  schema.update(object_of(file, table, *with_every_section(table)));
   const Json based{{"required", Json::array({"case"})},
                    {"properties", {{"case", {{"required", Json::array({"base"})}}}}}};
   schema.update(one_of({required_in(file, table), based}));

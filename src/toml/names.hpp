@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/config/findings.hpp"
+#include "src/toml/findings.hpp"
 
 namespace barchan {
 
