@@ -39,7 +39,7 @@ struct Alternatives {
 
   /// Calls f.template operator()<Type>() with each type.
   template <class F>
-  static constexpr void for_each(const F& f) {
+  static constexpr void each(const F& f) {
     (f.template operator()<Types>(), ...);
   }
   /// The same with the chosen one alone.

@@ -13,9 +13,9 @@ union PartsOfOne {
   PartsOfOne<Rest...> rest;
 
   KOKKOS_FUNCTION constexpr PartsOfOne() : first() {}
-  constexpr explicit PartsOfOne(const First& value) : first(value) {}
+  KOKKOS_FUNCTION constexpr explicit PartsOfOne(const First& value) : first(value) {}
   template <class Type>
-  constexpr explicit PartsOfOne(const Type& value) : rest(value) {}
+  KOKKOS_FUNCTION constexpr explicit PartsOfOne(const Type& value) : rest(value) {}
   template <class F>
   KOKKOS_FORCEINLINE_FUNCTION constexpr auto visit(std::size_t place, const F& f) const {
     return place == 0 ? f(first) : rest.visit(place - 1, f);
@@ -27,7 +27,7 @@ union PartsOfOne<Last> {
   Last first;
 
   KOKKOS_FUNCTION constexpr PartsOfOne() : first() {}
-  constexpr explicit PartsOfOne(const Last& value) : first(value) {}
+  KOKKOS_FUNCTION constexpr explicit PartsOfOne(const Last& value) : first(value) {}
   template <class F>
   KOKKOS_FORCEINLINE_FUNCTION constexpr auto visit(std::size_t, const F& f) const {
     return f(first);

@@ -69,7 +69,7 @@ FluidState initial_fluid(const Config& config, const std::filesystem::path& file
     fluid.has_history = false;
     return fluid;
   }
-  StartFlows::for_each([&]<class Flow>() {
+  StartFlows::each([&]<class Flow>() {
     if (config.initial.starts_as<Flow>()) set_flow(Flow{}, config, fluid);
   });
   return fluid;

@@ -69,8 +69,11 @@ class Program:
         self.found.append((source.path, line, rule, text))
 
     def is_listed(self, table, name):
-        self.listed.add((table, name))
-        return name in TABLE[table]
+        for one in (name, "*." + name.rpartition(".")[2]):
+            self.listed.add((table, one))
+            if one in TABLE[table]:
+                return True
+        return False
 
     def find_functors(self):
         """Classes that are launched or captured, and their parts."""

@@ -3,6 +3,7 @@
 header declares itself. `// IWYU pragma: export` marks an include that is handed on."""
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -47,27 +48,39 @@ def declared_in(path):
     return {name for pattern in DECLARED for name in pattern.findall(text)} - COMMON
 
 
-def unused_includes(files):
+def unused_includes(files, headers):
+    """Pairs of a file and a header, `headers` by the names in includes."""
     declared = {}
     for path in files:
         raw = path.read_text()
         words = None
         for target, mark in INCLUDE.findall(raw):
-            header = ROOT / target
-            if "IWYU pragma: export" in mark or not header.exists():
+            if "IWYU pragma: export" in mark or target not in headers:
                 continue
             if target not in declared:
-                declared[target] = declared_in(header)
+                declared[target] = declared_in(headers[target])
             words = words or set(WORD.findall(INCLUDE.sub("", code(path))))
             if not declared[target] & words:
-                yield path.relative_to(ROOT), target
+                yield path, target
+
+
+def check_itself():
+    """A header that is used is not reported, and one that is not used is."""
+    with tempfile.TemporaryDirectory() as folder:
+        header, user, other = (Path(folder) / name for name in ("a.hpp", "user.cpp", "other.cpp"))
+        header.write_text("struct Heap { double slope(double angle) const { return angle * scale; } };\n")
+        user.write_text('#include "tests/a.hpp"\nHeap heap;\n')
+        other.write_text('#include "tests/a.hpp"\nint scale, angle; // Heap\n')
+        found = list(unused_includes([header, user, other], {"tests/a.hpp": header}))
+        assert found == [(other, "tests/a.hpp")], found
 
 
 def main():
+    check_itself()
     files = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.[ch]pp"))
-    found = list(unused_includes(files))
+    found = list(unused_includes(files, {str(path.relative_to(ROOT)): path for path in files}))
     for path, target in found:
-        print(f"{path}: uses nothing of {target}")
+        print(f"{path.relative_to(ROOT)}: uses nothing of {target}")
     print(f"{len(files)} files looked at")
     return len(found) > 0
 

@@ -1,6 +1,6 @@
 """Bodies at rest: how far from them a place is, where they begin and end, and their outlines; no drawing.
 
-The distances are those of kernels/bodies/body_shapes.hpp once more. Both are tested against
+The distances are those of kernels/bodies once more. Both are tested against
 tests/reference/body_distances.csv. Lengths in m, y upwards.
 """
 
