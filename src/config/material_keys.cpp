@@ -1,5 +1,7 @@
 #include "src/config/material_keys.hpp"
 
+#include "src/config/case_values.hpp"
+
 namespace barchan {
 
 void add_wall(Sections& all) {
