@@ -13,7 +13,7 @@
 #include "src/bodies/make_bodies.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/grains/grain_skins.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"

@@ -11,7 +11,7 @@
 #include "src/base/errors.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/mesh.hpp"
+#include "src/fluid/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/toml/lengths.hpp"
 

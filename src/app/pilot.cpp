@@ -86,7 +86,7 @@ InitialGrains inside(const InitialGrains& grains, const std::array<double, 3>& s
 
 RunState start(const Config& config, const InitialGrains& grains) {
   const MPI_Comm ranks = MPI_COMM_WORLD;
-  auto pencils = make_decomposition(config, ranks);
+  auto pencils = make_decomposition(config.fluid, ranks);
   SystemState state;
   if (config.fluid) {
     state.fluid = make_fluid_state(make_grid(config, pencils.get()));

@@ -10,7 +10,7 @@
 #include "src/base/words.hpp"
 #include "src/config/ensemble_member.hpp"
 #include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/config/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
@@ -137,7 +137,7 @@ namespace {
 /// What a run starts with, before its feed is looked at.
 PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
-  check_passage(config);
+  if (config.fluid) check_passage(config);
   check_probes(config);
   if (!config.grains) return {};
   if (const auto heaps = poured_heaps(config); !heaps.empty()) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/config/body_extent.hpp"
+#include "src/bodies/body_extent.hpp"
 #include "src/toml/keys.hpp"
 #include "src/toml/names.hpp"
 #include "src/toml/values.hpp"

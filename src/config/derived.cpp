@@ -5,18 +5,12 @@
 #include <iterator>
 #include <numbers>
 
-#include "src/config/flow_schedule.hpp"
-#include "src/config/kinds.hpp"
-#include "src/config/mesh.hpp"
+#include "src/fluid/flow_schedule.hpp"
+#include "src/grains/kinds.hpp"
+#include "src/fluid/mesh.hpp"
 
 namespace barchan {
 namespace {
-
-constexpr double kRoundOff = 1e-9;  // of a quotient
-
-/// Smallest whole number >= x, forgiving what division of decimal steps leaves
-/// (100.00000000000001).
-double ceil_tolerant(double x) { return std::ceil(x - kRoundOff * std::max(1.0, x)); }
 
 FluidNumbers derive_fluid(const Config& config) {
   const FluidConfig& fluid = *config.fluid;
@@ -26,8 +20,8 @@ FluidNumbers derive_fluid(const Config& config) {
   n.cells = std::int64_t{cells[0]} * cells[1] * cells[2];
   n.dx = config.size[0] / cells[0];
   n.dz = config.size[2] / cells[2];
-  n.stretching = stretching_ratio(row_spacing(config));
-  const auto faces = row_faces(row_spacing(config));
+  n.stretching = stretching_ratio(row_spacing(*config.fluid, config.size[1]));
+  const auto faces = row_faces(row_spacing(*config.fluid, config.size[1]));
   n.dy_first = faces[1];
   n.dy_last = faces[faces.size() - 1] - faces[faces.size() - 2];
   const std::vector<FlowTarget> schedule = flow_schedule(fluid);
@@ -131,7 +125,7 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
   n.column_ratio = flow.dx / n.d_mean;
   n.width_ratio = std::min(flow.dx, flow.dz) / n.d_mean;
   if (top <= 0 || top >= config.size[1]) return;
-  const auto faces = row_faces(row_spacing(config));
+  const auto faces = row_faces(row_spacing(*config.fluid, config.size[1]));
   const auto above = std::upper_bound(faces.begin(), faces.end(), top);
   n.top = top;
   n.top_ratio = (*above - *(above - 1)) / n.d_mean;
@@ -143,35 +137,14 @@ bool exchanges_by_row(const CouplingConfig& coupling) {
   return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
 }
 
-bool grains_leave(const GrainConfig& grains) {
-  return grains.boundary_x == GrainBoundaryX::exit || grains.boundary_x == GrainBoundaryX::follow;
-}
-
 bool is_periodic_x(const Config& config) {
-  if (!config.grains) return false;
-  const GrainBoundaryX ends = config.grains->boundary_x;
-  return ends == GrainBoundaryX::periodic || ends == GrainBoundaryX::follow;
+  return config.grains && is_periodic_x(*config.grains);
 }
 
 double half_seam_strip(const Config& config) {
   const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
   return follows ? config.size[0] / config.fluid->cells[0] : 0;
 }
-
-bool is_whole(double quotient) {
-  return std::abs(quotient - std::round(quotient)) <= kRoundOff * std::max(1.0, quotient);
-}
-
-std::int64_t fluid_steps(const TimeConfig& time) {
-  return static_cast<std::int64_t>(std::min(9e18, ceil_tolerant(time.end / time.fluid_step)));
-}
-
-int grain_substeps(const TimeConfig& time) {
-  const double steps = ceil_tolerant(time.fluid_step / time.grain_step);
-  return static_cast<int>(std::clamp(steps, 1.0, 2e9));
-}
-
-double true_grain_step(const TimeConfig& time) { return time.fluid_step / grain_substeps(time); }
 
 double mean_diameter(const std::vector<SizeClass>& sizes) {
   double total = 0;

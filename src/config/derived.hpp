@@ -14,22 +14,11 @@ namespace barchan {
 /// row.
 bool exchanges_by_row(const CouplingConfig& coupling);
 
-/// True if grains leave along x: at the ends, or at the seam of a window that follows its dune.
-bool grains_leave(const GrainConfig& grains);
 /// True if grains that go beyond one end in x come in at the other: without [grains] not.
 bool is_periodic_x(const Config& config);
 /// Half the width of the strip along x in which grains leave a window that follows its dune, one
 /// cell [m]; 0 without such a window. Needs [grains].
 double half_seam_strip(const Config& config);
-
-/// True of a quotient of two times that is a whole number, but for what division leaves.
-bool is_whole(double quotient);
-/// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
-std::int64_t fluid_steps(const TimeConfig& time);
-/// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.
-int grain_substeps(const TimeConfig& time);
-/// The grain step really taken, fluid_step / grain_substeps [s].
-double true_grain_step(const TimeConfig& time);
 
 /// Mean diameter [m] by number of grains; there must be some.
 double mean_diameter(const std::vector<SizeClass>& sizes);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 
 namespace barchan {
 namespace {

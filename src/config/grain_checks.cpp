@@ -7,8 +7,9 @@
 
 #include "src/config/derived.hpp"
 #include "src/config/feed_checks.hpp"
-#include "src/config/kinds.hpp"
-#include "src/config/mesh.hpp"
+#include "src/config/kind_checks.hpp"
+#include "src/grains/kinds.hpp"
+#include "src/fluid/mesh.hpp"
 
 namespace barchan {
 namespace {
@@ -218,7 +219,7 @@ void check_grains(const Config& c, Findings& found) {
 std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeClass>& sizes) {
   Findings found;
   if (!c.grains || sizes.empty()) return {};
-  if (c.fluid && !rows_fit(row_spacing(c))) return {};
+  if (c.fluid && !rows_fit(row_spacing(*c.fluid, c.size[1]))) return {};
   const Derived derived = derive(c, sizes);
   const GrainNumbers& n = *derived.grains;
   const double narrowest = *std::min_element(c.size.begin(), c.size.end());

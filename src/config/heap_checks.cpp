@@ -9,7 +9,7 @@
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/toml/names.hpp"
 
 namespace barchan {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 

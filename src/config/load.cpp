@@ -10,7 +10,7 @@
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/config/steps.hpp"
 #include "src/config/validate.hpp"
 #include "src/toml/case_text.hpp"
@@ -220,9 +220,6 @@ Case checked(Loaded loaded) {
 }
 
 }  // namespace
-
-ConfigError::ConfigError(std::vector<std::string> lines)
-    : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
 
 Case load_case(const fs::path& file, const std::vector<std::string>& overrides,
                const SizesInFile& sizes_in) {

@@ -13,17 +13,6 @@
 
 namespace barchan {
 
-/// All problems of a configuration. `lines`: one per problem, by line of the file, then
-/// "N problems; nothing was run."; what() is the same as one text. Leads to exit code 2.
-class ConfigError : public InputError {
- public:
-  explicit ConfigError(std::vector<std::string> lines);
-  const std::vector<std::string>& lines() const { return lines_; }
-
- private:
-  std::vector<std::string> lines_;
-};
-
 /// A case and the cases that it starts from, read once and handed on.
 struct Case {
   Config config;

@@ -7,11 +7,11 @@
 #include "src/config/body_checks.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/flow_checks.hpp"
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/heap_checks.hpp"
-#include "src/config/kinds.hpp"
-#include "src/config/mesh.hpp"
+#include "src/grains/kinds.hpp"
+#include "src/fluid/mesh.hpp"
 #include "src/config/no_effect.hpp"
 #include "src/config/output_checks.hpp"
 
@@ -66,7 +66,7 @@ void check_flow_step(const Config& c, const FluidNumbers& n, Findings& found) {
 
 /// True if the rows cannot fill the height.
 bool check_rows(const Config& c, Findings& found) {
-  const RowSpacing rows = row_spacing(c);
+  const RowSpacing rows = row_spacing(*c.fluid, c.size[1]);
   if (rows_fit(rows)) return false;
   const std::vector<std::string> keys{"fluid.first_cell_height", "fluid.cells", "domain.size"};
   if (rows.first > rows.height / rows.rows) {

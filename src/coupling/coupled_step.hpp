@@ -20,7 +20,7 @@ namespace barchan {
 /// Unresolved CFD-DEM, model A; also a pure flow or pure grains.
 class CoupledStep {
  public:
-  CoupledStep(const Config& config, SystemState& state);
+  CoupledStep(const CoupledCase& config, SystemState& state);
 
   /// First neighbour list and fluid fraction of a new run.
   void start(SystemState& state);

@@ -1,7 +1,7 @@
 // How wide the skin of each grain is in the neighbour list.
 #pragma once
 
-#include "src/config/config.hpp"
+#include "src/grains/grains_case.hpp"
 #include "src/grains/grain_state.hpp"
 
 namespace barchan {
@@ -10,7 +10,7 @@ namespace barchan {
 /// move a hundred times as fast as the rest.
 class GrainSkins {
  public:
-  GrainSkins(const Config& config, Real r_max);
+  GrainSkins(const GrainsCase& config, Real r_max);
 
   /// Of a grain at rest, half of grains.skin; and of any grain [m].
   Real least() const { return least_; }

@@ -12,7 +12,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/config/load.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/initial/grain_table.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/config/derived.hpp"
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 

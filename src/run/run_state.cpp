@@ -49,7 +49,7 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
     : config(the_case),
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
-      pencils(make_decomposition(config, ranks)),
+      pencils(make_decomposition(config.fluid, ranks)),
       changed_config(restart ? changes_since(*restart, config) : std::vector<std::string>()),
       state(first_state(config, restart, files, ranks, pencils.get())),
       coupled_step(config, state) {

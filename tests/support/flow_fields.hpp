@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "src/config/mesh.hpp"
+#include "src/fluid/mesh.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"

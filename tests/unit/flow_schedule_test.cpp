@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "src/config/derived.hpp"
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
 #include "tests/support/config_problems.hpp"

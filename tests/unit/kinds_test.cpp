@@ -1,5 +1,5 @@
 // Grains of several kinds from the case to the state and its files.
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "kernels/grains/sphere.hpp"
 #include "src/config/heaps.hpp"
 

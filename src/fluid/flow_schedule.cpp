@@ -1,4 +1,4 @@
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 
 #include <algorithm>
 #include <cmath>

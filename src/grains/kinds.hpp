@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/config/config.hpp"
-#include "src/toml/findings.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 
@@ -27,8 +26,5 @@ std::vector<std::string> names_of_kinds(const GrainConfig& grains);
 /// Sizes of another case with its kinds as entries of this one, by name; 0 where there is none.
 std::vector<SizeClass> with_kinds_of(const GrainConfig& grains, const GrainConfig& other,
                                      std::vector<SizeClass> sizes);
-
-/// [[grains.kind]] and [[grains.pair]] against each other and against the rest of [grains].
-void check_kinds(const GrainConfig& grains, Findings& found);
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-#include "src/config/mesh.hpp"
+#include "src/fluid/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,8 @@ bool all_equal(const RowSpacing& s) {
 
 }  // namespace
 
-RowSpacing row_spacing(const Config& config) {
-  const FluidConfig& fluid = config.fluid.value();
-  return {.height = config.size[1],
+RowSpacing row_spacing(const FluidConfig& fluid, double height) {
+  return {.height = height,
           .rows = fluid.cells[1],
           .first = fluid.first_cell_height,
           .uniform_to = fluid.uniform_height};

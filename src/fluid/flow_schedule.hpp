@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 
 namespace barchan {
 

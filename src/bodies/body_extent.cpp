@@ -1,4 +1,4 @@
-#include "src/config/body_extent.hpp"
+#include "src/bodies/body_extent.hpp"
 
 namespace barchan {
 

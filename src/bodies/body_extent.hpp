@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "src/config/config.hpp"
+#include "src/bodies/bodies_case.hpp"
 
 namespace barchan {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 
 namespace barchan {
 
@@ -17,8 +17,8 @@ struct RowSpacing {
   bool operator==(const RowSpacing&) const = default;
 };
 
-/// That of [domain] and [fluid]; `config.fluid` must be there.
-RowSpacing row_spacing(const Config& config);
+/// That of [fluid] in a domain of this height [m].
+RowSpacing row_spacing(const FluidConfig& fluid, double height);
 
 /// Rows that are as high as the first, at least 1.
 int uniform_rows(const RowSpacing& spacing);

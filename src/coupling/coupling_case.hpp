@@ -1,0 +1,40 @@
+// What a case says of the forces between grains and flow.
+#pragma once
+
+#include "kernels/coupling/drag.hpp"
+#include "src/base/time_case.hpp"
+#include "src/fluid/fluid_case.hpp"
+#include "src/grains/grains_case.hpp"
+
+namespace barchan {
+
+using DragLaw = Choice<DragLaws>;
+enum class VoidFraction { divided, cfdem_faithful, centre };
+enum class Exchange { by_row, interpolated, smoothed };
+
+struct ForceSwitches {  // coupling.forces
+  bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
+  bool lift = false, torque = false, wall_drag = false;
+  bool operator==(const ForceSwitches&) const = default;
+};
+
+/// [coupling]
+struct CouplingConfig {
+  DragLaw drag = DragLaw::of<Gidaspow>();
+  VoidFraction void_fraction = VoidFraction::divided;
+  Exchange exchange = Exchange::by_row;
+  double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
+  bool alpha_time_derivative = true;
+  ForceSwitches forces;
+  bool operator==(const CouplingConfig&) const = default;
+};
+
+/// What flow and grains together are computed from, settled once.
+struct CoupledCase {
+  CouplingConfig coupling;
+  TimeConfig time;
+  std::optional<FluidCase> fluid;
+  std::optional<GrainsCase> grains;
+};
+
+}  // namespace barchan
