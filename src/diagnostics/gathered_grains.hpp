@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "src/diagnostics/dune_map.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
