@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "src/bodies/make_bodies.hpp"
 #include "tests/support/body_cases.hpp"
 
 namespace barchan {

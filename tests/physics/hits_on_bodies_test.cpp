@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/bodies/make_bodies.hpp"
 #include "tests/support/body_cases.hpp"
 
 namespace barchan {
