@@ -26,8 +26,8 @@ enum class DragLaw {
   gidaspow_blended,
   none
 };
-enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Exchange { by_row, interpolated, smoothed };
+enum class VoidFraction { divided, centre };
+enum class CouplingScheme { layered, centred, smoothed, cfdem };
 enum class Preconditioner { fft, local_fft };
 
 }  // namespace barchan

@@ -143,11 +143,24 @@ struct ForceSwitches {  // coupling.forces
   bool operator==(const ForceSwitches&) const = default;
 };
 
+/// [coupling.centred], [coupling.smoothed]
+struct CentredConfig {
+  VoidFraction void_fraction = VoidFraction::divided;
+  bool operator==(const CentredConfig&) const = default;
+};
+
+/// [coupling.cfdem]
+struct CfdemConfig {
+  bool smooth_exchange = false;
+  bool operator==(const CfdemConfig&) const = default;
+};
+
 /// [coupling]
 struct CouplingConfig {
   DragLaw drag = DragLaw::gidaspow;
-  VoidFraction void_fraction = VoidFraction::divided;
-  Exchange exchange = Exchange::by_row;
+  CouplingScheme scheme = CouplingScheme::layered;
+  CentredConfig centred, smoothed;
+  CfdemConfig cfdem;
   double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
   bool alpha_time_derivative = true;
   ForceSwitches forces;

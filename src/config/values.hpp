@@ -47,9 +47,9 @@ constexpr auto names_of(DragLaw) {
   return std::array{"gidaspow"sv, "di_felice"sv,      "koch_hill"sv,        "syamlal_obrien"sv,
                     "beetstra"sv, "paper_repaired"sv, "gidaspow_blended"sv, "none"sv};
 }
-constexpr auto names_of(Exchange) { return std::array{"by_row"sv, "interpolated"sv, "smoothed"sv}; }
-constexpr auto names_of(VoidFraction) {
-  return std::array{"divided"sv, "cfdem_faithful"sv, "centre"sv};
+constexpr auto names_of(VoidFraction) { return std::array{"divided"sv, "centre"sv}; }
+constexpr auto names_of(CouplingScheme) {
+  return std::array{"layered"sv, "centred"sv, "smoothed"sv, "cfdem"sv};
 }
 constexpr auto names_of(Preconditioner) { return std::array{"fft"sv, "local_fft"sv}; }
 
@@ -65,8 +65,8 @@ static_assert(kChoiceNames<HeapShape>.size() == std::size_t(HeapShape::bed) + 1)
 static_assert(kChoiceNames<FeedAmount>.size() == std::size_t(FeedAmount::as_lost) + 1);
 static_assert(kChoiceNames<BodyShape>.size() == std::size_t(BodyShape::wave) + 1);
 static_assert(kChoiceNames<DragLaw>.size() == std::size_t(DragLaw::none) + 1);
-static_assert(kChoiceNames<Exchange>.size() == std::size_t(Exchange::smoothed) + 1);
 static_assert(kChoiceNames<VoidFraction>.size() == std::size_t(VoidFraction::centre) + 1);
+static_assert(kChoiceNames<CouplingScheme>.size() == std::size_t(CouplingScheme::cfdem) + 1);
 static_assert(kChoiceNames<Preconditioner>.size() == std::size_t(Preconditioner::local_fft) + 1);
 
 /// The members of coupling.forces, by name.

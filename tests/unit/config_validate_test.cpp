@@ -291,7 +291,7 @@ TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
       {"fluid.first_cell_height=2.1e-4", "makes the lowest row 1.05 mean grain diameters: too"},
       {"fluid.cells=[64, 30, 25]", "makes cells 7.8 mean grain diameters long: a dune has a step"},
       {"fluid.cells=[96, 30, 101]", "makes cells 1.98 mean grain diameters narrow: below 2 each"},
-      {"coupling.void_fraction=centre", "smallest cell 0.80 mean grain diameters; recommended"},
+      {"coupling.scheme=centred", "smallest cell 0.80 mean grain diameters; recommended"},
       {"fluid.first_cell_height=3.2e-5", "rows thinner than a sixth of the largest grain"},
       {"coupling.smoothing_length=0", "alpha_f is then noisy"},
       {"coupling.smoothing_length=3e-5", "no effect"},
