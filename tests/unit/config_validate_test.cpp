@@ -95,6 +95,13 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {grains, "grains.contact_model=linear",
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
+      {both, "coupling.centred.void_fraction=centre",
+       "--set coupling.centred.void_fraction = \"centre\": must be absent unless scheme = "
+       "\"centred\""},
+      {both + "[coupling]\nscheme = \"centred\"\n", "coupling.smoothed.void_fraction=centre",
+       "must be absent unless scheme = \"smoothed\""},
+      {both, "coupling.cfdem.smooth_exchange=true", "must be absent unless scheme = \"cfdem\""},
+      {grains, "coupling.scheme=centred", "must be absent without a [fluid] section"},
       {both, "grains.ambient={}", "--set grains.ambient = {  }: contradicts [fluid]"},
       {both, "fluid.kinematic_viscosity=0", "drag needs it"},
       {grains, "grains.frozen=true", "frozen = true: contradicts pour"},
@@ -284,6 +291,13 @@ TEST(ConfigValidate, PouredConeFitsUnderTheTop) {
   };
   EXPECT_TRUE(says(on("2.0e-3"), "the heap would reach about 0.0272 m, above the domain"));
   EXPECT_TRUE(on("2.1e-3").empty());
+}
+
+TEST(ConfigValidate, KeysOfASchemeGoWithIt) {
+  const std::string both =
+      coupled_case() + "[coupling]\nscheme = \"smoothed\"\nsmoothed.void_fraction = \"centre\"\n";
+  EXPECT_TRUE(problems(both).empty());
+  EXPECT_TRUE(problems(both, {"coupling.scheme=layered"}).empty());
 }
 
 TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
