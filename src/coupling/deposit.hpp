@@ -9,10 +9,10 @@
 
 namespace barchan {
 
-/// How the volume of grains becomes a solid fraction.
+/// Points that share out a grain's volume; the largest solid fraction that stays.
 struct GrainVolume {
   PointModel points = PointModel::divided;
-  Real most = Kokkos::Experimental::infinity_v<Real>;  // what is above is dropped
+  Real most = Kokkos::Experimental::infinity_v<Real>;
 };
 
 /// Sums over the grains in cells, and the fluid fraction, after the grain steps of a fluid step.
@@ -22,12 +22,12 @@ class Deposit {
   Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
           CouplingFields& fields, Real most_solid);
 
-  /// First of all: what the grains give, added up on the device, and their columns of cells.
+  /// Adds up what the grains give, and marks their columns of cells, on the device. First of all.
   void add_totals(const ExchangeOfGrain& of_grain, const GrainState& grains,
                   const ExchangeSums& sums) const;
   /// Fetches the totals; then sets the regions of the deposit but those of the exchange.
   void find_cells(const ExchangeSums& sums);
-  /// Volume and exchange of the grains in cells: CellExchange or LayerExchange.
+  /// Adds volume and exchange of the grains (CellExchange, LayerExchange) up in cells.
   template <class Exchange>
   void add(const ExchangeOfGrain& of_grain, const Exchange& exchange, int n_grains) {
     fields_.lend_to_deposit();
@@ -37,11 +37,11 @@ class Deposit {
                          Launch{of_grain, exchange, deposits_, n_grains});
     halo_.scatter_add(deposits_.sum);
   }
-  /// alpha_f from the grains' volume; the old one becomes alpha_f_previous. Books the volume.
+  /// Sets alpha_f; the old one becomes alpha_f_previous. Books the volume.
   void update_fraction(FluidState& fluid, const ExchangeSums& sums) const;
-  /// Before the gather: the solid that belongs to momentum cells, around those that hold grains.
+  /// Adds up the solid that belongs to momentum cells, those around `cells`; before the gather.
   void add_solid(const LayerExchange& layers, const GrainState& grains, const Region& cells);
-  /// One quantity as a density in the cells of a region; zero where the grains gave nothing.
+  /// Sets a density to one quantity, in the cells of a region; zero where the grains gave nothing.
   void decode(Deposits::Quantity quantity, const Region& deposited, const Region& cells,
               Field& density) const;
 

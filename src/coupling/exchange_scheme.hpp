@@ -16,20 +16,20 @@ class ExchangeScheme {
  public:
   virtual ~ExchangeScheme() = default;
 
-  /// alpha_f and alpha_f_previous of grains that have just been placed.
+  /// Sets alpha_f and alpha_f_previous of grains that have just been placed.
   virtual void start(const GrainState& grains, FluidState& fluid) = 0;
-  /// What the flow does to each grain in the grain steps of a fluid step of dt [s].
+  /// Sets what acts on each grain in the grain steps of a fluid step of dt [s].
   virtual void gather(const FluidState& fluid, GrainState& grains, Real dt) = 0;
-  /// alpha_f, its old value in alpha_f_previous; the reaction to the grains' impulse.
+  /// Sets alpha_f and its old value, alpha_f_previous; on faces the reaction to the impulse.
   virtual void deposit(const GrainState& grains, FluidState& fluid, Real dt) = 0;
 
-  /// What the flow has to take into account, since the last deposit.
+  /// Exchange on the faces of the flow, since the last deposit.
   virtual const ExchangeOnFaces& on_faces() const = 0;
-  /// What changed sides in the last step.
+  /// Momentum and volume that changed sides in the last step.
   virtual const ExchangeLedger& ledger() const = 0;
 };
 
-/// The scheme that a case names.
+/// Makes the scheme that a case names.
 std::unique_ptr<ExchangeScheme> make_exchange_scheme(const Config& config,
                                                      const FluidSolver& solver,
                                                      const GrainState& grains, const Grid& grid);

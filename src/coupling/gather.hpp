@@ -22,21 +22,22 @@ class Gather {
 
   /// The next step is the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
-  /// First of all: memory for the flow at n grains.
+  /// Reserves memory for the flow at n grains; first of all.
   void reserve_flow(int n);
-  /// The fraction before the smoothing.
+  /// Sets the fraction before the smoothing.
   void undo_smoothing(const FluidState& fluid);
 
-  // Forces per volume of solid. Those on solid are set on faces and in cells, and booked.
+  // Forces per volume of solid [N/m^3]. What the solid takes is booked.
 
+  /// Sets that of the pressure gradient, on faces and in cells.
   void pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums) const;
-  /// On faces alone; and the convective acceleration.
+  /// Sets that of the stress on faces, and the convective acceleration.
   void stress_and_convection(const FluidState& fluid, const Region& cells) const;
-  /// Of the solid 1 - alpha, after stress_and_convection().
+  /// Sets that of the stress in cells, on the solid 1 - alpha; after stress_and_convection().
   void stress_on_solid(const Field& alpha, const NearGrains& where, const ExchangeSums& sums) const;
 
-  /// Last of all: what acts on the grains in the flow that the scheme has found at each. Books the
-  /// forces of pressure gradient and stress.
+  /// Sets what acts on the grains in the flow that the scheme has found at each; last of all. Books
+  /// the forces of pressure gradient and stress on them.
   void act_on(GrainState& grains, const FluidState& fluid, Real dt, const ExchangeSums& sums);
 
   const FlowAtGrains& flow() const { return flow_at_; }

@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// Who exchanges; all but the configuration outlive a scheme.
+/// Parts that a scheme joins; all but the configuration outlive it.
 struct FlowAndGrains {
   const Config& config;
   const FluidSolver& solver;
@@ -15,9 +15,9 @@ struct FlowAndGrains {
   const Grid& grid;
 };
 
-/// Grains smaller than the cells, or as large: a volume fraction and a drag law stand for the flow
-/// around each. A scheme says in gather() and deposit() where grains feel the flow and where the
-/// flow loses what they get; the steps of these that all share are here.
+/// Exchange with grains smaller than the cells, or as large: a volume fraction and a drag law stand
+/// for the flow around each. A scheme says in gather() and deposit() where grains feel the flow and
+/// where the flow loses what they get; the steps of these that all share are here.
 class UnresolvedExchange : public ExchangeScheme {
  public:
   UnresolvedExchange(const UnresolvedExchange&) = delete;
@@ -29,9 +29,9 @@ class UnresolvedExchange : public ExchangeScheme {
  protected:
   UnresolvedExchange(const FlowAndGrains& of, const GrainVolume& volume, bool has_interlayer_drag);
 
-  /// The regions of the gather, and the fluid fraction before its smoothing.
+  /// Sets the regions of the gather, and the fluid fraction before its smoothing.
   void begin_gather(const FluidState& fluid, const GrainState& grains);
-  /// Totals of what the grains give, on the device.
+  /// Adds up what the grains give, on the device.
   ExchangeOfGrain begin_deposit(const GrainState& grains, Real dt);
   void end_deposit(Real dt);
 
