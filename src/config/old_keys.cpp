@@ -11,7 +11,7 @@
 namespace barchan {
 namespace {
 
-// Until version 0.2 coupling.exchange times coupling.void_fraction stood for coupling.scheme.
+// Until version 0.3 coupling.exchange times coupling.void_fraction stood for coupling.scheme.
 constexpr const char *kExchange = "coupling.exchange", *kFraction = "coupling.void_fraction",
                      *kScheme = "coupling.scheme",
                      *kSmoothExchange = "coupling.cfdem.smooth_exchange";
