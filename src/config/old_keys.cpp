@@ -77,11 +77,13 @@ void assign(Node& tree, const Assignment& one) {
 }
 
 std::string in_words(const OldExchange& old, const std::vector<Assignment>& today) {
-  std::string text = "has become coupling.scheme; today:";
+  std::string keys;
   for (const auto& [key, value, is_default] : today)
-    if (!is_default) text += fmt::format(" {} = {}", key, toml_text(value));
+    if (!is_default)
+      keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", key, toml_text(value));
+  std::string text = "has become coupling.scheme; today: " + keys;
   if (old.exchange == "by_row" && old.void_fraction != "divided")
-    text += fmt::format(", as it always was: by_row has no \"{}\"", old.void_fraction);
+    text += fmt::format(" (it always was: by_row has no \"{}\")", old.void_fraction);
   return text;
 }
 

@@ -79,17 +79,17 @@ TEST(OldKeys, AreToldHowTheyAreWrittenToday) {
   };
   EXPECT_EQ(notices("scheme = \"smoothed\"\n"), Lines{});
   EXPECT_EQ(notices("exchange = \"smoothed\"\n"),
-            Lines{"case.toml:14: [coupling] exchange = \"smoothed\": has become coupling.scheme; "
+            Lines{"case.toml:15: [coupling] exchange = \"smoothed\": has become coupling.scheme; "
                   "today: coupling.scheme = \"smoothed\""});
   const std::string became =
-      ": has become coupling.scheme; today: coupling.scheme = \"centred\" "
+      ": has become coupling.scheme; today: coupling.scheme = \"centred\", "
       "coupling.centred.void_fraction = \"centre\"";
   EXPECT_EQ(notices("exchange = \"interpolated\"\n", {"coupling.void_fraction=centre"}),
-            (Lines{"case.toml:14: [coupling] exchange = \"interpolated\"" + became,
+            (Lines{"case.toml:15: [coupling] exchange = \"interpolated\"" + became,
                    "--set coupling.void_fraction = \"centre\"" + became}));
   EXPECT_EQ(notices("void_fraction = \"centre\"\n"),
-            Lines{"case.toml:14: [coupling] void_fraction = \"centre\"" + became +
-                  ", as it always was: by_row has no \"centre\""});
+            Lines{"case.toml:15: [coupling] void_fraction = \"centre\"" + became +
+                  " (it always was: by_row has no \"centre\")"});
   const Case of_before = case_with("exchange = \"by_row\"\n");
   EXPECT_EQ(case_warnings(of_before, of_before.sizes), of_before.notices);
 }
@@ -114,13 +114,13 @@ TEST(OldKeys, AreRefusedWhereTheyCannotBeMeant) {
     EXPECT_EQ(test::problems(coupled_case() + "[coupling]\n" + coupling), test::only(line));
   };
   refused("exchange = \"by_roe\"\n",
-          "case.toml:14: [coupling] exchange = \"by_roe\": must be \"by_row\", \"interpolated\", "
+          "case.toml:15: [coupling] exchange = \"by_roe\": must be \"by_row\", \"interpolated\", "
           "\"smoothed\"; today the key is coupling.scheme");
   refused("void_fraction = 3\n",
-          "case.toml:14: [coupling] void_fraction = 3: must be \"divided\", \"cfdem_faithful\", "
+          "case.toml:15: [coupling] void_fraction = 3: must be \"divided\", \"cfdem_faithful\", "
           "\"centre\"; today the key is coupling.scheme");
   refused("scheme = \"layered\"\nexchange = \"smoothed\"\n",
-          "case.toml:15: [coupling] exchange = \"smoothed\": has become coupling.scheme; today: "
+          "case.toml:16: [coupling] exchange = \"smoothed\": has become coupling.scheme; today: "
           "coupling.scheme = \"smoothed\"; and scheme is set, too");
 }
 
