@@ -25,7 +25,7 @@ enum class GrainFloor { smooth, glued };
 enum class PourShape { cone, bed };
 enum class HeapShape { cone, ridge, bed };
 enum class FeedAmount { given, as_lost };
-enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Exchange { by_row, interpolated, smoothed };
+enum class VoidFraction { divided, centre };
+enum class CouplingScheme { layered, centred, smoothed, cfdem };
 
 }  // namespace barchan

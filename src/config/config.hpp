@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/config/choices.hpp"
+#include "src/config/coupling_config.hpp"
 
 namespace barchan {
 
@@ -135,23 +136,6 @@ struct GrainConfig {
   std::vector<PairConfig> pairs = {};
   std::optional<FeedConfig> feed = {};
   bool operator==(const GrainConfig&) const = default;
-};
-
-struct ForceSwitches {  // coupling.forces
-  bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
-  bool lift = false, torque = false, wall_drag = false;
-  bool operator==(const ForceSwitches&) const = default;
-};
-
-/// [coupling]
-struct CouplingConfig {
-  DragLaw drag = DragLaw::of<Gidaspow>();
-  VoidFraction void_fraction = VoidFraction::divided;
-  Exchange exchange = Exchange::by_row;
-  double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
-  bool alpha_time_derivative = true;
-  ForceSwitches forces;
-  bool operator==(const CouplingConfig&) const = default;
 };
 
 /// [initial] grains = { pour = {...} }: a jittered lattice above the floor that settles.

@@ -139,8 +139,8 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 }  // namespace
 
-bool exchanges_by_row(const CouplingConfig& coupling) {
-  return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
+bool resolves_rows(const CouplingConfig& coupling) {
+  return coupling.scheme == CouplingScheme::layered;
 }
 
 bool grains_leave(const GrainConfig& grains) {
@@ -224,7 +224,7 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
 
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top) {
   Derived derived;
-  derived.by_row = exchanges_by_row(config.coupling);
+  derived.resolves_rows = resolves_rows(config.coupling);
   derived.fluid_steps = fluid_steps(config.time);
   derived.fluid_step = config.time.fluid_step;
   derived.grain_substeps = grain_substeps(config.time);

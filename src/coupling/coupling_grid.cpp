@@ -21,10 +21,6 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidS
 // Deeper in a body there are no grains.
 constexpr Real kLeastKept = 1e-3;
 
-/// Grains of diameter d that lie a diameter apart: of cells of width h, up to (h + d)/d per
-/// direction have their centres in one, and h/d fit in.
-bool may_be_crowded(const Grid& grid, Real d) { return (1 + d / grid.dx) * (1 + d / grid.dz) > 2; }
-
 WallFaces ends_of(const RankAxis& line, int n) {
   WallFaces faces;
   if (line.position == 0) faces.first = 0;
@@ -35,13 +31,11 @@ WallFaces ends_of(const RankAxis& line, int n) {
 }  // namespace
 
 CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow,
-                           Real r_max)
+                           Real r_max, PointModel points)
     : grid(of_flow),
       boundary(solver.boundary()),
       box(grid.box(is_periodic_x(config))),
-      stencil(make_deposit_stencil(config, grid, r_max)),
-      by_row(exchanges_by_row(config.coupling)),
-      crowded(by_row && may_be_crowded(grid, 2 * r_max)),
+      stencil(make_deposit_stencil(config, grid, r_max, points)),
       smoothing_length(config.coupling.smoothing_length),
       reach_of_grain(kOuterShell * r_max),
       walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
