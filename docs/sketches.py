@@ -239,8 +239,8 @@ def water(y):
     return np.where(y > FAST, 0.2 + 0.36 * (y - FAST), 0.2 * np.exp(np.minimum(0, y - FAST) / 0.2))
 
 
-def shares_by_row():
-    """Share w_j of the 29 points of `void_fraction = "divided"` in each row, and their mean height there."""
+def shares_of_layers():
+    """Share w_j of the 29 points of a grain in each row, and their mean height there."""
     shells = [np.zeros(1)] + [np.array([e, -e, 0, 0, 0, 0] + 4 * [e / 2, -e / 2]) for e in (0.6276, 0.9085)]
     y = GRAIN[1] + 0.5 * np.concatenate(shells)
     row = np.floor(y / ROW).astype(int)
@@ -277,9 +277,9 @@ def taken(ax, j, impulse):
         arrow(ax, (3.85, y), (3.85 - size, y), s.VERMILLION, lw=1.6, mutation_scale=min(9, 4 + 10 * size))
 
 
-def draw_by_row(ax):
+def draw_layered(ax):
     bed(ax)
-    w, at = shares_by_row()
+    w, at = shares_of_layers()
     for j, colour in zip(np.flatnonzero(w), (s.PURPLE, s.SKY)):
         piece = Rectangle((-4, j * ROW), 8, ROW, fc=colour, ec="none", alpha=0.8, zorder=3.5)
         ax.add_patch(piece)
@@ -309,7 +309,7 @@ def draw_smoothed(ax):
 
 def draw_exchange():
     figure = Figure(figsize=(s.FULL_WIDTH, 3.5), layout="none")
-    for left, draw, title in ((0.01, draw_by_row, "(a) layer-wise"), (0.51, draw_smoothed, "(b) smoothed over 3 $d$")):
+    for left, draw, title in ((0.01, draw_layered, "(a) layered"), (0.51, draw_smoothed, "(b) smoothed over 3 $d$")):
         ax = figure.add_axes((left, 0.13, 0.48, 0.8))
         frame(ax, (-4.1, 4.1), (-0.3, ROWS * ROW + 0.5))
         ax.text(0, -0.45, draw(ax), ha="center", va="top", fontsize=7.5)

@@ -50,7 +50,7 @@ inline Work list_build(double pairs, double contacts) {
   const double pair = 2 * sizeof(int) + 1 + sizeof(Vec3);
   return {grain + pairs * pair + contacts * 2 * (sizeof(int) + sizeof(Vec3)), 0};
 }
-/// Gather by row: kinematics seven times; flow, its change, convection, pressure and stress, and
+/// Layered gather: kinematics seven times; flow, its change, convection, pressure and stress, and
 /// three fractions written and read; the impulse read; six vectors and three numbers written.
 /// Fields come from cache: four planes of 3 rows, 5 interpolations, 8 means over 29 points.
 inline Work gather() {

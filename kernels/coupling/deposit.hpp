@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/coupling/deposit_cache.hpp"
-#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/coupling/layered_exchange.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/sphere.hpp"
@@ -79,19 +79,26 @@ struct AddTotals {
   }
 };
 
-/// Deposits the volume and the exchange of grains in the cells of their points, or by row. A work
-/// item is some grains that follow one another, one on a device.
-template <int grains_per_item>
+/// Exchange of a grain with the cells of its volume, in the same shares.
+struct CellExchange {
+  static constexpr bool layered = false;
+  DepositStencil stencil;
+};
+
+/// Deposits the volume of grains in the cells of their points, and their exchange there
+/// (CellExchange) or in the layers around them (LayerExchange). A work item is some grains that
+/// follow one another, one on a device.
+template <int grains_per_item, class Exchange>
 struct DepositGrains {
   ExchangeOfGrain of_grain;
-  ExchangeByRow by_row;
+  Exchange exchange;
   Deposits deposits;
   int n = 0;  // all grains
 
   using Cache = DepositCache<(grains_per_item > 1 ? 8 : 1)>;
   static constexpr int items_for(int n) { return (n + grains_per_item - 1) / grains_per_item; }
   KOKKOS_FUNCTION void operator()(int item) const {
-    Cache cache(by_row.stencil.grid, deposits);
+    Cache cache(exchange.stencil.grid, deposits);
     const int end = Kokkos::min((item + 1) * grains_per_item, n);
     for (int g = item * grains_per_item; g < end; ++g) deposit(g, cache);
   }
@@ -99,19 +106,20 @@ struct DepositGrains {
  private:
   KOKKOS_INLINE_FUNCTION void deposit(int g, Cache& cache) const {
     const GrainKinematics grain = of_grain.grains(g);
-    const GrainRows rows = by_row.stencil.rows_of(grain);
+    const GrainRows rows = exchange.stencil.rows_of(grain);
     const GrainExchange given = of_grain(g);
-    to_cells(by_row.stencil(grain, rows), given, cache);
-    if (by_row.on) to_rows(g, rows, by_row.velocity(rows, grain), given.impulse, cache);
+    to_cells(exchange.stencil(grain, rows), given, cache);
+    if constexpr (Exchange::layered)
+      to_layers(g, rows, exchange.velocity(rows, grain), given.impulse, cache);
   }
-  /// By shares of the points; by row the volume alone.
+  /// By shares of the points; with layers the volume alone.
   KOKKOS_INLINE_FUNCTION void to_cells(const GrainCells& cells, const GrainExchange& given,
                                        Cache& cache) const {
     for (int q = 0; q < cells.n; ++q) {
       const Real w = cells.weight(q);
       CellDeposit& cell = cache.at(cells.cell[q]);
       cell.volume += deposits.volume.encode(w * given.volume);
-      if (by_row.on) continue;
+      if constexpr (Exchange::layered) continue;
       cell.impulse_x += deposits.impulse.encode(w * given.impulse.x);
       cell.impulse_y += deposits.impulse.encode(w * given.impulse.y);
       cell.impulse_z += deposits.impulse.encode(w * given.impulse.z);
@@ -121,8 +129,8 @@ struct DepositGrains {
   /// phi (u_ff - u_f))), and the conductance c_f C_j to the row below; upwards w_j J to row j. A
   /// cell that flows faster than the grain sees on average drags it more: the differences add up
   /// to nothing over the grain.
-  KOKKOS_INLINE_FUNCTION void to_rows(int g, const GrainRows& rows, const VelocityByRow& u,
-                                      const Vec3& impulse, Cache& cache) const {
+  KOKKOS_INLINE_FUNCTION void to_layers(int g, const GrainRows& rows, const LayerVelocity& u,
+                                        const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
     const Real K = beta_dt * of_grain.on_grains.inv_fluid_mass(g);
     const Real joined_x = u.x_faces.joined(K), joined_z = u.z_faces.joined(K);
@@ -136,14 +144,14 @@ struct DepositGrains {
         if (c_x > 0) {
           const Real faster =
               (u.x[side][r] - u.mean_of_x[side]) + joined_x * (u.mean_of_x[side] - u.mean_x);
-          CellDeposit& cell = cache.at(by_row.x_face(u, side, j));
+          CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
           cell.conductance_x += deposits.conductance.encode(c_x * C_j);
           cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + beta_dt * faster));
         }
         if (c_z > 0) {
           const Real faster =
               (u.z[side][r] - u.mean_of_z[side]) + joined_z * (u.mean_of_z[side] - u.mean_z);
-          CellDeposit& cell = cache.at(by_row.z_face(u, side, j));
+          CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
           cell.conductance_z += deposits.conductance.encode(c_z * C_j);
           cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + beta_dt * faster));
         }
@@ -155,21 +163,21 @@ struct DepositGrains {
 /// Volume of the grains that belong to each momentum cell along the floor, which may be more than
 /// what of them lies there.
 struct DepositSolid {
-  ExchangeByRow by_row;
+  LayerExchange exchange;
   Kokkos::View<const GrainKinematics*> grains;
   Deposits deposits;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    const GrainRows rows = by_row.stencil.rows_of(grain);
-    const GrainColumn column = by_row.column(rows, grain);
+    const GrainRows rows = exchange.stencil.rows_of(grain);
+    const GrainColumn column = exchange.column(rows, grain);
     for (int r = 0; r < rows.n; ++r) {
       const Real volume = rows.weight(r) * sphere_volume(grain.r);
       for (int side = 0; side < 2; ++side) {
         const Real of_x = column.x_faces.weight(side), of_z = column.z_faces.weight(side);
-        add(by_row.x_face(column, side, rows.row[r]),
+        add(exchange.x_face(column, side, rows.row[r]),
             {.conductance_x = deposits.volume.encode(of_x * volume)});
-        add(by_row.z_face(column, side, rows.row[r]),
+        add(exchange.z_face(column, side, rows.row[r]),
             {.conductance_z = deposits.volume.encode(of_z * volume)});
       }
     }
@@ -177,7 +185,7 @@ struct DepositSolid {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION void add(const CellIndex& cell, const CellDeposit& given) const {
-    deposits.add(cell.linear(by_row.stencil.grid), given);
+    deposits.add(cell.linear(exchange.stencil.grid), given);
   }
 };
 

@@ -10,7 +10,8 @@ namespace barchan {
 /// What goes into one cell, in fixed point.
 struct CellDeposit {
   std::int64_t volume = 0;
-  std::int64_t conductance_x = 0, conductance_z = 0;  // between rows, for the flow along x, along z
+  std::int64_t conductance_x = 0,
+               conductance_z = 0;  // between layers, for the flow along x, along z
   std::int64_t impulse_x = 0, impulse_y = 0, impulse_z = 0;
 
   KOKKOS_FORCEINLINE_FUNCTION CellDeposit& operator+=(const CellDeposit& b) {
@@ -21,8 +22,8 @@ struct CellDeposit {
   }
 };
 
-/// Sums over all grains, on owned cells and the ghosts beside them. By row the conductances and the
-/// impulses along the floor are those of the momentum cells around the faces.
+/// Sums over all grains, on owned cells and the ghosts beside them. Of layers the conductances and
+/// the impulses along the floor are those of the momentum cells around the faces.
 struct Deposits {
   enum Quantity {
     kVolume,

@@ -1,4 +1,4 @@
-// What grains gave to cells and rows, on the faces of the flow. Equations:
+// What grains gave to cells and layers, on the faces of the flow. Equations:
 // docs/theory-coupling.md.
 #pragma once
 
@@ -50,8 +50,9 @@ struct SpreadToFaces {
   }
 };
 
-/// By row those along the floor are on their faces already. And the conductances between rows.
-struct RowsToFaces {
+/// Deposits of layers to faces: those along the floor are on theirs already. And the conductances
+/// between layers.
+struct LayersToFaces {
   GridRef grid;
   Deposits deposits;
   FaceRef given;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/coupling/cell_point_face.hpp"
-#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/coupling/layered_exchange.hpp"
 #include "kernels/fluid/interpolation.hpp"
 #include "kernels/fluid/momentum.hpp"
 #include "kernels/fluid/stencil.hpp"
@@ -56,7 +56,7 @@ struct FlowAtGrains {
   Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
   Kokkos::View<Vec3*> stress;           // force of the stress, likewise
   Kokkos::View<Real*> alpha_f;          // fraction of the flow
-  Kokkos::View<Real*> alpha_l;          // what the drag law reads: by row the mean over the grain's
+  Kokkos::View<Real*> alpha_l;          // what the drag law reads: of layers the mean over its
                                         // cells before the smoothing, else alpha_f
   Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
 };
@@ -125,7 +125,7 @@ struct FlowOverCells {
   DepositStencil stencil;
   ConstFieldRef alpha_f, unsmoothed;
   bool with_pressure = false, with_stress = false;
-  CellVectorRef pressure, stress;
+  CellVectorRef pressure{}, stress{};
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
@@ -147,9 +147,9 @@ struct FlowOverCells {
   }
 };
 
-/// Velocity and its rate of change in the rows that a grain lies in; upwards, convection and the
+/// Velocity and its rate of change in the layers that a grain lies in; upwards, convection and the
 /// fraction, at its centre; and what its cells hold.
-struct FlowOfRows {
+struct LayeredFlow {
   FlowOverCells over_cells;
   PeriodicBox box;
   ConstFaceRef u, du_dt, u_grad_u;
@@ -192,7 +192,7 @@ struct FlowOfRows {
   }
   KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
                                       const PointStencil& at, Real solid_per_fluid) const {
-    const VelocityByRow v(rows, at, f, solid_per_fluid);
+    const LayerVelocity v(rows, at, f, solid_per_fluid);
     return {v.mean_x, interpolate(f.y, at.centres, at.y_face), v.mean_z};
   }
 };

@@ -10,7 +10,6 @@
 #include "src/config/heaps.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
-#include "src/config/validate.hpp"
 
 namespace barchan {
 
@@ -51,7 +50,7 @@ int run_check(const CommandLine& line, std::ostream& out) {
   if (memory_of_case(config, planned.sizes) < memory_of_machine())
     cost = as_input([&] { return estimate(the_case, folder, planned); });
   out << to_text(derived) << memory_line(config, planned.sizes) << cost;
-  const auto warnings = config_warnings(config, planned.sizes);
+  const auto warnings = case_warnings(the_case, planned.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
   if (line.resolved) out << "\n# The case, every default filled in\n\n" << to_toml(config);

@@ -13,8 +13,8 @@
 #include "src/bodies/make_bodies.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/grains/grain_skins.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
 
@@ -79,7 +79,7 @@ InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
   InitialGrains poured = checked_grains(pours, {});  // throws as the run would
   // What loses no energy does not settle.
   if (loses_no_energy(*config.grains)) return poured;
-  return packed_grains(poured_heaps(pours), pours.size, make_bodies(pours));
+  return packed_grains(poured_heaps(pours), pours.size, make_bodies(pours.bodies, pours.size));
 }
 
 RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {

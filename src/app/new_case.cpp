@@ -12,7 +12,6 @@
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
 #include "src/fluid/mesh.hpp"
-#include "src/config/validate.hpp"
 #include "src/toml/lengths.hpp"
 
 namespace barchan {
@@ -269,7 +268,7 @@ std::string make_new_case(const NewCase& asked) {
       "\n  ./barchan check {0}    what follows from its numbers, and how long it takes\n"
       "  ./barchan run {0}      computes it and draws its pictures\n",
       file);
-  for (const std::string& warning : config_warnings(made.config, made.sizes))
+  for (const std::string& warning : case_warnings(made, made.sizes))
     said += fmt::format("warning: {}\n", warning);
   return said;
 }

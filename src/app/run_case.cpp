@@ -9,7 +9,6 @@
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/load.hpp"
-#include "src/config/validate.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
@@ -33,8 +32,8 @@ void end_if_asked() {
   throw Stopped{};
 }
 
-void warn_of(const Config& config, const std::vector<SizeClass>& sizes) {
-  for (const std::string& warning : config_warnings(config, sizes)) report::warn("{}", warning);
+void warn_of(const Case& the_case, const std::vector<SizeClass>& sizes) {
+  for (const std::string& warning : case_warnings(the_case, sizes)) report::warn("{}", warning);
 }
 
 std::string numbers_of(const Config& config, const std::vector<SizeClass>& sizes) {
@@ -190,7 +189,7 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   if (options.restart) tell_changed_input(the_case, simulation.inputs());
   report::info("  {}", summary(derive(config, sizes)));
   report::details(numbers_of(config, sizes));
-  warn_of(config, sizes);
+  warn_of(the_case, sizes);
   try {
     if (simulation.run() == Outcome::stopped) throw Stopped{};
   } catch (const std::exception& problem) {
@@ -257,7 +256,7 @@ int run_command(const CommandLine& line) {
     report::info("{}", config.title);
     const auto sizes = planned_grains(the_case, run_folder(line)).sizes;
     report::info("{}", numbers_of(config, sizes));
-    warn_of(config, sizes);
+    warn_of(the_case, sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

@@ -7,8 +7,9 @@ namespace barchan {
 
 /// [time]
 struct TimeConfig {
-  double end = 0;               // [s], required
-  double fluid_step = 2.5e-4;   // [s]; in a case both steps are chosen by default (src/case/steps.hpp)
+  double end = 0;  // [s], required
+  double fluid_step =
+      2.5e-4;  // [s]; in a case both steps are chosen by default (src/case/steps.hpp)
   double grain_step = 2.5e-6;   // [s]; fluid_step is cut into ceil(fluid_step / grain_step)
   double wall_clock_limit = 0;  // [s] of wall time, 0: none; then a restart and exit code 3
   bool operator==(const TimeConfig&) const = default;

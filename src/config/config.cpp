@@ -19,12 +19,15 @@ FluidCase Config::fluid_case() const {
 }
 
 GrainsCase Config::grains_case() const {
+  std::vector<std::string> names;
+  for (const BodyConfig& body : bodies) names.push_back(body.name);
   return {.grains = grains.value(),
           .size = size,
           .half_seam_strip = barchan::half_seam_strip(*this),
           .fluid_step = time.fluid_step,
           .keeps_forces = output.grain_forces,
-          .bodies = make_bodies(bodies, size)};
+          .bodies = make_bodies(bodies, size),
+          .body_names = names};
 }
 
 CoupledCase Config::coupled_case() const {

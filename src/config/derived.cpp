@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "src/fluid/flow_schedule.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 namespace {
@@ -133,13 +133,11 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 }  // namespace
 
-bool exchanges_by_row(const CouplingConfig& coupling) {
-  return coupling.exchange == Exchange::by_row && coupling.void_fraction == VoidFraction::divided;
+bool resolves_rows(const CouplingConfig& coupling) {
+  return coupling.scheme == CouplingScheme::layered;
 }
 
-bool is_periodic_x(const Config& config) {
-  return config.grains && is_periodic_x(*config.grains);
-}
+bool is_periodic_x(const Config& config) { return config.grains && is_periodic_x(*config.grains); }
 
 double half_seam_strip(const Config& config) {
   const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
@@ -197,7 +195,7 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
 
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top) {
   Derived derived;
-  derived.by_row = exchanges_by_row(config.coupling);
+  derived.resolves_rows = resolves_rows(config.coupling);
   derived.fluid_steps = fluid_steps(config.time);
   derived.fluid_step = config.time.fluid_step;
   derived.grain_substeps = grain_substeps(config.time);

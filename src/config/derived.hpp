@@ -10,9 +10,8 @@
 
 namespace barchan {
 
-/// True if momentum goes row by row: other void fractions than the divided one have no parts by
-/// row.
-bool exchanges_by_row(const CouplingConfig& coupling);
+/// True if grains feel, and slow, each row of cells on its own: thin rows then resolve a surface.
+bool resolves_rows(const CouplingConfig& coupling);
 
 /// True if grains that go beyond one end in x come in at the other: without [grains] not.
 bool is_periodic_x(const Config& config);
@@ -94,7 +93,7 @@ struct Derived {
   double grain_step = 0;  // [s], the one really taken
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
-  bool by_row = true;                  // exchanges_by_row
+  bool resolves_rows = true;           // of the exchange
 };
 
 /// `sizes` as of the Case; may be empty. `config` must have passed validate. `top`: highest

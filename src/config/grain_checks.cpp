@@ -8,8 +8,8 @@
 #include "src/config/derived.hpp"
 #include "src/config/feed_checks.hpp"
 #include "src/config/kind_checks.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 namespace {
@@ -81,11 +81,12 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
                      "is over a quarter of the height: it would smear the dune away");
 }
 
-/// By row a surface is resolved by thin rows. Where a grain's force goes to the cells around its
-/// centre, or is smeared, the rule of Lima et al. (2022) holds for the smallest cell.
+/// Thin rows resolve a surface where the exchange goes row by row. Where a grain's force goes to
+/// the cells around its centre, or is smeared, the rule of Lima et al. (2022) holds for the
+/// smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const KeyNames keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
-  if (!exchanges_by_row(c.coupling)) {
+  if (!resolves_rows(c.coupling)) {
     found.warning_if(n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
                      "makes the smallest cell {:.2f} mean grain diameters; recommended with this "
                      "exchange: 1.2 to 1.6",

@@ -136,19 +136,29 @@ void add_coupling(Sections& all) {
            [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
   key("drag", &C::drag, "drag law");
-  key("void_fraction", &C::void_fraction,
-      "distribution of the volume of a grain over cells; \"cfdem_faithful\": this and the velocity "
-      "at "
-      "the grain as in CFDEM");
-  key("exchange", &C::exchange,
-      "momentum exchange: layer by layer over the height of a grain; with the flow interpolated to "
-      "its centre; or interpolated, then smoothed");
+  key("scheme", &C::scheme,
+      "exchange of momentum: layer by layer over the height of a grain; with the flow interpolated "
+      "to its centre; likewise, then smoothed; or as in CFDEM");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
-      "smoothing length of the void fraction, and of the exchange \"smoothed\"; 0: no smoothing")
+      "smoothing length of the void fraction, and of the exchange if that is smoothed; 0: no "
+      "smoothing")
       .by_default = "3 d";
   key("alpha_time_derivative", &C::alpha_time_derivative,
       "include d(alpha_f)/dt in the continuity equation");
   key("forces", &C::forces, "forces of the flow on the grains");
+}
+
+void add_schemes(Sections& all) {
+  const char* of_volume = "distribution of the volume of a grain over cells";
+  Keys centred(add(all, "coupling.centred", "Of the scheme \"centred\""),
+               [](auto& c) { return &c.coupling.centred; });
+  centred("void_fraction", &CentredConfig::void_fraction, of_volume);
+  Keys smoothed(add(all, "coupling.smoothed", "Of the scheme \"smoothed\""),
+                [](auto& c) { return &c.coupling.smoothed; });
+  smoothed("void_fraction", &CentredConfig::void_fraction, of_volume);
+  Keys cfdem(add(all, "coupling.cfdem", "Of the scheme \"cfdem\""),
+             [](auto& c) { return &c.coupling.cfdem; });
+  cfdem("smooth_exchange", &CfdemConfig::smooth_exchange, "smooths the exchange of momentum, too");
 }
 
 void add_initial(Sections& all) {
@@ -256,10 +266,10 @@ const Sections& sections() {
   static const Sections all = [] {
     Sections made;
     for (auto* add :
-         {add_case,     add_time,    add_domain,  add_fluid,      add_schedule, add_grains,
-          add_wall,     add_kinds,   add_pairs,   add_ambient,    add_feed,     add_bodies,
-          add_coupling, add_initial, add_pour,    add_heaps,      add_craters,  add_output,
-          add_probes,   add_slices,  add_restart, add_statistics, add_solver}) {
+         {add_case,     add_time,    add_domain,  add_fluid,   add_schedule,   add_grains,
+          add_wall,     add_kinds,   add_pairs,   add_ambient, add_feed,       add_bodies,
+          add_coupling, add_schemes, add_initial, add_pour,    add_heaps,      add_craters,
+          add_output,   add_probes,  add_slices,  add_restart, add_statistics, add_solver}) {
       add(made);
     }
     return made;

@@ -10,9 +10,9 @@
 #include "src/base/words.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/heaps.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/config/steps.hpp"
 #include "src/config/validate.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/toml/case_text.hpp"
 #include "src/toml/lengths.hpp"
 #include "src/toml/reading.hpp"
@@ -193,8 +193,11 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
   if (parsed) reading.inherit();
   parsed = reading.problems().empty();
   reading.set(overrides);
+  if (parsed) reading.renew_old_keys();
   if (parsed) reading.drop_switched_off();
   if (parsed) read_case(reading, file, context, loaded);
+  for (const auto& [where, notice] : reading.notices())
+    loaded.result.notices.push_back(fmt::format("{}: {}", to_string(where), notice));
   const auto by_line = [](const Problem& a, const Problem& b) {
     return unsigned(a.where.line) - 1 < unsigned(b.where.line) - 1;  // no line: last
   };
@@ -233,6 +236,12 @@ Case load_case_text(std::string_view text, const fs::path& file,
   return checked(load(text, file, overrides, {}));
 }
 
+std::vector<std::string> case_warnings(const Case& the_case, const std::vector<SizeClass>& sizes) {
+  std::vector<std::string> lines = the_case.notices;
+  std::ranges::copy(config_warnings(the_case.config, sizes), std::back_inserter(lines));
+  return lines;
+}
+
 Config load_config(const fs::path& file, const std::vector<std::string>& overrides) {
   return load_case(file, overrides).config;
 }
@@ -244,11 +253,13 @@ Config load_config_text(std::string_view text, const fs::path& file,
 
 Config config_as_written(std::string_view resolved, const fs::path& file) {
   ConfigReader reading(resolved, file);
+  reading.renew_old_keys();
   return as_read(reading, file);
 }
 
 bool says(std::string_view resolved, const Config& config) {
   ConfigReader reading(resolved, config.file);
+  reading.renew_old_keys();
   return as_read(reading, config.file) == config && !reading.has_bad_keys();
 }
 

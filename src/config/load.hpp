@@ -21,7 +21,8 @@ struct Case {
   bool random = false;  // its start, or one behind it, draws random numbers: turbulent
                         // flow or poured grains
   std::shared_ptr<const Case> flow_start,
-      grain_start;  // initial.fluid, .grains where they are cases
+      grain_start;                        // initial.fluid, .grains where they are cases
+  std::vector<std::string> notices = {};  // keys of earlier versions, and how to write them today
 };
 
 /// Reads the sizes of the grains in a file, .csv or .h5, that a case starts from; throws InputError
@@ -55,5 +56,8 @@ Config config_as_written(std::string_view resolved, const std::filesystem::path&
 bool says(std::string_view resolved, const Config& config);
 /// The same of `file`, a config.toml.
 bool is_written_in(const std::filesystem::path& file, const Config& config);
+
+/// What is unwise in a case with grains of these sizes, and what it writes as earlier versions did.
+std::vector<std::string> case_warnings(const Case& the_case, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

@@ -15,6 +15,11 @@ bool is_hertzian(const Config& c) {
 
 constexpr const char* kWithoutFluid = "must be absent without a [fluid] section";
 constexpr const char* kWithoutGrains = "must be absent without a [grains] section";
+template <CouplingScheme scheme>
+bool is_scheme(const Config& c) {
+  return c.coupling.scheme == scheme;
+}
+
 constexpr const char* kWithSprings =
     "must be absent with contact_model = \"linear\", which has a linear_stiffness";
 
@@ -32,6 +37,12 @@ constexpr Need kNeeds[] = {
     {"coupling", "grains", has_grains, kWithoutGrains},
     {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
      "must be absent without \"drag\" in coupling.forces"},
+    {"coupling.centred", "coupling.scheme", is_scheme<CouplingScheme::centred>,
+     "must be absent unless scheme = \"centred\""},
+    {"coupling.smoothed", "coupling.scheme", is_scheme<CouplingScheme::smoothed>,
+     "must be absent unless scheme = \"smoothed\""},
+    {"coupling.cfdem", "coupling.scheme", is_scheme<CouplingScheme::cfdem>,
+     "must be absent unless scheme = \"cfdem\""},
     {"solver", "fluid", has_fluid, kWithoutFluid},
     {"time.grain_step", "grains", has_grains, kWithoutGrains},
     {"fluid.wale_constant", "fluid.turbulence",

@@ -8,8 +8,8 @@
 #include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/step_limit.hpp"
 #include "src/config/derived.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 namespace {
@@ -78,7 +78,8 @@ double grain_step_limit(const Config& config, const std::vector<SizeClass>& size
 /// Of the flow, and of grains that sink in it [s].
 double fluid_step_limit(const Config& config, const std::vector<SizeClass>& sizes) {
   if (!config.fluid) return 100 * grain_step_limit(config, sizes);
-  if (!rows_fit(row_spacing(*config.fluid, config.size[1]))) return kNoLimit;  // an error that is told
+  if (!rows_fit(row_spacing(*config.fluid, config.size[1])))
+    return kNoLimit;  // an error that is told
   Config one = config;
   one.time.fluid_step = one.time.grain_step = 1;
   const Derived of_one_second = derive(one, sizes);

@@ -63,7 +63,7 @@ constexpr Synonym kSynonyms[] = {
     {"dump", "", "output.grains_interval"},
     {"thermo", "", "output.history_interval"},
     {"smoothingLength", "", "coupling.smoothing_length"},
-    {"voidFractionModel", "", "coupling.void_fraction"},
+    {"voidFractionModel", "", "coupling.scheme"},
 };
 
 }  // namespace barchan

@@ -7,13 +7,13 @@
 #include "src/config/body_checks.hpp"
 #include "src/config/derived.hpp"
 #include "src/config/flow_checks.hpp"
-#include "src/fluid/flow_schedule.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/heap_checks.hpp"
-#include "src/grains/kinds.hpp"
-#include "src/fluid/mesh.hpp"
 #include "src/config/no_effect.hpp"
 #include "src/config/output_checks.hpp"
+#include "src/fluid/flow_schedule.hpp"
+#include "src/fluid/mesh.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 namespace {

@@ -42,7 +42,7 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     add_fluid(*state.grains);
     add_exchange(*state.grains, config.coupling.forces);
     fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), config.coupling.forces);
-    coupling_ = std::make_unique<Coupling>(config, *fluid_, *state.grains, state.fluid->grid);
+    exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
   } else if (grains.ambient) {
     add_fluid(*state.grains);
@@ -61,8 +61,8 @@ void CoupledStep::start(SystemState& state) {
         });
   }
   if (grains_) grains_->start(*state.grains);
-  if (coupling_)
-    coupling_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
+  if (exchange_)
+    exchange_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
   if (!fluid_) return;
   fluid_->fill_ghosts(*state.fluid);
   fluid_->flow_around_bodies(*state.fluid);
@@ -79,9 +79,9 @@ void CoupledStep::advance(SystemState& state) {
 void CoupledStep::gather(SystemState& state) {
   if (!grains_) return;
   GrainState& grains = *state.grains;
-  const PhaseTimer timer(phases_, coupling_ ? "exchange" : "grains");
-  if (coupling_) {
-    coupling_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
+  const PhaseTimer timer(phases_, exchange_ ? "exchange" : "grains");
+  if (exchange_) {
+    exchange_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
     fluid_side_.to_grain_ranks(grains, kGatherWrites);
   } else {
     still_.grains = grains.kin;
@@ -107,16 +107,16 @@ void CoupledStep::move_grains(SystemState& state, int n) {
 }
 
 void CoupledStep::deposit(SystemState& state) {
-  if (!coupling_) return;
+  if (!exchange_) return;
   const PhaseTimer timer(phases_, "deposit");
-  coupling_->deposit(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid, dt_);
+  exchange_->deposit(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid, dt_);
 }
 
 void CoupledStep::advance_fluid(SystemState& state) {
   if (fluid_) {
     const PhaseTimer timer(phases_, "fluid");
     fluid_report_ =
-        fluid_->advance(*state.fluid, coupling_ ? &coupling_->on_faces() : nullptr, dt_);
+        fluid_->advance(*state.fluid, exchange_ ? &exchange_->on_faces() : nullptr, dt_);
   }
   phases_["fluid"] -= fluid_report_.seconds_pressure;
   phases_["pressure"] += fluid_report_.seconds_pressure;
@@ -127,7 +127,7 @@ void CoupledStep::close_step(SystemState& state) {
   GrainState& grains = *state.grains;
   const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
-  if (coupling_) ledger_.close_step(coupling_->ledger(), grains);
+  if (exchange_) ledger_.close_step(exchange_->ledger(), grains);
   if (feed_) {
     feed_->advance(grains, grains_->list());
   } else {
@@ -136,8 +136,8 @@ void CoupledStep::close_step(SystemState& state) {
 }
 
 Vec3 CoupledStep::impulse_on_grains() const {
-  if (!coupling_) return {};
-  const ExchangeLedger& step = coupling_->ledger();
+  if (!exchange_) return {};
+  const ExchangeLedger& step = exchange_->ledger();
   return step.given_to_grains + step.flow_on_grains;
 }
 

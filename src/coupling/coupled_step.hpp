@@ -7,8 +7,8 @@
 
 #include "kernels/coupling/still_fluid.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/config/config.hpp"
-#include "src/coupling/coupling.hpp"
+#include "src/coupling/coupling_case.hpp"
+#include "src/coupling/exchange_scheme.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/coupling/system_state.hpp"
 #include "src/fluid/fluid_solver.hpp"
@@ -45,7 +45,7 @@ class CoupledStep {
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
   /// What changed sides in the last step, and since the run began.
-  const ExchangeLedger& exchange() const { return coupling_->ledger(); }
+  const ExchangeLedger& exchange() const { return exchange_->ledger(); }
   const Ledger& ledger() const { return ledger_; }
   /// Of the flow on all grains in the last step [N s].
   Vec3 impulse_on_grains() const;
@@ -68,7 +68,7 @@ class CoupledStep {
   std::unique_ptr<FluidSolver> fluid_;
   std::unique_ptr<GrainSolver> grains_;
   std::optional<GrainFeed> feed_;
-  std::unique_ptr<Coupling> coupling_;
+  std::unique_ptr<ExchangeScheme> exchange_;
   FluidSideGrains fluid_side_;
   FluidStepReport fluid_report_;
   Ledger ledger_;

@@ -9,20 +9,34 @@
 namespace barchan {
 
 using DragLaw = Choice<DragLaws>;
-enum class VoidFraction { divided, cfdem_faithful, centre };
-enum class Exchange { by_row, interpolated, smoothed };
+enum class VoidFraction { divided, centre };
+enum class CouplingScheme { layered, centred, smoothed, cfdem };
 
-struct ForceSwitches {  // coupling.forces
+/// coupling.forces
+struct ForceSwitches {
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
   bool lift = false, torque = false, wall_drag = false;
   bool operator==(const ForceSwitches&) const = default;
 };
 
+/// [coupling.centred], [coupling.smoothed]
+struct CentredConfig {
+  VoidFraction void_fraction = VoidFraction::divided;
+  bool operator==(const CentredConfig&) const = default;
+};
+
+/// [coupling.cfdem]
+struct CfdemConfig {
+  bool smooth_exchange = false;
+  bool operator==(const CfdemConfig&) const = default;
+};
+
 /// [coupling]
 struct CouplingConfig {
   DragLaw drag = DragLaw::of<Gidaspow>();
-  VoidFraction void_fraction = VoidFraction::divided;
-  Exchange exchange = Exchange::by_row;
+  CouplingScheme scheme = CouplingScheme::layered;
+  CentredConfig centred, smoothed;
+  CfdemConfig cfdem;
   double smoothing_length = 6e-4;  // [m], 0: off; in a case 3 d by default, as in the paper
   bool alpha_time_derivative = true;
   ForceSwitches forces;

@@ -4,7 +4,8 @@
 
 namespace barchan {
 
-CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at)
+CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at,
+                               bool has_interlayer_drag)
     : of_grains(at.grid),
       of_fraction(at.grid),
       smoothed(at.grid),
@@ -26,10 +27,10 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
   if (at.smoothing_length > 0) {
     alpha_before_smoothing = Field("coupling: fraction before smoothing", at.grid);
   }
-  if (!at.by_row) return;
+  if (!has_interlayer_drag) return;
   on_faces.stress_share = alpha_before_smoothing;
-  on_faces.conductance_x = Field("coupling: conductance between rows, x", at.grid);
-  on_faces.conductance_z = Field("coupling: conductance between rows, z", at.grid);
+  on_faces.conductance_x = Field("coupling: conductance between layers, x", at.grid);
+  on_faces.conductance_z = Field("coupling: conductance between layers, z", at.grid);
   solid_x = on_faces.conductance_x, solid_z = on_faces.conductance_z;
 }
 

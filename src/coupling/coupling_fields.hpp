@@ -10,7 +10,7 @@ namespace barchan {
 /// before it was read for the last time. Most of this memory is the flow solver's, who needs it
 /// only within its steps. The constructor, and nothing else, says which memory is whose.
 struct CouplingFields {
-  CouplingFields(const FluidSolver& solver, const CouplingGrid& at);
+  CouplingFields(const FluidSolver& solver, const CouplingGrid& at, bool has_interlayer_drag);
   CouplingFields(const CouplingFields&) = delete;
 
   /// Nothing that was written before is read any more; poison.hpp.
@@ -33,8 +33,8 @@ struct CouplingFields {
   // the last fluid step has read and the next deposit writes.
   CellVector stress_in_cells;
 
-  // Gather by row, what of the solid belongs to the momentum cells around faces, per volume. Shares
-  // memory with the conductances of `on_faces`, likewise.
+  // Layered gather, what of the solid belongs to the momentum cells around faces, per volume.
+  // Shares memory with the conductances of `on_faces`, likewise.
   Field solid_x, solid_z;
 
   // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
@@ -44,7 +44,7 @@ struct CouplingFields {
   Region smoothed;
   FlowRegions of_flow;
   // And those that grains give to; those whose impulse goes to the faces of `of_flow.exchange`,
-  // unless by row.
+  // without layers.
   Region deposited, of_impulse;
 
   // Kept through the fluid step.
@@ -52,7 +52,7 @@ struct CouplingFields {
   ExchangeOnFaces on_faces;      // set by the deposit
 
   /// The fraction before the smoothing, with ghosts: alpha_f itself without one.
-  const Field& alpha_l(const FluidState& fluid) const {
+  const Field& unsmoothed(const FluidState& fluid) const {
     return alpha_before_smoothing.storage.size() > 0 ? alpha_before_smoothing : fluid.alpha_f;
   }
 };

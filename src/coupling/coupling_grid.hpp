@@ -18,7 +18,8 @@ struct CellVector {
 
 /// Nothing of it changes over a run.
 struct CouplingGrid {
-  CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow, Real r_max);
+  CouplingGrid(const CoupledCase& config, const FluidSolver& solver, const Grid& of_flow,
+               Real r_max, PointModel points);
 
   /// Clears `marks`, and marks the columns of cells that these grains give to, and read from.
   void mark_columns_of(const GrainState& grains) const;
@@ -37,8 +38,6 @@ struct CouplingGrid {
   Boundary boundary;
   PeriodicBox box;  // of the grains
   DepositStencil stencil;
-  bool by_row;   // the exchange of momentum
-  bool crowded;  // by row, and twice as many grains may belong to a momentum cell as lie there
   Real smoothing_length;  // [m]; 0: none
   Real reach_of_grain;    // of its points from its centre [m]
   EvenExtension walls;    // of the grains, where the smoothing ends

@@ -4,41 +4,60 @@
 #include "kernels/coupling/deposit_on_faces.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
+#include "src/parallel/halo.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
-/// Fluid fraction and exchange of momentum on the faces, after the grain steps of a fluid step.
+/// Points that share out a grain's volume; the largest solid fraction that stays.
+struct GrainVolume {
+  PointModel points = PointModel::divided;
+  Real most = Kokkos::Experimental::infinity_v<Real>;
+};
+
+/// Sums over the grains in cells, and the fluid fraction, after the grain steps of a fluid step.
 /// Grid and fields outlive it.
 class Deposit {
  public:
-  Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
-          CouplingFields& fields);
+  Deposit(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
+          CouplingFields& fields, Real most_solid);
 
-  /// alpha_f from the grains' volume, and their exchange on the faces; the old alpha_f is kept in
-  /// alpha_f_previous. Books what the grains give and what arrives.
-  void operator()(const GrainState& grains, FluidState& fluid, Real dt, const ExchangeSums& sums);
+  /// Adds up what the grains give, and marks their columns of cells, on the device. First of all.
+  void add_totals(const ExchangeOfGrain& of_grain, const GrainState& grains,
+                  const ExchangeSums& sums) const;
+  /// Fetches the totals; then sets the regions of the deposit but those of the exchange.
+  void find_cells(const ExchangeSums& sums);
+  /// Adds volume and exchange of the grains (CellExchange, LayerExchange) up in cells.
+  template <class Exchange>
+  void add(const ExchangeOfGrain& of_grain, const Exchange& exchange, int n_grains) {
+    fields_.lend_to_deposit();
+    clear(fields_.deposited);
+    using Launch = DepositGrains<kOnHost ? 128 : 1, Exchange>;
+    Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(n_grains)),
+                         Launch{of_grain, exchange, deposits_, n_grains});
+    halo_.scatter_add(deposits_.sum);
+  }
+  /// Sets alpha_f; the old one becomes alpha_f_previous. Books the volume.
+  void update_fraction(FluidState& fluid, const ExchangeSums& sums) const;
+  /// Adds up the solid that belongs to momentum cells, those around `cells`; before the gather.
+  void add_solid(const LayerExchange& layers, const GrainState& grains, const Region& cells);
+  /// Sets a density to one quantity, in the cells of a region; zero where the grains gave nothing.
+  void decode(Deposits::Quantity quantity, const Region& deposited, const Region& cells,
+              Field& density) const;
 
-  /// Before the gather, in crowded cells: the solid of the momentum cells, with ghosts.
-  void solid_of_momentum_cells(const GrainState& grains, const FluidState& fluid);
+  const Deposits& sums() const { return deposits_; }
+  bool keeps_volume() const { return most_solid_ == GrainVolume{}.most; }
 
  private:
-  ExchangeByRow exchange_by_row(const FluidState& fluid) const;
-  void add_totals(const ExchangeOfGrain& of_grain, const GrainState& grains,
-                  const FluidState& fluid, const ExchangeSums& sums);
-  void find_cells();
-  void bound_sums(const ExchangeSums& sums);
-  void clear(const Region& cells);
-  void update_fraction(FluidState& fluid, const ExchangeSums& sums);
-  void rows_to_faces(const ExchangeSums& sums);
-  void spread_to_faces(const ExchangeSums& sums);
-  void decode(Deposits::Quantity quantity, const FixedPoint& point, const Region& deposited,
-              const Region& cells, Field& density) const;
+  void fetch_totals(const ExchangeSums& sums);
+  void clear(const Region& cells) const;
 
-  CouplingConfig config_;
   const CouplingGrid& grid_;
   CouplingFields& fields_;
   Halo halo_;
   Deposits deposits_;
+  Real most_solid_;
+  bool alpha_time_derivative_;
 };
 
 }  // namespace barchan

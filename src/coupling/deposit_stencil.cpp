@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
+#include "src/base/errors.hpp"
 #include "src/parallel/decomposition.hpp"
 
 namespace barchan {
@@ -23,13 +22,11 @@ void set_ends(const RankAxis& line, bool periodic, int n, Real& length, int& low
 
 }  // namespace
 
-DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max) {
-  const bool periodic_x = is_periodic_x(config);
-  const bool periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
-  const VoidFraction kind = config.coupling.void_fraction;
-  DepositStencil stencil = deposit_stencil_in(grid, PointModel::divided, periodic_x);
-  if (kind == VoidFraction::centre) stencil.points = PointModel::centre;
-  if (kind == VoidFraction::cfdem_faithful) stencil.points = PointModel::cfdem;
+DepositStencil make_deposit_stencil(const CoupledCase& config, const Grid& grid, Real r_max,
+                                    PointModel points) {
+  const bool periodic_x = is_periodic_x(config.grains->grains);
+  const bool periodic_z = config.grains->grains.boundary_z == GrainBoundaryZ::periodic;
+  DepositStencil stencil = deposit_stencil_in(grid, points, periodic_x);
   const RankAxis along_x = grid.ranks ? grid.ranks->along_x() : RankAxis{};
   const RankAxis along_z = grid.ranks ? grid.ranks->along_z() : RankAxis{};
   set_ends(along_x, periodic_x, grid.nx, stencil.box.lx, stencil.i_low, stencil.i_high);

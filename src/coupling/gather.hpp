@@ -8,33 +8,41 @@
 
 namespace barchan {
 
-/// Velocity, share of fluid, drag coefficient and steady forces of the fluid at each grain, before
-/// the grain steps of a fluid step. Grid and fields outlive it.
+/// Forces of the flow on solid in cells; drag coefficient, share of fluid and steady forces of each
+/// grain, from the flow that a scheme finds there. Grid and fields outlive it.
 class Gather {
  public:
-  Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+  Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
          CouplingFields& fields);
 
-  /// First of all: the fraction before the smoothing.
-  void undo_smoothing(const FluidState& fluid);
-  /// Books what the flow's pressure gradient and stress do.
-  void operator()(const FluidState& fluid, GrainState& grains, Real dt, const ExchangeSums& sums);
   /// The next step is the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
+  /// Reserves memory for the flow at n grains; first of all.
+  void reserve_flow(int n);
+  /// Sets the fraction before the smoothing.
+  void undo_smoothing(const FluidState& fluid);
+
+  // Forces per volume of solid [N/m^3]. What the solid takes is booked.
+
+  /// Sets that of the pressure gradient, on faces and in cells.
+  void pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums) const;
+  /// Sets that of the stress on faces, and the convective acceleration.
+  void stress_and_convection(const FluidState& fluid, const Region& cells) const;
+  /// Sets that of the stress in cells, on the solid 1 - alpha; after stress_and_convection().
+  void stress_on_solid(const Field& alpha, const NearGrains& where, const ExchangeSums& sums) const;
+
+  /// Sets what acts on the grains in the flow that the scheme has found at each; last of all. Books
+  /// the forces of pressure gradient and stress on them.
+  void act_on(GrainState& grains, const FluidState& fluid, Real dt, const ExchangeSums& sums);
+
+  const FlowAtGrains& flow() const { return flow_at_; }
+  const FluidForces& forces() const { return forces_; }
+  Real rho_f() const { return rho_f_; }
 
  private:
-  void reserve_flow_at(int n);
-  void pressure_gradient(const FluidState& fluid, const GrainState& grains,
-                         const ExchangeSums& sums);
-  void smoothed_pressure_gradient(const FluidState& fluid, const ExchangeSums& sums);
-  void stress(const FluidState& fluid, const GrainState& grains, const ExchangeSums& sums);
   void fill_faces_beside(FaceVector& force, const Region& cells) const;
   void to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                 CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const;
-  void at_centres(const FaceVector& force, const GrainState& grains,
-                  const Kokkos::View<Vec3*>& at) const;
-  void flow_at_grains(const FluidState& fluid, const GrainState& grains);
-  void flow_of_cfdem(const FluidState& fluid, const GrainState& grains);
   void drag_and_share(const GrainState& grains, Real dt) const;
   void lift_and_torque(const FluidState& fluid, const GrainState& grains) const;
 
@@ -44,8 +52,7 @@ class Gather {
   DragLaws::Variant drag_;
   SubmergedWeight weight_;
   Real rho_f_, nu_;
-  bool has_floor_;       // no slip at y = 0
-  bool reads_as_cfdem_;  // from the centres of cells
+  bool has_floor_;  // no slip at y = 0
   bool is_first_step_ = false;
   FlowAtGrains flow_at_;
 };

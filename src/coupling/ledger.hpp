@@ -38,8 +38,8 @@ struct ExchangeSums : Tally {
 
   /// What grains give, and the fastest flow, over all ranks.
   void combine_totals(MPI_Comm ranks) const;
-  /// A bound of what all cells together get, each component by its size [N s]. By row grains
-  /// exchange no more than by twice the fastest velocity along x and z.
+  /// A bound of what all cells together get, each component by its size [N s]. In layers
+  /// grains exchange no more than by twice the fastest velocity along x and z.
   Real largest_exchange() const;
   /// Of a step of dt [s], over all ranks.
   ExchangeLedger ledger(MPI_Comm ranks, Real dt) const;

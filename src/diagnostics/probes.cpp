@@ -24,7 +24,7 @@ std::vector<Vec3> points_of(const ProbeConfig& probe) {
 
 void check_probes(const Config& config) {
   if (config.bodies.empty()) return;
-  const Bodies bodies = make_bodies(config);
+  const Bodies bodies = make_bodies(config.bodies, config.size);
   for (const ProbeConfig& probe : config.output.probes) {
     for (const Vec3& x : points_of(probe)) {
       const Bodies::Nearest nearest = bodies.nearest(x);

@@ -61,8 +61,7 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
 
 Grid make_grid(const FluidCase& config, const Decomposition* ranks) {
   const auto& cells = config.fluid.cells;
-  return make_grid(cells[0], cells[2], config.size[0], config.size[2],
-                   config.row_faces, ranks);
+  return make_grid(cells[0], cells[2], config.size[0], config.size[2], config.row_faces, ranks);
 }
 
 std::unique_ptr<const Decomposition> make_decomposition(const std::optional<FluidConfig>& fluid,

@@ -15,8 +15,8 @@ struct FlowRegions {
 /// On faces. Of the impulse wall faces and ghosts are not read.
 struct ExchangeOnFaces {
   FaceVector impulse;                      // momentum per volume given to the fluid [N s/m^3]
-  Field conductance_x{}, conductance_z{};  // of DragBetweenRows, on faces [kg/m^3]; empty: none
-  Field stress_share{};  // of the stress, what the fluid takes; empty: its old fraction
+  Field conductance_x{}, conductance_z{};  // of InterlayerDrag, on faces [kg/m^3]; empty: none
+  Field stress_share{};  // share of the stress that the fluid takes; empty: its old fraction
   const FlowRegions* regions = nullptr;  // none: everywhere. Nothing is read elsewhere
 };
 

@@ -21,8 +21,7 @@ Real bulk_velocity_across(const FluidState& fluid) {
   return flow / sum_each_cell("fluid: volume", grid, HeightSum{grid, fluid.alpha_f});
 }
 
-Real friction_velocity(const FluidState& fluid, const FluidConfig& config,
-                       bool driven_across) {
+Real friction_velocity(const FluidState& fluid, const FluidConfig& config, bool driven_across) {
   const Grid& grid = fluid.grid;
   int walls = 0;
   Real slope = 0;  // sum over the walls of the mean [1/s]

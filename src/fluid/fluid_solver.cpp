@@ -56,7 +56,8 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
       source_("fluid: pressure source", grid),
       c_w_delta_("fluid: filter width", grid.ny),
       loads_(static_cast<std::size_t>(config.bodies.n)),
-      numbers_("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * static_cast<std::size_t>(config.bodies.n)) {
+      numbers_("fluid: numbers",
+               kLoads + BodiesInFlow::kNumbersOfLoad * static_cast<std::size_t>(config.bodies.n)) {
   if (config.bodies.n > 0) bodies_.emplace(config.bodies, grid, boundary_.halo(), config_);
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});

@@ -38,7 +38,7 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid);
 ///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
 ///                                    + alpha f + exchange / rho,
 ///   d(alpha)/dt + div(alpha u) = 0.
-/// Adams-Bashforth for convection and stress; the drag between rows is implicit. One pressure
+/// Adams-Bashforth for convection and stress; interlayer drag is implicit. One pressure
 /// correction projects exactly, up to the tolerance of the pressure equation.
 class FluidSolver {
  public:
@@ -97,7 +97,7 @@ class FluidSolver {
   template <Fraction fraction, bool with_exchange>
   Predict<fraction, with_exchange> prediction(FluidState& fluid, const ExchangeOnFaces* exchange,
                                               Real dt);
-  void drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange);
+  void interlayer_drag(const FluidState& fluid, const ExchangeOnFaces& exchange);
   void update_mobility(const FluidState& fluid, Real dt);
   void find_driven_flow(const FluidState& fluid);
   void push(FluidState& fluid, Real dt);

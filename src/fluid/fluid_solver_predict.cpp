@@ -1,5 +1,5 @@
 // The predictor of the fluid step.
-#include "kernels/fluid/drag_between_rows.hpp"
+#include "kernels/fluid/interlayer_drag.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/parallel/tally_cells.hpp"
 
@@ -54,7 +54,7 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
         regions_->exchange.ref(), prediction<Fraction::variable, true>(fluid, exchange, dt),
         ByRegion{regions_->fraction.cells.ref(),
                  prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water}});
-    drag_between_rows(fluid, *exchange);
+    interlayer_drag(fluid, *exchange);
   } else if (is_variable(fraction_)) {
     predict(ByRegion{regions_->fraction.cells.ref(),
                      prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water});
@@ -64,12 +64,12 @@ void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Re
 }
 
 /// Moves momentum within columns alone, so the flow rate stays.
-void FluidSolver::drag_between_rows(const FluidState& fluid, const ExchangeOnFaces& exchange) {
+void FluidSolver::interlayer_drag(const FluidState& fluid, const ExchangeOnFaces& exchange) {
   if (exchange.conductance_x.storage.size() == 0) return;
   for (const bool along_x : {true, false}) {
     const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
-    for_each_column("fluid: drag between rows", regions_->exchange,
-                    DragBetweenRows{.grid = grid_,
+    for_each_column("fluid: interlayer drag", regions_->exchange,
+                    InterlayerDrag{.grid = grid_,
                                     .rows = regions_->exchange.range().j1,
                                     .conductance = conductance,
                                     .alpha = fluid.alpha_f,

@@ -8,8 +8,8 @@
 
 #include "kernels/fluid/body_faces.hpp"
 #include "src/base/errors.hpp"
-#include "src/fluid/flow_schedule.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/fluid/flow_schedule.hpp"
 
 namespace barchan {
 namespace {

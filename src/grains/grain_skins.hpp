@@ -1,8 +1,8 @@
 // How wide the skin of each grain is in the neighbour list.
 #pragma once
 
-#include "src/grains/grains_case.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 

@@ -107,6 +107,7 @@ struct GrainsCase {
   double fluid_step = 0;         // [s]
   bool keeps_forces = false;     // of each pair, for output
   Bodies bodies;
+  std::vector<std::string> body_names;
 };
 
 /// True if grains leave along x: at the ends, or at the seam of a window that follows its dune.

@@ -15,12 +15,12 @@
 #include "src/config/derived.hpp"
 #include "src/config/grain_checks.hpp"
 #include "src/config/heaps.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/config/load.hpp"
-#include "src/fluid/mesh.hpp"
 #include "src/config/validate.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/fluid/mesh.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/initial/crater.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_flow.hpp"
@@ -46,7 +46,8 @@ Config case_of_flow(const Config& config, const CheckpointReader& file) {
 }
 
 bool same_mesh(const Config& a, const Config& b) {
-  return a.fluid->cells == b.fluid->cells && row_spacing(a) == row_spacing(b);
+  return a.fluid->cells == b.fluid->cells &&
+         row_spacing(*a.fluid, a.size[1]) == row_spacing(*b.fluid, b.size[1]);
 }
 
 /// Of the same mesh with the same bits, of another one interpolated.
@@ -183,7 +184,8 @@ std::string source_of_grains(const Config& config, const std::filesystem::path& 
 InitialGrains checked_grains(const Config& config, const std::filesystem::path& file) {
   const std::vector<HeapConfig> heaps = poured_heaps(config);
   InitialGrains grains =
-      heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size, make_bodies(config));
+      heaps.empty() ? read_grains(file)
+                    : pour_grains(heaps, config.size, make_bodies(config.bodies, config.size));
   const std::string source = source_of_grains(config, file);
   if (grains.size() == 0) throw InputError(source + " holds no grains");
   grains.last_id = std::max(grains.last_id, std::ranges::max(grains.id));

@@ -116,7 +116,7 @@ void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double 
 
 void check_outside_bodies(const InitialGrains& grains, const Config& config,
                           const std::string& source) {
-  const Bodies bodies = make_bodies(config);
+  const Bodies bodies = make_bodies(config.bodies, config.size);
   const double most = config.grains->frozen ? 0.5 : std::min(config.grains->max_overlap, 0.5);
   for (int b = 0; b < bodies.n; ++b) {
     std::size_t count = 0, deepest = 0;
@@ -143,7 +143,7 @@ void check_feed_places(const Config& config, double d_min, double d_max) {
   if (config.bodies.empty() || !config.grains || !config.grains->feed) return;
   if (config.grains->boundary_x == GrainBoundaryX::follow) return;  // its places move
   const FeedConfig& feed = *config.grains->feed;
-  const Bodies bodies = make_bodies(config);
+  const Bodies bodies = make_bodies(config.bodies, config.size);
   for (const double d : {d_min, d_max})
     if (!in_bodies_everywhere(feed, config.size[2], d / 2, bodies)) return;
   throw InputError(fmt::format(

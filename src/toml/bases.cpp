@@ -103,13 +103,15 @@ void ConfigReader::leave_out(Node& all, const Node& name) {
   if (!sets_it) report_at(&name, nullptr, kWithout, "must be a section or a key that the base has");
 }
 
+/// Where a value was set: 1 in a base, 2 in the file, 3 by an assignment; 0: nowhere.
+int ConfigReader::layer_of(const Node* node) const {
+  if (node == nullptr) return 0;
+  return node->where.line == 0 ? 3 : node->where.file == file_.string() ? 2 : 1;
+}
+
 bool ConfigReader::is_switched_off(const std::string& dotted, const std::string& by) const {
-  const auto layer = [&](const Node* node) {
-    if (node == nullptr) return 0;
-    return node->where.line == 0 ? 3 : node->where.file == file_.string() ? 2 : 1;
-  };
-  const int own = layer(tree_.find(dotted));
-  return own == 1 || (own == 2 && layer(tree_.find(by)) == 3);
+  const int own = layer_of(tree_.find(dotted));
+  return own == 1 || (own == 2 && layer_of(tree_.find(by)) == 3);
 }
 
 void ConfigReader::drop_switched_off() {

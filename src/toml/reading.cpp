@@ -200,16 +200,14 @@ void ConfigReader::report_at(const Node* node, const Node* around, const std::st
 }
 
 /// What was assigned on the command line names its key already.
-void ConfigReader::add_problem(const Location& where, const std::string& dotted, bool is_section,
-                               const Node* node, const std::string& message) {
+Problem ConfigReader::problem(const Location& where, const std::string& dotted, bool is_section,
+                              const Node* node, const std::string& message) const {
   const auto [section, name] = split(dotted);
-  if (where.line != 0 || where.file != assigned_name(dotted)) {
-    problems_.push_back({where, sentence(section, name, is_section, node, message)});
-    return;
-  }
+  if (where.line != 0 || where.file != assigned_name(dotted))
+    return {where, sentence(section, name, is_section, node, message)};
   const bool valued = node != nullptr && !is_section;
   const std::string value = valued ? fmt::format(" = {}", toml_text(*node)) : "";
-  problems_.push_back({{where.file + value, 0}, message});
+  return {{where.file + value, 0}, message};
 }
 
 void ConfigReader::report_conflict(const std::string& dotted, const std::string& message) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ class ConfigReader {
   void inherit();
   /// Applies "key=value" assignments in order, before anything is read.
   void set(const std::vector<std::string>& assignments);
+  /// Replaces keys of earlier versions by those of today, and keeps a notice of each; defined, as
+  /// vocabulary.hpp, where the keys are.
+  void renew_old_keys();
   /// Leaves out keys that have no effect, where a later layer has switched them off: who sets
   /// contact_model need not delete the elastic constants. Layers: bases, the file, assignments.
   void drop_switched_off();
@@ -53,6 +57,8 @@ class ConfigReader {
 
   const Node& tree() const { return tree_; }
   std::vector<Problem>& problems() { return problems_; }
+  /// Keys of earlier versions, and how they are written today.
+  const std::vector<Problem>& notices() const { return notices_; }
 
  private:
   struct LengthInDiameters {
@@ -66,6 +72,7 @@ class ConfigReader {
   void add_base(Node& all, const Node& name, const std::filesystem::path& file,
                 const std::vector<std::filesystem::path>& chain);
   void leave_out(Node& all, const Node& name);
+  bool take_old_word(const char* key, std::span<const std::string_view> words, std::string& word);
   bool is_switched_off(const std::string& dotted, const std::string& by) const;
   void drop(const std::string& dotted);
 
@@ -76,8 +83,13 @@ class ConfigReader {
   void read_keys(const Section& section, const Node& table, Config& config, std::size_t entry);
   void report_at(const Node* node, const Node* around, const std::string& dotted,
                  const std::string& message);
+  Problem problem(const Location& where, const std::string& dotted, bool is_section,
+                  const Node* node, const std::string& message) const;
   void add_problem(const Location& where, const std::string& dotted, bool is_section,
-                   const Node* node, const std::string& message);
+                   const Node* node, const std::string& message) {
+    problems_.push_back(problem(where, dotted, is_section, node, message));
+  }
+  int layer_of(const Node* node) const;
   std::vector<std::string> names_in(const std::string& path) const;
   bool is_section(const std::string& dotted) const;
   void find_unknown(const std::string& section, const Node& node,
@@ -87,7 +99,7 @@ class ConfigReader {
 
   const Sections& table_;
   std::filesystem::path file_;
-  std::vector<Problem> problems_;
+  std::vector<Problem> problems_, notices_;
   Node tree_;
   std::set<std::string> bad_;  // dotted keys and sections
   std::vector<LengthInDiameters> in_diameters_;

@@ -109,7 +109,7 @@ CONTRADICTIONS = [
     Entry("a feed in a window", FOLLOW + " ;; [grains.feed] rate = 1e4 ;; [grains.feed] x = 2e-3 ;; " + SHORT, code=0),
     Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),
     Entry("cells smaller than grains", "-[fluid] first_cell_height ;; [fluid] cells = [100, 50, 60] ;; " + FLUID_STEP +
-          '1e-4 ;; [coupling] exchange = "smoothed"', "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),
+          '1e-4 ;; [coupling] scheme = "smoothed"', "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),
 ]
 
 

@@ -63,7 +63,7 @@ FOLDERS = [
     line("no folder for temporary files", RUN, "no gone | TMPDIR", env={"TMPDIR": "gone"}),
     under("as 900000000", "no memory for the flow", "not enough memory | fewer fluid.cells", code=1, edits=
           "[fluid] cells = [300, 300, 100] ;; -[fluid] first_cell_height ;; [time] fluid_step = 1e-5 ;; "
-          '[time] grain_step = 2e-6 ;; [coupling] void_fraction = "centre"'),
+          '[time] grain_step = 2e-6 ;; [coupling] scheme = "centred"'),
 ]
 
 RANKS = [

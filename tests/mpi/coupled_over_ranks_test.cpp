@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "src/coupling/coupled_step.hpp"
-#include "src/coupling/coupling.hpp"
-#include "src/coupling/deposit_stencil.hpp"
+#include "src/coupling/deposit.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_case.hpp"
+#include "tests/support/coupling_schemes.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"
 
@@ -76,9 +76,9 @@ struct AtGrains {
   KOKKOS_FUNCTION void operator()(int g, Real& sum) const { sum += impulse(g).x * found(g).x; }
 };
 
-Config heap_at_the_seam(VoidFraction points, GrainBoundaryX x) {
+Config heap_at_the_seam(const test::Scheme& scheme, GrainBoundaryX x) {
   Config c = test::coupled_config();
-  c.coupling.void_fraction = points;
+  scheme.choose(c.coupling);
   c.grains->boundary_x = x;
   c.initial.fluid = "still";
   c.initial.pour->centre = {0.0062, 0.0031};  // across the middle, where pencils meet
@@ -101,10 +101,9 @@ void expect_fraction_of_one_rank(const Config& c, double tolerance, const Look& 
 }
 
 TEST(CoupledOverRanks, FluidFractionHasTheBitsOfOneRank) {
-  for (const VoidFraction points :
-       {VoidFraction::divided, VoidFraction::centre, VoidFraction::cfdem_faithful}) {
+  for (const test::Scheme& scheme : test::kSchemes) {
     for (const GrainBoundaryX x : {GrainBoundaryX::exit, GrainBoundaryX::periodic}) {
-      expect_fraction_of_one_rank(heap_at_the_seam(points, x), 0, [](const Grid& grid, auto here) {
+      expect_fraction_of_one_rank(heap_at_the_seam(scheme, x), 0, [](const Grid& grid, auto here) {
         double least = 1;
         for (int k = 0; k < grid.nz; ++k)
           for (int i = 0; i < grid.nx; ++i) least = std::min(least, here(i, 0, k));
@@ -116,7 +115,7 @@ TEST(CoupledOverRanks, FluidFractionHasTheBitsOfOneRank) {
 
 /// A heap in the corner of walls that the flow passes: nothing of it is smoothed through them.
 TEST(CoupledOverRanks, WallsOfTheGrainsKeepTheSolidFractionInside) {
-  Config c = heap_at_the_seam(VoidFraction::divided, GrainBoundaryX::wall);
+  Config c = heap_at_the_seam(test::kSchemes[0], GrainBoundaryX::wall);
   c.grains->boundary_z = GrainBoundaryZ::wall;
   c.coupling.smoothing_length = 3e-4;
   c.size = {0.036, 0.006, 0.036};
@@ -163,17 +162,14 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
     const ExchangeOfGrain of_grain{
         .dt = 1, .grains = there.kin, .on_grains = there.fluid, .exchange = there.exchange};
-    const DepositStencil stencil = make_deposit_stencil(c, grid, there.r_max);
+    const DepositStencil stencil = make_deposit_stencil(c, grid, there.r_max, PointModel::divided);
     Deposits deposits;
     deposits.sum = decltype(deposits.sum)("test: deposits", CellIndex::count(grid));
     deposits.impulse = fixed_point_for(1e4);
-    using Launch = DepositGrains<7>;
+    using Launch = DepositGrains<7, CellExchange>;
     Kokkos::parallel_for(
         "test: scatter", Launch::items_for(there.n),
-        Launch{.of_grain = of_grain,
-               .by_row = {.on = false, .stencil = stencil, .box = {}, .u = {}, .alpha_f = {}},
-               .deposits = deposits,
-               .n = there.n});
+        Launch{.of_grain = of_grain, .exchange = {stencil}, .deposits = deposits, .n = there.n});
     Halo(grid, Deposits::kQuantities).scatter_add(deposits.sum);
     Field f("f", grid);
     test::set_field(f, grid, [&](int i, int j, int k) {

@@ -9,6 +9,7 @@
 #include "src/parallel/poison.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
+#include "tests/support/coupling_schemes.hpp"
 #include "tests/support/same_state.hpp"
 #include "tests/support/shared_folder.hpp"
 
@@ -51,16 +52,12 @@ const Surroundings kSurroundings[] = {
      }}};
 
 struct Case {
-  Exchange exchange;
-  VoidFraction void_fraction;
+  const test::Scheme& scheme;
   Real smoothing_length;  // [m]
   const Surroundings& around;
 
   std::string name() const {
-    const char* const exchanges[] = {"by row", "interpolated", "smoothed"};
-    const char* const fractions[] = {"divided", "cfdem_faithful", "centre"};
-    return fmt::format("{}, {}, {} m, {}", exchanges[static_cast<int>(exchange)],
-                       fractions[static_cast<int>(void_fraction)], smoothing_length, around.name);
+    return fmt::format("{}; {} m, {}", scheme.name, smoothing_length, around.name);
   }
 };
 
@@ -72,8 +69,7 @@ Config config_of(const Case& at) {
   c.grains->sizes = {{2e-4, 12}};
   c.initial.pour->centre = {0.0202, 0.0101};
   c.initial.pour->radius = 6e-4;
-  c.coupling.exchange = at.exchange;
-  c.coupling.void_fraction = at.void_fraction;
+  at.scheme.choose(c.coupling);
   c.coupling.smoothing_length = at.smoothing_length;
   c.time.grain_step = 2.5e-5;
   c.grains->material.youngs_modulus = c.grains->wall.youngs_modulus = 5e4;
@@ -100,7 +96,7 @@ void expect_closed(const std::filesystem::path& folder, const Case& at) {
   const auto& ledger = json.at("ledger");
   EXPECT_GT(std::abs(ledger.at("impulse_given_to_grains_x").get<double>()), 1e-12);
   EXPECT_LT(ledger.at("largest_exchange_mismatch"), 1e-9);
-  if (at.void_fraction != VoidFraction::cfdem_faithful) {
+  if (at.scheme.keeps_volume()) {
     EXPECT_LT(ledger.at("largest_volume_mismatch"), 1e-9);
   }
   if (std::string(at.around.name) != "fed") return;
@@ -123,17 +119,14 @@ void whole_and_in_two_pieces(const Case& at) {
 }
 
 /// Every option with every other one takes two minutes, which is for the night; in the short choice
-/// all pairs of exchange with anything else occur.
+/// each scheme meets both lengths and two thirds of the surroundings.
 std::vector<Case> cases(bool all) {
   std::vector<Case> found;
   int n = 0;
   for (const Surroundings& around : kSurroundings) {
     for (const Real length : {0.0, 6e-4}) {
-      for (const auto points :
-           {VoidFraction::divided, VoidFraction::cfdem_faithful, VoidFraction::centre}) {
-        for (const auto exchange : {Exchange::by_row, Exchange::interpolated, Exchange::smoothed}) {
-          if (all || n++ % 4 == 0) found.push_back({exchange, points, length, around});
-        }
+      for (const test::Scheme& scheme : test::kSchemes) {
+        if (all || n++ % 3 == 0) found.push_back({scheme, length, around});
       }
     }
   }

@@ -20,7 +20,7 @@ constexpr double kDiameter = 2e-4, kSubmerged = 1500 * 9.81, kDensity = 1000;
 /// With the exchange that docs/validation.md has measured.
 Config bed_config() {
   Config c = load_config(BARCHAN_SOURCE_DIR "/configs/validation/cfdem-bed.toml");
-  c.coupling.exchange = Exchange::smoothed;
+  c.coupling.scheme = CouplingScheme::smoothed;
   return c;
 }
 

@@ -14,12 +14,12 @@ constexpr double kDiameter = 2e-4, kWidth = 3.2e-3, kHeight = 2e-3, kBed = 8e-4;
 
 /// A channel with a floor, a flow oblique to the rows of cells, and a post that stands out of a bed
 /// of four layers.
-Config channel_with_post(Exchange exchange, double smoothing) {
+Config channel_with_post(CouplingScheme scheme, double smoothing) {
   Config c = test::water_box({8, 8, 8}, {kWidth, kHeight, kWidth});
   c.fluid->bottom = WallFlow::no_slip;
   c.fluid->schedule = {{.time = 0, .velocity = {0.02, 0.01}}};
   c.grains->frozen = true;
-  c.coupling.exchange = exchange;
+  c.coupling.scheme = scheme;
   c.coupling.smoothing_length = smoothing;
   c.solver.pressure_tolerance = 1e-10;
   c.time.fluid_step = 2e-3;
@@ -72,12 +72,13 @@ void expect_all(const std::string& what, const Vec3& force, const Vec3& drive) {
   test::expect_relative(what + " over the drive along z", force.z / drive.z, 1, 1e-6);
 }
 
-// What grains take where the post is comes from the post. By row the grains get what the water
-// loses; the other exchanges give them the flow at their centres.
+// What grains take where the post is comes from the post. Layered, the grains get what the water
+// loses; the other schemes give them the flow at their centres.
 TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
-  for (const Exchange exchange : {Exchange::by_row, Exchange::smoothed, Exchange::interpolated}) {
+  for (const CouplingScheme scheme :
+       {CouplingScheme::layered, CouplingScheme::smoothed, CouplingScheme::centred}) {
     for (const double smoothing : {0.0, 6e-4}) {
-      const Config c = channel_with_post(exchange, smoothing);
+      const Config c = channel_with_post(scheme, smoothing);
       test::CoupledRun run(c, bed_around(c.bodies[0]));
       run.advance(1300);
       const FluidState& fluid = *run.state.fluid;
@@ -86,11 +87,10 @@ TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
       const ExchangeLedger& exchanged = run.step.exchange();
       const Vec3 taken =
           (1 / run.step.dt()) * (exchanged.taken_from_fluid + exchanged.flow_on_solid);
-      const std::string which =
-          fmt::format("exchange {}, smoothed over {:.1f} d: ", static_cast<int>(exchange),
-                      smoothing / kDiameter);
+      const std::string which = fmt::format(
+          "scheme {}, smoothed over {:.1f} d: ", static_cast<int>(scheme), smoothing / kDiameter);
       expect_all(which + "what water loses", taken + on_floor(run) + post, drive);
-      if (exchange == Exchange::by_row)
+      if (scheme == CouplingScheme::layered)
         expect_all(which + "what all get", on_grains(run) + on_floor(run) + post, drive);
       test::expect_below(which + "volume of the grains in the water, error",
                          run.step.ledger().entries().at("largest_volume_mismatch"), 1e-12);

@@ -53,7 +53,7 @@ TEST(FluidFlow, ExchangeIsTakenUpByAUniformMixture) {
 
 /// Rows of still water, one of which got an impulse, with a drag between them: the velocities solve
 /// (rho alpha dy + C) e = impulse dy, C the matrix of the drag, in the whole box alike.
-TEST(FluidFlow, DragBetweenRowsSharesAnImpulse) {
+TEST(FluidFlow, InterlayerDragSharesAnImpulse) {
   Config config = coupled(test::flow_config({4, 6, 3}, {0.01, 0.02, 0.01}, 0));
   config.fluid->bottom = WallFlow::free_slip;
   config.fluid->first_cell_height = 2e-3;

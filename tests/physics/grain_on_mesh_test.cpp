@@ -95,13 +95,13 @@ TEST(GrainOnMesh, AsCfdemReadsTheFlowItIsThatOfTheCentres) {
   const Vec3 on_a_face{2 * kDx, 1.1e-3, 2.5 * kDz};
   const auto zigzag = [&](int i, double) { return i % 2 == 0 ? u : -u; };
   Config c = paper_mesh();
-  c.coupling.exchange = Exchange::interpolated;
+  c.coupling.scheme = CouplingScheme::centred;
   const auto read = [&](const auto& flow) {
     const CoupledRun run = held_grain(c, on_a_face, flow);
     return host_copy(run.state.grains->fluid.u_f)(0).x;
   };
   EXPECT_NEAR(read(zigzag), u, 1e-14);
-  c.coupling.void_fraction = VoidFraction::cfdem_faithful;
+  c.coupling.scheme = CouplingScheme::cfdem;
   EXPECT_NEAR(read(zigzag), 0, 1e-14);
   c.fluid->bottom = WallFlow::no_slip;
   const double in_shear = shear * on_a_face.y;

@@ -17,7 +17,7 @@ struct Bed {
   double alpha, superficial;  // [-], [m/s]
   double smoothing = 0;       // [m]
   int last = 22;              // of the cells that the grains lie in; the first is 6
-  Exchange exchange = Exchange::by_row;
+  CouplingScheme scheme = CouplingScheme::layered;
 };
 
 /// Frozen grains over x-cells 6 to 22 of 28, two lattice spacings per cell, the flow along x.
@@ -35,7 +35,7 @@ struct FrozenBed {
     c.grains->frozen = true;
     c.grains->skin = 1e-6;
     c.coupling.smoothing_length = bed.smoothing;
-    c.coupling.exchange = bed.exchange;
+    c.coupling.scheme = bed.scheme;
     c.fluid->mean_velocity = bed.superficial / (1 - (1 - bed.alpha) * share);
     return c;
   }
@@ -117,10 +117,10 @@ TEST(PackedBed, ShallowBedResistsAsErgunWhateverTheFractionIsSmoothedOver) {
     for (const double diameters : {0.0, 1.5, 3.0}) {
       Bed bed{0.4, superficial, diameters * kDiameter, 14};
       const std::string what =
-          fmt::format("by row, {} m/s, smoothed over {} d", superficial, diameters);
+          fmt::format("layered, {} m/s, smoothed over {} d", superficial, diameters);
       test::expect_relative("drop over Ergun's, " + what, drop_over_ergun(bed), 1, 0.05);
-      bed.exchange = Exchange::smoothed;
-      test::print_measured("the same with the exchange smoothed", drop_over_ergun(bed), 1, 1);
+      bed.scheme = CouplingScheme::smoothed;
+      test::print_measured("the same smoothed", drop_over_ergun(bed), 1, 1);
     }
   }
 }

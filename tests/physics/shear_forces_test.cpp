@@ -132,7 +132,8 @@ CoupledRun on_the_floor(double shear, const ForceSwitches& forces) {
   c.fluid->first_cell_height = 2.625e-4;
   c.fluid->bottom = WallFlow::no_slip;
   c.coupling.smoothing_length = 6e-4;
-  c.coupling.exchange = Exchange::smoothed;  // the drag law then hardly sees the grain's own volume
+  c.coupling.scheme =
+      CouplingScheme::smoothed;  // the drag law then hardly sees the grain's own volume
   c.coupling.forces = forces;
   c.grains->frozen = true;
   InitialGrains grain;
@@ -174,7 +175,7 @@ TEST(GrainOnFloor, HasNoLiftWithoutTheSwitch) {
 /// The same drag over its reference after half a second in which the grain slows the flow around
 /// it: Couette flow between the floor and a lid ten diameters above, cells of `cell` [m] and the
 /// paper's first row.
-double drag_in_own_wake(double cell, Exchange exchange, double reference) {
+double drag_in_own_wake(double cell, CouplingScheme scheme, double reference) {
   const double shear = 256, length = 6.4e-3, height = 2e-3;
   const int n = static_cast<int>(std::lround(length / cell));
   Config c = test::water_box({n, 6, n}, {length, height, length});
@@ -182,7 +183,7 @@ double drag_in_own_wake(double cell, Exchange exchange, double reference) {
   c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
   c.fluid->top_velocity = shear * height;
   c.coupling.smoothing_length = 6e-4;
-  c.coupling.exchange = exchange;
+  c.coupling.scheme = scheme;
   c.coupling.forces.wall_drag = true;
   c.grains->frozen = true;
   InitialGrains grain;
@@ -197,18 +198,18 @@ TEST(GrainOnFloor, FeelsTheFlowThatItSlows) {
   const double u = 256 * kDiameter / 2, re = u * kDiameter / 1e-6;
   const double known = 1.7005 * 24 / re * (1 + 0.104 * std::pow(re, 0.753)) * std::numbers::pi / 8 *
                        1000 * kDiameter * kDiameter * u * u;
-  const auto check = [&](double cell, Exchange exchange, double tolerance) {
+  const auto check = [&](double cell, CouplingScheme scheme, double tolerance) {
     char claim[100];
     std::snprintf(claim, sizeof claim, "drag in its own wake, cells of %.1f mm, %s", 1e3 * cell,
-                  exchange == Exchange::by_row ? "by row" : "smoothed");
-    test::expect_relative(claim, drag_in_own_wake(cell, exchange, known), 1, tolerance);
+                  scheme == CouplingScheme::layered ? "layered" : "smoothed");
+    test::expect_relative(claim, drag_in_own_wake(cell, scheme, known), 1, tolerance);
   };
-  check(1.6e-3, Exchange::by_row, 0.05);  // the paper's cells
-  check(8e-4, Exchange::by_row, 0.1);
-  check(4e-4, Exchange::by_row, 0.3);
-  check(1.6e-3, Exchange::smoothed, 0.03);
-  check(8e-4, Exchange::smoothed, 0.04);
-  check(4e-4, Exchange::smoothed, 0.06);
+  check(1.6e-3, CouplingScheme::layered, 0.05);  // the paper's cells
+  check(8e-4, CouplingScheme::layered, 0.1);
+  check(4e-4, CouplingScheme::layered, 0.3);
+  check(1.6e-3, CouplingScheme::smoothed, 0.03);
+  check(8e-4, CouplingScheme::smoothed, 0.04);
+  check(4e-4, CouplingScheme::smoothed, 0.06);
 }
 
 // --- What the grain gets the fluid loses. Lift along z, in a flow along x that varies along z:
@@ -251,16 +252,16 @@ double lost_along_z(const Config& c, double& impulse, double& of_grain) {
 TEST(Lift, IsTakenFromTheFluid) {
   Config c = box(only(&ForceSwitches::lift));
   c.coupling.smoothing_length = 2e-3;
-  c.coupling.exchange = Exchange::smoothed;
+  c.coupling.scheme = CouplingScheme::smoothed;
   double impulse = 0, of_grain = 0;
   test::expect_below("momentum of both that lift changes, smoothed",
                      lost_along_z(c, impulse, of_grain), 1e-4);
   test::expect_relative("momentum of the grain along z, impulse of the lift", of_grain, impulse,
                         1e-9);
-  // By row the share of the stress is not smoothed: here the grain gets it.
-  c.coupling.exchange = Exchange::by_row;
+  // Layered, the share of the stress is not smoothed: here the grain gets it.
+  c.coupling.scheme = CouplingScheme::layered;
   c.coupling.forces.stress = c.coupling.forces.pressure_gradient = true;
-  test::expect_below("momentum of both that lift changes, by row",
+  test::expect_below("momentum of both that lift changes, layered",
                      lost_along_z(c, impulse, of_grain), 1e-4);
 }
 

@@ -88,17 +88,17 @@ InitialGrains random_bed(int repeats_z = kRepeats, double step = 1) {
 }
 
 /// A channel over a held bed, cells 4 d wide.
-Config held_bed(Exchange exchange, int rows, double smoothing) {
+Config held_bed(CouplingScheme scheme, int rows, double smoothing) {
   Config c = test::water_box({2, rows, 2}, {kWidth, kHeight, kWidth});
   c.fluid->bottom = WallFlow::no_slip;
   c.grains->frozen = true;
-  c.coupling.exchange = exchange;
+  c.coupling.scheme = scheme;
   c.coupling.smoothing_length = smoothing;
   c.time.fluid_step = 1e-3;
   return c;
 }
 
-Layers program(Exchange exchange, int rows, double smoothing, double lid) {
+Layers program(CouplingScheme scheme, int rows, double smoothing, double lid) {
   Config c = held_bed(exchange, rows, smoothing);
   c.fluid->top = WallFlow::no_slip;
   c.fluid->top_velocity = lid;
@@ -140,11 +140,11 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
   constexpr double lid = 0.26;
   const Layers column = reference_column(lid);
   print("column of 900 rows", column);
-  print("exchange smoothed, 7 rows", program(Exchange::smoothed, 7, 3e-4, lid));
-  print("exchange interpolated, 7 rows", program(Exchange::interpolated, 7, 3e-4, lid));
+  print("exchange smoothed, 7 rows", program(CouplingScheme::smoothed, 7, 3e-4, lid));
+  print("exchange interpolated, 7 rows", program(CouplingScheme::centred, 7, 3e-4, lid));
   for (const int rows : {6, 7, 9}) {
     for (const double smoothing : {0.0, 3e-4, 6e-4}) {
-      const Layers bed = program(Exchange::by_row, rows, smoothing, lid);
+      const Layers bed = program(CouplingScheme::layered, rows, smoothing, lid);
       const std::string what =
           fmt::format("{} rows, smoothed over {:.1f} d", rows, smoothing / kDiameter);
       print(what, bed);
@@ -165,7 +165,7 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
 TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
   constexpr double lid = 0.26;
   for (const double smoothing : {0.0, 6e-4}) {
-    Config c = held_bed(Exchange::by_row, 9, smoothing);
+    Config c = held_bed(CouplingScheme::layered, 9, smoothing);
     c.size[2] = 2 * kWidth;
     c.fluid->cells[2] = 4;
     c.fluid->top = WallFlow::no_slip;
@@ -210,7 +210,7 @@ InitialGrains regular_bed() {
 TEST(ShearedBed, InCellsAsWideAsAGrainStrongDragIsStable) {
   constexpr double lid = 0.01;
   for (const int cells : {6, 8}) {
-    Config c = held_bed(Exchange::by_row, 9, 0);
+    Config c = held_bed(CouplingScheme::layered, 9, 0);
     c.fluid->cells = {cells, 9, cells};
     c.fluid->top = WallFlow::no_slip;
     c.fluid->top_velocity = lid;
@@ -242,7 +242,7 @@ TEST(ShearedBed, InCellsAsWideAsAGrainStrongDragIsStable) {
 TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
   constexpr double gradient = 300;  // [Pa/m]
   for (const double smoothing : {0.0, 3e-4, 6e-4}) {
-    Config c = held_bed(Exchange::by_row, 7, smoothing);
+    Config c = held_bed(CouplingScheme::layered, 7, smoothing);
     c.fluid->pressure_gradient = gradient;
     test::CoupledRun run(c, random_bed());
     run.advance(6000);

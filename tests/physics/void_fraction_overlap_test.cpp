@@ -220,7 +220,8 @@ TEST(SmoothingKernel, IntegralAndVariance) {
   const int n = 60;  // 20 L: what the kernel has beyond that is e^-10
   Config config = test::water_box({n, n, n}, {n * h, n * h, n * h});
   config.coupling.smoothing_length = length;
-  config.coupling.void_fraction = VoidFraction::centre;
+  config.coupling.scheme = CouplingScheme::centred;
+  config.coupling.centred.void_fraction = VoidFraction::centre;
   config.grains->frozen = true;
   InitialGrains grain;
   const double at = (n / 2 + 0.5) * h;

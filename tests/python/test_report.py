@@ -5,6 +5,7 @@ import re
 import shlex
 import shutil
 from html import unescape
+from types import SimpleNamespace
 
 import pytest
 from fake_runs import fake
@@ -12,6 +13,7 @@ from fake_runs import fake
 import barchan
 from barchan import report
 from barchan.report import from_config, largest_speed
+from barchan.report.health import ledger
 
 
 @pytest.mark.parametrize("fluid, speed", [
@@ -28,6 +30,16 @@ def test_a_turned_flow_has_its_reynolds_number():
     rows = dict(from_config({"domain": {"size": [0.1, 0.025, 0.04]}, "fluid": {"mean_velocity": [0.0, 0.28]}}))
     assert rows["bulk velocity U"] == "0.28 m/s"
     assert rows["Re = 2 δ U / ν"] == "14000"
+
+
+@pytest.mark.parametrize("coupling, drops", [
+    ({"scheme": "cfdem"}, True),
+    ({"void_fraction": "cfdem_faithful"}, True),  # as earlier versions wrote it
+    ({"scheme": "layered"}, False),
+])
+def test_a_scheme_that_drops_volume_is_said_to(coupling, drops):
+    volume = ledger(SimpleNamespace(config={"coupling": coupling}), {})[0]
+    assert ("drops volume" in volume.about) == drops
 
 
 @pytest.fixture

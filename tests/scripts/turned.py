@@ -23,8 +23,8 @@ mean_velocity = {velocity}
 youngs_modulus = 1.25e6
 boundary_x = "periodic"
 [coupling]
-void_fraction = "centre"  # the 29 points of "divided" lie otherwise along z than along x
-exchange = "smoothed"
+scheme = "smoothed"
+smoothed.void_fraction = "centre"  # the 29 points of "divided" lie otherwise along z than along x
 [initial]
 fluid = "turbulent"
 grains = "{grains}"

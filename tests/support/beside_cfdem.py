@@ -56,9 +56,9 @@ def smoothed(case, folder):
     text = re.sub(r'^(fluid|grains) = "(.*\.toml)"', start, case.read_text(), flags=re.M)
     copy = folder.with_name(f"{folder.name}-cases") / case.name
     copy.parent.mkdir(parents=True, exist_ok=True)
-    if 'exchange = "smoothed"' not in text:
-        text = re.sub(r"^\[coupling\]$", '[coupling]\nexchange = "smoothed"', text, flags=re.M)
-    assert 'exchange = "smoothed"' in text, case
+    if 'scheme = "smoothed"' not in text:
+        text = re.sub(r"^\[coupling\]$", '[coupling]\nscheme = "smoothed"', text, flags=re.M)
+    assert 'scheme = "smoothed"' in text, case
     copy.write_text(text)
     return copy
 

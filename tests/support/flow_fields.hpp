@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "src/fluid/mesh.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/fluid/mesh.hpp"
 
 namespace barchan::test {
 

@@ -95,6 +95,13 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {grains, "grains.contact_model=linear",
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
+      {both, "coupling.centred.void_fraction=centre",
+       "--set coupling.centred.void_fraction = \"centre\": must be absent unless scheme = "
+       "\"centred\""},
+      {both + "[coupling]\nscheme = \"centred\"\n", "coupling.smoothed.void_fraction=centre",
+       "must be absent unless scheme = \"smoothed\""},
+      {both, "coupling.cfdem.smooth_exchange=true", "must be absent unless scheme = \"cfdem\""},
+      {grains, "coupling.scheme=centred", "must be absent without a [fluid] section"},
       {both, "grains.ambient={}", "--set grains.ambient = {  }: contradicts [fluid]"},
       {both, "fluid.kinematic_viscosity=0", "drag needs it"},
       {grains, "grains.frozen=true", "frozen = true: contradicts pour"},
@@ -286,12 +293,19 @@ TEST(ConfigValidate, PouredConeFitsUnderTheTop) {
   EXPECT_TRUE(on("2.1e-3").empty());
 }
 
+TEST(ConfigValidate, KeysOfASchemeGoWithIt) {
+  const std::string both =
+      coupled_case() + "[coupling]\nscheme = \"smoothed\"\nsmoothed.void_fraction = \"centre\"\n";
+  EXPECT_TRUE(problems(both).empty());
+  EXPECT_TRUE(problems(both, {"coupling.scheme=layered"}).empty());
+}
+
 TEST(ConfigValidate, WhatIsUnwiseIsWarnedOf) {
   const std::pair<std::string, std::string> unwise[] = {
       {"fluid.first_cell_height=2.1e-4", "makes the lowest row 1.05 mean grain diameters: too"},
       {"fluid.cells=[64, 30, 25]", "makes cells 7.8 mean grain diameters long: a dune has a step"},
       {"fluid.cells=[96, 30, 101]", "makes cells 1.98 mean grain diameters narrow: below 2 each"},
-      {"coupling.void_fraction=centre", "smallest cell 0.80 mean grain diameters; recommended"},
+      {"coupling.scheme=centred", "smallest cell 0.80 mean grain diameters; recommended"},
       {"fluid.first_cell_height=3.2e-5", "rows thinner than a sixth of the largest grain"},
       {"coupling.smoothing_length=0", "alpha_f is then noisy"},
       {"coupling.smoothing_length=3e-5", "no effect"},

@@ -10,6 +10,7 @@
 #include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/coupled_run.hpp"
+#include "tests/support/coupling_schemes.hpp"
 #include "tests/support/measured.hpp"
 
 namespace barchan {
@@ -60,10 +61,10 @@ TEST(Coupling, LedgerClosesToRoundOff) {
 }
 
 TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
-  for (const VoidFraction v : {VoidFraction::divided, VoidFraction::centre}) {
+  for (const test::Scheme& scheme : {test::kSchemes[0], test::kSchemes[2]}) {
     for (const DragLaw law : DragLaw::all()) {
       Config config = coupled_config();
-      config.coupling.void_fraction = v;
+      scheme.choose(config.coupling);
       config.coupling.drag = law;
       Coupled c(config);
       c.advance(3);
@@ -108,12 +109,12 @@ TEST(Coupling, FluidFractionIsThatOfTheGrainsAndBounded) {
 
 /// One grain in a corner of 40 x 4 x 30 cells of 0.3 mm, smoothed over 0.3 mm; with `images` those
 /// of the grain in walls at x = 0 and z = 0, in a periodic box of twice the size.
-test::CoupledRun grain_in_a_corner(bool images, Exchange exchange = Exchange::by_row) {
+test::CoupledRun grain_in_a_corner(bool images, CouplingScheme scheme = CouplingScheme::layered) {
   constexpr double h = 3e-4;
   const int n = images ? 2 : 1;
   Config c = test::water_box({40 * n, 4, 30 * n}, {40 * n * h, 4 * h, 30 * n * h});
   c.coupling.smoothing_length = h;
-  c.coupling.exchange = exchange;
+  c.coupling.scheme = scheme;
   c.grains->boundary_x = images ? GrainBoundaryX::periodic : GrainBoundaryX::wall;
   c.grains->boundary_z = images ? GrainBoundaryZ::periodic : GrainBoundaryZ::wall;
   InitialGrains grains;
@@ -149,18 +150,19 @@ TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
 /// Exchange with one grain and its images, each lifted by the water.
 ExchangeOnFaces exchange_of(test::CoupledRun& run) {
   const FluidSolver solver(run.config, run.state.fluid->grid);
-  Coupling coupling(run.config, solver, *run.state.grains, run.state.fluid->grid);
-  coupling.gather(*run.state.fluid, *run.state.grains, 1e-4);
+  const auto scheme =
+      make_exchange_scheme(run.config, solver, *run.state.grains, run.state.fluid->grid);
+  scheme->gather(*run.state.fluid, *run.state.grains, 1e-4);
   Kokkos::deep_copy(run.state.grains->fluid.impulse, Vec3{0, 1e-9, 0});
-  coupling.deposit(*run.state.grains, *run.state.fluid, 1e-4);
-  return coupling.on_faces();
+  scheme->deposit(*run.state.grains, *run.state.fluid, 1e-4);
+  return scheme->on_faces();
 }
 
 /// The impulse on faces across y, over its sum: the flow passes the walls of the grains, so the
 /// faces there are shared.
 TEST(Coupling, WallsOfTheGrainsMirrorTheExchange) {
   const auto faces_of = [](bool images) {
-    test::CoupledRun run = grain_in_a_corner(images, Exchange::smoothed);
+    test::CoupledRun run = grain_in_a_corner(images, CouplingScheme::smoothed);
     return test::to_host(exchange_of(run).impulse.y);
   };
   const auto walls = faces_of(false), images = faces_of(true);
@@ -196,10 +198,10 @@ TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   });
 }
 
-/// What the drag law and the stress read by row: the deposited fraction, at the walls, too.
+/// What the drag law and the stress read in layers: the deposited fraction, at the walls, too.
 TEST(Coupling, TheSmoothingIsUndoneAtWallsOfTheGrains) {
   const auto fraction = [](double smoothing) {
-    test::CoupledRun run = grain_in_a_corner(false, Exchange::by_row);
+    test::CoupledRun run = grain_in_a_corner(false, CouplingScheme::layered);
     run.config.coupling.smoothing_length = smoothing;
     test::CoupledRun again(run.config, std::move(run.state));
     if (smoothing == 0) return test::to_host(again.state.fluid->alpha_f);
@@ -262,30 +264,44 @@ Config wide_config() {
 /// Memory that is shared is no number before it is written, and no number beyond the cells in which
 /// it is written: neither is read.
 TEST(Coupling, NothingIsReadThatOthersLeft) {
-  for (const Exchange exchange : {Exchange::by_row, Exchange::interpolated, Exchange::smoothed}) {
-    for (const VoidFraction kind :
-         {VoidFraction::divided, VoidFraction::cfdem_faithful, VoidFraction::centre}) {
-      for (const Real length : {0.0, 6e-4}) {
-        SCOPED_TRACE(static_cast<int>(exchange) * 10 + static_cast<int>(kind));
-        Config config = wide_config();
-        config.coupling.exchange = exchange;
-        config.coupling.void_fraction = kind;
-        config.coupling.smoothing_length = length;
-        Coupled a(config), b(config);
-        a.advance(3);
-        poisons_lent_memory = true;
-        b.advance(3);
-        poisons_lent_memory = false;
-        EXPECT_EQ(owned_values(*a.state.fluid), owned_values(*b.state.fluid));
-        const auto of_a = a.rows(), of_b = b.rows();
-        for (std::size_t g = 0; g < of_a.size(); ++g) EXPECT_EQ(norm(of_a[g].u - of_b[g].u), 0);
-        const auto& ledger = b.step.ledger().entries();
-        EXPECT_LT(ledger.at("largest_exchange_mismatch"), 1e-10);
-        if (kind != VoidFraction::cfdem_faithful) {
-          EXPECT_LT(ledger.at("largest_volume_mismatch"), 1e-12);
-        }
+  for (const test::Scheme& scheme : test::kSchemes) {
+    for (const Real length : {0.0, 6e-4}) {
+      SCOPED_TRACE(scheme.name);
+      Config config = wide_config();
+      scheme.choose(config.coupling);
+      config.coupling.smoothing_length = length;
+      Coupled a(config), b(config);
+      a.advance(3);
+      poisons_lent_memory = true;
+      b.advance(3);
+      poisons_lent_memory = false;
+      EXPECT_EQ(owned_values(*a.state.fluid), owned_values(*b.state.fluid));
+      const auto of_a = a.rows(), of_b = b.rows();
+      for (std::size_t g = 0; g < of_a.size(); ++g) EXPECT_EQ(norm(of_a[g].u - of_b[g].u), 0);
+      const auto& ledger = b.step.ledger().entries();
+      EXPECT_LT(ledger.at("largest_exchange_mismatch"), 1e-10);
+      if (scheme.keeps_volume()) {
+        EXPECT_LT(ledger.at("largest_volume_mismatch"), 1e-12);
       }
     }
+  }
+}
+
+/// Values of the flow after two steps of a scheme.
+std::vector<Real> after_two_steps(const test::Scheme& scheme) {
+  Config config = coupled_config();
+  scheme.choose(config.coupling);
+  Coupled c(config);
+  c.advance(2);
+  return owned_values(*c.state.fluid);
+}
+
+TEST(Coupling, NoTwoSchemesAreTheSame) {
+  std::vector<std::vector<Real>> seen;
+  for (const test::Scheme& scheme : test::kSchemes) {
+    const auto values = after_two_steps(scheme);
+    EXPECT_EQ(std::ranges::count(seen, values), 0) << scheme.name;
+    seen.push_back(values);
   }
 }
 
@@ -337,10 +353,10 @@ TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
 
 /// Of each grain: contact forces to what the contacts gave, all parts and the weight to the total.
 TEST(Coupling, PartsOfTheForceAddUp) {
-  for (const Exchange exchange : {Exchange::smoothed, Exchange::by_row}) {
+  for (const CouplingScheme scheme : {CouplingScheme::smoothed, CouplingScheme::layered}) {
     Config config = coupled_config();
     config.output.grain_forces = true;
-    config.coupling.exchange = exchange;
+    config.coupling.scheme = scheme;
     config.coupling.forces.lift = true;
     Coupled c(config);
     c.advance(5);

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "src/config/derived.hpp"
-#include "src/fluid/flow_schedule.hpp"
 #include "src/config/resolved.hpp"
 #include "src/config/validate.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {

@@ -8,7 +8,6 @@
 #include "src/app/check_case.hpp"
 #include "src/config/load.hpp"
 #include "src/config/resolved.hpp"
-#include "src/config/validate.hpp"
 
 namespace barchan {
 namespace {
@@ -53,7 +52,7 @@ TEST(ShippedConfigs, OnlyWarnOfWhatIsMeant) {
   bool scour_warned = false;
   for (const auto& file : shipped()) {
     const Case the_case = load_case(file);
-    for (const std::string& warning : config_warnings(the_case.config, the_case.sizes)) {
+    for (const std::string& warning : case_warnings(the_case, the_case.sizes)) {
       const auto folder = file.parent_path().filename();
       const bool scour = file.stem() == "scour-cylinder" && warning.find("Shields") != warning.npos;
       scour_warned = scour_warned || scour;

@@ -123,9 +123,10 @@ def ledger(run, summary):
     entries = summary.get("ledger") or {}
     about = {"volume": "Solid volume given to the mesh against that of the grains.",
              "exchange": "Momentum that the grains got against what the water lost."}
-    dropping = run.config.get("coupling", {}).get("void_fraction") == "cfdem_faithful"
-    if dropping:
-        about["volume"] += " coupling.void_fraction = cfdem_faithful drops volume: expected above it."
+    coupling = run.config.get("coupling", {})
+    # The second is how runs of version 0.3 and earlier say it.
+    if coupling.get("scheme") == "cfdem" or coupling.get("void_fraction") == "cfdem_faithful":
+        about["volume"] += " coupling.scheme = cfdem drops volume: expected above it."
     result = []
     for name, text in about.items():
         key = f"largest_{name}_mismatch"

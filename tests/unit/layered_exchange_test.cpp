@@ -1,5 +1,5 @@
 // What a grain sees of the water in each row of cells that it lies in.
-#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/coupling/layered_exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 /// The rows of a grain and the velocities that it sees there.
 struct Seen {
   GrainRows rows;
-  VelocityByRow velocity;
+  LayerVelocity velocity;
 
   Seen(const DepositStencil& stencil, const PeriodicBox& box, const ConstFaceRef& u,
        const GrainKinematics& grain, Real solid_per_fluid)
@@ -47,7 +47,7 @@ struct Water {
   Real off_centre() const { return grid.y_centre(4) + 5e-5; }
 };
 
-TEST(RowExchange, AGrainInOneRowSeesALinearProfile) {
+TEST(LayeredExchange, AGrainInOneRowSeesALinearProfile) {
   const Water w;
   const auto seen = w.at(w.off_centre(), [&](int j) { return 3 * w.grid.y_centre(j); });
   EXPECT_EQ(seen.rows.n, 1);
@@ -56,7 +56,7 @@ TEST(RowExchange, AGrainInOneRowSeesALinearProfile) {
 }
 
 // Rising ever faster, rising ever slower: the slope of the flatter side, also on growing rows.
-TEST(RowExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
+TEST(LayeredExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
   const Water w;
   const auto expect_slope_of_side = [&](int side, const std::function<Real(Real)>& profile) {
     const auto u = [&](int j) { return profile(w.grid.y_centre(j)); };
@@ -69,7 +69,7 @@ TEST(RowExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
 }
 
 // Nineteen of the 29 points lie at or above the centre; neither row sees the other one's water.
-TEST(RowExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
+TEST(LayeredExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const Water w;
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
   ASSERT_EQ(seen.rows.n, 2);
@@ -81,7 +81,7 @@ TEST(RowExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
 }
 
 // A shear across the flow is seen exactly; a step beside the grain's column is not seen.
-TEST(RowExchange, AcrossTheFlowASlopeMakesNoExtremum) {
+TEST(LayeredExchange, AcrossTheFlowASlopeMakesNoExtremum) {
   const Water w;
   const Vec3 point{0.004, w.off_centre(), 2.3 * w.grid.dz};
   const auto shear = w.at(point, 1, [&](int, int, int k) { return 7 * w.grid.z_centre(k); });
@@ -92,7 +92,7 @@ TEST(RowExchange, AcrossTheFlowASlopeMakesNoExtremum) {
 
 // Between an open and a dense momentum cell: alone a grain belongs to both, among others to its
 // own.
-TEST(RowExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
+TEST(LayeredExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
   const Water w;
   const auto seen = [&](Real part, Real solid_per_fluid) {
     const Vec3 point{(2 + part) * w.grid.dx, w.off_centre(), 2.5 * w.grid.dz};
@@ -108,7 +108,7 @@ TEST(RowExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
 }
 
 // Two pieces of water that a grain joins come nearer to each other, and do not overshoot.
-TEST(RowExchange, AGrainJoinsItsFacesNoHarderThanTheWaterStands) {
+TEST(LayeredExchange, AGrainJoinsItsFacesNoHarderThanTheWaterStands) {
   for (const Real part : {0.0, 0.1, 0.46, 0.5, 0.97}) {
     const GrainFaces faces(LinearStencil{3, part}, 0.2);
     const Real both = faces.weight(0) * faces.weight(1);

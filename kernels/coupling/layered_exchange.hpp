@@ -1,6 +1,6 @@
-// Exchange row by row: the part of a grain in a row of cells feels the water of that row at the
+// Layered exchange: the part of a grain in a row of cells feels the water of that row at the
 // grain's centre, and that water loses what it gave. Source and reason:
-// docs/theory-coupling.md, "Layer-wise exchange".
+// docs/theory-coupling.md, "Layered exchange".
 #pragma once
 
 #include "kernels/coupling/void_fraction.hpp"
@@ -15,9 +15,9 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
 }
 
 /// What of beta_p dt joins rows j - 1 and j through one grain: C_j of docs/theory-coupling.md,
-/// "Drag between cell layers",
+/// "Interlayer drag",
 ///   sum over pairs of its rows a < j <= b of w_a w_b (b - a).
-/// At least as stiff as the drag itself (tests/physics/drag_between_rows_test.cpp). Over all j it
+/// At least as stiff as the drag itself (tests/physics/interlayer_drag_test.cpp). Over all j it
 /// adds up to kDividedOffsets^2 / 4 at most. Rows must be higher than a sixth of the grain: then
 /// each between its ends holds a point.
 KOKKOS_INLINE_FUNCTION Real conductance_below(const GrainRows& rows, int j) {
@@ -96,13 +96,13 @@ struct GrainColumn {
 /// the grain belongs to, with slopes upwards and across the flow that make no new extremum. A grain
 /// in a linear shear sees the shear; at the surface of a bed, where the flow above and beside is a
 /// hundred times faster than that between the grains, no grain sees the one for the other.
-struct VelocityByRow : GrainColumn {
+struct LayerVelocity : GrainColumn {
   const GrainRows& rows;
   Real x[2][kDividedOffsets], z[2][kDividedOffsets];  // by face and row
   Real mean_of_x[2], mean_of_z[2];                    // by face
   Real mean_x = 0, mean_z = 0;                        // over the grain
 
-  KOKKOS_INLINE_FUNCTION VelocityByRow(const GrainRows& of_grain, const PointStencil& at,
+  KOKKOS_INLINE_FUNCTION LayerVelocity(const GrainRows& of_grain, const PointStencil& at,
                                        const ConstFaceRef& u, Real solid_per_fluid)
       : GrainColumn(at, solid_per_fluid), rows(of_grain) {
     const Real across_x = at.x_face.t - Real(0.5), across_z = at.z_face.t - Real(0.5);
@@ -142,15 +142,15 @@ struct VelocityByRow : GrainColumn {
   }
 };
 
-/// How velocities and impulses go between a grain and the rows that it lies in.
-struct ExchangeByRow {
-  bool on = false;
+/// Velocities and impulses that pass between a grain and the rows that it lies in.
+struct LayerExchange {
+  static constexpr bool layered = true;
   DepositStencil stencil;
   PeriodicBox box;
   ConstFaceRef u;
   ConstFieldRef alpha_f;  // before the smoothing
 
-  KOKKOS_INLINE_FUNCTION VelocityByRow velocity(const GrainRows& rows,
+  KOKKOS_INLINE_FUNCTION LayerVelocity velocity(const GrainRows& rows,
                                                 const GrainKinematics& grain) const {
     const PointStencil at(stencil.grid, box, grain.x, rows.row[0]);
     return {rows, at, u, solid_per_fluid_at(alpha_f, at, rows)};

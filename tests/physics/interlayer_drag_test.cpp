@@ -1,12 +1,12 @@
 // Grains that lie in two rows of cells couple the rows: how stiff, and each column solved.
-#include "kernels/fluid/drag_between_rows.hpp"
+#include "kernels/fluid/interlayer_drag.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "kernels/coupling/row_exchange.hpp"
+#include "kernels/coupling/layered_exchange.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -27,7 +27,7 @@ struct GrainInThinRows {
 
 // What rows exchange through a grain is D u, D = diag(w) - w w^T. The chain of conductances is at
 // least as stiff: no velocities for which it takes less. With two rows it is the same.
-TEST(DragBetweenRows, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
+TEST(InterlayerDrag, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   const GrainInThinRows thin;
   const int n = 80;
   double slackest = 0, stiffest = 0;
@@ -67,8 +67,8 @@ test::HostField noise(const GridRef& grid, double seed, double low, double high)
   });
 }
 
-// Each column on its own: (m + C)(u' - u) = m (u* - u), C the matrix of the drag between rows.
-TEST(DragBetweenRows, SolvesEachColumnOfFaces) {
+// Each column on its own: (m + C)(u' - u) = m (u* - u), C the matrix of the interlayer drag.
+TEST(InterlayerDrag, SolvesEachColumnOfFaces) {
   const test::HostGrid host = thick_rows();
   const GridRef grid = host.ref();
   const int n = 9;
@@ -79,15 +79,15 @@ TEST(DragBetweenRows, SolvesEachColumnOfFaces) {
     // No grain above row 6, and none that lies in rows 2 and 3.
     const auto c = test::host_field(
         grid, [&](int i, int j, int k) { return j > 6 || j == 3 ? 0 : drag.ref()(i, j, k); });
-    const DragBetweenRows solve{.grid = grid,
-                                .rows = grid.ny,
-                                .conductance = c.ref(),
-                                .alpha = alpha.ref(),
-                                .u = u.ref(),
-                                .density = 1000,
-                                .along_x = along_x,
-                                .u_star = star.ref(),
-                                .pivot = pivot.ref()};
+    const InterlayerDrag solve{.grid = grid,
+                               .rows = grid.ny,
+                               .conductance = c.ref(),
+                               .alpha = alpha.ref(),
+                               .u = u.ref(),
+                               .density = 1000,
+                               .along_x = along_x,
+                               .u_star = star.ref(),
+                               .pivot = pivot.ref()};
     const int i = 2, k = 3, i0 = along_x ? i - 1 : i, k0 = along_x ? k : k - 1;
     const auto on_face = [&](const test::HostField& f, int j) {
       return (f.ref()(i0, j, k0) + f.ref()(i, j, k)) / 2;

@@ -1,4 +1,4 @@
-// Grains that lie in several rows of cells drag the rows along with each other.
+// Drag between layers: grains that lie in several rows of cells drag these along with each other.
 #pragma once
 
 #include "kernels/fluid/stencil.hpp"
@@ -11,7 +11,7 @@ namespace barchan {
 ///   m_j (e_j - e*_j) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
 /// C_j the conductance between rows j - 1 and j. Implicit, so stable at any step; no momentum is
 /// lost. The drag at the old velocities is in u* already (docs/theory-coupling.md).
-struct DragBetweenRows {
+struct InterlayerDrag {
   GridRef grid;
   int rows = 0;               // those above have no conductance
   ConstFieldRef conductance;  // C_j / dy_j on these faces [kg/m^3]

@@ -1,0 +1,37 @@
+// How flow and grains exchange volume and momentum, once per fluid step.
+#pragma once
+
+#include <memory>
+
+#include "src/coupling/ledger.hpp"
+#include "src/fluid/exchange_on_faces.hpp"
+#include "src/fluid/fluid_solver.hpp"
+
+namespace barchan {
+
+/// One of the schemes of coupling.scheme: gather before the grain steps, deposit after them. Where
+/// the grid is cut, `grains` are those whose centres lie in this rank's pencil (FluidSideGrains),
+/// and all ranks call every member together.
+class ExchangeScheme {
+ public:
+  virtual ~ExchangeScheme() = default;
+
+  /// Sets alpha_f and alpha_f_previous of grains that have just been placed.
+  virtual void start(const GrainState& grains, FluidState& fluid) = 0;
+  /// Sets what acts on each grain in the grain steps of a fluid step of dt [s].
+  virtual void gather(const FluidState& fluid, GrainState& grains, Real dt) = 0;
+  /// Sets alpha_f and its old value, alpha_f_previous; on faces the reaction to the impulse.
+  virtual void deposit(const GrainState& grains, FluidState& fluid, Real dt) = 0;
+
+  /// Exchange on the faces of the flow, since the last deposit.
+  virtual const ExchangeOnFaces& on_faces() const = 0;
+  /// Momentum and volume that changed sides in the last step.
+  virtual const ExchangeLedger& ledger() const = 0;
+};
+
+/// Makes the scheme that a case names.
+std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
+                                                     const FluidSolver& solver,
+                                                     const GrainState& grains, const Grid& grid);
+
+}  // namespace barchan
