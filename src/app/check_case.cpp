@@ -6,10 +6,10 @@
 #include "src/app/estimate.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 
 namespace barchan {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
 #include "src/fluid/mesh.hpp"
 #include "src/toml/lengths.hpp"
 

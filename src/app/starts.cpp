@@ -8,9 +8,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/config/ensemble_member.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/ensemble_member.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
 #include "src/grains/kinds.hpp"

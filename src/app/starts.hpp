@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/app/command_line.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/run/folder_checks.hpp"
 

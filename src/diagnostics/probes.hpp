@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/diagnostics/flow_at_points.hpp"
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/diagnostics/probe_table.hpp"
 #include "src/fluid/fluid_state.hpp"
 

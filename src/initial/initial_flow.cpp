@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 #include "src/fluid/flow_schedule.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"

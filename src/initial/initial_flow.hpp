@@ -1,7 +1,7 @@
 // The flows to start from that are not in a file.
 #pragma once
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 
 namespace barchan {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/coupling/system_state.hpp"
 #include "src/grains/initial_grains.hpp"
 

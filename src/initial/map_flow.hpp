@@ -1,7 +1,7 @@
 // The flow of one mesh on another.
 #pragma once
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 
 namespace barchan {

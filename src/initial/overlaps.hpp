@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/output/grain_state_file.hpp"

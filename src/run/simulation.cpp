@@ -6,7 +6,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/stop_request.hpp"
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/watchdog.hpp"

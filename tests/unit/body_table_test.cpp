@@ -5,7 +5,7 @@
 
 #include "kernels/bodies/body.hpp"
 #include "src/bodies/make_bodies.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {

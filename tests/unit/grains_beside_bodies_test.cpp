@@ -7,7 +7,7 @@
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/bodies/make_bodies.hpp"
-#include "src/config/heaps.hpp"
+#include "src/case/heaps.hpp"
 #include "src/coupling/state_checks.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
