@@ -32,7 +32,7 @@ struct Case {
   bool random = false;  // its start, or one behind it, draws random numbers: turbulent
                         // flow or poured grains
   std::shared_ptr<const Case> flow_start,
-      grain_start;  // initial.fluid, .grains where they are cases
+      grain_start;                        // initial.fluid, .grains where they are cases
   std::vector<std::string> notices = {};  // keys of earlier versions, and how to write them today
 };
 
