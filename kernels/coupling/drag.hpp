@@ -73,7 +73,8 @@ KOKKOS_INLINE_FUNCTION Real wen_yu_share(Real alpha_f) {
          Real(0.5);
 }
 struct GidaspowBlended {
-  static constexpr Named named{"gidaspow_blended", "the same blended, Huilin & Gidaspow (2003)"};
+  static constexpr Named named{"gidaspow_blended",
+                               "Gidaspow's two blended, Huilin & Gidaspow (2003)"};
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     const Real phi = wen_yu_share(f.alpha_f);
     return (1 - phi) * ergun(f) + phi * wen_yu(f);

@@ -150,13 +150,13 @@ void add_coupling(Sections& all) {
 
 void add_schemes(Sections& all) {
   const char* of_volume = "distribution of the volume of a grain over cells";
-  Keys centred(add(all, "coupling.centred", "Of the scheme \"centred\""),
+  Keys centred(add(all, "coupling.centred", "Keys of the scheme \"centred\""),
                [](auto& c) { return &c.coupling.centred; });
   centred("void_fraction", &CentredConfig::void_fraction, of_volume);
-  Keys smoothed(add(all, "coupling.smoothed", "Of the scheme \"smoothed\""),
+  Keys smoothed(add(all, "coupling.smoothed", "Keys of the scheme \"smoothed\""),
                 [](auto& c) { return &c.coupling.smoothed; });
   smoothed("void_fraction", &CentredConfig::void_fraction, of_volume);
-  Keys cfdem(add(all, "coupling.cfdem", "Of the scheme \"cfdem\""),
+  Keys cfdem(add(all, "coupling.cfdem", "Keys of the scheme \"cfdem\""),
              [](auto& c) { return &c.coupling.cfdem; });
   cfdem("smooth_exchange", &CfdemConfig::smooth_exchange, "smooths the exchange of momentum, too");
 }

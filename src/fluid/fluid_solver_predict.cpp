@@ -70,14 +70,14 @@ void FluidSolver::interlayer_drag(const FluidState& fluid, const ExchangeOnFaces
     const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
     for_each_column("fluid: interlayer drag", regions_->exchange,
                     InterlayerDrag{.grid = grid_,
-                                    .rows = regions_->exchange.range().j1,
-                                    .conductance = conductance,
-                                    .alpha = fluid.alpha_f,
-                                    .u = along_x ? fluid.u.x : fluid.u.z,
-                                    .density = config_.density,
-                                    .along_x = along_x,
-                                    .u_star = along_x ? u_star_.x : u_star_.z,
-                                    .pivot = source_});
+                                   .rows = regions_->exchange.range().j1,
+                                   .conductance = conductance,
+                                   .alpha = fluid.alpha_f,
+                                   .u = along_x ? fluid.u.x : fluid.u.z,
+                                   .density = config_.density,
+                                   .along_x = along_x,
+                                   .u_star = along_x ? u_star_.x : u_star_.z,
+                                   .pivot = source_});
   }
 }
 

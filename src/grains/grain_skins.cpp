@@ -21,8 +21,8 @@ constexpr Real kMaxSkin = 0.4;
 
 }  // namespace
 
-GrainSkins::GrainSkins(const GrainsCase& config, Real r_max)
-    : least_(config.grains.skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_)) {
+GrainSkins::GrainSkins(const GrainsCase& config, Real r_max, Real reach)
+    : least_(config.grains.skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_) + reach) {
   Real narrowest = std::numeric_limits<Real>::infinity();  // of the periodic directions
   if (is_periodic_x(config.grains)) narrowest = config.size[0];
   if (config.grains.boundary_z == GrainBoundaryZ::periodic)
@@ -30,11 +30,11 @@ GrainSkins::GrainSkins(const GrainsCase& config, Real r_max)
   narrowest *= 1 - 1e-9;  // whatever way columns are rounded
   // No column may be met twice.
   if (narrowest >= 5 * column_width_) {
-    largest_ = column_width_ - r_max;
+    largest_ = column_width_ - r_max - reach / 2;
   } else {
     rings_ = 1;
-    largest_ = std::max(least_, std::min(kMaxSkin * 2 * r_max, narrowest / 6 - r_max));
-    column_width_ = 2 * (r_max + largest_);
+    largest_ = std::max(least_, std::min(kMaxSkin * 2 * r_max, narrowest / 6 - r_max - reach / 2));
+    column_width_ = 2 * (r_max + largest_) + reach;
   }
 }
 

@@ -10,7 +10,8 @@ namespace barchan {
 /// move a hundred times as fast as the rest.
 class GrainSkins {
  public:
-  GrainSkins(const GrainsCase& config, Real r_max);
+  /// `reach`: of the contact law between two surfaces [m].
+  GrainSkins(const GrainsCase& config, Real r_max, Real reach = 0);
 
   /// Of a grain at rest, half of grains.skin; and of any grain [m].
   Real least() const { return least_; }

@@ -34,14 +34,14 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 }  // namespace
 
 NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks, Real reach)
-    : skins_(config, r_max),
+    : skins_(config, r_max, reach),
       lx_(config.size[0]),
       leaves_x_(grains_leave(config.grains)),
       half_strip_(config.half_seam_strip) {
   const Real lz = config.size[2];
   columns_.periodic_x = is_periodic_x(config.grains);
   columns_.periodic_z = config.grains.boundary_z == GrainBoundaryZ::periodic;
-  const Real cutoff = skins_.column_width() + reach;
+  const Real cutoff = skins_.column_width();
   columns_.half_reach = reach / 2;
   columns_.rings = skins_.rings();
   columns_.max_narrow = cutoff / 2;

@@ -5,6 +5,7 @@
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/coupling/deposit.hpp"
+#include "src/coupling/deposit_stencil.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_arrays.hpp"

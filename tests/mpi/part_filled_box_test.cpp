@@ -119,7 +119,7 @@ void whole_and_in_two_pieces(const Case& at) {
 }
 
 /// Every option with every other one takes two minutes, which is for the night; in the short choice
-/// each scheme meets both lengths and two thirds of the surroundings.
+/// each scheme meets both lengths and most of the surroundings.
 std::vector<Case> cases(bool all) {
   std::vector<Case> found;
   int n = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "kernels/coupling/gather.hpp"
 #include "kernels/grains/half_kick.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/packing.hpp"

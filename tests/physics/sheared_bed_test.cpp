@@ -99,7 +99,7 @@ Config held_bed(CouplingScheme scheme, int rows, double smoothing) {
 }
 
 Layers program(CouplingScheme scheme, int rows, double smoothing, double lid) {
-  Config c = held_bed(exchange, rows, smoothing);
+  Config c = held_bed(scheme, rows, smoothing);
   c.fluid->top = WallFlow::no_slip;
   c.fluid->top_velocity = lid;
   test::CoupledRun run(c, random_bed());

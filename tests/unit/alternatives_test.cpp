@@ -87,7 +87,7 @@ TEST(ContactRange, IsThatOfTheLaw) {
   EXPECT_TRUE(in_contact(hertz, 1e-4, 1e-9));
   EXPECT_FALSE(in_contact(hertz, 1e-4, 0));
   const Sticky sticky{.range = 0.01};
-  EXPECT_EQ(reach(sticky, 1e-4), 1e-6);
+  EXPECT_DOUBLE_EQ(reach(sticky, 1e-4), 1e-6);
   EXPECT_TRUE(in_contact(sticky, 1e-4, -0.9e-6));
   EXPECT_FALSE(in_contact(sticky, 1e-4, -1.1e-6));
 }

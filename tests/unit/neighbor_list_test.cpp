@@ -98,7 +98,7 @@ TEST_P(NeighborListShapes, NoPairIsMissedAndNoneIsListedTwice) {
   c.grains->boundary_z = shape.z;
   const Real lx = shape.x == GrainBoundaryX::periodic ? c.size[0] : 0;
   const Real lz = shape.z == GrainBoundaryZ::periodic ? c.size[2] : 0;
-  for (const Real reach : {0.0, 5e-5}) {
+  for (const Real reach : {0.0, 1e-5}) {
     GrainState s = make_grain_state(random_grains(1200, c.size, 7), 2500);
     NeighborList list(c, s.r_max, MPI_COMM_SELF, reach);
     for (int round = 0; round < 3; ++round) {

@@ -33,7 +33,7 @@ def held(name, runs):
     # Read as CFDEM interpolates; it takes alpha_f from other tetrahedra, worth up to 1.7 % of the sum.
     faithful = beside.held_state(beside.run_held(name, runs / f"held-{name}-faithful", coupling__scheme="cfdem",
                                                coupling__cfdem__smooth_exchange="true"))
-    measured(f"{name}: mean drag with the scheme cfdem over CFDEM's", faithful.drag.mean() / reference["drag"], 0.97, 1.03)
+    measured(f"{name}: mean drag of the scheme cfdem over its", faithful.drag.mean() / reference["drag"], 0.97, 1.03)
     measured(f"{name}: its correlation grain by grain",
              np.corrcoef(faithful.drag[index], theirs["interpolated"])[0, 1], 0.999, 1)
     # Our own reading, between the faces, gives less where the velocity rises steeply: 15 % about what was found.
