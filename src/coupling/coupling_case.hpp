@@ -12,13 +12,6 @@ using DragLaw = Choice<DragLaws>;
 enum class VoidFraction { divided, centre };
 enum class CouplingScheme { layered, centred, smoothed, cfdem };
 
-/// coupling.forces
-struct ForceSwitches {
-  bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
-  bool lift = false, torque = false, wall_drag = false;
-  bool operator==(const ForceSwitches&) const = default;
-};
-
 /// [coupling.centred], [coupling.smoothed]
 struct CentredConfig {
   VoidFraction void_fraction = VoidFraction::divided;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/coupling/flow_at_grains.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/smoother.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"

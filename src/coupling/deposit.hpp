@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/coupling/deposit_on_faces.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 #include "src/parallel/halo.hpp"

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/ledger.hpp"
 #include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/fluid_solver.hpp"

@@ -3,6 +3,7 @@
 
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 

@@ -89,7 +89,7 @@ DeepestIn find_deepest(const GrainSolver& solver, const std::vector<std::string>
   }
   for (std::size_t b = 0; b < bodies.size(); ++b)
     look_at(solver.bodies().body[b].distance(x),
-            [&] { return fmt::format("body \"{}\"", bodies[b].name); });
+            [&] { return fmt::format("body \"{}\"", bodies[b]); });
   return deepest;
 }
 

@@ -60,7 +60,7 @@ std::int64_t n_later(const FeedState& feed) {
 }  // namespace
 
 GrainFeed::GrainFeed(const GrainsCase& config)
-    : config_(config.grains.feed),
+    : config_(*config.grains.feed),
       bodies_(config.bodies),
       dt_(config.fluid_step),
       lz_(config.size[2]),

@@ -99,6 +99,13 @@ struct GrainConfig {
   bool operator==(const GrainConfig&) const = default;
 };
 
+/// coupling.forces
+struct ForceSwitches {
+  bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
+  bool lift = false, torque = false, wall_drag = false;
+  bool operator==(const ForceSwitches&) const = default;
+};
+
 /// What grains are computed from, settled once.
 struct GrainsCase {
   GrainConfig grains;
