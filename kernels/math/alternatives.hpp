@@ -56,6 +56,7 @@ struct Alternatives {
       if constexpr (requires { Type::from(given); }) {
         made = Type::from(given);
       } else {
+        static_assert(std::is_empty_v<Type>, "an alternative with numbers has a from(given)");
         made = Type{};
       }
     });

@@ -12,8 +12,8 @@ import time
 from pathlib import Path
 
 SKIPPED = 77
-# Seconds that a page, or one thing looked for in it, may take on a busy machine.
-PATIENCE = 100
+# Seconds that one thing looked for in a page may take on a busy machine, and that the whole page may take.
+LIMIT, PATIENCE = 50, 150
 # What a page has done wrong is collected from the start.
 BEFORE = """
 window.faults = [];
@@ -23,8 +23,10 @@ addEventListener("unhandledrejection", (event) => faults.push(String(event.reaso
 """
 PROBE = """(async () => {
   const found = {}, wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const until = async (met) => {
-    for (const start = performance.now(); !met() && performance.now() - start < LIMIT;) await wait(50);
+  const until = async (met, seconds = LIMIT) => {
+    for (const start = performance.now(); performance.now() - start < 1000 * seconds; await wait(50))
+      if (met()) return true;
+    return false;
   };
   await until(() => document.readyState === "complete");
   try { await (async () => { PROBE })(); } catch (error) { faults.push(`probe: ${error}`); }
@@ -46,12 +48,17 @@ def chromium():
     return found
 
 
+class Silent(Exception):
+    """The browser has ended or hangs, whatever the page is."""
+
+
 class Chromium:
     """A running browser that is spoken to in the DevTools protocol, over a pair of pipes."""
 
     def __init__(self, profile):
-        command = [chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
-                   f"--user-data-dir={profile}", "--remote-debugging-pipe"]
+        # Shared memory is small in many containers, and ranks of MPI fill it.
+        command = [chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                   "--hide-scrollbars", "--no-first-run", f"--user-data-dir={profile}", "--remote-debugging-pipe"]
         # The browser reads from file 3 and writes into file 4.
         self.process = subprocess.Popen(["sh", "-c", 'exec "$@" 3<&0 4>&1 >/dev/null', "sh", *command],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
@@ -70,10 +77,10 @@ class Chromium:
         """The next message of the browser."""
         while b"\0" not in self.heard:
             if not select.select([self.process.stdout], [], [], max(0, deadline - time.monotonic()))[0]:
-                raise AssertionError(f"the browser has said nothing for {PATIENCE} s")
+                raise Silent(f"the browser has said nothing for {PATIENCE} s")
             more = os.read(self.process.stdout.fileno(), 1 << 16)
             if not more:
-                raise AssertionError("the browser has ended")
+                raise Silent("the browser has ended")
             self.heard += more
         first, _, self.heard = self.heard.partition(b"\0")
         return json.loads(first)
@@ -86,6 +93,8 @@ class Chromium:
         self.process.stdin.flush()
         while True:
             said = self.message(deadline)
+            if said.get("method") == "Inspector.targetCrashed":
+                raise Silent("the page's process has crashed")
             if said.get("id") == number:
                 if "error" in said:
                     raise AssertionError(f"{method}: {said['error']}")
@@ -95,15 +104,29 @@ class Chromium:
 def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
     """What `probe` (JavaScript that fills `found`) finds in the page, with `faults`, `too_wide` (pixels that the page
     is wider than the window) and `from_elsewhere` (what it loads by http). The probe waits with `await until(() =>
-    ...)` for what a page does after it is loaded. picture: where to put a screenshot."""
+    ...)`, which says whether it came, for what a page does after it is loaded. picture: where to put a screenshot. A
+    browser that hangs or ends is started once more."""
+    try:
+        return look(page, probe, width, height, dark, picture)
+    except Silent as why:
+        print(f"{page}: {why}; once more")
+    try:
+        return look(page, probe, width, height, dark, picture)
+    except Silent as why:
+        raise AssertionError(f"{page}: {why}, twice") from why
+
+
+def look(page, probe, width, height, dark, picture):
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, Chromium(profile) as browser:
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         browser.ask("Page.enable")
+        browser.ask("Inspector.enable")
         browser.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        browser.ask("Emulation.setFocusEmulationEnabled", enabled=True)
         browser.ask("Emulation.setEmulatedMedia", features=[scheme])
         browser.ask("Page.addScriptToEvaluateOnNewDocument", source=BEFORE)
         browser.ask("Page.navigate", url=Path(page).resolve().as_uri())
-        text = PROBE.replace("PROBE", probe).replace("LIMIT", str(1000 * PATIENCE / 2))
+        text = PROBE.replace("PROBE", probe).replace("LIMIT", str(LIMIT))
         said = browser.ask("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in said:
             raise AssertionError(f"{page}: {said['exceptionDetails']}")
