@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "src/fluid/flow_schedule.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "tests/support/flow_run.hpp"
 #include "tests/support/measured.hpp"

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "src/case/config.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"

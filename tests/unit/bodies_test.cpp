@@ -8,6 +8,7 @@
 
 #include "kernels/bodies/body.hpp"
 #include "src/bodies/make_bodies.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan {
 namespace {
