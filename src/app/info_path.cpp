@@ -139,7 +139,7 @@ std::string describe_case(const fs::path& path) {
     told += count > 0 ? fmt::format("grains   {}\n", count) : "grains   those of a file\n";
   }
   for (const HeapConfig& heap :
-       c.initial.heaps.empty() ? std::vector<HeapConfig>() : poured_heaps(c)) {
+       c.initial.heaps.empty() ? std::vector<HeapConfig>() : the_case.heaps) {
     told += fmt::format("heap     {}: {} of {} grains\n", printable(heap.name, 60),
                         word_of(heap.shape), count_of(heap.sizes));
   }

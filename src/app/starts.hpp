@@ -45,9 +45,9 @@ void check_earlier_places(const Case& the_case, const std::filesystem::path& fol
 
 /// The grains that a run will start with, as far as they are known before it.
 struct PlannedGrains {
-  std::vector<SizeClass> sizes;         // empty: there are no grains
+  SettledCase settled;                  // the case with their sizes, of which it may have none
   std::optional<InitialGrains> grains;  // none: they are still to be poured, here or in a start
-  Config poured_in;                     // that case, if none
+  SettledCase poured_in;                // that case, if none
   std::filesystem::path source;         // the file that they are in, or the case that pours them
 };
 

@@ -7,33 +7,42 @@
 
 namespace barchan {
 
-FluidCase Config::fluid_case() const {
-  return {.file = file,
-          .fluid = fluid.value(),
-          .solver = solver,
-          .size = size,
-          .row_faces = barchan::row_faces(row_spacing(*fluid, size[1])),
-          .schedule = flow_schedule(*fluid),
-          .bodies = make_bodies(bodies, size),
-          .with_grains = grains.has_value()};
+namespace {
+
+FluidCase fluid_case(const Config& c, const Bodies& bodies) {
+  return {.file = c.file,
+          .fluid = c.fluid.value(),
+          .solver = c.solver,
+          .size = c.size,
+          .row_faces = row_faces(row_spacing(*c.fluid, c.size[1])),
+          .schedule = flow_schedule(*c.fluid),
+          .bodies = bodies,
+          .with_grains = c.grains.has_value()};
 }
 
-GrainsCase Config::grains_case() const {
+GrainsCase grains_case(const Config& c, const Bodies& bodies) {
   std::vector<std::string> names;
-  for (const BodyConfig& body : bodies) names.push_back(body.name);
-  return {.grains = grains.value(),
-          .size = size,
-          .half_seam_strip = barchan::half_seam_strip(*this),
-          .fluid_step = time.fluid_step,
-          .keeps_forces = output.grain_forces,
-          .bodies = make_bodies(bodies, size),
+  for (const BodyConfig& body : c.bodies) names.push_back(body.name);
+  return {.grains = c.grains.value(),
+          .size = c.size,
+          .half_seam_strip = half_seam_strip(c),
+          .fluid_step = c.time.fluid_step,
+          .keeps_forces = c.output.grain_forces,
+          .bodies = bodies,
           .body_names = names};
 }
 
-CoupledCase Config::coupled_case() const {
+}  // namespace
+
+Config::operator FluidCase() const { return fluid_case(*this, make_bodies(bodies, size)); }
+
+Config::operator GrainsCase() const { return grains_case(*this, make_bodies(bodies, size)); }
+
+Config::operator CoupledCase() const {
+  const Bodies all = make_bodies(bodies, size);
   CoupledCase both{.coupling = coupling, .time = time, .fluid = {}, .grains = {}};
-  if (fluid) both.fluid = fluid_case();
-  if (grains) both.grains = grains_case();
+  if (fluid) both.fluid = fluid_case(*this, all);
+  if (grains) both.grains = grains_case(*this, all);
   return both;
 }
 

@@ -86,14 +86,12 @@ struct Config {
   std::optional<StatisticsConfig> statistics = {};
   bool operator==(const Config&) const = default;
 
-  // What each room computes with; solvers take it in place of the case.
-  FluidCase fluid_case() const;
-  GrainsCase grains_case() const;
-  CoupledCase coupled_case() const;
-  // NOLINTBEGIN(google-explicit-constructor): so that a solver can be made from a case
-  operator FluidCase() const { return fluid_case(); }
-  operator GrainsCase() const { return grains_case(); }
-  operator CoupledCase() const { return coupled_case(); }
+  // What a room computes with; solvers take it in place of the case. A run has it from its
+  // SettledCase.
+  // NOLINTBEGIN(google-explicit-constructor): a solver can be made from a case alone
+  operator FluidCase() const;
+  operator GrainsCase() const;
+  operator CoupledCase() const;
   // NOLINTEND(google-explicit-constructor)
 };
 

@@ -9,17 +9,14 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
-#include "src/case/config.hpp"
+#include "src/case/settled.hpp"
 
 namespace barchan {
 
 /// A case and the cases that it starts from, read once and handed on.
-struct Case {
-  Config config;
-  std::vector<SizeClass>
-      sizes;            // of the grains; empty when a .csv or .h5 decides, or there are none
-  bool random = false;  // its start, or one behind it, draws random numbers: turbulent
-                        // flow or poured grains
+struct Case : SettledCase {  // without sizes when a .csv or .h5 decides, or there are no grains
+  bool random = false;       // its start, or one behind it, draws random numbers: turbulent
+                             // flow or poured grains
   std::shared_ptr<const Case> flow_start,
       grain_start;                        // initial.fluid, .grains where they are cases
   std::vector<std::string> notices = {};  // keys of earlier versions, and how to write them today

@@ -1,7 +1,7 @@
 // The keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
 #pragma once
 
-#include "src/case/config.hpp"
+#include "src/grains/grains_case.hpp"
 #include "src/toml/key_builder.hpp"
 
 namespace barchan {

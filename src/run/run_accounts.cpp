@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "src/case/derived.hpp"
-#include "src/case/load.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/run_folder.hpp"

@@ -31,7 +31,7 @@ TEST(Drive, TargetsOfACaseAndOfASchedule) {
   EXPECT_FALSE(Drive(fluid, flow_schedule(fluid)).along_z());
   fluid.mean_velocity = 0;
   fluid.schedule = {{.velocity = 0.2}, {.time = 1, .velocity = {0.4, 0.1}, .ramp = 2}};
-  const Drive turns(fluid);
+  const Drive turns(fluid, flow_schedule(fluid));
   EXPECT_TRUE(turns.along_z());
   EXPECT_DOUBLE_EQ(turns.target(0, {}).x, 0.2);
   EXPECT_DOUBLE_EQ(turns.target(1.5, {}).x, 0.25);
