@@ -5,7 +5,7 @@
 #include "perf/events.hpp"
 #include "perf/heaps.hpp"
 #include "perf/options.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "src/case/config.hpp"
 #include "src/coupling/coupled_step.hpp"
 
 namespace barchan {

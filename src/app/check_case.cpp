@@ -1,34 +1,14 @@
 #include "src/app/check_case.hpp"
 
-#include <algorithm>
 #include <ostream>
 
 #include "src/app/estimate.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 
 namespace barchan {
-
-namespace {
-
-/// Highest point of the grains that a run starts with [m], before they settle where they are still
-/// to be poured; 0 without grains.
-double top_of(const PlannedGrains& planned) {
-  if (!planned.grains) {
-    if (planned.sizes.empty()) return 0;
-    return poured_top(poured_heaps(planned.poured_in), planned.poured_in.size);
-  }
-  double top = 0;
-  for (std::size_t g = 0; g < planned.grains->size(); ++g)
-    top = std::max(top, planned.grains->x[g].y + planned.grains->diameter[g] / 2);
-  return top;
-}
-
-}  // namespace
 
 int run_check(const CommandLine& line, std::ostream& out) {
   const Case the_case = load_case_of(line);
@@ -44,13 +24,11 @@ int run_check(const CommandLine& line, std::ostream& out) {
   const PlannedGrains planned = planned_grains(the_case, folder);
   for (const StartCase& start : missing_starts(the_case, folder))
     planned_grains(start.realised, start.folder);  // throws if the run of a start would
-  Derived derived = derive(config, planned.sizes, top_of(planned));
-  if (derived.grains) derived.grains->as_poured = !planned.grains;
   std::string cost = "  wall time               not timed: this machine has too little memory\n";
-  if (memory_of_case(config, planned.sizes) < memory_of_machine())
+  if (memory_of_case(config, planned.settled.sizes) < memory_of_machine())
     cost = as_input([&] { return estimate(the_case, folder, planned); });
-  out << to_text(derived) << memory_line(config, planned.sizes) << cost;
-  const auto warnings = case_warnings(the_case, planned.sizes);
+  out << to_text(planned.settled.numbers) << memory_line(config, planned.settled.sizes) << cost;
+  const auto warnings = case_warnings(the_case, planned.settled.sizes);
   if (!warnings.empty()) out << '\n';
   for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
   if (line.resolved) out << "\n# The case, every default filled in\n\n" << to_toml(config);

@@ -10,11 +10,8 @@
 #include "src/app/machine_load.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/report.hpp"
-#include "src/bodies/make_bodies.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
 #include "src/grains/grain_skins.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
 
@@ -57,10 +54,12 @@ double output_seconds(const Config& config, double n_grains, const PartSeconds& 
 }
 
 /// The fastest grains, about [m/s]: slower than the flow, else as they fall.
-double fastest_of(const Config& config, const GrainNumbers& grains) {
-  if (config.fluid) return std::max(0.4 * derive(config, {}).fluid->bulk_velocity, 1e-3);
+double fastest_of(const SettledCase& the_case) {
+  const Config& config = the_case.config;
+  if (the_case.numbers.fluid) return std::max(0.4 * the_case.numbers.fluid->bulk_velocity, 1e-3);
   double falls = 0;
-  for (const KindNumbers& kind : grains.kinds) falls = std::max(falls, kind.fall_velocity);
+  for (const KindNumbers& kind : the_case.numbers.grains->kinds)
+    falls = std::max(falls, kind.fall_velocity);
   if (falls > 0) return falls;
   const auto& g = config.grains->gravity;
   return std::sqrt(std::hypot(g[0], g[1], g[2]) * config.size[1]);
@@ -72,19 +71,20 @@ bool loses_no_energy(const GrainConfig& grains) {
 }
 
 /// Grains for the pilot: those that are there, or what those that are poured will settle to.
-InitialGrains grains_for(const Config& config, const PlannedGrains& planned) {
+InitialGrains grains_for(const PlannedGrains& planned) {
+  const Config& config = planned.settled.config;
   if (!config.grains) return {};
   if (planned.grains) return *planned.grains;
-  const Config& pours = planned.poured_in;
+  const SettledCase& pours = planned.poured_in;
   InitialGrains poured = checked_grains(pours, {});  // throws as the run would
   // What loses no energy does not settle.
   if (loses_no_energy(*config.grains)) return poured;
-  return packed_grains(poured_heaps(pours), pours.size, make_bodies(pours));
+  return packed_grains(pours.heaps, pours.config.size, pours.bodies());
 }
 
-RunSeconds timed(const Config& config, const PlannedGrains& planned, double budget) {
-  return run_seconds(config, planned.sizes,
-                     time_parts(config, grains_for(config, planned), budget));
+RunSeconds timed(const PlannedGrains& planned, double budget) {
+  const InitialGrains grains = grains_for(planned);
+  return run_seconds(planned.settled, time_parts(planned.settled.config, grains, budget));
 }
 
 /// Two digits of what takes less than ten seconds.
@@ -121,17 +121,16 @@ std::string note_of_others(const std::optional<ProcessorSeconds>& before) {
 
 }  // namespace
 
-double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes) {
-  const GrainNumbers grains = *derive(config, sizes).grains;
-  const GrainSkins skins(config, grains.d_max / 2);
-  const double fastest = fastest_of(config, grains);
+double rebuild_rate(const SettledCase& the_case) {
+  const GrainSkins skins(the_case.grains(), the_case.numbers.grains->d_max / 2);
+  const double fastest = fastest_of(the_case);
   const double mean = fastest / 30;  // most grains of a dune hardly move
   return fastest > 0 ? 1 / skin_horizon(skins.least(), skins.largest(), fastest, mean) : 0;
 }
 
-RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes,
-                       const PartSeconds& parts) {
-  const Derived derived = derive(config, sizes);
+RunSeconds run_seconds(const SettledCase& the_case, const PartSeconds& parts) {
+  const Config& config = the_case.config;
+  const Derived& derived = the_case.numbers;
   const auto steps = static_cast<double>(derived.fluid_steps);
   RunSeconds s;
   const bool moving_flow = moves(config) && config.fluid;
@@ -144,9 +143,8 @@ RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes
         steps * derived.grain_substeps * parts.grain_step * (moving_flow ? kMovingOverResting : 1) +
         steps * parts.state_checks;
     // Rebuilds during a grain step: one at most.
-    const double rebuilds =
-        std::min(rebuild_rate(config, sizes) * config.time.end + fed_grains(config),
-                 steps * derived.grain_substeps);
+    const double rebuilds = std::min(rebuild_rate(the_case) * config.time.end + fed_grains(config),
+                                     steps * derived.grain_substeps);
     s.lists = rebuilds * parts.rebuild;
   }
   double n_grains = derived.grains ? static_cast<double>(derived.grains->count) : 0;
@@ -165,13 +163,12 @@ std::string estimate(const Case& the_case, const std::filesystem::path& folder,
   const auto missing = missing_starts(the_case, folder);
   const double budget = 1.5 / (2 + static_cast<double>(missing.size()));
   const auto load_before = processor_seconds();
-  const RunSeconds here = timed(config, planned, 2 * budget);
+  const RunSeconds here = timed(planned, 2 * budget);
   const int threads = Kokkos::DefaultExecutionSpace().concurrency();
   std::string text = fmt::format("  {:<24}{} on {} thread{}, timed just now ({})\n", "wall time",
                                  about(here.all()), threads, threads == 1 ? "" : "s", shares(here));
   for (const StartCase& start : missing) {
-    const RunSeconds before =
-        timed(start.realised.config, planned_grains(start.realised, start.folder), budget);
+    const RunSeconds before = timed(planned_grains(start.realised, start.folder), budget);
     text += fmt::format("  {:<24}{} before that: {} has no results yet\n", "", about(before.all()),
                         start.folder.filename().string());
   }

@@ -16,12 +16,11 @@ struct RunSeconds {
   double all() const { return flow + exchange + grains + lists + output; }
 };
 
-/// What a run of the case takes whose parts take so long. `sizes`: of its grains.
-RunSeconds run_seconds(const Config& config, const std::vector<SizeClass>& sizes,
-                       const PartSeconds& parts);
+/// What a run of the case takes whose parts take so long.
+RunSeconds run_seconds(const SettledCase& the_case, const PartSeconds& parts);
 
-/// New neighbour lists in a second of simulated time, about. `sizes` must hold some.
-double rebuild_rate(const Config& config, const std::vector<SizeClass>& sizes);
+/// New neighbour lists in a second of simulated time, about. The case must have sizes.
+double rebuild_rate(const SettledCase& the_case);
 
 /// Lines for a terminal: what the case takes on this machine, timed for about a second, and the
 /// starts that are missing beside `folder`. `planned`: its grains. Kokkos must run; all ranks

@@ -10,10 +10,10 @@
 #include "src/app/info_folder.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/words.hpp"
-#include "src/config/case_values.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/load.hpp"
+#include "src/case/case_values.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/load.hpp"
 #include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
@@ -139,7 +139,7 @@ std::string describe_case(const fs::path& path) {
     told += count > 0 ? fmt::format("grains   {}\n", count) : "grains   those of a file\n";
   }
   for (const HeapConfig& heap :
-       c.initial.heaps.empty() ? std::vector<HeapConfig>() : poured_heaps(c)) {
+       c.initial.heaps.empty() ? std::vector<HeapConfig>() : the_case.heaps) {
     told += fmt::format("heap     {}: {} of {} grains\n", printable(heap.name, 60),
                         word_of(heap.shape), count_of(heap.sizes));
   }

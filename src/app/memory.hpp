@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan {
 

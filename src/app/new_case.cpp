@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
-#include "src/config/mesh.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
+#include "src/fluid/mesh.hpp"
 #include "src/toml/lengths.hpp"
 
 namespace barchan {

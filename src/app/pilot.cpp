@@ -84,16 +84,17 @@ InitialGrains inside(const InitialGrains& grains, const std::array<double, 3>& s
   return kept;
 }
 
-RunState start(const Config& config, const InitialGrains& grains) {
+RunState start(const SettledCase& the_case, const InitialGrains& grains) {
+  const Config& config = the_case.config;
   const MPI_Comm ranks = MPI_COMM_WORLD;
-  auto pencils = make_decomposition(config, ranks);
+  auto pencils = make_decomposition(config.fluid, ranks);
   SystemState state;
   if (config.fluid) {
-    state.fluid = make_fluid_state(make_grid(config, pencils.get()));
-    set_flow(UniformFlow{}, config, *state.fluid);
+    state.fluid = make_fluid_state(make_grid(the_case.fluid(), pencils.get()));
+    set_flow(UniformFlow{}, the_case, *state.fluid);
   }
   if (config.grains) state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
-  return {config, std::move(pencils), std::move(state)};
+  return {the_case, std::move(pencils), std::move(state)};
 }
 
 template <class Work>
@@ -119,7 +120,7 @@ class Pilot {
       : slice_(slice),
         run_(start(slice.config, slice.grains)),
         diagnostics_(run_),
-        checks_(slice.config, run_.ranks),
+        checks_(run_.the_case.coupled, run_.ranks),
         moves_(slice.config.grains && !slice.config.grains->frozen) {}
 
   PartSeconds time(double budget) {

@@ -1,7 +1,7 @@
 // Times the parts of a run on a short stretch of it.
 #pragma once
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

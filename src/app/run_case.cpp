@@ -7,8 +7,8 @@
 #include "src/app/starts.hpp"
 #include "src/base/stop_request.hpp"
 #include "src/base/words.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/parallel/communicator.hpp"
@@ -36,8 +36,8 @@ void warn_of(const Case& the_case, const std::vector<SizeClass>& sizes) {
   for (const std::string& warning : case_warnings(the_case, sizes)) report::warn("{}", warning);
 }
 
-std::string numbers_of(const Config& config, const std::vector<SizeClass>& sizes) {
-  return to_text(derive(config, sizes)) + memory_line(config, sizes);
+std::string numbers_of(const SettledCase& the_case) {
+  return to_text(the_case.numbers) + memory_line(the_case.config, the_case.sizes);
 }
 
 fs::path start_file(const Case& source, const fs::path& runs, int realisation);
@@ -169,9 +169,9 @@ void tell_changed_input(const Case& the_case, const std::string& record) {
 /// A case in a folder that this process has locked.
 void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   const Config& config = the_case.config;
-  const auto sizes =
-      options.restart ? the_case.sizes : planned_grains(the_case, options.folder).sizes;
-  check_memory(config, sizes);
+  const SettledCase settled = options.restart ? static_cast<const SettledCase&>(the_case)
+                                              : planned_grains(the_case, options.folder).settled;
+  check_memory(config, settled.sizes);
   check_on_root([&] {
     check_is_ours(config, options.folder);
     if (options.restart) check_results_go_on(options.folder);
@@ -184,12 +184,12 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
                config.title, shown(options.folder));
   Watchdog::heartbeat("setting up");
   Watchdog::last_good_restart(options.restart.value_or(fs::path()));
-  Simulation simulation = as_input([&] { return Simulation(config, options, files); });
+  Simulation simulation = as_input([&] { return Simulation(settled, options, files); });
   simulation.open_folder();
   if (options.restart) tell_changed_input(the_case, simulation.inputs());
-  report::info("  {}", summary(derive(config, sizes)));
-  report::details(numbers_of(config, sizes));
-  warn_of(the_case, sizes);
+  report::info("  {}", summary(settled.numbers));
+  report::details(numbers_of(settled));
+  warn_of(the_case, settled.sizes);
   try {
     if (simulation.run() == Outcome::stopped) throw Stopped{};
   } catch (const std::exception& problem) {
@@ -254,9 +254,9 @@ int run_command(const CommandLine& line) {
   const Config& config = the_case.config;
   if (line.dry_run) {
     report::info("{}", config.title);
-    const auto sizes = planned_grains(the_case, run_folder(line)).sizes;
-    report::info("{}", numbers_of(config, sizes));
-    warn_of(the_case, sizes);
+    const SettledCase settled = planned_grains(the_case, run_folder(line)).settled;
+    report::info("{}", numbers_of(settled));
+    warn_of(the_case, settled.sizes);
     report::info("nothing was run (--dry-run)");
     return 0;
   }

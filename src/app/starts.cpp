@@ -8,12 +8,12 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/config/ensemble_member.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/ensemble_member.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "src/fluid/passage.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
@@ -51,10 +51,10 @@ void add_missing(const Case& the_case, const fs::path& folder, std::vector<Start
   if (config.grains) add(the_case.grain_start);
 }
 
-PlannedGrains grains_in(const fs::path& file, const Config& config) {
+PlannedGrains grains_in(const fs::path& file, const SettledCase& the_case) {
   PlannedGrains planned;
-  planned.grains = as_input([&] { return checked_grains(config, file); });
-  planned.sizes = sizes_of(*planned.grains);
+  planned.grains = as_input([&] { return checked_grains(the_case, file); });
+  planned.settled.sizes = sizes_of(*planned.grains);
   planned.source = file;
   return planned;
 }
@@ -134,32 +134,42 @@ void check_earlier_places(const Case& the_case, const fs::path& folder) {
 
 namespace {
 
+/// Highest point of the grains that a run starts with [m], before they settle where they are still
+/// to be poured; 0 without grains.
+double top_of(const PlannedGrains& planned) {
+  if (!planned.grains) return poured_top(planned.poured_in.heaps, planned.poured_in.config.size);
+  double top = 0;
+  for (std::size_t g = 0; g < planned.grains->size(); ++g)
+    top = std::max(top, planned.grains->x[g].y + planned.grains->diameter[g] / 2);
+  return top;
+}
+
 /// What a run starts with, before its feed is looked at.
 PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
-  check_passage(config);
-  check_probes(config);
+  if (config.fluid) check_passage(the_case.fluid());
+  check_probes(the_case);
   if (!config.grains) return {};
-  if (const auto heaps = poured_heaps(config); !heaps.empty()) {
+  if (!the_case.heaps.empty()) {
     PlannedGrains planned;
-    planned.sizes = sizes_of(heaps);
-    planned.poured_in = config;
+    planned.settled.sizes = sizes_of(the_case.heaps);
+    planned.poured_in = the_case;
     planned.source = config.file;
     return planned;
   }
   const fs::path& source = config.initial.grains;
-  if (!the_case.grain_start) return grains_in(source, config);
+  if (!the_case.grain_start) return grains_in(source, the_case);
   const StartCase start = start_case(*the_case.grain_start, folder_of_runs(config.file, folder),
                                      config.initial.realisation);
-  if (start.earlier.done()) return grains_in(*start.earlier.restart, config);
+  if (start.earlier.done()) return grains_in(*start.earlier.restart, the_case);
   PlannedGrains planned = planned_grains(start.realised, start.folder);
-  planned.sizes =
-      with_kinds_of(*config.grains, *start.realised.config.grains, std::move(planned.sizes));
+  std::vector<SizeClass>& sizes = planned.settled.sizes;
+  sizes = with_kinds_of(*config.grains, *start.realised.config.grains, std::move(sizes));
   if (planned.grains) {
     planned.grains->kind_names = names_of_kinds(*start.realised.config.grains);
     take_kinds(*planned.grains, *config.grains, source.string());
   }
-  check_sizes(planned.sizes, config, source);
+  check_sizes(sizes, config, source);
   return planned;
 }
 
@@ -167,9 +177,12 @@ PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
 
 PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   PlannedGrains planned = grains_of(the_case, folder);
-  if (planned.sizes.empty()) return planned;
-  const auto [least, most] = std::ranges::minmax(planned.sizes, {}, &SizeClass::diameter);
-  check_feed_places(the_case.config, least.diameter, most.diameter);
+  planned.settled = SettledCase(the_case.config, planned.settled.sizes, top_of(planned));
+  const std::vector<SizeClass>& sizes = planned.settled.sizes;
+  if (sizes.empty()) return planned;
+  planned.settled.numbers.grains->as_poured = !planned.grains;
+  const auto [least, most] = std::ranges::minmax(sizes, {}, &SizeClass::diameter);
+  check_feed_places(the_case.grains(), least.diameter, most.diameter);
   return planned;
 }
 

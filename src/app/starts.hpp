@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/app/command_line.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/grains/initial_grains.hpp"
 #include "src/run/folder_checks.hpp"
 
@@ -45,9 +45,9 @@ void check_earlier_places(const Case& the_case, const std::filesystem::path& fol
 
 /// The grains that a run will start with, as far as they are known before it.
 struct PlannedGrains {
-  std::vector<SizeClass> sizes;         // empty: there are no grains
+  SettledCase settled;                  // the case with their sizes, of which it may have none
   std::optional<InitialGrains> grains;  // none: they are still to be poured, here or in a start
-  Config poured_in;                     // that case, if none
+  SettledCase poured_in;                // that case, if none
   std::filesystem::path source;         // the file that they are in, or the case that pours them
 };
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace barchan {
 
@@ -11,6 +13,23 @@ namespace barchan {
 /// exit code 2; nothing has been written when it is thrown.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// All problems of a case. `lines`: one per problem, by line of the file, then "N problems; nothing
+/// was run."; what() is the same as one text. Leads to exit code 2.
+class ConfigError : public InputError {
+ public:
+  explicit ConfigError(std::vector<std::string> lines)
+      : InputError(in_one(lines)), lines_(std::move(lines)) {}
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  static std::string in_one(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+    return text;
+  }
+  std::vector<std::string> lines_;
 };
 
 /// True for what Kokkos and the language throw when there is no memory left: nobody's input, and

@@ -4,19 +4,19 @@
 
 namespace barchan {
 
-Bodies make_bodies(const Config& config) {
-  Bodies bodies;
-  for (const BodyConfig& body : config.bodies) {
+Bodies make_bodies(const std::vector<BodyConfig>& bodies, const std::array<double, 3>& domain) {
+  Bodies made;
+  for (const BodyConfig& body : bodies) {
     BodyShapes::with(body.shape, [&]<class Shape>() {
-      bodies.body[bodies.n++] = {.shape = OneOf<BodyShapes>(Shape::from(body)),
-                                 .foot = {body.centre[0], body.base, body.centre[1]},
-                                 .cosine = std::cos(body.angle),
-                                 .sine = std::sin(body.angle),
-                                 .lx = config.size[0],
-                                 .lz = config.size[2]};
+      made.body[made.n++] = {.shape = OneOf<BodyShapes>(Shape::from(body)),
+                             .foot = {body.centre[0], body.base, body.centre[1]},
+                             .cosine = std::cos(body.angle),
+                             .sine = std::sin(body.angle),
+                             .lx = domain[0],
+                             .lz = domain[2]};
     });
   }
-  return bodies;
+  return made;
 }
 
 }  // namespace barchan

@@ -1,11 +1,14 @@
 // The bodies of a case, as the kernels know them.
 #pragma once
 
-#include "kernels/bodies/body.hpp"
-#include "src/config/config.hpp"
+#include <array>
+#include <vector>
+
+#include "src/bodies/bodies_case.hpp"
 
 namespace barchan {
 
-Bodies make_bodies(const Config& config);
+/// `domain`: its size [m].
+Bodies make_bodies(const std::vector<BodyConfig>& bodies, const std::array<double, 3>& domain);
 
 }  // namespace barchan

@@ -1,7 +1,6 @@
 #include "src/coupling/coupled_step.hpp"
 
 #include "kernels/coupling/frozen_grains.hpp"
-#include "src/config/derived.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
@@ -29,25 +28,26 @@ class RebuildSeconds {
 
 }  // namespace
 
-CoupledStep::CoupledStep(const Config& config, SystemState& state)
+CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     : dt_(config.time.fluid_step), n_substeps_(grain_substeps(config.time)) {
-  if (state.fluid) fluid_ = std::make_unique<FluidSolver>(config, state.fluid->grid);
+  if (state.fluid) fluid_ = std::make_unique<FluidSolver>(*config.fluid, state.fluid->grid);
   if (!state.grains) return;
-  frozen_ = config.grains->frozen;
-  grains_ = std::make_unique<GrainSolver>(config, *state.grains);
-  if (config.grains->feed) feed_.emplace(config);
-  const auto& g = config.grains->gravity;
+  const GrainConfig& grains = config.grains->grains;
+  frozen_ = grains.frozen;
+  grains_ = std::make_unique<GrainSolver>(*config.grains, *state.grains);
+  if (grains.feed) feed_.emplace(*config.grains);
+  const auto& g = grains.gravity;
   still_.weight.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {
     add_fluid(*state.grains);
     add_exchange(*state.grains, config.coupling.forces);
-    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(config), config.coupling.forces);
+    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), config.coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
-  } else if (config.grains->ambient) {
+  } else if (grains.ambient) {
     add_fluid(*state.grains);
-    still_.rho_f = still_.weight.displaced = config.grains->ambient->density;
-    still_.mu_f = still_.rho_f * config.grains->ambient->kinematic_viscosity;
+    still_.rho_f = still_.weight.displaced = grains.ambient->density;
+    still_.mu_f = still_.rho_f * grains.ambient->kinematic_viscosity;
   }
 }
 

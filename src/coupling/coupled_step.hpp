@@ -7,7 +7,7 @@
 
 #include "kernels/coupling/still_fluid.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/config/config.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/exchange_scheme.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
 #include "src/coupling/system_state.hpp"
@@ -20,7 +20,7 @@ namespace barchan {
 /// Unresolved CFD-DEM, model A; also a pure flow or pure grains.
 class CoupledStep {
  public:
-  CoupledStep(const Config& config, SystemState& state);
+  CoupledStep(const CoupledCase& config, SystemState& state);
 
   /// First neighbour list and fluid fraction of a new run.
   void start(SystemState& state);

@@ -2,7 +2,6 @@
 
 #include "kernels/coupling/beside_bodies.hpp"
 #include "kernels/coupling/deposit.hpp"
-#include "src/config/derived.hpp"
 #include "src/coupling/deposit_stencil.hpp"
 #include "src/parallel/decomposition.hpp"
 
@@ -12,7 +11,7 @@ namespace {
 
 /// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
 /// or with walls others.
-std::shared_ptr<const PlaneFft> smoothing_fft(const Config& config, const FluidSolver& solver,
+std::shared_ptr<const PlaneFft> smoothing_fft(const CoupledCase& config, const FluidSolver& solver,
                                               const Grid& grid, const EvenExtension& walls) {
   if (walls == EvenExtension{} || config.coupling.smoothing_length == 0) return solver.fft();
   return std::make_shared<const PlaneFft>(grid, walls);
@@ -30,16 +29,16 @@ WallFaces ends_of(const RankAxis& line, int n) {
 
 }  // namespace
 
-CouplingGrid::CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow,
-                           Real r_max, PointModel points)
+CouplingGrid::CouplingGrid(const CoupledCase& config, const FluidSolver& solver,
+                           const Grid& of_flow, Real r_max, PointModel points)
     : grid(of_flow),
       boundary(solver.boundary()),
-      box(grid.box(is_periodic_x(config))),
+      box(grid.box(is_periodic_x(config.grains->grains))),
       stencil(make_deposit_stencil(config, grid, r_max, points)),
       smoothing_length(config.coupling.smoothing_length),
       reach_of_grain(kOuterShell * r_max),
-      walls{.x = config.grains->boundary_x == GrainBoundaryX::wall,
-            .z = config.grains->boundary_z == GrainBoundaryZ::wall},
+      walls{.x = config.grains->grains.boundary_x == GrainBoundaryX::wall,
+            .z = config.grains->grains.boundary_z == GrainBoundaryZ::wall},
       smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
       bodies(solver.bodies()),
       marks("coupling: columns", grid, kMarks) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/coupling/flow_at_grains.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/smoother.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/fluid_solver.hpp"
@@ -18,8 +19,8 @@ struct CellVector {
 
 /// Nothing of it changes over a run.
 struct CouplingGrid {
-  CouplingGrid(const Config& config, const FluidSolver& solver, const Grid& of_flow, Real r_max,
-               PointModel points);
+  CouplingGrid(const CoupledCase& config, const FluidSolver& solver, const Grid& of_flow,
+               Real r_max, PointModel points);
 
   /// Clears `marks`, and marks the columns of cells that these grains give to, and read from.
   void mark_columns_of(const GrainState& grains) const;

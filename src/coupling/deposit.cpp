@@ -47,7 +47,7 @@ Real largest_of_cell(const Grid& grid, Real r_max) {
 
 }  // namespace
 
-Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+Deposit::Deposit(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
                  CouplingFields& fields, Real most_solid)
     : grid_(grid),
       fields_(fields),
@@ -56,7 +56,8 @@ Deposit::Deposit(const Config& config, const GrainState& grains, const CouplingG
       alpha_time_derivative_(config.coupling.alpha_time_derivative) {
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid.grid));
   Real largest = static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max);
-  if (config.grains->feed) largest = std::max(largest, largest_of_cell(grid.grid, grains.r_max));
+  if (config.grains->grains.feed)
+    largest = std::max(largest, largest_of_cell(grid.grid, grains.r_max));
   deposits_.volume = fixed_point_for(largest);
 }
 

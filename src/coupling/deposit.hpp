@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/coupling/deposit_on_faces.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 #include "src/parallel/halo.hpp"
@@ -19,7 +20,7 @@ struct GrainVolume {
 /// Grid and fields outlive it.
 class Deposit {
  public:
-  Deposit(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+  Deposit(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
           CouplingFields& fields, Real most_solid);
 
   /// Adds up what the grains give, and marks their columns of cells, on the device. First of all.

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
+#include "src/base/errors.hpp"
 #include "src/parallel/decomposition.hpp"
 
 namespace barchan {
@@ -23,10 +22,10 @@ void set_ends(const RankAxis& line, bool periodic, int n, Real& length, int& low
 
 }  // namespace
 
-DepositStencil make_deposit_stencil(const Config& config, const Grid& grid, Real r_max,
+DepositStencil make_deposit_stencil(const CoupledCase& config, const Grid& grid, Real r_max,
                                     PointModel points) {
-  const bool periodic_x = is_periodic_x(config);
-  const bool periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  const bool periodic_x = is_periodic_x(config.grains->grains);
+  const bool periodic_z = config.grains->grains.boundary_z == GrainBoundaryZ::periodic;
   DepositStencil stencil = deposit_stencil_in(grid, points, periodic_x);
   const RankAxis along_x = grid.ranks ? grid.ranks->along_x() : RankAxis{};
   const RankAxis along_z = grid.ranks ? grid.ranks->along_z() : RankAxis{};

@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-std::unique_ptr<ExchangeScheme> make_exchange_scheme(const Config& config,
+std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
                                                      const FluidSolver& solver,
                                                      const GrainState& grains, const Grid& grid) {
   const CouplingConfig& c = config.coupling;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/ledger.hpp"
 #include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/fluid_solver.hpp"
@@ -30,7 +31,7 @@ class ExchangeScheme {
 };
 
 /// Makes the scheme that a case names.
-std::unique_ptr<ExchangeScheme> make_exchange_scheme(const Config& config,
+std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
                                                      const FluidSolver& solver,
                                                      const GrainState& grains, const Grid& grid);
 

@@ -21,18 +21,18 @@ FluidForces forces_of(const ForceSwitches& f) {
 
 }  // namespace
 
-Gather::Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+Gather::Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
                CouplingFields& fields)
     : grid_(grid),
       fields_(fields),
       forces_(forces_of(config.coupling.forces)),
       drag_(DragLaws::make(config.coupling.drag, grains.sauter_diameter)),
-      weight_{.gravity = {config.grains->gravity[0], config.grains->gravity[1],
-                          config.grains->gravity[2]},
-              .displaced = forces_.buoyancy ? Real(config.fluid->density) : 0},
-      rho_f_(config.fluid->density),
-      nu_(config.fluid->kinematic_viscosity),
-      has_floor_(config.fluid->bottom == WallFlow::no_slip) {}
+      weight_{.gravity = {config.grains->grains.gravity[0], config.grains->grains.gravity[1],
+                          config.grains->grains.gravity[2]},
+              .displaced = forces_.buoyancy ? Real(config.fluid->fluid.density) : 0},
+      rho_f_(config.fluid->fluid.density),
+      nu_(config.fluid->fluid.kinematic_viscosity),
+      has_floor_(config.fluid->fluid.bottom == WallFlow::no_slip) {}
 
 void Gather::act_on(GrainState& grains, const FluidState& fluid, Real dt,
                     const ExchangeSums& sums) {

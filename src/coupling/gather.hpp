@@ -3,6 +3,7 @@
 
 #include "kernels/coupling/deposit.hpp"
 #include "kernels/coupling/gather.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/coupling/coupling_fields.hpp"
 #include "src/coupling/ledger.hpp"
 
@@ -12,7 +13,7 @@ namespace barchan {
 /// grain, from the flow that a scheme finds there. Grid and fields outlive it.
 class Gather {
  public:
-  Gather(const Config& config, const GrainState& grains, const CouplingGrid& grid,
+  Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
          CouplingFields& fields);
 
   /// The next step is the first of grains that have just been placed.

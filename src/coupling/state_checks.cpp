@@ -10,7 +10,6 @@
 
 #include "kernels/diagnostics/state_checks.hpp"
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/tally_cells.hpp"
 
@@ -77,7 +76,7 @@ struct DeepestIn {
 };
 
 /// Of walls and bodies, which have these names.
-DeepestIn find_deepest(const GrainSolver& solver, const std::vector<BodyConfig>& bodies,
+DeepestIn find_deepest(const GrainSolver& solver, const std::vector<std::string>& bodies,
                        const Vec3& x) {
   const WallShapes& walls = solver.walls();
   DeepestIn deepest{"nothing", std::numeric_limits<Real>::infinity()};
@@ -90,7 +89,7 @@ DeepestIn find_deepest(const GrainSolver& solver, const std::vector<BodyConfig>&
   }
   for (std::size_t b = 0; b < bodies.size(); ++b)
     look_at(solver.bodies().body[b].distance(x),
-            [&] { return fmt::format("body \"{}\"", bodies[b].name); });
+            [&] { return fmt::format("body \"{}\"", bodies[b]); });
   return deepest;
 }
 
@@ -98,7 +97,7 @@ DeepestIn find_deepest(const GrainSolver& solver, const std::vector<BodyConfig>&
 struct GrainProblems {
   const GrainState& grains;
   const GrainSolver& solver;
-  const std::vector<BodyConfig>& bodies;
+  const std::vector<std::string>& bodies;
   Real limit;  // grains.max_overlap
   bool at_start;
 
@@ -172,13 +171,13 @@ std::string StateChecks::flow_problem(const FluidState& fluid, const FluidStepRe
         "allows; take one below {:.2e} s, or wider cells",
         report.courant, where(courant), config_.time.fluid_step * 0.5 / report.courant);
   }
-  if (report.pressure_residual <= config_.solver.pressure_tolerance) return {};
+  if (report.pressure_residual <= config_.fluid->solver.pressure_tolerance) return {};
   return fmt::format(
       "the pressure equation was left at a residual of {:.2g} of its right-hand side after {} "
       "iterations (solver.pressure_tolerance = {:.2g}; the flow is fastest in {}): allow more "
       "solver.max_iterations, take solver.preconditioner = \"local_fft\", or a larger tolerance",
-      report.pressure_residual, report.pressure_iterations, config_.solver.pressure_tolerance,
-      where(courant));
+      report.pressure_residual, report.pressure_iterations,
+      config_.fluid->solver.pressure_tolerance, where(courant));
 }
 
 StateChecks::Worst StateChecks::worst_here(const SystemState& state, const CoupledStep& step,
@@ -212,14 +211,14 @@ StateChecks::Worst StateChecks::worst_here(const SystemState& state, const Coupl
 
 std::string StateChecks::problem_of(const SystemState& state, const CoupledStep& step,
                                     bool at_start) const {
-  const bool grains_move = state.grains && !config_.grains->frozen;  // others may lie anyhow
+  const bool grains_move = state.grains && !config_.grains->grains.frozen;  // others may lie anyhow
   const Worst mine = worst_here(state, step, grains_move);
   std::vector<Real> worst{mine.grains.displacement.val, mine.grains.in_wall.val, mine.pair.val,
                           mine.fraction};
   all_reduce(ranks_, std::span(worst), MPI_MAX);
   if (grains_move) {
-    const GrainProblems problems{*state.grains, *step.grain_solver(), config_.bodies,
-                                 config_.grains->max_overlap, at_start};
+    const GrainProblems problems{*state.grains, *step.grain_solver(), config_.grains->body_names,
+                                 config_.grains->grains.max_overlap, at_start};
     const auto check = [&](Real of_all, Real most, const WorstItem& item, auto problem) {
       if (of_all <= most) return std::string();
       // A rank without grains or pairs has Kokkos' identity for a worst item: it is nowhere.

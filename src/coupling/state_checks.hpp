@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kernels/diagnostics/state_checks.hpp"
-#include "src/config/config.hpp"
 #include "src/coupling/coupled_step.hpp"
+#include "src/coupling/coupling_case.hpp"
 #include "src/parallel/tally.hpp"
 
 namespace barchan {
@@ -22,7 +22,7 @@ inline constexpr Real kFractionSlack = 1e-9;   // of the fluid fraction around (
 /// All ranks call every member together.
 class StateChecks {
  public:
-  StateChecks(const Config& config, MPI_Comm ranks) : config_(config), ranks_(ranks) {}
+  StateChecks(const CoupledCase& config, MPI_Comm ranks) : config_(config), ranks_(ranks) {}
 
   /// Looks at the flow and the grains after a step, in one reduction over ranks. Throws StateError
   /// when a grain or the flow is not finite, grains overlap too much, go through a wall or too
@@ -46,7 +46,7 @@ class StateChecks {
                            Real fraction_outside, bool at_start) const;
   std::string problem_of(const SystemState& state, const CoupledStep& step, bool at_start) const;
 
-  Config config_;
+  CoupledCase config_;
   MPI_Comm ranks_;
   Tally worst_{"state checks: worst", kSlots};
 };

@@ -9,7 +9,7 @@ namespace barchan {
 
 /// Parts that a scheme joins; all but the configuration outlive it.
 struct FlowAndGrains {
-  const Config& config;
+  const CoupledCase& config;
   const FluidSolver& solver;
   const GrainState& grains;
   const Grid& grid;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/diagnostics/flow_statistics.hpp"
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/output/csv_table.hpp"

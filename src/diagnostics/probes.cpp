@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "src/base/errors.hpp"
-#include "src/bodies/make_bodies.hpp"
 #include "src/parallel/decomposition.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/parallel/mirror.hpp"
@@ -22,12 +21,12 @@ std::vector<Vec3> points_of(const ProbeConfig& probe) {
   return points;
 }
 
-void check_probes(const Config& config) {
+void check_probes(const SettledCase& the_case) {
+  const Config& config = the_case.config;
   if (config.bodies.empty()) return;
-  const Bodies bodies = make_bodies(config);
   for (const ProbeConfig& probe : config.output.probes) {
     for (const Vec3& x : points_of(probe)) {
-      const Bodies::Nearest nearest = bodies.nearest(x);
+      const Bodies::Nearest nearest = the_case.bodies().nearest(x);
       if (nearest.surface.distance >= 0) continue;
       throw InputError(fmt::format(
           "{}: [[output.probe]] \"{}\": the point [{:.6g}, {:.6g}, {:.6g}] m is inside the body "

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/diagnostics/flow_at_points.hpp"
-#include "src/config/config.hpp"
+#include "src/case/settled.hpp"
 #include "src/diagnostics/probe_table.hpp"
 #include "src/fluid/fluid_state.hpp"
 
@@ -15,7 +15,7 @@ namespace barchan {
 std::vector<Vec3> points_of(const ProbeConfig& probe);
 
 /// Throws InputError if a point lies in a body of the case.
-void check_probes(const Config& config);
+void check_probes(const SettledCase& the_case);
 
 /// All probes of a case. Its memory is made once.
 class Probes {

@@ -5,8 +5,8 @@
 
 #include "kernels/fluid/body_faces.hpp"
 #include "src/bodies/body_load.hpp"
-#include "src/config/config.hpp"
 #include "src/fluid/exchange_on_faces.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/parallel/halo.hpp"
 #include "src/parallel/tally.hpp"

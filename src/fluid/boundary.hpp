@@ -5,7 +5,7 @@
 #include <concepts>
 
 #include "kernels/fluid/boundary_values.hpp"
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_fields.hpp"
 #include "src/parallel/halo.hpp"
 #include "src/parallel/region.hpp"

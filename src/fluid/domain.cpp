@@ -2,8 +2,7 @@
 
 #include <stdexcept>
 
-#include "src/config/load.hpp"
-#include "src/config/mesh.hpp"
+#include "src/base/errors.hpp"
 #include "src/parallel/mirror.hpp"
 
 namespace barchan {
@@ -60,17 +59,16 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
   return grid;
 }
 
-Grid make_grid(const Config& config, const Decomposition* ranks) {
-  const FluidConfig& fluid = config.fluid.value();
-  return make_grid(fluid.cells[0], fluid.cells[2], config.size[0], config.size[2],
-                   row_faces(row_spacing(config)), ranks);
+Grid make_grid(const FluidCase& config, const Decomposition* ranks) {
+  const auto& cells = config.fluid.cells;
+  return make_grid(cells[0], cells[2], config.size[0], config.size[2], config.row_faces, ranks);
 }
 
-std::unique_ptr<const Decomposition> make_decomposition(const Config& config,
+std::unique_ptr<const Decomposition> make_decomposition(const std::optional<FluidConfig>& fluid,
                                                         MPI_Comm communicator) {
-  if (!config.fluid || rank_count(communicator) == 1) return {};
+  if (!fluid || rank_count(communicator) == 1) return {};
   try {
-    const auto& cells = config.fluid->cells;
+    const auto& cells = fluid->cells;
     return std::make_unique<const Decomposition>(communicator, cells[0], cells[2]);
   } catch (const std::runtime_error& problem) {
     throw ConfigError({problem.what()});

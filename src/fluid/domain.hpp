@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/parallel/decomposition.hpp"
 #include "src/parallel/grid.hpp"
 
@@ -18,11 +18,11 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
                const Decomposition* ranks = nullptr);
 
 /// The grid of [domain] and [fluid]; `config.fluid` must be there.
-Grid make_grid(const Config& config, const Decomposition* ranks = nullptr);
+Grid make_grid(const FluidCase& config, const Decomposition* ranks = nullptr);
 
 /// Its pencils among the ranks; nothing for one rank, or without fluid. All ranks together. Throws
 /// ConfigError if there are too many of them.
-std::unique_ptr<const Decomposition> make_decomposition(const Config& config,
+std::unique_ptr<const Decomposition> make_decomposition(const std::optional<FluidConfig>& fluid,
                                                         MPI_Comm communicator);
 
 }  // namespace barchan

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "src/base/errors.hpp"
-#include "src/config/flow_schedule.hpp"
+#include "src/fluid/flow_schedule.hpp"
 
 namespace barchan {
 
-Drive::Drive(const FluidConfig& config)
+Drive::Drive(const FluidConfig& config, std::vector<FlowTarget> schedule)
     : gradient_x_(config.pressure_gradient.value_or(0) / config.density),
-      schedule_(flow_schedule(config)),
+      schedule_(std::move(schedule)),
       along_z_(goes_across(schedule_)),
       small_(1e-3 *
              largest(schedule_, [](const PlaneVelocity& u) { return std::hypot(u.x, u.z); })) {}

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernels/math/vec3.hpp"
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_state.hpp"
 
 namespace barchan {
@@ -21,7 +21,7 @@ struct DrivenFlow {
 class Drive {
  public:
   /// Of a case: bulk velocities (flow_schedule.hpp), a given pressure gradient along x, or none.
-  explicit Drive(const FluidConfig& config);
+  Drive(const FluidConfig& config, std::vector<FlowTarget> schedule);
 
   /// Whether it ever acts along z. If not, nothing is computed for it.
   bool along_z() const { return along_z_; }

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "kernels/fluid/flow_sums.hpp"
-#include "src/config/flow_schedule.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -22,9 +21,8 @@ Real bulk_velocity_across(const FluidState& fluid) {
   return flow / sum_each_cell("fluid: volume", grid, HeightSum{grid, fluid.alpha_f});
 }
 
-Real friction_velocity(const FluidState& fluid, const FluidConfig& config) {
+Real friction_velocity(const FluidState& fluid, const FluidConfig& config, bool driven_across) {
   const Grid& grid = fluid.grid;
-  const bool driven_across = goes_across(flow_schedule(config));
   int walls = 0;
   Real slope = 0;  // sum over the walls of the mean [1/s]
   const auto mean = [&](const Field& u, int row, Real u_wall) {

@@ -9,7 +9,6 @@
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/bodies/make_bodies.hpp"
 #include "src/parallel/poison.hpp"
 #include "src/parallel/tally_cells.hpp"
 
@@ -35,13 +34,13 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid) {
   });
 }
 
-FluidSolver::FluidSolver(const Config& config, const Grid& grid)
-    : FluidSolver(config, grid, config.grains ? Fraction::variable : Fraction::uniform) {}
+FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid)
+    : FluidSolver(config, grid, config.with_grains ? Fraction::variable : Fraction::uniform) {}
 
-FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fraction)
-    : config_(config.fluid.value()),
-      fraction_(config.bodies.empty() ? fraction : Fraction::variable),
-      drive_(config_),
+FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fraction)
+    : config_(config.fluid),
+      fraction_(config.bodies.n == 0 ? fraction : Fraction::variable),
+      drive_(config_, config.schedule),
       tolerance_(config.solver.pressure_tolerance),
       grid_(grid),
       is_clear_(!is_variable(fraction)),
@@ -56,9 +55,10 @@ FluidSolver::FluidSolver(const Config& config, const Grid& grid, Fraction fracti
                                        : FaceVector{}),
       source_("fluid: pressure source", grid),
       c_w_delta_("fluid: filter width", grid.ny),
-      loads_(config.bodies.size()),
-      numbers_("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * config.bodies.size()) {
-  if (!config.bodies.empty()) bodies_.emplace(make_bodies(config), grid, boundary_.halo(), config_);
+      loads_(static_cast<std::size_t>(config.bodies.n)),
+      numbers_("fluid: numbers",
+               kLoads + BodiesInFlow::kNumbersOfLoad * static_cast<std::size_t>(config.bodies.n)) {
+  if (config.bodies.n > 0) bodies_.emplace(config.bodies, grid, boundary_.halo(), config_);
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
 }

@@ -43,8 +43,8 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid);
 class FluidSolver {
  public:
   /// The fraction of a case with grains is variable, and so is that of one with bodies.
-  FluidSolver(const Config& config, const Grid& grid);
-  FluidSolver(const Config& config, const Grid& grid, Fraction fraction);
+  FluidSolver(const FluidCase& config, const Grid& grid);
+  FluidSolver(const FluidCase& config, const Grid& grid, Fraction fraction);
 
   const Drive& drive() const { return drive_; }
   /// One step. Of a variable fraction fluid.alpha_f holds the new one and alpha_f_previous the old
@@ -68,7 +68,7 @@ class FluidSolver {
   void remove_divergence(FluidState& fluid);
 
   Real friction_velocity(const FluidState& fluid) const {
-    return barchan::friction_velocity(fluid, config_);
+    return barchan::friction_velocity(fluid, config_, drive_.along_z());
   }
   Real kinetic_energy(const FluidState& fluid) const {
     return barchan::kinetic_energy(fluid, config_.density);

@@ -8,9 +8,8 @@
 
 #include "kernels/fluid/body_faces.hpp"
 #include "src/base/errors.hpp"
-#include "src/bodies/make_bodies.hpp"
-#include "src/config/flow_schedule.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/fluid/flow_schedule.hpp"
 
 namespace barchan {
 namespace {
@@ -127,15 +126,14 @@ bool passes(const Bodies& bodies, const HostGrid& grid, int axis) {
   return ways.has_straight_one() || ways.has_any();
 }
 
-void check_passage(const Config& config) {
-  if (!config.fluid || config.bodies.empty()) return;
-  const std::vector<FlowTarget> schedule = flow_schedule(*config.fluid);
-  const std::array driven{config.fluid->pressure_gradient.value_or(0) != 0 || goes_along(schedule),
-                          goes_across(schedule)};
-  const Bodies bodies = make_bodies(config);
+void check_passage(const FluidCase& config) {
+  if (config.bodies.n == 0) return;
+  const std::array driven{
+      config.fluid.pressure_gradient.value_or(0) != 0 || goes_along(config.schedule),
+      goes_across(config.schedule)};
   const HostGrid grid = make_grid(config).on_host();
   for (const int axis : {0, 2}) {
-    if (!driven[axis == 0 ? 0 : 1] || passes(bodies, grid, axis)) continue;
+    if (!driven[axis == 0 ? 0 : 1] || passes(config.bodies, grid, axis)) continue;
     throw InputError(fmt::format(
         "{}: [[body]] must leave water beside or above: together the bodies close the channel to "
         "the flow along {}, on this mesh (fluid.cells)",

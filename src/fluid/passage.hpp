@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/bodies/body.hpp"
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/parallel/grid.hpp"
 
 namespace barchan {
@@ -13,6 +13,6 @@ bool passes(const Bodies& bodies, const HostGrid& grid, int axis);
 
 /// Throws InputError if bodies stop a flow that is driven: no force gives it its bulk velocity
 /// then. Needs the whole mesh, and no more of it than a straight way takes to be found.
-void check_passage(const Config& config);
+void check_passage(const FluidCase& config);
 
 }  // namespace barchan

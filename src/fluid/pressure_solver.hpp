@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "kernels/fluid/column_relaxation.hpp"
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/fluid/poisson_fft.hpp"
 #include "src/parallel/halo.hpp"
 #include "src/parallel/tally_cells.hpp"

@@ -8,7 +8,6 @@
 #include "kernels/grains/body_contact.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/errors.hpp"
-#include "src/bodies/make_bodies.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/launch.hpp"
@@ -60,13 +59,13 @@ std::int64_t n_later(const FeedState& feed) {
 
 }  // namespace
 
-GrainFeed::GrainFeed(const Config& config)
-    : config_(*config.grains->feed),
-      bodies_(make_bodies(config)),
-      dt_(config.time.fluid_step),
+GrainFeed::GrainFeed(const GrainsCase& config)
+    : config_(*config.grains.feed),
+      bodies_(config.bodies),
+      dt_(config.fluid_step),
       lz_(config.size[2]),
-      walls_z_(config.grains->boundary_z == GrainBoundaryZ::wall),
-      from_seam_(config.grains->boundary_x == GrainBoundaryX::follow),
+      walls_z_(config.grains.boundary_z == GrainBoundaryZ::wall),
+      from_seam_(config.grains.boundary_x == GrainBoundaryX::follow),
       places_("feed: places", kPlaces),
       taken_("feed: taken places", kPlaces),
       n_leaving_("feed: grains that leave") {}

@@ -15,7 +15,7 @@ namespace barchan {
 class GrainFeed {
  public:
   /// The case must have [grains.feed].
-  explicit GrainFeed(const Config& config);
+  explicit GrainFeed(const GrainsCase& config);
 
   /// At the end of a fluid step: grains leave, then others come in.
   void advance(GrainState& grains, NeighborList& list);

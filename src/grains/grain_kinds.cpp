@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 
 namespace barchan {
 

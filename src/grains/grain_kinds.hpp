@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/grains/law_table.hpp"
-#include "src/config/config.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "kernels/grains/grain_skins.hpp"
-#include "src/config/derived.hpp"
 #include "src/parallel/reduce.hpp"
 
 namespace barchan {
@@ -22,11 +21,11 @@ constexpr Real kMaxSkin = 0.4;
 
 }  // namespace
 
-GrainSkins::GrainSkins(const Config& config, Real r_max, Real reach)
-    : least_(config.grains->skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_) + reach) {
+GrainSkins::GrainSkins(const GrainsCase& config, Real r_max, Real reach)
+    : least_(config.grains.skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_) + reach) {
   Real narrowest = std::numeric_limits<Real>::infinity();  // of the periodic directions
-  if (is_periodic_x(config)) narrowest = config.size[0];
-  if (config.grains->boundary_z == GrainBoundaryZ::periodic)
+  if (is_periodic_x(config.grains)) narrowest = config.size[0];
+  if (config.grains.boundary_z == GrainBoundaryZ::periodic)
     narrowest = std::min(narrowest, config.size[2]);
   narrowest *= 1 - 1e-9;  // whatever way columns are rounded
   // No column may be met twice.

@@ -1,8 +1,8 @@
 // How wide the skin of each grain is in the neighbour list.
 #pragma once
 
-#include "src/config/config.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 
@@ -11,7 +11,7 @@ namespace barchan {
 class GrainSkins {
  public:
   /// `reach`: of the contact law between two surfaces [m].
-  GrainSkins(const Config& config, Real r_max, Real reach = 0);
+  GrainSkins(const GrainsCase& config, Real r_max, Real reach = 0);
 
   /// Of a grain at rest, half of grains.skin; and of any grain [m].
   Real least() const { return least_; }

@@ -6,7 +6,7 @@
 
 #include "kernels/grains/body_contact.hpp"
 #include "kernels/grains/grain_step.hpp"
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
@@ -52,16 +52,16 @@ void add_wall(WallShapes& walls, const Plane& plane, int history) {
   walls.n_histories = std::max(walls.n_histories, history + 1);
 }
 
-GrainSolver::GrainSolver(const Config& config, GrainState& grains)
-    : GrainSolver(config, grains, kinds_of(*config.grains)) {}
+GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains)
+    : GrainSolver(config, grains, kinds_of(config.grains)) {}
 
-GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds)
+GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds)
     : ranks_(grains.ranks),
       many_kinds_(kinds.count() > 1),
-      pair_laws_(laws_of_pairs(*config.grains, kinds)),
-      wall_laws_(laws_of_walls(*config.grains, kinds)),
+      pair_laws_(laws_of_pairs(config.grains, kinds)),
+      wall_laws_(laws_of_walls(config.grains, kinds)),
       list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2)),
-      rolling_(make_rolling(*config.grains, kinds)),
+      rolling_(make_rolling(config.grains, kinds)),
       on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),
                  largest_reach(wall_laws_, grains.r_max)) {
   list_.with_laws = many_kinds_;
@@ -70,16 +70,16 @@ GrainSolver::GrainSolver(const Config& config, GrainState& grains, const GrainKi
   const auto n = static_cast<std::size_t>(std::max(grains.n, 1));
   if (many_kinds_) {
     if (grains.kind.size() == 0) grains.kind = Kokkos::View<std::uint8_t*>("kind", n);
-    grains.kind_names = names_of_kinds(*config.grains);
+    grains.kind_names = names_of_kinds(config.grains);
   }
   const auto n_histories = static_cast<std::size_t>(walls_.n_histories);
   grains.wall_xi_t = WallHistory("wall xi_t", n, n_histories);
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
   if (list_.with_rolling) grains.wall_torque = WallHistory("wall torque", n, n_histories);
-  list_.with_force = config.output.grain_forces;
+  list_.with_force = config.keeps_forces;
 }
 
-void GrainSolver::add_walls(const Config& config, Real r_max) {
+void GrainSolver::add_walls(const GrainsCase& config, Real r_max) {
   const auto add = [&](Vec3 normal, Real offset, int history) {
     add_wall(walls_, {normal, offset}, history);
   };
@@ -93,16 +93,16 @@ void GrainSolver::add_walls(const Config& config, Real r_max) {
     add(-normal, -distance, history);
   };
   const auto& size = config.size;
-  if (config.grains->floor == GrainFloor::glued) {
-    walls_.glued = glued_floor(config.grains->floor_diameter / 2, size[0], size[2]);
+  if (config.grains.floor == GrainFloor::glued) {
+    walls_.glued = glued_floor(config.grains.floor_diameter / 2, size[0], size[2]);
     // Their planes are found where a grain is: WallShapes::at.
     for (int colour = 0; colour < GluedFloor::kColours; ++colour) add({0, 1, 0}, 0, colour);
     add({0, -1, 0}, -size[1], 0);
   } else {
     add_opposite({0, 1, 0}, size[1]);
   }
-  if (config.grains->boundary_x == GrainBoundaryX::wall) add_opposite({1, 0, 0}, size[0]);
-  if (config.grains->boundary_z == GrainBoundaryZ::wall) add_opposite({0, 0, 1}, size[2]);
+  if (config.grains.boundary_x == GrainBoundaryX::wall) add_opposite({1, 0, 0}, size[0]);
+  if (config.grains.boundary_z == GrainBoundaryZ::wall) add_opposite({0, 0, 1}, size[2]);
 }
 
 /// Before the grain steps: first half kick and drift.

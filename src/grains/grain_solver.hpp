@@ -26,9 +26,9 @@ class GrainSolver {
  public:
   /// Sets up laws, walls and their history. Then call start() or, for entries read from a restart,
   /// list().restore().
-  GrainSolver(const Config& config, GrainState& grains);
+  GrainSolver(const GrainsCase& config, GrainState& grains);
   /// Of kinds that are not those of the case. GrainState::kind holds them where they are several.
-  GrainSolver(const Config& config, GrainState& grains, const GrainKinds& kinds);
+  GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds);
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }
 
@@ -66,7 +66,7 @@ class GrainSolver {
   Kokkos::Max<Real, DeviceMemory> max_excess(int step) const {
     return Kokkos::Max<Real, DeviceMemory>(Kokkos::View<Real, DeviceMemory>(excess_.data() + step));
   }
-  void add_walls(const Config& config, Real r_max);
+  void add_walls(const GrainsCase& config, Real r_max);
   void kick_and_drift(const GrainState& grains, int n, Real dt);
   void grain_step(const GrainState& grains, int s, bool last, Real dt);
   template <class Stiffness, bool many, class Rolling>

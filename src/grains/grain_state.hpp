@@ -12,8 +12,8 @@
 
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/pair_list.hpp"
-#include "src/config/config.hpp"
 #include "src/grains/feed_state.hpp"
+#include "src/grains/grains_case.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

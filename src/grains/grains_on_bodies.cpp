@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/bodies/make_bodies.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/launch.hpp"
 #include "src/parallel/mirror.hpp"
@@ -11,9 +10,9 @@
 
 namespace barchan {
 
-GrainsOnBodies::GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling,
+GrainsOnBodies::GrainsOnBodies(const GrainsCase& config, GrainState& grains, bool with_rolling,
                                Real law_reach)
-    : bodies_(make_bodies(config)),
+    : bodies_(config.bodies),
       law_reach_(law_reach),
       farthest_(config.size[0] + config.size[1] + config.size[2]) {
   if (!any()) return;

@@ -6,8 +6,8 @@
 
 #include "kernels/grains/body_contact.hpp"
 #include "src/bodies/body_load.hpp"
-#include "src/config/config.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 
@@ -23,7 +23,8 @@ class GrainsOnBodies {
  public:
   /// Allocates the history of contacts if the case has bodies.
   /// `law_reach`: of the contact law between two surfaces [m].
-  GrainsOnBodies(const Config& config, GrainState& grains, bool with_rolling, Real law_reach = 0);
+  GrainsOnBodies(const GrainsCase& config, GrainState& grains, bool with_rolling,
+                 Real law_reach = 0);
 
   bool any() const { return bodies_.n > 0; }
   const Bodies& bodies() const { return bodies_; }

@@ -10,7 +10,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/config/derived.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
@@ -34,14 +33,14 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 
 }  // namespace
 
-NeighborList::NeighborList(const Config& config, Real r_max, MPI_Comm ranks, Real reach)
+NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks, Real reach)
     : skins_(config, r_max, reach),
       lx_(config.size[0]),
-      leaves_x_(grains_leave(*config.grains)),
-      half_strip_(half_seam_strip(config)) {
+      leaves_x_(grains_leave(config.grains)),
+      half_strip_(config.half_seam_strip) {
   const Real lz = config.size[2];
-  columns_.periodic_x = is_periodic_x(config);
-  columns_.periodic_z = config.grains->boundary_z == GrainBoundaryZ::periodic;
+  columns_.periodic_x = is_periodic_x(config.grains);
+  columns_.periodic_z = config.grains.boundary_z == GrainBoundaryZ::periodic;
   const Real cutoff = skins_.column_width();
   columns_.half_reach = reach / 2;
   columns_.rings = skins_.rings();

@@ -8,12 +8,12 @@
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/neighbor_search.hpp"
 #include "src/base/scratch_memory.hpp"
-#include "src/config/config.hpp"
 #include "src/grains/ghost_grains.hpp"
 #include "src/grains/grain_migration.hpp"
 #include "src/grains/grain_partition.hpp"
 #include "src/grains/grain_skins.hpp"
 #include "src/grains/grain_state.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 
@@ -35,7 +35,8 @@ struct NewGrain {
 class NeighborList {
  public:
   /// `reach`: of the contact law between two surfaces [m].
-  NeighborList(const Config& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0);
+  NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF,
+               Real reach = 0);
 
   /// Sorts, searches, carries the history over. `drop` removes grains that leave.
   void rebuild(GrainState& grains, bool drop);

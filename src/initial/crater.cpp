@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "src/base/errors.hpp"
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {

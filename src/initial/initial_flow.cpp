@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/config/derived.hpp"
-#include "src/config/flow_schedule.hpp"
+#include "src/case/derived.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
 
@@ -141,12 +141,12 @@ struct MeanFlow {
   bool across() const { return std::abs(bulk.z) > std::abs(bulk.x); }  // more than along x
 };
 
-MeanFlow mean_flow(const FluidConfig& fluid, const FluidNumbers& numbers) {
-  const std::vector<FlowTarget> schedule = flow_schedule(fluid);
+MeanFlow mean_flow(const FluidCase& flow, const FluidNumbers& numbers) {
+  const std::vector<FlowTarget>& schedule = flow.schedule;
   if (schedule.empty()) return {numbers.bulk_velocity, numbers.bulk_velocity, numbers.u_star};
   const PlaneVelocity bulk = velocity_at_start(schedule);
   const double speed = std::hypot(bulk.x, bulk.z);
-  return {bulk, speed, friction_velocity(speed, numbers.delta, fluid.kinematic_viscosity)};
+  return {bulk, speed, friction_velocity(speed, numbers.delta, flow.fluid.kinematic_viscosity)};
 }
 
 /// With x and z exchanged.
@@ -195,11 +195,11 @@ void set_owned(Field& f, const Grid& grid, const Value& value) {
 
 }  // namespace
 
-void set_flow(TurbulentFlow, const Config& config, FluidState& fluid) {
+void set_flow(TurbulentFlow, const SettledCase& the_case, FluidState& fluid) {
   const Grid& grid = fluid.grid;
-  const FluidConfig& setup = config.fluid.value();
-  const FluidNumbers numbers = *derive(config, {}).fluid;
-  const MeanFlow start = mean_flow(setup, numbers);
+  const FluidConfig& setup = the_case.fluid().fluid;
+  const FluidNumbers& numbers = the_case.numbers.fluid.value();
+  const MeanFlow start = mean_flow(the_case.fluid(), numbers);
   const Profile profile{.height = grid.ly,
                         .delta = numbers.delta,
                         .bottom = setup.bottom == WallFlow::no_slip,
@@ -208,8 +208,8 @@ void set_flow(TurbulentFlow, const Config& config, FluidState& fluid) {
   const bool across = start.across();
   const Grid drawn = across ? turned(grid) : grid;
   const HostGrid rows = drawn.on_host();
-  const auto seed =
-      config.initial.seed + static_cast<std::uint64_t>(config.initial.realisation - 1);
+  const InitialConfig& initial = the_case.config.initial;
+  const auto seed = initial.seed + static_cast<std::uint64_t>(initial.realisation - 1);
   const std::vector<Mode> modes = draw_modes(drawn, profile, seed);
   const auto psi = [&](std::size_t c) { return potential(c, drawn, rows, profile, modes); };
   const Curl curl{rows, psi(0), psi(1), psi(2)};
@@ -233,8 +233,8 @@ void set_flow(TurbulentFlow, const Config& config, FluidState& fluid) {
   });
 }
 
-void set_flow(UniformFlow, const Config& config, FluidState& fluid) {
-  const PlaneVelocity bulk = velocity_at_start(flow_schedule(config.fluid.value()));
+void set_flow(UniformFlow, const SettledCase& the_case, FluidState& fluid) {
+  const PlaneVelocity bulk = velocity_at_start(the_case.fluid().schedule);
   Kokkos::deep_copy(fluid.u.x.storage, bulk.x);
   Kokkos::deep_copy(fluid.u.z.storage, bulk.z);
 }

@@ -11,16 +11,13 @@
 #include <utility>
 
 #include "src/base/errors.hpp"
-#include "src/bodies/make_bodies.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/grain_checks.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/kinds.hpp"
-#include "src/config/load.hpp"
-#include "src/config/mesh.hpp"
-#include "src/config/validate.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/grain_checks.hpp"
+#include "src/case/load.hpp"
+#include "src/case/validate.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/initial/crater.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_flow.hpp"
@@ -45,32 +42,32 @@ Config case_of_flow(const Config& config, const CheckpointReader& file) {
   return other;
 }
 
-bool same_mesh(const Config& a, const Config& b) {
-  return a.fluid->cells == b.fluid->cells && row_spacing(a) == row_spacing(b);
+bool same_mesh(const FluidCase& a, const FluidCase& b) {
+  return a.fluid.cells == b.fluid.cells && a.row_faces == b.row_faces;
 }
 
 /// Of the same mesh with the same bits, of another one interpolated.
-void read_flow(const Config& config, const CheckpointReader& file, FluidState& fluid) {
-  const Config other = case_of_flow(config, file);
-  if (same_mesh(config, other)) return load_flow(file, fluid);
+void read_flow(const SettledCase& the_case, const CheckpointReader& file, FluidState& fluid) {
+  const FluidCase other = case_of_flow(the_case.config, file);
+  if (same_mesh(the_case.fluid(), other)) return load_flow(file, fluid);
   FluidState whole = make_fluid_state(make_grid(other));
   load_flow(file, whole);
-  map_flow(config, whole, fluid);
+  map_flow(the_case.fluid(), whole, fluid);
 }
 
-FluidState initial_fluid(const Config& config, const std::filesystem::path& file,
+FluidState initial_fluid(const SettledCase& the_case, const std::filesystem::path& file,
                          const Decomposition* pencils) {
-  FluidState fluid = make_fluid_state(make_grid(config, pencils));
+  FluidState fluid = make_fluid_state(make_grid(the_case.fluid(), pencils));
   if (!file.empty()) {
     const CheckpointReader flow(file, pencils ? pencils->all() : MPI_COMM_SELF);
-    read_flow(config, flow, fluid);
+    read_flow(the_case, flow, fluid);
     fluid.time = 0;
     // The precursor's fluid step may be another one, and grains now push the water aside.
     fluid.has_history = false;
     return fluid;
   }
   StartFlows::each([&]<class Flow>() {
-    if (config.initial.starts_as<Flow>()) set_flow(Flow{}, config, fluid);
+    if (the_case.config.initial.starts_as<Flow>()) set_flow(Flow{}, the_case, fluid);
   });
   return fluid;
 }
@@ -147,7 +144,7 @@ void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::str
   for (std::string& name : theirs) name = name_of_number(name, config);
   if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
     throw InputError(fmt::format("{}: it must {}", source, problem));
-  const std::size_t n_kinds = all_kinds(config).size();
+  const std::size_t n_kinds = names_of_kinds(config).size();
   std::vector<int> ours;  // of each of theirs; without names these are in the case's order
   for (const std::string& name : theirs) ours.push_back(kind_of_name(config, name));
   for (std::uint8_t& kind : grains.kind) {
@@ -180,10 +177,11 @@ std::string source_of_grains(const Config& config, const std::filesystem::path& 
   return config.initial.heaps.empty() ? file.string() : "initial.heap";
 }
 
-InitialGrains checked_grains(const Config& config, const std::filesystem::path& file) {
-  const std::vector<HeapConfig> heaps = poured_heaps(config);
+InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem::path& file) {
+  const Config& config = the_case.config;
+  const std::vector<HeapConfig>& heaps = the_case.heaps;
   InitialGrains grains =
-      heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size, make_bodies(config));
+      heaps.empty() ? read_grains(file) : pour_grains(heaps, config.size, the_case.bodies());
   const std::string source = source_of_grains(config, file);
   if (grains.size() == 0) throw InputError(source + " holds no grains");
   grains.last_id = std::max(grains.last_id, std::ranges::max(grains.id));
@@ -195,18 +193,19 @@ InitialGrains checked_grains(const Config& config, const std::filesystem::path& 
   cut_craters(config.initial.craters, grains);
   if (grains.size() == 0) throw InputError("initial.crater leaves no grains");
   check_apart(grains, box_of(config), source);
-  check_outside_bodies(grains, config, source);
+  check_outside_bodies(grains, the_case.grains(), source);
   if (!config.grains->frozen)
     check_overlaps(grains, box_of(config), config.grains->max_overlap, source);
   return grains;
 }
 
-SystemState make_initial_state(const Config& config, const InitialFiles& files, MPI_Comm ranks,
-                               const Decomposition* pencils) {
+SystemState make_initial_state(const SettledCase& the_case, const InitialFiles& files,
+                               MPI_Comm ranks, const Decomposition* pencils) {
+  const Config& config = the_case.config;
   SystemState state;
-  if (config.fluid) state.fluid = initial_fluid(config, files.fluid, pencils);
+  if (config.fluid) state.fluid = initial_fluid(the_case, files.fluid, pencils);
   if (config.grains) {
-    const InitialGrains grains = checked_grains(config, files.grains);
+    const InitialGrains grains = checked_grains(the_case, files.grains);
     state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
   }
   return state;

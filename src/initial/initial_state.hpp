@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/config/config.hpp"
+#include "src/case/settled.hpp"
 #include "src/coupling/system_state.hpp"
 #include "src/grains/initial_grains.hpp"
 
@@ -33,12 +33,12 @@ std::string source_of_grains(const Config& config, const std::filesystem::path& 
 
 /// The grains that a case starts with: poured, or of a .csv or .h5 `file`. Throws InputError if the
 /// case does not suit them, and what the readers throw.
-InitialGrains checked_grains(const Config& config, const std::filesystem::path& file);
+InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem::path& file);
 
 /// Flow at rest, uniform, turbulent or from a file; grains poured or from a file. The grains' list
 /// and the fluid fraction come with CoupledStep::start. Among `ranks`, the flow on `pencils`.
 /// Throws InputError if a file does not fit, and what the readers throw.
-SystemState make_initial_state(const Config& config, const InitialFiles& files,
+SystemState make_initial_state(const SettledCase& the_case, const InitialFiles& files,
                                MPI_Comm ranks = MPI_COMM_SELF,
                                const Decomposition* pencils = nullptr);
 

@@ -7,8 +7,8 @@
 
 namespace barchan {
 
-void map_flow(const Config& config, FluidState& from, FluidState& to) {
-  const FluidConfig& fluid = config.fluid.value();
+void map_flow(const FluidCase& flow, FluidState& from, FluidState& to) {
+  const FluidConfig& fluid = flow.fluid;
   fill_ghosts(Boundary(from.grid, fluid.bottom, fluid.top, fluid.top_velocity), from);
   for_each_cell("fluid: from another mesh", to.grid,
                 FlowFromMesh{.from = from.grid,
@@ -23,10 +23,10 @@ void map_flow(const Config& config, FluidState& from, FluidState& to) {
                              .p = to.p,
                              .nu_t = to.nu_t,
                              .alpha = to.alpha_f});
-  if (!config.grains) Kokkos::deep_copy(to.alpha_f.storage, Real(1));
+  if (!flow.with_grains) Kokkos::deep_copy(to.alpha_f.storage, Real(1));
   Kokkos::deep_copy(to.alpha_f_previous.storage, to.alpha_f.storage);
   to.drive = from.drive;
-  FluidSolver(config, to.grid).remove_divergence(to);
+  FluidSolver(flow, to.grid).remove_divergence(to);
   const Real along = bulk_velocity(to), across = bulk_velocity_across(to);
   const bool more_across = std::abs(across) > std::abs(along);
   const Real bulk = more_across ? across : along;

@@ -1,7 +1,7 @@
 // The flow of one mesh on another.
 #pragma once
 
-#include "src/config/config.hpp"
+#include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_state.hpp"
 
 namespace barchan {
@@ -11,6 +11,6 @@ namespace barchan {
 /// divergence of alpha u is taken away by a gradient, and the velocity is scaled to the bulk
 /// velocity of `from`. `config`: of `to`. `from` is whole on every rank and gets its ghosts here;
 /// those of `to` are not set. All ranks together.
-void map_flow(const Config& config, FluidState& from, FluidState& to);
+void map_flow(const FluidCase& flow, FluidState& from, FluidState& to);
 
 }  // namespace barchan

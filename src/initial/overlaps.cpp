@@ -9,7 +9,6 @@
 
 #include "kernels/grains/body_contact.hpp"
 #include "src/base/errors.hpp"
-#include "src/bodies/make_bodies.hpp"
 
 namespace barchan {
 namespace {
@@ -114,10 +113,10 @@ void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double 
       found.count > 1 ? fmt::format("; {} pairs do", found.count) : ""));
 }
 
-void check_outside_bodies(const InitialGrains& grains, const Config& config,
+void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
                           const std::string& source) {
-  const Bodies bodies = make_bodies(config);
-  const double most = config.grains->frozen ? 0.5 : std::min(config.grains->max_overlap, 0.5);
+  const Bodies& bodies = config.bodies;
+  const double most = config.grains.frozen ? 0.5 : std::min(config.grains.max_overlap, 0.5);
   for (int b = 0; b < bodies.n; ++b) {
     std::size_t count = 0, deepest = 0;
     double overlap = 0;
@@ -133,19 +132,18 @@ void check_outside_bodies(const InitialGrains& grains, const Config& config,
         "({:.6g}, {:.6g}, {:.6g}) m by {:.3g} %: take out the grains there, or move the body "
         "(body.{}.centre, body.{}.base)",
         source, count == 1 ? "a grain lies" : fmt::format("{} grains lie", count),
-        config.bodies[static_cast<std::size_t>(b)].name, 100 * most,
-        config.grains->frozen ? "" : " (grains.max_overlap)", grains.id[deepest], x.x, x.y, x.z,
+        config.body_names[static_cast<std::size_t>(b)], 100 * most,
+        config.grains.frozen ? "" : " (grains.max_overlap)", grains.id[deepest], x.x, x.y, x.z,
         100 * overlap, b + 1, b + 1));
   }
 }
 
-void check_feed_places(const Config& config, double d_min, double d_max) {
-  if (config.bodies.empty() || !config.grains || !config.grains->feed) return;
-  if (config.grains->boundary_x == GrainBoundaryX::follow) return;  // its places move
-  const FeedConfig& feed = *config.grains->feed;
-  const Bodies bodies = make_bodies(config);
+void check_feed_places(const GrainsCase& config, double d_min, double d_max) {
+  if (config.bodies.n == 0 || !config.grains.feed) return;
+  if (config.grains.boundary_x == GrainBoundaryX::follow) return;  // its places move
+  const FeedConfig& feed = *config.grains.feed;
   for (const double d : {d_min, d_max})
-    if (!in_bodies_everywhere(feed, config.size[2], d / 2, bodies)) return;
+    if (!in_bodies_everywhere(feed, config.size[2], d / 2, config.bodies)) return;
   throw InputError(fmt::format(
       "[grains.feed] x = {:.6g}, height = {:.6g}: no grain could come in: all across the stream a "
       "body is in its place; move the one or the other (grains.feed.across, body.1.centre)",

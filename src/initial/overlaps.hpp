@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/config/config.hpp"
+#include "src/grains/grains_case.hpp"
 #include "src/grains/initial_grains.hpp"
 
 namespace barchan {
@@ -17,11 +17,11 @@ void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double 
 /// Refuses the grains of `source` if the centre of one lies in a body, or, where grains move, if
 /// one reaches into it by more than grains.max_overlap of its diameter. Throws InputError with
 /// their number and the deepest one.
-void check_outside_bodies(const InitialGrains& grains, const Config& config,
+void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
                           const std::string& source);
 
 /// Refuses a feed none of whose places is free of bodies, neither for the smallest grain nor for
 /// the largest; diameters in [m]. Throws InputError.
-void check_feed_places(const Config& config, double d_min, double d_max);
+void check_feed_places(const GrainsCase& config, double d_min, double d_max);
 
 }  // namespace barchan

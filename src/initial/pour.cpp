@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "kernels/bodies/body.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/heaps.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/heaps.hpp"
 
 namespace barchan {
 

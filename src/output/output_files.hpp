@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "src/config/config.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/output/output_case.hpp"
 
 namespace barchan {
 

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/config/ensemble_member.hpp"
+#include "src/case/ensemble_member.hpp"
 #include "src/io/seal.hpp"
 
 namespace barchan {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 
 namespace barchan {
 

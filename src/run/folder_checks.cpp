@@ -8,7 +8,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/io/frame_file.hpp"

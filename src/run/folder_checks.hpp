@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 
 namespace barchan {
 

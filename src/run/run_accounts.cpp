@@ -4,8 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
+#include "src/case/derived.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/run_folder.hpp"

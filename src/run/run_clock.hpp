@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 
 namespace barchan {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/parallel/communicator.hpp"

@@ -10,7 +10,7 @@
 #include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/heap_shares.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 #include "src/io/hdf5_file.hpp"
 
 namespace barchan {

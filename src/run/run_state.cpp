@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/output/grain_state_file.hpp"
@@ -33,26 +33,26 @@ std::vector<std::string> changes_since(const CheckpointReader& file, const Confi
 }
 
 /// The state a run starts from; a restart brings its own number of grains.
-SystemState first_state(const Config& config, const CheckpointReader* restart,
+SystemState first_state(const SettledCase& the_case, const CheckpointReader* restart,
                         const InitialFiles& files, MPI_Comm ranks, const Decomposition* pencils) {
-  if (restart == nullptr) return make_initial_state(config, files, ranks, pencils);
+  if (restart == nullptr) return make_initial_state(the_case, files, ranks, pencils);
   SystemState state;
-  if (config.fluid) state.fluid = make_fluid_state(make_grid(config, pencils));
-  if (config.grains) state.grains = grains_in_file(*restart, ranks);
+  if (the_case.config.fluid) state.fluid = make_fluid_state(make_grid(the_case.fluid(), pencils));
+  if (the_case.config.grains) state.grains = grains_in_file(*restart, ranks);
   return state;
 }
 
 }  // namespace
 
-RunState::RunState(const Config& the_case, const CheckpointReader* restart,
+RunState::RunState(const SettledCase& settled, const CheckpointReader* restart,
                    const InitialFiles& files)
-    : config(the_case),
+    : the_case(settled),
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
-      pencils(make_decomposition(config, ranks)),
+      pencils(make_decomposition(config.fluid, ranks)),
       changed_config(restart ? changes_since(*restart, config) : std::vector<std::string>()),
-      state(first_state(config, restart, files, ranks, pencils.get())),
-      coupled_step(config, state) {
+      state(first_state(the_case, restart, files, ranks, pencils.get())),
+      coupled_step(the_case.coupled, state) {
   provenance.inputs = restart != nullptr ? restart->provenance().inputs : files.record;
   if (restart != nullptr) {
     go_on_from(*restart);
@@ -64,14 +64,14 @@ RunState::RunState(const Config& the_case, const CheckpointReader* restart,
   clock.start = clock.step;
 }
 
-RunState::RunState(const Config& the_case, std::unique_ptr<const Decomposition> the_pencils,
+RunState::RunState(const SettledCase& settled, std::unique_ptr<const Decomposition> the_pencils,
                    SystemState first)
-    : config(the_case),
+    : the_case(settled),
       provenance(make_provenance(config)),
       clock{.fluid_step = config.time.fluid_step, .end = fluid_steps(config.time)},
       pencils(std::move(the_pencils)),
       state(std::move(first)),
-      coupled_step(config, state) {
+      coupled_step(the_case.coupled, state) {
   coupled_step.start(state);
   count_grains();
 }
@@ -96,7 +96,7 @@ void RunState::go_on_from(const CheckpointReader& file) {
 void RunState::check_feed(const std::filesystem::path& file) const {
   const GrainState& grains = *state.grains;
   check_free_ids(config, last_id(grains), file.string());
-  check_feed_places(config, 2 * grains.r_min, 2 * grains.r_max);
+  check_feed_places(the_case.grains(), 2 * grains.r_min, 2 * grains.r_max);
   const bool no_body = grains.feed.next_id == 0 ? n_grains == 0 : grains.feed.bodies.empty();
   if (no_body && config.grains->feed->amount == FeedAmount::given)
     throw InputError(

@@ -15,15 +15,19 @@ namespace barchan {
 
 struct RunState {
   /// Starts a new run, or goes on from a restart file; see Simulation. All ranks together.
-  RunState(const Config& config, const CheckpointReader* restart, const InitialFiles& files);
+  RunState(const SettledCase& the_case, const CheckpointReader* restart, const InitialFiles& files);
   /// Starts from a state that was made for it, with the same `pencils`.
-  RunState(const Config& config, std::unique_ptr<const Decomposition> pencils, SystemState state);
+  RunState(const SettledCase& the_case, std::unique_ptr<const Decomposition> pencils,
+           SystemState state);
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
 
   /// One fluid step.
   void advance();
 
   MPI_Comm ranks = MPI_COMM_WORLD;
-  Config config;
+  SettledCase the_case;
+  const Config& config = the_case.config;
   Provenance provenance;
   RunClock clock;
   std::unique_ptr<const Decomposition> pencils;  // none: one rank has all of the grid

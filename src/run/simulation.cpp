@@ -6,7 +6,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/stop_request.hpp"
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/watchdog.hpp"
@@ -23,21 +23,22 @@ std::string source_of(const Config& config, const RunOptions& options, const Ini
 
 }  // namespace
 
-Simulation::Simulation(const Config& config, const RunOptions& options, const InitialFiles& files)
+Simulation::Simulation(const SettledCase& the_case, const RunOptions& options,
+                       const InitialFiles& files)
     : options_(options),
       restart_(options.restart
                    ? std::make_unique<CheckpointReader>(*options.restart, MPI_COMM_WORLD)
                    : nullptr),
-      run_(config, restart_.get(), files),
+      run_(the_case, restart_.get(), files),
       diagnostics_(run_),
-      state_checks_(config, run_.ranks) {
-  accounts_.bodies = BodySums(config.bodies.size());
+      state_checks_(the_case.coupled, run_.ranks) {
+  accounts_.bodies = BodySums(run_.config.bodies.size());
   if (restart_) {
     diagnostics_.load(*restart_);
     accounts_.load(*restart_);
     restart_.reset();
   }
-  const std::string source = source_of(config, options, files);
+  const std::string source = source_of(run_.config, options, files);
   state_checks_.check_start(run_.state, run_.coupled_step, source);
   if (!options.restart) follow_first_dune(source);
 }

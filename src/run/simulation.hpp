@@ -20,7 +20,7 @@ class Simulation {
  public:
   /// Reads and checks all that the run starts from, and writes nothing: whatever it throws is about
   /// input (as_input).
-  Simulation(const Config& config, const RunOptions& options, const InitialFiles& files);
+  Simulation(const SettledCase& the_case, const RunOptions& options, const InitialFiles& files);
 
   /// Makes the folder ready: see ResultsWriter.
   void open_folder();

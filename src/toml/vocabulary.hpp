@@ -1,5 +1,5 @@
 // What the program says of its case files, so that this room need not know a key of theirs. It is
-// defined in src/config.
+// defined in src/case.
 #pragma once
 
 #include <memory>

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
-#include "src/config/validate.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
+#include "src/case/validate.hpp"
 #include "tests/fuzz/fuzzed.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -10,7 +10,7 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/seal.hpp"
 #include "src/run/simulation.hpp"

@@ -1,6 +1,6 @@
 // The same with the library: a case is read and its numbers are printed.
-#include <barchan/src/config/derived.hpp>
-#include <barchan/src/config/load.hpp>
+#include <barchan/src/case/derived.hpp>
+#include <barchan/src/case/load.hpp>
 #include <cstdio>
 
 int main(int, char** argv) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"

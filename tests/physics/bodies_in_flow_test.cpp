@@ -336,7 +336,7 @@ TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
   run.start_uniform(0.28);
   run.solver.flow_around_bodies(run.fluid);
   EXPECT_NEAR(bulk_velocity(run.fluid), 0.28, 1e-12);
-  const Bodies bodies = make_bodies(config);
+  const Bodies bodies = make_bodies(config.bodies, config.size);
   const auto check = [&] {
     const auto u = to_host(run.fluid.u.x), v = to_host(run.fluid.u.y), w = to_host(run.fluid.u.z);
     std::vector<double> section(16);

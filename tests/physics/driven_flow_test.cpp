@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "src/fluid/flow_schedule.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "tests/support/flow_run.hpp"
 #include "tests/support/measured.hpp"
@@ -20,17 +21,17 @@ using namespace test;
 
 TEST(Drive, TargetsOfACaseAndOfASchedule) {
   FluidConfig fluid;
-  EXPECT_FALSE(Drive(fluid).along_z());
-  EXPECT_EQ(Drive(fluid).target(1, {0.1, 0}).x, 0);
+  EXPECT_FALSE(Drive(fluid, flow_schedule(fluid)).along_z());
+  EXPECT_EQ(Drive(fluid, flow_schedule(fluid)).target(1, {0.1, 0}).x, 0);
   fluid.mean_velocity = 0.3;
-  EXPECT_DOUBLE_EQ(Drive(fluid).target(0, {0.1, 0}).x, 0.3);
+  EXPECT_DOUBLE_EQ(Drive(fluid, flow_schedule(fluid)).target(0, {0.1, 0}).x, 0.3);
   fluid.ramp_time = 2;
-  EXPECT_DOUBLE_EQ(Drive(fluid).target(0.5, {0.1, 0}).x, 0.15);
-  EXPECT_DOUBLE_EQ(Drive(fluid).target(5, {0.1, 0}).x, 0.3);
-  EXPECT_FALSE(Drive(fluid).along_z());
+  EXPECT_DOUBLE_EQ(Drive(fluid, flow_schedule(fluid)).target(0.5, {0.1, 0}).x, 0.15);
+  EXPECT_DOUBLE_EQ(Drive(fluid, flow_schedule(fluid)).target(5, {0.1, 0}).x, 0.3);
+  EXPECT_FALSE(Drive(fluid, flow_schedule(fluid)).along_z());
   fluid.mean_velocity = 0;
   fluid.schedule = {{.velocity = 0.2}, {.time = 1, .velocity = {0.4, 0.1}, .ramp = 2}};
-  const Drive turns(fluid);
+  const Drive turns(fluid, flow_schedule(fluid));
   EXPECT_TRUE(turns.along_z());
   EXPECT_DOUBLE_EQ(turns.target(0, {}).x, 0.2);
   EXPECT_DOUBLE_EQ(turns.target(1.5, {}).x, 0.25);

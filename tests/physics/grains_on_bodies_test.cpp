@@ -34,7 +34,7 @@ TEST(GrainsOnBodies, AGrainSinksInByHertz) {
     expect_relative(shape.name + ", force over weight", on.load.force.y, -weight, 1e-6);
     expect_below(shape.name + ", other force over weight",
                  std::hypot(on.load.force.x, on.load.force.z) / weight, 1e-6);
-    const Vec3 place = make_bodies(config).body[0].from_foot(k.x);
+    const Vec3 place = make_bodies(config.bodies, config.size).body[0].from_foot(k.x);
     const Vec3 torque = cross(place, Vec3{0, -weight, 0});
     expect_below(shape.name + ", torque over weight times r off by",
                  norm(on.load.torque - torque) / (weight * kRadius), 1e-4);

@@ -46,7 +46,7 @@ struct Solid {
   Solid(const BodyConfig& shape, const Material& grains)
       : config(with_bodies(grains, {shape})),
         extent(body_extent(shape, config.size)),
-        body(make_bodies(config).body[0]) {}
+        body(make_bodies(config.bodies, config.size).body[0]) {}
 };
 
 /// A place near the surface from where a grain soon touches it, with the normal there.
@@ -213,7 +213,7 @@ TEST(HitsOnBodies, NoHitGivesEnergy) {
 TEST(HitsOnBodies, TheCrestOfADuneGivesNoEnergy) {
   const BodyConfig shape = all_shapes()[7];
   const Config config = with_bodies(material(0, 1), {shape});
-  const Body body = make_bodies(config).body[0];
+  const Body body = make_bodies(config.bodies, config.size).body[0];
   Uniform uniform(5);
   Real change = 0;
   int hits = 0;

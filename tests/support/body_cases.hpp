@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/config/body_extent.hpp"
+#include "src/bodies/body_extent.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan::test {

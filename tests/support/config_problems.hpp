@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 
 namespace barchan::test {
 

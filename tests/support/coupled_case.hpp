@@ -1,7 +1,7 @@
 // A small coupled case: 200 grains in a turbulent channel of 12 x 6 x 6 mm.
 #pragma once
 
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan::test {

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "src/case/config.hpp"
 #include "src/coupling/coupled_step.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/fluid/domain.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan::test {
 

@@ -5,10 +5,11 @@
 #include <random>
 #include <vector>
 
-#include "src/config/mesh.hpp"
+#include "src/case/config.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/fluid/mesh.hpp"
 
 namespace barchan::test {
 

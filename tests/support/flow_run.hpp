@@ -1,6 +1,7 @@
 // A flow that is stepped by hand.
 #pragma once
 
+#include "src/case/config.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "tests/support/flow_fields.hpp"
 

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "src/case/config.hpp"
 #include "src/grains/grain_solver.hpp"
 #include "src/parallel/mirror.hpp"
 

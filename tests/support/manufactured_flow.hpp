@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "src/config/config.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan::test {
 

@@ -7,7 +7,7 @@
 
 #include "kernels/math/one_of.hpp"
 #include "src/base/enum_names.hpp"
-#include "src/config/choices.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "kernels/bodies/body.hpp"
 #include "src/bodies/make_bodies.hpp"
+#include "src/case/config.hpp"
 
 namespace barchan {
 namespace {
@@ -68,7 +69,7 @@ Body body_of(const BodyConfig& config) {
   Config c;
   c.size = kDomain;
   c.bodies = {config};
-  return make_bodies(c).body[0];
+  return make_bodies(c.bodies, c.size).body[0];
 }
 
 class Samples {
@@ -219,7 +220,7 @@ TEST(Bodies, TheNearestIsTheOneThatIsDeepest) {
                .shape = BodyShape::of<shapes::Sphere>(),
                .centre = {0.06, 0.04},
                .radius = 0.01}};
-  const Bodies bodies = make_bodies(c);
+  const Bodies bodies = make_bodies(c.bodies, c.size);
   EXPECT_EQ(bodies.nearest({0.03, 0.005, 0.04}).body, 0);
   EXPECT_EQ(bodies.nearest({0.045, 0.01, 0.04}).body, 1);
   EXPECT_NEAR(bodies.nearest({0.06, 0.013, 0.04}).surface.distance, -0.007, 1e-15);

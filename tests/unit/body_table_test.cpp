@@ -5,7 +5,7 @@
 
 #include "kernels/bodies/body.hpp"
 #include "src/bodies/make_bodies.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {
@@ -15,7 +15,8 @@ TEST(BodyTable, DistancesAreThoseOfThePythonPackage) {
   const auto rows = test::reference_table("body_distances.csv");
   int compared = 0;
   for (const std::string name : {"bodies", "bodies-2"}) {
-    const Bodies bodies = make_bodies(load_config(test::reference_file(name + ".toml")));
+    const Config config = load_config(test::reference_file(name + ".toml"));
+    const Bodies bodies = make_bodies(config.bodies, config.size);
     for (const test::ReferenceRow& row : rows) {
       if (row.at("file") != name) continue;
       const int b = std::stoi(row.at("body"));

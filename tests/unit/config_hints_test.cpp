@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/config/synonyms.hpp"
+#include "src/case/synonyms.hpp"
 #include "src/toml/keys.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"

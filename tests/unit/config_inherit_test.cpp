@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "src/config/derived.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Every way a configuration file can be wrong is said with its line, its key and what is allowed.
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 
 #include <fstream>
 

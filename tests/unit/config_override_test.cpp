@@ -1,8 +1,8 @@
 // --set reaches every key of a case, and what it says is checked as the file is.
 #include <gtest/gtest.h>
 
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {

@@ -1,5 +1,5 @@
 // What the table of keys promises of every key: it is read, written, compared and explained.
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "src/toml/keys_page.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "src/base/errors.hpp"
-#include "src/config/load.hpp"
+#include "src/case/load.hpp"
 #include "src/toml/keys.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"

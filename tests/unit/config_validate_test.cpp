@@ -1,5 +1,5 @@
 // Keys that are fine alone and wrong together; what is unwise is a warning and runs.
-#include "src/config/validate.hpp"
+#include "src/case/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Derived numbers against the values known for the paper's case.
-#include "src/config/derived.hpp"
+#include "src/case/derived.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // Drag laws against the reference table and their limits.
 #include <gtest/gtest.h>
 
-#include "src/config/choices.hpp"
+#include "src/case/config.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace barchan {

@@ -9,8 +9,8 @@
 #include "src/app/check_case.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
-#include "src/config/heaps.hpp"
-#include "src/config/load.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/load.hpp"
 #include "src/initial/pour.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -42,18 +42,18 @@ TEST(Memory, GrowsWithCellsAndGrains) {
 
 TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {
   Config c = dune();
-  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.flow = 2, .pressure = 1, .iterations = 4}).flow, 3000);
-  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.exchange = 3}).exchange, 3000);
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.flow = 2, .pressure = 1, .iterations = 4}).flow, 3000);
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.exchange = 3}).exchange, 3000);
   // Of a flow that moves them: more than at rest, but not twice as much.
-  const double moving = run_seconds(c, kSizes, {.grain_step = 1}).grains;
+  const double moving = run_seconds({c, kSizes}, {.grain_step = 1}).grains;
   EXPECT_GT(moving, 50000);
   EXPECT_LT(moving, 100000);
-  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.rebuild = 2}).lists, rebuild_rate(c, kSizes));
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.rebuild = 2}).lists, rebuild_rate({c, kSizes}));
   c.grains->frozen = true;
-  EXPECT_EQ(run_seconds(c, kSizes, {.grain_step = 1, .rebuild = 2}).all(), 0);
+  EXPECT_EQ(run_seconds({c, kSizes}, {.grain_step = 1, .rebuild = 2}).all(), 0);
   c.grains->frozen = false;
   c.fluid.reset();
-  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.grain_step = 1}).grains, 50000);
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.grain_step = 1}).grains, 50000);
 }
 
 /// 0.5 s at 2,000 in a second: as many come in as are there.
@@ -65,7 +65,7 @@ TEST(Memory, GrainsThatComeInCount) {
   const PartSeconds parts{.exchange = 1, .grain_step = 1};
   Config unfed = c;
   unfed.grains->feed.reset();
-  const RunSeconds more = run_seconds(c, kSizes, parts), less = run_seconds(unfed, kSizes, parts);
+  const RunSeconds more = run_seconds({c, kSizes}, parts), less = run_seconds({unfed, kSizes}, parts);
   EXPECT_DOUBLE_EQ(more.exchange / less.exchange, 1.5) << "half of them on average";
   EXPECT_DOUBLE_EQ(more.grains / less.grains, 1.5);
   c.grains->feed->start = 0.25;
@@ -75,26 +75,26 @@ TEST(Memory, GrainsThatComeInCount) {
 TEST(RunSeconds, CountOutputAndStatistics) {
   Config c = dune();
   c.output.dune_interval = 0.05;
-  EXPECT_DOUBLE_EQ(run_seconds(c, kSizes, {.dunes = 7}).output, 70);
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.dunes = 7}).output, 70);
   c.statistics = StatisticsConfig{.start = 0.3, .interval = 0.01};
-  EXPECT_NEAR(run_seconds(c, kSizes, {.sample = 2}).output, 40, 1e-9);
+  EXPECT_NEAR(run_seconds({c, kSizes}, {.sample = 2}).output, 40, 1e-9);
   c.output.grains_interval = 1e-9;  // a frame after every step, no more
-  const double frames = run_seconds(c, kSizes, {}).output;
+  const double frames = run_seconds({c, kSizes}, {}).output;
   EXPECT_GT(frames, 0);
   c.time.end *= 2;
-  EXPECT_NEAR(run_seconds(c, kSizes, {}).output, 2 * frames, 1e-9);
+  EXPECT_NEAR(run_seconds({c, kSizes}, {}).output, 2 * frames, 1e-9);
 }
 
 // A list is good for as long as the fastest grain stays within the widest skin, 0.4 diameters.
 TEST(RebuildRate, FollowsTheFastestGrains) {
   Config c = dune();
-  const double rate = rebuild_rate(c, kSizes);  // at 0.4 of 0.2 m/s, from a skin of 0.02 mm
+  const double rate = rebuild_rate({c, kSizes});  // at 0.4 of 0.2 m/s, from a skin of 0.02 mm
   EXPECT_NEAR(rate, 0.08 / (1.25e-4 + 6 * 2e-5 - 2e-5), 1e-6 * rate);
   c.fluid->mean_velocity = 0.4;
-  EXPECT_NEAR(rebuild_rate(c, kSizes), 2 * rate, 1e-6 * rate);
+  EXPECT_NEAR(rebuild_rate({c, kSizes}), 2 * rate, 1e-6 * rate);
   c.fluid.reset();
   c.grains->ambient = AmbientConfig{};
-  EXPECT_LT(rebuild_rate(c, kSizes), rate / 2);  // they fall at some 20 mm/s
+  EXPECT_LT(rebuild_rate({c, kSizes}), rate / 2);  // they fall at some 20 mm/s
 }
 
 TEST(PackedGrains, TouchAsInAHeapAtRest) {
@@ -144,7 +144,7 @@ class PlannedGrainsTest : public ::testing::Test {
 
 TEST_F(PlannedGrainsTest, ATableIsCounted) {
   const PlannedGrains grains = planned("table.toml");
-  EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{1.5e-4, 1}, {2e-4, 1}}));
+  EXPECT_EQ(grains.settled.sizes, (std::vector<SizeClass>{{1.5e-4, 1}, {2e-4, 1}}));
   ASSERT_TRUE(grains.grains.has_value());
   EXPECT_EQ(grains.grains->size(), 2u);
 }
@@ -161,9 +161,9 @@ TEST_F(PlannedGrainsTest, ATableThatTheRunWouldRefuseIsRefused) {
 TEST_F(PlannedGrainsTest, OfAStartThoseThatItPoursUntilItHasResults) {
   const Case the_case = load_case(folder_ / "after.toml");
   PlannedGrains grains = planned("after.toml");
-  EXPECT_EQ(grains.sizes, (std::vector<SizeClass>{{2e-4, 30}}));
+  EXPECT_EQ(grains.settled.sizes, (std::vector<SizeClass>{{2e-4, 30}}));
   EXPECT_FALSE(grains.grains.has_value());
-  EXPECT_EQ(grains.poured_in.title, "t");
+  EXPECT_EQ(grains.poured_in.config.title, "t");
   const auto missing = missing_starts(the_case, folder_ / "runs/case");
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_EQ(missing[0].folder.filename(), "poured");
@@ -183,7 +183,7 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
   const Config& config = the_case.config;
   const PlannedGrains planned = planned_grains(the_case, folder / "run");
   const auto pilot = packed_grains(poured_heaps(config), config.size);
-  const double estimated = run_seconds(config, planned.sizes, time_parts(config, pilot, 0.2)).all();
+  const double estimated = run_seconds(planned.settled, time_parts(config, pilot, 0.2)).all();
   Simulation simulation(config, {.folder = folder / "run", .restart = {}}, {});
   const auto start = WallClock::now();
   simulation.run();

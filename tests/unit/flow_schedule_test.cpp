@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/config/derived.hpp"
-#include "src/config/flow_schedule.hpp"
-#include "src/config/resolved.hpp"
-#include "src/config/validate.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/resolved.hpp"
+#include "src/case/validate.hpp"
+#include "src/fluid/flow_schedule.hpp"
 #include "tests/support/config_problems.hpp"
 
 namespace barchan {

@@ -7,7 +7,7 @@
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/bodies/make_bodies.hpp"
-#include "src/config/heaps.hpp"
+#include "src/case/heaps.hpp"
 #include "src/coupling/state_checks.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -55,7 +55,7 @@ TEST(GrainsBesideBodies, AHeapIsPouredAroundAPost) {
   Config c;
   c.size = kSize;
   c.bodies = {post({0.01, 0.006}, 0.001)};
-  const Bodies bodies = make_bodies(c);
+  const Bodies bodies = make_bodies(c.bodies, c.size);
   for (const PourShape shape : {PourShape::cone, PourShape::bed}) {
     const PourConfig pour{
         .shape = shape, .centre = {0.01, 0.006}, .radius = 0.003, .drop_height = 5e-4, .seed = 3};

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "src/app/info_path.hpp"
-#include "src/config/heaps.hpp"
+#include "src/case/heaps.hpp"
 #include "src/initial/crater.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"

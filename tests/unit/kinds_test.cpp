@@ -1,16 +1,16 @@
 // Grains of several kinds from the case to the state and its files.
-#include "src/config/kinds.hpp"
+#include "src/grains/kinds.hpp"
 #include "kernels/grains/sphere.hpp"
-#include "src/config/heaps.hpp"
+#include "src/case/heaps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "src/config/derived.hpp"
-#include "src/config/resolved.hpp"
-#include "src/config/validate.hpp"
+#include "src/case/derived.hpp"
+#include "src/case/resolved.hpp"
+#include "src/case/validate.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/grain_table.hpp"

@@ -1,4 +1,4 @@
-#include "src/config/mesh.hpp"
+#include "src/fluid/mesh.hpp"
 
 #include <cmath>
 #include <stdexcept>

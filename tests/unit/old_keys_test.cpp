@@ -1,7 +1,7 @@
 // Keys of earlier versions: what they mean today, and what is said of them.
 #include <gtest/gtest.h>
 
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/coupling_schemes.hpp"
 

@@ -33,7 +33,7 @@ Config channel(const std::vector<BodyConfig>& bodies) {
 
 bool passes(const std::vector<BodyConfig>& bodies, int axis) {
   const Config c = channel(bodies);
-  return passes(make_bodies(c), make_grid(c).on_host(), axis);
+  return passes(make_bodies(c.bodies, c.size), make_grid(c).on_host(), axis);
 }
 
 TEST(Passage, IsLookedForOnTheMesh) {

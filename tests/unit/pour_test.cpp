@@ -14,7 +14,7 @@
 #include "src/parallel/mirror.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-#include "src/config/heaps.hpp"
+#include "src/case/heaps.hpp"
 
 namespace barchan {
 namespace {

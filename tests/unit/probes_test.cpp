@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "src/base/errors.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "src/diagnostics/probes.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/flow_fields.hpp"

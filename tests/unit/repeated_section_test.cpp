@@ -2,8 +2,8 @@
 // check, write, compare and document it. A key is one line.
 #include <gtest/gtest.h>
 
-#include "src/config/case_values.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/case_values.hpp"
+#include "src/case/resolved.hpp"
 #include "src/toml/key_builder.hpp"
 #include "src/toml/keys_page.hpp"
 #include "src/toml/reading.hpp"

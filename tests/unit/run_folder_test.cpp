@@ -10,7 +10,7 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/resolved.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/heap_shares.hpp"
 #include "src/io/seal.hpp"

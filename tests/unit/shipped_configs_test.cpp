@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "src/app/check_case.hpp"
-#include "src/config/load.hpp"
-#include "src/config/resolved.hpp"
+#include "src/case/load.hpp"
+#include "src/case/resolved.hpp"
 
 namespace barchan {
 namespace {

@@ -1,0 +1,102 @@
+#include "src/case/case_values.hpp"
+
+#include <limits>
+
+namespace barchan {
+
+Mismatch convert(const Node& node, PlaneVelocity& value) {
+  std::array<double, 2> both{};
+  const Mismatch alone = convert(node, both[0]);
+  if (!alone || !convert(node, both)) {
+    value = {both[0], both[1]};
+    return {};
+  }
+  if (std::holds_alternative<double>(node.value)) return alone;
+  return "a number, along x, or [along x, along z]";
+}
+
+Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
+  const std::string expected = "an array of [diameter in m above 0, count above 0]";
+  const auto* classes = std::get_if<NodeArray>(&node.value);
+  if (classes == nullptr) return expected;
+  constexpr std::int64_t max = std::numeric_limits<int>::max();  // what a run can number
+  std::int64_t total = 0;
+  for (const Node& element : *classes) {
+    const auto* pair = std::get_if<NodeArray>(&element.value);
+    SizeClass size;
+    if (pair == nullptr || pair->size() != 2 || convert((*pair)[0], size.diameter) ||
+        convert((*pair)[1], size.count) || size.diameter <= 0 || size.count <= 0) {
+      return fmt::format("{}; {} is not", expected, toml_text(element));
+    }
+    if (size.count > max - total) return fmt::format("sizes of at most {} grains in all", max);
+    total += size.count;
+    value.push_back(size);
+  }
+  return {};
+}
+
+Mismatch convert(const Node& node, ForceSwitches& value) {
+  std::vector<std::string_view> names;
+  for (const ForceName& force : kForceNames) names.push_back(force.name);
+  const auto* chosen = std::get_if<NodeArray>(&node.value);
+  if (chosen == nullptr) return fmt::format("an array of \"{}\"", fmt::join(names, "\", \""));
+  for (const ForceName& force : kForceNames) value.*force.on = false;
+  for (const Node& element : *chosen) {
+    std::size_t at = 0;
+    if (const Mismatch mismatch = convert_name(element, names, at)) {
+      return fmt::format("an array; {} must be {}", toml_text(element), *mismatch);
+    }
+    value.*kForceNames[at].on = true;
+  }
+  return {};
+}
+
+std::string toml_text(const PlaneVelocity& velocity) {
+  return velocity.z == 0 ? toml_text(velocity.x) : toml_text(std::array{velocity.x, velocity.z});
+}
+
+std::string toml_text(const std::vector<SizeClass>& sizes) {
+  std::vector<std::string> classes;
+  for (const SizeClass& size : sizes) {
+    classes.push_back(fmt::format("[{}, {}]", toml_text(size.diameter), size.count));
+  }
+  return fmt::format("[{}]", fmt::join(classes, ", "));
+}
+
+std::string toml_text(const ForceSwitches& forces) {
+  std::vector<std::string> names;
+  for (const ForceName& force : kForceNames) {
+    if (forces.*force.on) names.push_back(toml_text(force.name));
+  }
+  return fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+Mismatch check(const PlaneVelocity& value, const Range& range) {
+  return check(std::array{value.x, value.z}, range);
+}
+
+Mismatch check(const SizeClass& value, const Range& range) { return check(value.diameter, range); }
+
+Form ValueKind<PlaneVelocity>::form() {
+  using enum Form::Of;
+  return {.of = any_of, .parts = {{number}, {.of = number, .count = 2}}};
+}
+
+Form ValueKind<std::vector<SizeClass>>::form() {
+  using enum Form::Of;
+  return {.of = list, .parts = {{.of = tuple, .parts = {{number}, {positive}}}}};
+}
+
+Form ValueKind<ForceSwitches>::form() {
+  Form name{.of = Form::Of::choice};
+  for (const ForceName& force : kForceNames) name.names.push_back(force.name);
+  return {.of = Form::Of::list, .parts = {name}};
+}
+
+std::string ValueKind<ForceSwitches>::type() {
+  ForceSwitches all;
+  for (const ForceName& force : kForceNames) all.*force.on = true;
+  return "array of " + toml_text(all);
+}
+
+}  // namespace barchan

@@ -1,0 +1,56 @@
+// Values of a case that are of its own types: velocities along the floor, sizes of grains, forces.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/case/config.hpp"
+#include "src/toml/form.hpp"
+
+namespace barchan {
+
+/// The members of coupling.forces, by name.
+struct ForceName {
+  std::string_view name;
+  bool ForceSwitches::*on;
+};
+inline constexpr std::array<ForceName, 8> kForceNames{
+    {{"drag", &ForceSwitches::drag},
+     {"pressure_gradient", &ForceSwitches::pressure_gradient},
+     {"stress", &ForceSwitches::stress},
+     {"added_mass", &ForceSwitches::added_mass},
+     {"buoyancy", &ForceSwitches::buoyancy},
+     {"lift", &ForceSwitches::lift},
+     {"torque", &ForceSwitches::torque},
+     {"wall_drag", &ForceSwitches::wall_drag}}};
+
+Mismatch convert(const Node& node, PlaneVelocity& value);
+Mismatch convert(const Node& node, std::vector<SizeClass>& value);
+Mismatch convert(const Node& node, ForceSwitches& value);
+
+std::string toml_text(const PlaneVelocity& value);
+std::string toml_text(const std::vector<SizeClass>& value);
+std::string toml_text(const ForceSwitches& value);
+
+Mismatch check(const PlaneVelocity& value, const Range& range);
+Mismatch check(const SizeClass& value, const Range& range);
+
+template <>
+struct ValueKind<PlaneVelocity> {
+  static std::string type() { return "number or [x, z]"; }
+  static Form form();
+};
+template <>
+struct ValueKind<std::vector<SizeClass>> {
+  static std::string type() { return "array of [diameter, count]"; }
+  static Form form();
+};
+template <>
+struct ValueKind<ForceSwitches> {
+  static std::string type();
+  static Form form();
+};
+
+}  // namespace barchan

@@ -1,0 +1,12 @@
+// Checks of heaps and beds that a case pours.
+#pragma once
+
+#include "src/case/config.hpp"
+#include "src/toml/findings.hpp"
+
+namespace barchan {
+
+/// Shapes, sizes and places of what is poured, and of hollows in it; `c` has grains.
+void check_heaps(const Config& c, Findings& found);
+
+}  // namespace barchan

@@ -1,0 +1,28 @@
+// The keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
+#pragma once
+
+#include "src/grains/grains_case.hpp"
+#include "src/toml/key_builder.hpp"
+
+namespace barchan {
+
+/// In [grains], and again where a material of its own may be given. `get` as in Keys.
+template <class Get>
+void add_material(Section& section, Get get) {
+  Keys key(section, get);
+  using M = Material;
+  key("youngs_modulus", &M::youngs_modulus, between(1e-3, 1e30), "Pa", "Young's modulus");
+  key("poisson_ratio", &M::poisson_ratio, between(0, 0.5), "", "Poisson's ratio");
+  key("restitution", &M::restitution, above(0).at_most(1), "", "coefficient of restitution");
+  key("sliding_friction", &M::sliding_friction, between(0, 1e6), "",
+      "coefficient of sliding friction");
+  key("rolling_friction", &M::rolling_friction, between(0, 1e6), "",
+      "coefficient of rolling friction");
+}
+
+/// [grains.wall], [[grains.kind]], [[grains.pair]].
+void add_wall(Sections& all);
+void add_kinds(Sections& all);
+void add_pairs(Sections& all);
+
+}  // namespace barchan

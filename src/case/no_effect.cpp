@@ -1,0 +1,105 @@
+#include "src/case/no_effect.hpp"
+
+#include <string_view>
+
+#include "src/toml/keys.hpp"
+
+namespace barchan {
+namespace {
+
+bool has_fluid(const Config& c) { return c.fluid.has_value(); }
+bool has_grains(const Config& c) { return c.grains.has_value(); }
+bool is_hertzian(const Config& c) {
+  return !c.grains || c.grains->contact_model.is<HertzMindlin>();
+}
+
+constexpr const char* kWithoutFluid = "must be absent without a [fluid] section";
+constexpr const char* kWithoutGrains = "must be absent without a [grains] section";
+template <CouplingScheme scheme>
+bool is_scheme(const Config& c) {
+  return c.coupling.scheme == scheme;
+}
+
+constexpr const char* kWithSprings =
+    "must be absent with contact_model = \"linear\", which has a linear_stiffness";
+
+/// What a key, or all keys of a section, must have to be of any effect.
+struct Need {
+  std::string_view key, rests_on;
+  bool (*met)(const Config&);
+  const char* message;
+};
+
+// Not here: what a key turns off that is set over a whole case (grains.frozen, a friction of 0, an
+// initial.grains instead of what the case pours).
+constexpr Need kNeeds[] = {
+    {"coupling", "fluid", has_fluid, kWithoutFluid},
+    {"coupling", "grains", has_grains, kWithoutGrains},
+    {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
+     "must be absent without \"drag\" in coupling.forces"},
+    {"coupling.centred", "coupling.scheme", is_scheme<CouplingScheme::centred>,
+     "must be absent unless scheme = \"centred\""},
+    {"coupling.smoothed", "coupling.scheme", is_scheme<CouplingScheme::smoothed>,
+     "must be absent unless scheme = \"smoothed\""},
+    {"coupling.cfdem", "coupling.scheme", is_scheme<CouplingScheme::cfdem>,
+     "must be absent unless scheme = \"cfdem\""},
+    {"solver", "fluid", has_fluid, kWithoutFluid},
+    {"time.grain_step", "grains", has_grains, kWithoutGrains},
+    {"fluid.wale_constant", "fluid.turbulence",
+     [](const Config& c) { return c.fluid->turbulence == Turbulence::wale; },
+     "must be absent unless turbulence = \"wale\""},
+    {"grains.rolling_theta_m", "grains.rolling_model",
+     [](const Config& c) { return c.grains->rolling_model.is<ThetaM>(); },
+     "must be absent unless rolling_model = \"theta_m\""},
+    {"grains.youngs_modulus", "grains.contact_model", is_hertzian, kWithSprings},
+    {"grains.poisson_ratio", "grains.contact_model", is_hertzian, kWithSprings},
+    {"grains.feed.rate", "grains.feed.amount",
+     [](const Config& c) { return c.grains->feed->amount == FeedAmount::given; },
+     "must be absent with amount = \"as_lost\", as many as leave"},
+    {"initial.grains.pour.centre", "initial.grains.pour.shape",
+     [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },
+     "must be absent with shape = \"bed\", which covers the floor"},
+    {"output.fields_interval", "fluid", has_fluid, kWithoutFluid},
+    {"output.dune_interval", "grains", has_grains, kWithoutGrains},
+    {"output.grains_interval", "grains", has_grains, kWithoutGrains},
+    {"output.tracks_interval", "grains", has_grains, kWithoutGrains},
+    {"output.grain_forces", "output.grains_interval",
+     [](const Config& c) { return c.grains && c.output.grains_interval > 0; },
+     "must be absent without grains.h5, which needs [grains] and a grains_interval above 0"},
+    {"restart.keep", "restart.interval",
+     [](const Config& c) { return c.restart.interval > 0 || c.restart.wall_interval > 0; },
+     "must be absent without restart files on the way: both intervals are 0"},
+};
+
+}  // namespace
+
+void check_effects(const Config& c, Findings& found) {
+  const Config unchanged = [&] {
+    Config defaults;
+    if (c.fluid) defaults.fluid.emplace();
+    if (c.grains) defaults.grains.emplace();
+    if (c.grains && c.grains->feed) defaults.grains->feed.emplace();
+    if (c.initial.pour) defaults.initial.pour.emplace();
+    return defaults;
+  }();
+  for (const Section& section : sections()) {
+    for (const Key& key : section.keys) {
+      for (const Need& need : kNeeds) {
+        if (need.key != section.name && need.key != key.dotted()) continue;
+        const auto text = key.text(c, 0);
+        found.error_if(text && text != key.text(unchanged, 0) && !need.met(c),
+                       {key.dotted(), std::string(need.rests_on)}, "{}", need.message);
+      }
+    }
+  }
+}
+
+std::string_view switched_off_by(const std::string& dotted, const Config& config) {
+  for (const Need& need : kNeeds) {
+    const bool meant = need.key == dotted || dotted.starts_with(std::string(need.key) + ".");
+    if (meant && !need.met(config)) return need.rests_on;
+  }
+  return {};
+}
+
+}  // namespace barchan
