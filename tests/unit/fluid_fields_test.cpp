@@ -1,5 +1,6 @@
 // The table of the fields of the flow.
 #include "src/fluid/fluid_fields.hpp"
+#include "src/case/config.hpp"
 
 #include <gtest/gtest.h>
 
