@@ -1,12 +1,12 @@
 // The table of the fields of the flow.
 #include "src/fluid/fluid_fields.hpp"
-#include "src/case/config.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
+#include "src/case/config.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/frame_file.hpp"
