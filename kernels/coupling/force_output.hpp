@@ -22,6 +22,16 @@ struct DragAndAddedMass {
   }
 };
 
+/// At the end of the fluid step [N m].
+struct TorqueOfFlow {
+  Kokkos::View<const GrainKinematics*> grains;
+  FluidOnGrains on_grains;
+  Kokkos::View<Vec3*> torque;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    torque(g) = on_grains.beta_r(g) * (on_grains.omega_f(g) - grains(g).omega);
+  }
+};
+
 /// Contact force of the last grain step and the fluid force of the fluid step [N].
 struct ResultantForce {
   FluidOnGrains on_grains;

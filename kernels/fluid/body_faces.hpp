@@ -1,7 +1,6 @@
 // Faces of the grid that bodies at rest close, and those next to them, which their walls slow down.
 #pragma once
 
-#include "kernels/bodies/body.hpp"
 #include "kernels/fluid/stencil.hpp"
 
 namespace barchan {
@@ -17,8 +16,8 @@ KOKKOS_INLINE_FUNCTION Vec3 face_middle(const BasicGrid<Rows>& grid, int axis, i
 
 /// Whether a face is closed: its middle lies in a body or on its surface. Round-off, as part of a
 /// cell, must not decide that: a body often ends just where cells do.
-template <class Rows>
-KOKKOS_INLINE_FUNCTION bool is_closed_by(const Bodies& bodies, const BasicGrid<Rows>& grid,
+template <class Solids, class Rows>
+KOKKOS_INLINE_FUNCTION bool is_closed_by(const Solids& bodies, const BasicGrid<Rows>& grid,
                                          int axis, int i, int j, int k) {
   const Real size = Kokkos::min(Kokkos::min(grid.dx, grid.dy(j)), grid.dz);
   const Vec3 middle = face_middle(grid, axis, i, j, k);
@@ -32,7 +31,8 @@ KOKKOS_INLINE_FUNCTION Real far_from_bodies(const BasicGrid<Rows>& grid, int j) 
 }
 
 /// The share of the way from a, which is in the water, to b, which is not, that lies in the water.
-KOKKOS_INLINE_FUNCTION Real share_in_water(const Bodies& bodies, const Vec3& a, const Vec3& b) {
+template <class Solids>
+KOKKOS_INLINE_FUNCTION Real share_in_water(const Solids& bodies, const Vec3& a, const Vec3& b) {
   Real water = 0, solid = 1;
   if (bodies.nearest(b).surface.distance >= 0) return 1;
   for (int halved = 0; halved < 50; ++halved) {

@@ -33,6 +33,8 @@ struct ExchangeOnGrains {
   Kokkos::View<Vec3*> pressure_force;    // of the pressure gradient [N]
   Kokkos::View<Vec3*> stress_force;      // of the stress [N]
   Kokkos::View<Vec3*> lift;              // part of the steady force [N]; empty without lift
+  Kokkos::View<Vec3*> resolved_force;    // of a flow that is resolved [N]; empty: it is not
+  Kokkos::View<Vec3*> resolved_torque;   // the same about the centre [N m]
 };
 
 /// A new fluid step: no impulse yet, and the velocity to compare with.

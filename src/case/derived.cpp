@@ -195,7 +195,7 @@ double settling_velocity(double diameter, double density_ratio, double viscosity
 
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top) {
   Derived derived;
-  derived.resolves_rows = resolves_rows(config.coupling);
+  derived.scheme = config.coupling.scheme;
   derived.fluid_steps = fluid_steps(config.time);
   derived.fluid_step = config.time.fluid_step;
   derived.grain_substeps = grain_substeps(config.time);

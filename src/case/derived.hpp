@@ -93,7 +93,7 @@ struct Derived {
   double grain_step = 0;  // [s], the one really taken
   std::optional<FluidNumbers> fluid;
   std::optional<GrainNumbers> grains;  // absent too when no sizes are known
-  bool resolves_rows = true;           // of the exchange
+  CouplingScheme scheme = CouplingScheme::layered;
 };
 
 /// `sizes` as of the Case; may be empty. `config` must have passed validate. `top`: highest

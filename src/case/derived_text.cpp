@@ -32,17 +32,18 @@ void add_fluid(std::string& text, const FluidNumbers& n) {
   line(text, "viscous number", "{:.2g} (stable below 1)", n.viscous_number);
 }
 
-void add_cells_against_grains(std::string& text, const GrainNumbers& n, bool resolves_rows) {
+void add_cells_against_grains(std::string& text, const GrainNumbers& n, CouplingScheme scheme) {
   const std::string top =
       n.top > 0 ? fmt::format(", {:.2f} at {:.3g} mm, the top of the grains{}", n.top_ratio,
                               1e3 * n.top, n.as_poured ? " as poured" : "")
                 : "";
-  const char* limit = resolves_rows ? " (recommended: 0.7 or less)" : "";
+  const bool layered = scheme == CouplingScheme::layered;
+  const char* limit = layered ? " (recommended: 0.7 or less)" : "";
   line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, limit);
-  if (!resolves_rows) {
-    line(text, "smallest cell / grain", "{:.2f} (recommended with this exchange: 1.2 to 1.6)",
-         n.cell_ratio);
-  }
+  if (layered) return;
+  const bool resolved = scheme == CouplingScheme::resolved;
+  line(text, "smallest cell / grain", "{:.2f} (recommended with this exchange: {})", n.cell_ratio,
+       resolved ? "0.1 or less" : "1.2 to 1.6");
 }
 
 /// Of several kinds each line names its own.
@@ -59,14 +60,14 @@ void add_kind(std::string& text, const KindNumbers& n) {
   }
 }
 
-void add_grains(std::string& text, const GrainNumbers& n, bool resolves_rows) {
+void add_grains(std::string& text, const GrainNumbers& n, CouplingScheme scheme) {
   line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
        1e3 * n.d_max, 1e3 * n.d_mean);
   line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
   line(text, "grain step / Rayleigh", "{:.1f} % (smallest), {:.1f} % (mean grain)",
        100 * n.fraction_min, 100 * n.fraction_mean);
   for (const KindNumbers& kind : n.kinds) add_kind(text, kind);
-  if (n.cell_ratio > 0) add_cells_against_grains(text, n, resolves_rows);
+  if (n.cell_ratio > 0) add_cells_against_grains(text, n, scheme);
 }
 
 }  // namespace
@@ -87,7 +88,7 @@ std::string summary(const Derived& derived) {
 std::string to_text(const Derived& derived) {
   std::string text;
   if (derived.fluid) add_fluid(text, *derived.fluid);
-  if (derived.grains) add_grains(text, *derived.grains, derived.resolves_rows);
+  if (derived.grains) add_grains(text, *derived.grains, derived.scheme);
   std::string steps = fmt::format("{} of {:.4g} s", derived.fluid_steps, derived.fluid_step);
   if (derived.grains) {
     steps += fmt::format(", each of {} grain step{} of {:.4g} s", derived.grain_substeps,

@@ -86,6 +86,12 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
 /// smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const KeyNames keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
+  if (c.coupling.scheme == CouplingScheme::resolved) {
+    found.warning_if(std::max({n.column_ratio, n.width_ratio, n.floor_ratio}) > 1.0 / 8, keys,
+                     "makes cells wider than an eighth of a mean grain: too few for the flow "
+                     "around it, 10 or more a diameter");
+    return;
+  }
   if (!resolves_rows(c.coupling)) {
     found.warning_if(n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
                      "makes the smallest cell {:.2f} mean grain diameters; recommended with this "
@@ -196,6 +202,11 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
   check_kinds(grains, found);
+  found.error_if(
+      c.coupling.scheme == CouplingScheme::resolved && !grains.frozen,
+      {"coupling.scheme", "grains.frozen"},
+      "must be another unless frozen = true: the flow is resolved around grains that are "
+      "held");
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   check_following(c, found);

@@ -20,6 +20,9 @@ bool is_scheme(const Config& c) {
   return c.coupling.scheme == scheme;
 }
 
+bool is_unresolved(const Config& c) { return !is_scheme<CouplingScheme::resolved>(c); }
+constexpr const char* kWhereResolved = "must be absent with scheme = \"resolved\"";
+
 constexpr const char* kWithSprings =
     "must be absent with contact_model = \"linear\", which has a linear_stiffness";
 
@@ -37,6 +40,10 @@ constexpr Need kNeeds[] = {
     {"coupling", "grains", has_grains, kWithoutGrains},
     {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
      "must be absent without \"drag\" in coupling.forces"},
+    {"coupling.drag", "coupling.scheme", is_unresolved, kWhereResolved},
+    {"coupling.forces", "coupling.scheme", is_unresolved, kWhereResolved},
+    {"coupling.smoothing_length", "coupling.scheme", is_unresolved, kWhereResolved},
+    {"coupling.alpha_time_derivative", "coupling.scheme", is_unresolved, kWhereResolved},
     {"coupling.centred", "coupling.scheme", is_scheme<CouplingScheme::centred>,
      "must be absent unless scheme = \"centred\""},
     {"coupling.smoothed", "coupling.scheme", is_scheme<CouplingScheme::smoothed>,

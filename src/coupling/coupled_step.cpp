@@ -40,8 +40,10 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
   still_.weight.gravity = {g[0], g[1], g[2]};
   if (state.fluid) {
     add_fluid(*state.grains);
-    add_exchange(*state.grains, config.coupling.forces);
-    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), config.coupling.forces);
+    const CouplingConfig& coupling = config.coupling;
+    add_exchange(*state.grains, coupling.forces);
+    if (coupling.scheme == CouplingScheme::resolved) add_resolved_forces(*state.grains);
+    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
   } else if (grains.ambient) {
@@ -115,8 +117,7 @@ void CoupledStep::deposit(SystemState& state) {
 void CoupledStep::advance_fluid(SystemState& state) {
   if (fluid_) {
     const PhaseTimer timer(phases_, "fluid");
-    fluid_report_ =
-        fluid_->advance(*state.fluid, exchange_ ? &exchange_->on_faces() : nullptr, dt_);
+    fluid_report_ = fluid_->advance(*state.fluid, exchange_ ? exchange_->on_faces() : nullptr, dt_);
   }
   phases_["fluid"] -= fluid_report_.seconds_pressure;
   phases_["pressure"] += fluid_report_.seconds_pressure;
@@ -127,7 +128,10 @@ void CoupledStep::close_step(SystemState& state) {
   GrainState& grains = *state.grains;
   const RebuildSeconds apart(phases_, grains_->list());
   const PhaseTimer timer(phases_, "grains");
-  if (exchange_) ledger_.close_step(exchange_->ledger(), grains);
+  if (exchange_) {
+    exchange_->close(grains, dt_);
+    ledger_.close_step(exchange_->ledger(), grains);
+  }
   if (feed_) {
     feed_->advance(grains, grains_->list());
   } else {

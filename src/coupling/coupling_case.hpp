@@ -10,7 +10,7 @@ namespace barchan {
 
 using DragLaw = Choice<DragLaws>;
 enum class VoidFraction { divided, centre };
-enum class CouplingScheme { layered, centred, smoothed, cfdem };
+enum class CouplingScheme { layered, centred, smoothed, cfdem, resolved };
 
 /// [coupling.centred], [coupling.smoothed]
 struct CentredConfig {

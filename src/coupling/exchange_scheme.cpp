@@ -5,11 +5,11 @@
 #include "src/coupling/centred_exchange.hpp"
 #include "src/coupling/cfdem_exchange.hpp"
 #include "src/coupling/layered_exchange.hpp"
+#include "src/coupling/resolved_flow.hpp"
 
 namespace barchan {
 
-std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
-                                                     const FluidSolver& solver,
+std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config, FluidSolver& solver,
                                                      const GrainState& grains, const Grid& grid) {
   const CouplingConfig& c = config.coupling;
   const FlowAndGrains of{config, solver, grains, grid};
@@ -22,6 +22,8 @@ std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
       return std::make_unique<CentredExchange>(of, c.smoothed.void_fraction, true);
     case CouplingScheme::cfdem:
       return std::make_unique<CfdemExchange>(of, c.cfdem.smooth_exchange);
+    case CouplingScheme::resolved:
+      return std::make_unique<ResolvedFlow>(config, solver, grid);
   }
   throw std::logic_error("a scheme without a class");
 }

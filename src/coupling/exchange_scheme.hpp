@@ -24,15 +24,18 @@ class ExchangeScheme {
   /// Sets alpha_f and its old value, alpha_f_previous; on faces the reaction to the impulse.
   virtual void deposit(const GrainState& grains, FluidState& fluid, Real dt) = 0;
 
-  /// Exchange on the faces of the flow, since the last deposit.
-  virtual const ExchangeOnFaces& on_faces() const = 0;
+  /// What is left to do after the flow's step of dt, of the grains of this rank; most schemes have
+  /// nothing.
+  virtual void close(GrainState&, Real) {}
+
+  /// Exchange on the faces of the flow, since the last deposit; null: none.
+  virtual const ExchangeOnFaces* on_faces() const = 0;
   /// Momentum and volume that changed sides in the last step.
   virtual const ExchangeLedger& ledger() const = 0;
 };
 
 /// Makes the scheme that a case names.
-std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config,
-                                                     const FluidSolver& solver,
+std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config, FluidSolver& solver,
                                                      const GrainState& grains, const Grid& grid);
 
 }  // namespace barchan

@@ -19,7 +19,11 @@ std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver
   const GrainState& grains = *state.grains;
   const int n = grains.n;
   std::vector<NamedForce> forces;
-  if (grains.fluid.has_fluid) {
+  const bool resolved = grains.exchange.resolved_force.size() > 0;
+  if (resolved) {
+    forces.push_back({"force_flow", grains.exchange.resolved_force});
+    forces.push_back({"torque_flow", grains.exchange.resolved_torque, "N m"});
+  } else if (grains.fluid.has_fluid) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
     Kokkos::parallel_for("output: forces on grains", items(n),
                          DragAndAddedMass{.grains = grains.kin,
@@ -32,9 +36,15 @@ std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver
     forces.push_back({"force_added_mass", added});
   }
   if (grains.exchange.lift.size() > 0) forces.push_back({"force_lift", grains.exchange.lift});
-  if (state.fluid) {
+  if (state.fluid && !resolved) {
     forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
     forces.push_back({"force_stress", grains.exchange.stress_force});
+  }
+  if (grains.fluid.has_torque && !resolved) {
+    const auto torque = grain_vector("torque of the flow", n);
+    Kokkos::parallel_for("output: torques on grains", items(n),
+                         TorqueOfFlow{grains.kin, grains.fluid, torque});
+    forces.push_back({"torque_flow", torque, "N m"});
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   solver.split_contacts(grains, normal, tangential);

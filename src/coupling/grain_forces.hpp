@@ -9,7 +9,8 @@
 namespace barchan {
 
 /// By name [N], rows as in the state: drag, pressure gradient, stress, added mass, contact normal
-/// and tangential, and total, the resultant with weight and buoyancy. `solver` is the one that
+/// and tangential, and total, the resultant with weight and buoyancy. Torques of the flow [N m]
+/// where it has some. `solver` is the one that
 /// moved the grains, dt the length of the fluid step [s].
 std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
 

@@ -23,7 +23,7 @@ class UnresolvedExchange : public ExchangeScheme {
   UnresolvedExchange(const UnresolvedExchange&) = delete;
 
   void start(const GrainState& grains, FluidState& fluid) final;
-  const ExchangeOnFaces& on_faces() const final { return fields_.on_faces; }
+  const ExchangeOnFaces* on_faces() const final { return &fields_.on_faces; }
   const ExchangeLedger& ledger() const final { return ledger_; }
 
  protected:

@@ -23,14 +23,15 @@ struct FindMeanOfWater {
 
 }  // namespace
 
-BodiesInFlow::BodiesInFlow(const Bodies& bodies, const Grid& grid, const Halo& halo,
+BodiesInFlow::BodiesInFlow(const Solids& solids, const Grid& grid, const Halo& halo,
                            const FluidConfig& config)
-    : bodies_(bodies), grid_(grid), density_(config.density), regions_(grid) {
-  const BodyFaces found = find_body_faces(bodies, grid, halo, config.kinematic_viscosity);
+    : grid_(grid), density_(config.density), regions_(grid) {
+  const BodyFaces found = find_body_faces(solids, grid, halo, config.kinematic_viscosity);
   faces_ = to_device("bodies: faces", found.faces);
   cells_ = to_device("bodies: cells", found.cells);
   free_ = Kokkos::View<Real*>("bodies: free velocity", found.faces.size());
-  for (int body = 0; body <= bodies.n; ++body) {
+  for (int body = 0; body <= solids.count(); ++body) {
+    if (body < solids.count()) feet_.push_back(solids.foot(body));
     const auto first =
         std::partition_point(found.faces.begin(), found.faces.end(),
                              [body](const BodyFace& face) { return face.body < body; });
@@ -119,7 +120,7 @@ void BodiesInFlow::take_mean_away(Field& f, const Tally& tally, int number) cons
 
 void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tally,
                              int first) const {
-  for (int body = 0; body < bodies_.n; ++body) {
+  for (int body = 0; body < count(); ++body) {
     const int begin = first_face_[static_cast<std::size_t>(body)];
     const int end = first_face_[static_cast<std::size_t>(body) + 1];
     const LoadOnBody load{.grid = grid_,
@@ -128,19 +129,19 @@ void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tall
                           .u = fluid.u,
                           .p = fluid.p,
                           .alpha = fluid.alpha_f,
-                          .foot = bodies_.body[body].foot,
+                          .foot = feet_[static_cast<std::size_t>(body)],
                           .drive = {fluid.drive.x, 0, fluid.drive.z},
                           .density = density_,
                           .dt = dt};
     Kokkos::parallel_reduce("bodies: load", items(end - begin), load,
                             tally.into<ForceAndTorque>(first + kNumbersOfLoad * body));
   }
-  tally.combine(ranks_of(grid_), first, kNumbersOfLoad * bodies_.n, MPI_SUM);
+  tally.combine(ranks_of(grid_), first, kNumbersOfLoad * count(), MPI_SUM);
 }
 
 std::vector<BodyLoad> BodiesInFlow::loads(const Tally& tally, int first) const {
   std::vector<BodyLoad> all;
-  for (int body = 0; body < bodies_.n; ++body) {
+  for (int body = 0; body < count(); ++body) {
     const auto load = tally.get<ForceAndTorque>(first + kNumbersOfLoad * body);
     all.push_back({load.force, load.torque});
   }

@@ -8,19 +8,20 @@
 #include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/fluid/solids.hpp"
 #include "src/parallel/halo.hpp"
 #include "src/parallel/tally.hpp"
 
 namespace barchan {
 
-/// Direct forcing within the fluid step: faces inside a body are closed, and the friction of its
-/// wall acts on the faces next to these, where the wall is (docs/theory-fluid.md, "Bodies").
-/// Nothing changes over a run.
+/// Bodies and held grains. Direct forcing within the fluid step: faces inside a body are closed,
+/// and the friction of its wall acts on the faces next to these, where the wall is
+/// (docs/theory-fluid.md, "Bodies"). Nothing changes over a run.
 class BodiesInFlow {
  public:
-  BodiesInFlow(const Bodies& bodies, const Grid& grid, const Halo& halo, const FluidConfig& config);
+  BodiesInFlow(const Solids& solids, const Grid& grid, const Halo& halo, const FluidConfig& config);
 
-  int count() const { return bodies_.n; }
+  int count() const { return static_cast<int>(feet_.size()); }
   /// The columns of cells that know of bodies, the same on all ranks.
   const ColumnMap& columns() const { return near_; }
   /// Of a flow without grains.
@@ -60,7 +61,7 @@ class BodiesInFlow {
   int n_faces() const { return faces_.extent_int(0); }
   int n_cells() const { return cells_.extent_int(0); }
 
-  Bodies bodies_;
+  std::vector<Vec3> feet_;  // of the solids: what torques are about [m]
   Grid grid_;
   Real density_;
   Kokkos::View<BodyFace*> faces_;

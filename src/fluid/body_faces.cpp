@@ -17,8 +17,8 @@ Real& at(const HostValues& f, int i, int j, int k) { return f(i + 1, j + 1, k + 
 /// Finds the faces of one rank, on the host.
 class FaceFinder {
  public:
-  FaceFinder(const Bodies& bodies, const Grid& grid, const Halo& halo, Real nu)
-      : bodies_(bodies),
+  FaceFinder(const Solids& solids, const Grid& grid, const Halo& halo, Real nu)
+      : solids_(solids),
         cells_(grid),
         grid_(grid.on_host()),
         halo_(halo),
@@ -50,7 +50,7 @@ class FaceFinder {
       for (int j = 0; j < grid_.ny; ++j)
         for (int i = 0; i < grid_.nx; ++i) action(i, j, k);
   }
-  Real distance(const Vec3& x) const { return bodies_.nearest(x).surface.distance; }
+  Real distance(const Vec3& x) const { return solids_.nearest(x).surface.distance; }
   Vec3 centre(int i, int j, int k) const {
     return {grid_.x_centre(i), grid_.y_centre(j), grid_.z_centre(k)};
   }
@@ -68,7 +68,7 @@ class FaceFinder {
     each_cell([&](int i, int j, int k) {
       for (int axis = 0; axis < 3; ++axis) {
         const bool is_wall = axis == 1 && j == 0;
-        const bool opens = !is_wall && !is_closed_by(bodies_, grid_, axis, i, j, k);
+        const bool opens = !is_wall && !is_closed_by(solids_, grid_, axis, i, j, k);
         at(host_[static_cast<std::size_t>(axis)], i, j, k) = opens ? 1 : 0;
       }
     });
@@ -114,7 +114,7 @@ class FaceFinder {
     face.closed = is_closed(axis, i, j, k);
     if (!face.closed) face.friction = friction(axis, i, j, k);
     if (!face.closed && face.friction == 0) return;
-    face.body = bodies_.nearest(face_middle(grid_, axis, i, j, k)).body;
+    face.body = solids_.nearest(face_middle(grid_, axis, i, j, k)).body;
     faces.push_back(face);
   }
 
@@ -125,7 +125,7 @@ class FaceFinder {
     const auto add = [&](int di, int dj, int dk, Real h, Real width) {
       if (!is_closed(axis, i + di, j + dj, k + dk)) return;
       const Vec3 there = face_middle(grid_, axis, i + di, j + dj, k + dk);
-      sum += friction_of_wall(nu_, share_in_water(bodies_, here, there), h, width);
+      sum += friction_of_wall(nu_, share_in_water(solids_, here, there), h, width);
     };
     for (const int side : {-1, 1}) {
       add(side, 0, 0, grid_.dx, grid_.dx);
@@ -145,7 +145,7 @@ class FaceFinder {
     if (closed || distance(centre(i, j, k)) < 0) cells.push_back({i, j, k, closed});
   }
 
-  Bodies bodies_;
+  const Solids& solids_;
   Grid cells_;
   HostGrid grid_;
   const Halo& halo_;
@@ -157,8 +157,8 @@ class FaceFinder {
 
 }  // namespace
 
-BodyFaces find_body_faces(const Bodies& bodies, const Grid& grid, const Halo& halo, Real nu) {
-  return FaceFinder(bodies, grid, halo, nu).find();
+BodyFaces find_body_faces(const Solids& solids, const Grid& grid, const Halo& halo, Real nu) {
+  return FaceFinder(solids, grid, halo, nu).find();
 }
 
 }  // namespace barchan

@@ -4,18 +4,19 @@
 #include <vector>
 
 #include "kernels/fluid/body_faces.hpp"
+#include "src/fluid/solids.hpp"
 #include "src/parallel/halo.hpp"
 
 namespace barchan {
 
-/// Those of this rank; faces in the order of their bodies.
+/// Those of this rank; faces in the order of their solids.
 struct BodyFaces {
   std::vector<BodyFace> faces;
   std::vector<BodyCell> cells;
 };
 
-/// A face is closed if its middle lies in a body or on its surface, or if one of its cells cannot
+/// A face is closed if its middle lies in a solid or on its surface, or if one of its cells cannot
 /// be reached by the water. Not those on the walls of the domain. nu in m^2/s. All ranks together.
-BodyFaces find_body_faces(const Bodies& bodies, const Grid& grid, const Halo& halo, Real nu);
+BodyFaces find_body_faces(const Solids& solids, const Grid& grid, const Halo& halo, Real nu);
 
 }  // namespace barchan

@@ -58,9 +58,17 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
       loads_(static_cast<std::size_t>(config.bodies.n)),
       numbers_("fluid: numbers",
                kLoads + BodiesInFlow::kNumbersOfLoad * static_cast<std::size_t>(config.bodies.n)) {
-  if (config.bodies.n > 0) bodies_.emplace(config.bodies, grid, boundary_.halo(), config_);
+  if (config.bodies.n > 0) bodies_.emplace(Solids(config.bodies), grid, boundary_.halo(), config_);
   Kokkos::parallel_for("fluid: filter width", grid.ny,
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
+}
+
+void FluidSolver::hold(const Solids& solids) {
+  const auto n = static_cast<std::size_t>(solids.count());
+  bodies_.emplace(solids, grid_, boundary_.halo(), config_);
+  is_clear_ = true;
+  loads_.assign(n, {});
+  numbers_ = Tally("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * n);
 }
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {

@@ -45,6 +45,8 @@ void for_each_grain_array(State& s, const Action& action) {
   add(e.stress_force,     "stress_force",     "N",    with_flow,  kGatherWrites);
   add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
   add(e.lift,             "lift",             "N",    with_lift,  kGatherWrites | kDepositReads);
+  add(e.resolved_force,   "resolved_force",   "N",    when_resolved);
+  add(e.resolved_torque,  "resolved_torque",  "N m",  when_resolved);
   add(f.omega_f,          "omega_f",          "rad/s", with_torque, kGatherWrites);
   add(f.beta_r,           "beta_r",           "N m s", with_torque, kGatherWrites);
   // clang-format on

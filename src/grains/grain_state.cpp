@@ -138,6 +138,8 @@ void add_exchange(GrainState& s, const ForceSwitches& forces) {
   if (forces.torque) allocate(s, Allocated::with_torque);
 }
 
+void add_resolved_forces(GrainState& s) { allocate(s, Allocated::when_resolved); }
+
 Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std::string& unit,
                               unsigned uses) {
   const Kokkos::View<Real*> values(name, s.kin.extent(0));

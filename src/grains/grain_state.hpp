@@ -19,7 +19,15 @@
 namespace barchan {
 
 /// When an array of a grain is allocated.
-enum class Allocated { always, with_fluid, with_flow, with_lift, with_torque, by_solver };
+enum class Allocated {
+  always,
+  with_fluid,
+  with_flow,
+  with_lift,
+  with_torque,
+  when_resolved,
+  by_solver
+};
 
 /// What is done with an array of a grain, besides that it is sorted with its grain and goes with it
 /// to another rank.
@@ -46,10 +54,11 @@ struct ExtraGrainArray {
   Kokkos::View<Real*> values;
 };
 
-/// One force on every grain, in the order of the grains [N].
+/// One force or torque on every grain, in the order of the grains.
 struct NamedForce {
   std::string name;  // "force_drag", "force_contact_normal", ...
   Kokkos::View<const Vec3*> values;
+  std::string unit = "N";
 };
 
 /// Of a grain in GrainState::heap that came from none: it was fed.
@@ -109,6 +118,8 @@ void add_heaps(GrainState& grains, const std::vector<std::string>& names);
 /// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
 void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
+/// Arrays of forces of a flow that is resolved around the grains.
+void add_resolved_forces(GrainState& grains);
 /// An array of one number for each grain, zero at first; `uses` as in GrainUse.
 Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
                               unsigned uses);

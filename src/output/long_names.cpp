@@ -25,6 +25,8 @@ constexpr LongName kGrains[] = {
     {"force_lift", "lift"},
     {"force_pressure_gradient", "force of the pressure gradient"},
     {"force_stress", "force of the viscous and subgrid stress"},
+    {"force_flow", "force of the flow that is resolved around the grain"},
+    {"torque_flow", "torque of the flow about the centre of the grain"},
     {"force_contact", "sum of the forces in contacts"},
     {"force_contact_normal", "sum of the normal forces in contacts"},
     {"force_contact_tangential", "sum of the tangential forces in contacts"},

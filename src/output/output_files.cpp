@@ -148,7 +148,7 @@ void append_grains(FrameFile& frames, const GrainState& grains, const PeriodicBo
     for (const auto& force : forces) {
       const FrameVectors<float> out("output: force", n);
       Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
-      write_entries(file, group + "/" + force.name, out, "N", entries);
+      write_entries(file, group + "/" + force.name, out, force.unit.c_str(), entries);
     }
     write_labels(file, group, dunes, entries);
     write_numbers(file, group + "/kind", grains.n, grains.kind, grains.kind_names, entries);

@@ -35,7 +35,7 @@ void BodySums::add(const CoupledStep& step) {
   ++steps_;
   if (step.fluid_solver() != nullptr) {
     const std::vector<BodyLoad>& loads = step.fluid_solver()->body_loads();
-    for (std::size_t b = 0; b < loads.size(); ++b) add_to(water_[b], loads[b]);
+    for (std::size_t b = 0; b < water_.size(); ++b) add_to(water_[b], loads[b]);
   }
   if (step.grain_solver() == nullptr) return;
   const std::vector<GrainsOnBody> loads = step.grain_solver()->body_loads();

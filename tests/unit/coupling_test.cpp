@@ -149,13 +149,13 @@ TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
 
 /// Exchange with one grain and its images, each lifted by the water.
 ExchangeOnFaces exchange_of(test::CoupledRun& run) {
-  const FluidSolver solver(run.config, run.state.fluid->grid);
+  FluidSolver solver(run.config, run.state.fluid->grid);
   const auto scheme =
       make_exchange_scheme(run.config, solver, *run.state.grains, run.state.fluid->grid);
   scheme->gather(*run.state.fluid, *run.state.grains, 1e-4);
   Kokkos::deep_copy(run.state.grains->fluid.impulse, Vec3{0, 1e-9, 0});
   scheme->deposit(*run.state.grains, *run.state.fluid, 1e-4);
-  return scheme->on_faces();
+  return *scheme->on_faces();
 }
 
 /// The impulse on faces across y, over its sum: the flow passes the walls of the grains, so the

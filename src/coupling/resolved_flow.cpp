@@ -1,0 +1,128 @@
+#include "src/coupling/resolved_flow.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/coupling/sphere_in_fluid.hpp"
+#include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
+#include "src/parallel/reduce.hpp"
+
+namespace barchan {
+
+namespace {
+
+struct NumberedGrain {
+  std::int64_t id = 0;
+  HeldGrain grain;
+};
+
+/// The grains of all ranks in the order of their ids, the same on all.
+std::vector<NumberedGrain> grains_of_all_ranks(const GrainState& grains) {
+  constexpr std::size_t width = 5;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(rank_count(grains.ranks)), 0);
+  const auto here = static_cast<std::size_t>(rank_of(grains.ranks));
+  counts[here] = grains.n;
+  sum_over(grains.ranks, counts);
+  std::size_t first = 0, all = 0;
+  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+    if (rank == here) first = all;
+    all += static_cast<std::size_t>(counts[rank]);
+  }
+  std::vector<Real> numbers(width * all, 0);
+  const auto kin = host_copy(grains.kin);
+  const auto id = host_copy(grains.id);
+  for (int g = 0; g < grains.n; ++g) {
+    const auto& [x, y, z] = kin(g).x;
+    const Real of_grain[] = {static_cast<Real>(id(g)), x, y, z, kin(g).r};
+    std::ranges::copy(
+        of_grain, numbers.begin() + static_cast<std::ptrdiff_t>(width * (first + std::size_t(g))));
+  }
+  all_reduce(grains.ranks, std::span<Real>(numbers), MPI_SUM);
+  std::vector<NumberedGrain> found;
+  for (const Real* n = numbers.data(); n != numbers.data() + numbers.size(); n += width)
+    found.push_back({static_cast<std::int64_t>(n[0]), {.x = {n[1], n[2], n[3]}, .r = n[4]}});
+  std::ranges::sort(found, {}, &NumberedGrain::id);
+  return found;
+}
+
+/// What the water does to each grain, and its weight.
+struct TakeLoads {
+  Kokkos::View<const int*> load_of;
+  Kokkos::View<const Vec3*> force, torque;  // of all grains
+  SubmergedWeight weight;
+  Kokkos::View<const GrainKinematics*> grains;
+  ExchangeOnGrains exchange;
+  Kokkos::View<Vec3*> steady_force;
+  KOKKOS_FUNCTION void operator()(int g) const {
+    exchange.resolved_force(g) = force(load_of(g));
+    exchange.resolved_torque(g) = torque(load_of(g));
+    steady_force(g) = exchange.resolved_force(g) + weight(grains(g));
+  }
+};
+
+}  // namespace
+
+ResolvedFlow::ResolvedFlow(const CoupledCase& config, FluidSolver& solver, const Grid& grid)
+    : solver_(solver),
+      grid_(grid),
+      bodies_(config.fluid->bodies),
+      gravity_{config.grains->grains.gravity[0], config.grains->grains.gravity[1],
+               config.grains->grains.gravity[2]},
+      density_(config.fluid->fluid.density) {}
+
+void ResolvedFlow::start(const GrainState& grains, FluidState& fluid) {
+  Kokkos::deep_copy(fluid.alpha_f.storage, Real(1));
+  Kokkos::deep_copy(fluid.alpha_f_previous.storage, Real(1));
+  hold(grains);
+}
+
+/// A run that goes on has its grains only now.
+void ResolvedFlow::gather(const FluidState&, GrainState& grains, Real) {
+  if (!holds_) hold(grains);
+}
+
+void ResolvedFlow::hold(const GrainState& grains) {
+  holds_ = true;
+  const std::vector<NumberedGrain> all = grains_of_all_ranks(grains);
+  std::vector<HeldGrain> held;
+  for (const NumberedGrain& one : all) held.push_back(one.grain);
+  const HostGrid rows = grid_.on_host();
+  Real widest = std::max(grid_.dx, grid_.dz);
+  for (int j = 0; j < rows.ny; ++j) widest = std::max(widest, rows.dy(j));
+  // The search for faces asks for twice the width of a cell, and compares with twice that.
+  solver_.hold(Solids(bodies_, HeldGrains(std::move(held), grid_.lx, grid_.lz, 4 * widest)));
+  const auto id = host_copy(grains.id);
+  std::vector<int> load_of;
+  for (int g = 0; g < grains.n; ++g) {
+    const auto at = std::ranges::lower_bound(all, id(g), {}, &NumberedGrain::id);
+    load_of.push_back(static_cast<int>(at - all.begin()));
+  }
+  load_of_ = to_device("resolved: loads", load_of);
+  force_ = Kokkos::View<Vec3*>("resolved: force", all.size());
+  torque_ = Kokkos::View<Vec3*>("resolved: torque", all.size());
+  force_on_host_ = mirror(force_), torque_on_host_ = mirror(torque_);
+}
+
+void ResolvedFlow::close(GrainState& grains, Real dt) {
+  const std::vector<BodyLoad>& loads = solver_.body_loads();
+  Vec3 sum;
+  for (std::size_t n = 0; n < force_.extent(0); ++n) {
+    const BodyLoad& load = loads[static_cast<std::size_t>(bodies_.n) + n];
+    force_on_host_(n) = load.force, torque_on_host_(n) = load.torque;
+    sum += load.force;
+  }
+  Kokkos::deep_copy(force_, force_on_host_);
+  Kokkos::deep_copy(torque_, torque_on_host_);
+  Kokkos::parallel_for("resolved: loads", items(grains.n),
+                       TakeLoads{.load_of = load_of_,
+                                 .force = force_,
+                                 .torque = torque_,
+                                 .weight = {.gravity = gravity_, .displaced = density_},
+                                 .grains = grains.kin,
+                                 .exchange = grains.exchange,
+                                 .steady_force = grains.fluid.steady_force});
+  ledger_.flow_on_solid = ledger_.flow_on_grains = dt * sum;
+}
+
+}  // namespace barchan

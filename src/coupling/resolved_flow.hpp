@@ -1,0 +1,41 @@
+// Flow that is resolved around each grain: a reference for the schemes that are not.
+#pragma once
+
+#include <vector>
+
+#include "src/coupling/exchange_scheme.hpp"
+
+namespace barchan {
+
+/// coupling.scheme = "resolved": the flow goes round each grain as it does round a body, on cells
+/// far smaller than a grain. No fraction, no drag law: force and torque of each grain are those of
+/// the water on its surface. Grains are held: their faces are found once.
+class ResolvedFlow : public ExchangeScheme {
+ public:
+  ResolvedFlow(const CoupledCase& config, FluidSolver& solver, const Grid& grid);
+
+  void start(const GrainState& grains, FluidState& fluid) override;
+  void gather(const FluidState& fluid, GrainState& grains, Real dt) override;
+  void deposit(const GrainState&, FluidState&, Real) override {}
+  /// Force and torque of the last fluid step, and weight and buoyancy, to the grains.
+  void close(GrainState& grains, Real dt) override;
+
+  const ExchangeOnFaces* on_faces() const override { return nullptr; }
+  const ExchangeLedger& ledger() const override { return ledger_; }
+
+ private:
+  void hold(const GrainState& grains);
+
+  FluidSolver& solver_;
+  Grid grid_;
+  Bodies bodies_;
+  Vec3 gravity_;
+  Real density_;  // of the liquid [kg/m^3]
+  bool holds_ = false;
+  Kokkos::View<int*> load_of_;          // of each grain of this rank, among those of the solver
+  Kokkos::View<Vec3*> force_, torque_;  // of all grains [N], [N m]
+  Kokkos::View<Vec3*>::host_mirror_type force_on_host_, torque_on_host_;
+  ExchangeLedger ledger_;
+};
+
+}  // namespace barchan
