@@ -219,6 +219,22 @@ struct LoadOnBody {
   }
 };
 
+/// The loads on many small bodies, each added up by one thread: the same bits on any number of
+/// them.
+struct LoadsOnMany {
+  LoadOnBody load;         // of all faces; its foot is not read
+  const int* first;        // face of each, and one more
+  const Vec3* foot;        // of each [m]
+  ForceAndTorque* result;  // of each
+  KOKKOS_FUNCTION void operator()(int body) const {
+    LoadOnBody of_body = load;
+    of_body.foot = foot[body];
+    ForceAndTorque sum{};
+    for (int n = first[body]; n < first[body + 1]; ++n) of_body(n, sum);
+    result[body] = sum;
+  }
+};
+
 /// One step of finding the cells that water reaches through open faces. Returns 1 where it gets.
 struct SpreadWater {
   ConstFaceRef open;      // 1 or 0, with ghosts

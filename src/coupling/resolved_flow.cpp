@@ -1,7 +1,8 @@
 #include "src/coupling/resolved_flow.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <vector>
 
 #include "kernels/coupling/sphere_in_fluid.hpp"
 #include "src/parallel/launch.hpp"
@@ -12,14 +13,9 @@ namespace barchan {
 
 namespace {
 
-struct NumberedGrain {
-  std::int64_t id = 0;
-  HeldGrain grain;
-};
-
-/// The grains of all ranks in the order of their ids, the same on all.
-std::vector<NumberedGrain> grains_of_all_ranks(const GrainState& grains) {
-  constexpr std::size_t width = 5;
+/// The grains of all ranks in the order of their places, the same on all.
+std::vector<HeldGrain> grains_of_all_ranks(const GrainState& grains) {
+  constexpr std::size_t width = 4;
   std::vector<std::int64_t> counts(static_cast<std::size_t>(rank_count(grains.ranks)), 0);
   const auto here = static_cast<std::size_t>(rank_of(grains.ranks));
   counts[here] = grains.n;
@@ -31,18 +27,16 @@ std::vector<NumberedGrain> grains_of_all_ranks(const GrainState& grains) {
   }
   std::vector<Real> numbers(width * all, 0);
   const auto kin = host_copy(grains.kin);
-  const auto id = host_copy(grains.id);
-  for (int g = 0; g < grains.n; ++g) {
+  for (std::size_t g = 0; g < static_cast<std::size_t>(grains.n); ++g) {
     const auto& [x, y, z] = kin(g).x;
-    const Real of_grain[] = {static_cast<Real>(id(g)), x, y, z, kin(g).r};
-    std::ranges::copy(
-        of_grain, numbers.begin() + static_cast<std::ptrdiff_t>(width * (first + std::size_t(g))));
+    const Real of_grain[] = {x, y, z, kin(g).r};
+    std::ranges::copy(of_grain, numbers.begin() + static_cast<std::ptrdiff_t>(width * (first + g)));
   }
   all_reduce(grains.ranks, std::span<Real>(numbers), MPI_SUM);
-  std::vector<NumberedGrain> found;
+  std::vector<HeldGrain> found;
   for (const Real* n = numbers.data(); n != numbers.data() + numbers.size(); n += width)
-    found.push_back({static_cast<std::int64_t>(n[0]), {.x = {n[1], n[2], n[3]}, .r = n[4]}});
-  std::ranges::sort(found, {}, &NumberedGrain::id);
+    found.push_back({.x = {n[0], n[1], n[2]}, .r = n[3]});
+  std::ranges::sort(found, {}, [](const HeldGrain& g) { return std::array{g.x.x, g.x.y, g.x.z}; });
   return found;
 }
 
@@ -84,27 +78,28 @@ void ResolvedFlow::gather(const FluidState&, GrainState& grains, Real) {
 
 void ResolvedFlow::hold(const GrainState& grains) {
   holds_ = true;
-  const std::vector<NumberedGrain> all = grains_of_all_ranks(grains);
-  std::vector<HeldGrain> held;
-  for (const NumberedGrain& one : all) held.push_back(one.grain);
   const HostGrid rows = grid_.on_host();
   Real widest = std::max(grid_.dx, grid_.dz);
   for (int j = 0; j < rows.ny; ++j) widest = std::max(widest, rows.dy(j));
   // The search for faces asks for twice the width of a cell, and compares with twice that.
-  solver_.hold(Solids(bodies_, HeldGrains(std::move(held), grid_.lx, grid_.lz, 4 * widest)));
-  const auto id = host_copy(grains.id);
-  std::vector<int> load_of;
-  for (int g = 0; g < grains.n; ++g) {
-    const auto at = std::ranges::lower_bound(all, id(g), {}, &NumberedGrain::id);
-    load_of.push_back(static_cast<int>(at - all.begin()));
-  }
-  load_of_ = to_device("resolved: loads", load_of);
-  force_ = Kokkos::View<Vec3*>("resolved: force", all.size());
-  torque_ = Kokkos::View<Vec3*>("resolved: torque", all.size());
+  held_ = HeldGrains(grains_of_all_ranks(grains), grid_.lx, grid_.lz, 4 * widest);
+  solver_.hold(Solids(bodies_, held_));
+  const auto n = static_cast<std::size_t>(held_.count());
+  force_ = Kokkos::View<Vec3*>("resolved: force", n);
+  torque_ = Kokkos::View<Vec3*>("resolved: torque", n);
   force_on_host_ = mirror(force_), torque_on_host_ = mirror(torque_);
 }
 
+/// Which of the held grains each of this rank is; they stay.
+void ResolvedFlow::find_loads_of(const GrainState& grains) {
+  const auto kin = host_copy(grains.kin);
+  std::vector<int> load_of;
+  for (int g = 0; g < grains.n; ++g) load_of.push_back(held_.nearest(kin(g).x).body);
+  load_of_ = to_device("resolved: loads", load_of);
+}
+
 void ResolvedFlow::close(GrainState& grains, Real dt) {
+  if (load_of_.size() == 0) find_loads_of(grains);
   const std::vector<BodyLoad>& loads = solver_.body_loads();
   Vec3 sum;
   for (std::size_t n = 0; n < force_.extent(0); ++n) {

@@ -25,6 +25,7 @@ class ResolvedFlow : public ExchangeScheme {
 
  private:
   void hold(const GrainState& grains);
+  void find_loads_of(const GrainState& grains);
 
   FluidSolver& solver_;
   Grid grid_;
@@ -32,7 +33,8 @@ class ResolvedFlow : public ExchangeScheme {
   Vec3 gravity_;
   Real density_;  // of the liquid [kg/m^3]
   bool holds_ = false;
-  Kokkos::View<int*> load_of_;          // of each grain of this rank, among those of the solver
+  HeldGrains held_;                     // of all ranks
+  Kokkos::View<int*> load_of_;          // of each grain of this rank, among those that are held
   Kokkos::View<Vec3*> force_, torque_;  // of all grains [N], [N m]
   Kokkos::View<Vec3*>::host_mirror_type force_on_host_, torque_on_host_;
   ExchangeLedger ledger_;

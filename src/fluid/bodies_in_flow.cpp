@@ -43,6 +43,10 @@ BodiesInFlow::BodiesInFlow(const Solids& solids, const Grid& grid, const Halo& h
     if (cell.closed) closed += rows.dy(cell.j);
   height_of_water_ = grid.height_of_all_columns() - sum_over(ranks_of(grid), closed);
   find_columns(found.faces);
+  n_bodies_ = solids.count() - solids.grains();
+  first_face_of_grain_ = to_device("bodies: faces of grains",
+                                   std::vector(first_face_.begin() + n_bodies_, first_face_.end()));
+  foot_of_grain_ = to_device("bodies: grains", std::vector(feet_.begin() + n_bodies_, feet_.end()));
 }
 
 /// Those whose cells have such faces, and as many around as the pressure equation looks at.
@@ -120,22 +124,32 @@ void BodiesInFlow::take_mean_away(Field& f, const Tally& tally, int number) cons
 
 void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tally,
                              int first) const {
-  for (int body = 0; body < count(); ++body) {
+  const LoadOnBody all{.grid = grid_,
+                       .faces = faces_.data(),
+                       .free = free_.data(),
+                       .u = fluid.u,
+                       .p = fluid.p,
+                       .alpha = fluid.alpha_f,
+                       .foot = {},
+                       .drive = {fluid.drive.x, 0, fluid.drive.z},
+                       .density = density_,
+                       .dt = dt};
+  for (int body = 0; body < n_bodies_; ++body) {
     const int begin = first_face_[static_cast<std::size_t>(body)];
     const int end = first_face_[static_cast<std::size_t>(body) + 1];
-    const LoadOnBody load{.grid = grid_,
-                          .faces = faces_.data() + begin,
-                          .free = free_.data() + begin,
-                          .u = fluid.u,
-                          .p = fluid.p,
-                          .alpha = fluid.alpha_f,
-                          .foot = feet_[static_cast<std::size_t>(body)],
-                          .drive = {fluid.drive.x, 0, fluid.drive.z},
-                          .density = density_,
-                          .dt = dt};
+    LoadOnBody load = all;
+    load.faces += begin, load.free += begin;
+    load.foot = feet_[static_cast<std::size_t>(body)];
     Kokkos::parallel_reduce("bodies: load", items(end - begin), load,
                             tally.into<ForceAndTorque>(first + kNumbersOfLoad * body));
   }
+  const LoadsOnMany of_grains{
+      .load = all,
+      .first = first_face_of_grain_.data(),
+      .foot = foot_of_grain_.data(),
+      .result = tally.into<ForceAndTorque>(first + kNumbersOfLoad * n_bodies_).data()};
+  if (count() > n_bodies_)
+    Kokkos::parallel_for("bodies: loads on grains", items(count() - n_bodies_), of_grains);
   tally.combine(ranks_of(grid_), first, kNumbersOfLoad * count(), MPI_SUM);
 }
 

@@ -66,6 +66,9 @@ class BodiesInFlow {
   Real density_;
   Kokkos::View<BodyFace*> faces_;
   std::vector<int> first_face_;  // of each body
+  int n_bodies_ = 0;             // those of the case; behind them come held grains
+  Kokkos::View<int*> first_face_of_grain_;
+  Kokkos::View<Vec3*> foot_of_grain_;  // [m]
   Kokkos::View<BodyCell*> cells_;
   Real height_of_water_ = 0;  // of the cells that are not closed, over all columns [m]
   Kokkos::View<Real*> free_;  // u* at the faces before it was held back [m/s]

@@ -49,6 +49,7 @@ class Solids {
       : bodies_(bodies), grains_(std::move(grains)) {}
 
   int count() const { return bodies_.n + grains_.count(); }
+  int grains() const { return grains_.count(); }
   /// Bodies first, grains after them.
   Bodies::Nearest nearest(const Vec3& x) const;
   /// The point that the torque on one is about: the middle of a body's underside, the centre of a

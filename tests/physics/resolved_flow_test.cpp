@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 constexpr Real kR = 1e-4;  // [m]
-/// A square layer of four on the floor, the fifth in the pocket between them; period 2 d.
+/// A square layer of four on the floor, the fifth in the pocket between them.
 const Vec3 kPerched[] = {{1e-4, kR, 1e-4},
                          {3e-4, kR, 1e-4},
                          {1e-4, kR, 3e-4},
@@ -23,7 +23,7 @@ const Vec3 kPerched[] = {{1e-4, kR, 1e-4},
 constexpr Real kLid = 0.12;  // [m/s]
 
 Config box(int cells) {
-  Config c = water_box({2 * cells, 4 * cells, 2 * cells}, {4e-4, 8e-4, 4e-4});
+  Config c = water_box({4 * cells, 4 * cells, 4 * cells}, {8e-4, 8e-4, 8e-4});
   c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
   c.fluid->top_velocity = kLid;
   c.time.fluid_step = c.time.grain_step = 1.5e-5 * (100.0 / (cells * cells));
@@ -32,14 +32,26 @@ Config box(int cells) {
   return c;
 }
 
-CoupledRun around_grains(int cells) {
+/// These five, or 20 of them, which have a period of 2 d.
+CoupledRun around_grains(int cells, int n) {
   InitialGrains grains;
-  for (const Vec3& x : kPerched) add_grain(grains, 2 * kR, x);
+  for (const Vec3& offset : {Vec3{}, Vec3{4e-4, 0, 0}, Vec3{0, 0, 4e-4}, Vec3{4e-4, 0, 4e-4}})
+    for (const Vec3& x : kPerched)
+      if (static_cast<int>(grains.size()) < n) add_grain(grains, 2 * kR, x + offset);
   return {box(cells), grains};
 }
 
+/// Water at rest in the layer, sheared by the lid above it.
+void set_sheared(CoupledRun& run) {
+  const Real surface = 2.2 * kR, gap = 8e-4 - surface;
+  set_faces(run.state.fluid->u, run.state.fluid->grid, [&](std::size_t axis, Real, Real y, Real) {
+    return axis == 0 ? kLid * std::max(0.0, y - surface) / gap : 0;
+  });
+  run.fill_ghosts();
+}
+
 std::vector<BodyLoad> loads_on_grains(const CoupledRun& run) {
-  std::vector<BodyLoad> loads(std::size(kPerched));
+  std::vector<BodyLoad> loads(static_cast<std::size_t>(run.state.grains->n));
   const auto id = host_copy(run.state.grains->id);
   for (const NamedForce& force : run.forces()) {
     const auto values = host_copy(force.values);
@@ -62,8 +74,10 @@ TEST(ResolvedFlow, GoesRoundGrainsAsRoundBodies) {
                         .centre = {x.x, x.z},
                         .base = x.y - kR,
                         .radius = kR});
-  CoupledRun bodies(c, InitialGrains{}), grains = around_grains(cells);
-  bodies.advance(steps), grains.advance(steps);
+  SystemState water;
+  water.fluid = make_fluid_state(make_grid(c));
+  CoupledRun bodies(c, std::move(water)), grains = around_grains(cells, 5);
+  for (CoupledRun* run : {&bodies, &grains}) set_sheared(*run), run->advance(steps);
   const std::vector<BodyLoad> on_grains = loads_on_grains(grains);
   const std::vector<BodyLoad>& on_bodies = bodies.step.fluid_solver()->body_loads();
   const Real force = norm(on_bodies.back().force);
@@ -85,12 +99,8 @@ TEST(ResolvedFlow, GoesRoundGrainsAsRoundBodies) {
 // this one.
 TEST(ResolvedFlow, ThePerchedGrainIsPushedAtItsTop) {
   constexpr int cells = 8, steps = 1500;
-  CoupledRun run = around_grains(cells);
-  const Real surface = 2.2 * kR, gap = 8e-4 - surface;
-  set_faces(run.state.fluid->u, run.state.fluid->grid, [&](std::size_t axis, Real, Real y, Real) {
-    return axis == 0 ? kLid * std::max(0.0, y - surface) / gap : 0;
-  });
-  run.fill_ghosts();
+  CoupledRun run = around_grains(cells, 20);
+  set_sheared(run);
   run.advance(steps);
   const BodyLoad early = loads_on_grains(run).back();
   run.advance(steps / 3);
