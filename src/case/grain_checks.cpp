@@ -60,6 +60,7 @@ void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) 
 }
 
 void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, Findings& found) {
+  if (c.coupling.scheme == CouplingScheme::resolved) return;  // there is no fraction
   const double smallest = std::min({flow.dx, flow.dy_first, flow.dz});
   const double length = c.coupling.smoothing_length;
   const double longest = *std::max_element(c.size.begin(), c.size.end());
