@@ -4,10 +4,13 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 from barchan import listing
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def a_run(folder, status="done", restarts=(), age=0.0, end=2.0, lines="t,step\n0,0\n0.5,10\n"):
@@ -67,7 +70,8 @@ def test_a_reader_may_stop_early(tmp_path):
         (tmp_path / f"{number}").mkdir()
         (tmp_path / f"{number}/run.json").write_text('{"status": "done", "title": "' + 60 * "x" + '"}')
     with subprocess.Popen([sys.executable, "-m", "barchan", "list", tmp_path], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True) as listed:
+                          stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")}) as listed:
         listed.stdout.readline()
         listed.stdout.close()
         said = listed.stderr.read()
