@@ -48,7 +48,7 @@ SAME = [
      ("docs/dev/performance.md", rf"moves the grains takes {N} times that at rest")),
     ("iterations with moving grains", ("src/app/estimate.cpp", rf"kIterationsOfMoving = {N};"),
      ("docs/dev/performance.md", rf"equation then takes {N} direct solves")),
-    ("speed of the fastest grains", ("src/app/estimate.cpp", rf"std::max\({N} \* derive"),
+    ("speed of the fastest grains", ("src/app/estimate.cpp", rf"std::max\({N} \* the_case"),
      ("docs/dev/performance.md", rf"go at {N} of the bulk velocity")),
     ("latency of a message", ("perf/scaling.py", rf"latency: float = {N}e-6"),
      ("docs/dev/scaling.md", rf"A message costs a latency \({N} us\)")),
