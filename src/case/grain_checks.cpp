@@ -206,8 +206,7 @@ void check_grains(const Config& c, Findings& found) {
   found.error_if(
       c.coupling.scheme == CouplingScheme::resolved && !grains.frozen,
       {"coupling.scheme", "grains.frozen"},
-      "must be another unless frozen = true: the flow is resolved around grains that are "
-      "held");
+      "must come with grains.frozen = true: the flow is resolved around grains that are held");
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   check_following(c, found);
