@@ -169,8 +169,8 @@ void tell_changed_input(const Case& the_case, const std::string& record) {
 /// A case in a folder that this process has locked.
 void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   const Config& config = the_case.config;
-  const SettledCase settled = options.restart ? static_cast<const SettledCase&>(the_case)
-                                              : planned_grains(the_case, options.folder).settled;
+  SettledCase settled = the_case;
+  if (!options.restart) settled = planned_grains(the_case, options.folder).settled;
   check_memory(config, settled.sizes);
   check_on_root([&] {
     check_is_ours(config, options.folder);

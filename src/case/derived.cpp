@@ -133,10 +133,6 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 }  // namespace
 
-bool resolves_rows(const CouplingConfig& coupling) {
-  return coupling.scheme == CouplingScheme::layered;
-}
-
 bool is_periodic_x(const Config& config) { return config.grains && is_periodic_x(*config.grains); }
 
 double half_seam_strip(const Config& config) {

@@ -10,9 +10,6 @@
 
 namespace barchan {
 
-/// True if grains feel, and slow, each row of cells on its own: thin rows then resolve a surface.
-bool resolves_rows(const CouplingConfig& coupling);
-
 /// True if grains that go beyond one end in x come in at the other: without [grains] not.
 bool is_periodic_x(const Config& config);
 /// Half the width of the strip along x in which grains leave a window that follows its dune, one

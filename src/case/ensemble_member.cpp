@@ -18,13 +18,13 @@ double turnover(const SettledCase& the_case) {
 Case ensemble_member(const Case& the_case, int realisation) {
   Case other = the_case;
   if (realisation == 1) return other;
-  Config config = other.config;
+  Config& config = other.config;
   if (config.fluid && !config.grains && config.initial.starts_as<TurbulentFlow>()) {
     config.time.end += (realisation - 1) * turnover(the_case);
   } else if (other.random) {
     config.initial.realisation = realisation;
   }
-  static_cast<SettledCase&>(other) = SettledCase(config, the_case.sizes);
+  other.settle();
   return other;
 }
 

@@ -93,7 +93,7 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
                      "around it, 10 or more a diameter");
     return;
   }
-  if (!resolves_rows(c.coupling)) {
+  if (c.coupling.scheme != CouplingScheme::layered) {
     found.warning_if(n.cell_ratio < 1.2 || n.cell_ratio > 1.6, keys,
                      "makes the smallest cell {:.2f} mean grain diameters; recommended with this "
                      "exchange: 1.2 to 1.6",
@@ -203,10 +203,9 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
   check_kinds(grains, found);
-  found.error_if(
-      c.coupling.scheme == CouplingScheme::resolved && !grains.frozen,
-      {"coupling.scheme", "grains.frozen"},
-      "must come with grains.frozen = true: the flow is resolved around grains that are held");
+  found.error_if(c.coupling.scheme == CouplingScheme::resolved && !grains.frozen,
+                 {"coupling.scheme", "grains.frozen"},
+                 "must come with grains.frozen = true: the flow is resolved around frozen grains");
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   check_following(c, found);

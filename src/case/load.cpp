@@ -178,8 +178,7 @@ void read_case(ConfigReader& reading, const fs::path& file, const Context& conte
   if (is_case(config.initial.grains))
     result.grain_start = std::make_shared<const Case>(std::move(starts.grains.result));
   loaded.problems = std::move(starts.problems);
-  if (loaded.problems.empty() && reading.problems().empty())
-    static_cast<SettledCase&>(result) = SettledCase(config, result.sizes);
+  if (loaded.problems.empty() && reading.problems().empty()) result.settle();
 }
 
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,

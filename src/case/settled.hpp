@@ -15,6 +15,9 @@ struct SettledCase {
   // NOLINTNEXTLINE(google-explicit-constructor): a case alone will do where sizes do not matter
   SettledCase(const Config& config, const std::vector<SizeClass>& sizes = {}, double top = 0);
 
+  /// Anew, after `config` or `sizes` changed.
+  void settle() { *this = SettledCase(config, sizes); }
+
   /// What solvers take: mesh, schedule of the flow, bodies.
   const FluidCase& fluid() const { return coupled.fluid.value(); }
   const GrainsCase& grains() const { return coupled.grains.value(); }

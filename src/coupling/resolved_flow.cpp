@@ -14,7 +14,7 @@ namespace barchan {
 namespace {
 
 /// The grains of all ranks in the order of their places, the same on all.
-std::vector<HeldGrain> grains_of_all_ranks(const GrainState& grains) {
+std::vector<FrozenGrain> grains_of_all_ranks(const GrainState& grains) {
   constexpr std::size_t width = 4;
   std::vector<std::int64_t> counts(static_cast<std::size_t>(rank_count(grains.ranks)), 0);
   const auto here = static_cast<std::size_t>(rank_of(grains.ranks));
@@ -33,10 +33,12 @@ std::vector<HeldGrain> grains_of_all_ranks(const GrainState& grains) {
     std::ranges::copy(of_grain, numbers.begin() + static_cast<std::ptrdiff_t>(width * (first + g)));
   }
   all_reduce(grains.ranks, std::span<Real>(numbers), MPI_SUM);
-  std::vector<HeldGrain> found;
+  std::vector<FrozenGrain> found;
   for (const Real* n = numbers.data(); n != numbers.data() + numbers.size(); n += width)
     found.push_back({.x = {n[0], n[1], n[2]}, .r = n[3]});
-  std::ranges::sort(found, {}, [](const HeldGrain& g) { return std::array{g.x.x, g.x.y, g.x.z}; });
+  std::ranges::sort(found, {}, [](const FrozenGrain& g) {
+    return std::array{g.x.x, g.x.y, g.x.z};
+  });
   return found;
 }
 
@@ -68,33 +70,33 @@ ResolvedFlow::ResolvedFlow(const CoupledCase& config, FluidSolver& solver, const
 void ResolvedFlow::start(const GrainState& grains, FluidState& fluid) {
   Kokkos::deep_copy(fluid.alpha_f.storage, Real(1));
   Kokkos::deep_copy(fluid.alpha_f_previous.storage, Real(1));
-  hold(grains);
+  place(grains);
 }
 
 /// A run that goes on has its grains only now.
 void ResolvedFlow::gather(const FluidState&, GrainState& grains, Real) {
-  if (!holds_) hold(grains);
+  if (!placed_) place(grains);
 }
 
-void ResolvedFlow::hold(const GrainState& grains) {
-  holds_ = true;
+void ResolvedFlow::place(const GrainState& grains) {
+  placed_ = true;
   const HostGrid rows = grid_.on_host();
   Real widest = std::max(grid_.dx, grid_.dz);
   for (int j = 0; j < rows.ny; ++j) widest = std::max(widest, rows.dy(j));
   // The search for faces asks for twice the width of a cell, and compares with twice that.
-  held_ = HeldGrains(grains_of_all_ranks(grains), grid_.lx, grid_.lz, 4 * widest);
-  solver_.hold(Solids(bodies_, held_));
-  const auto n = static_cast<std::size_t>(held_.count());
+  frozen_ = FrozenGrains(grains_of_all_ranks(grains), grid_.lx, grid_.lz, 4 * widest);
+  solver_.set_solids(Solids(bodies_, frozen_));
+  const auto n = static_cast<std::size_t>(frozen_.count());
   force_ = Kokkos::View<Vec3*>("resolved: force", n);
   torque_ = Kokkos::View<Vec3*>("resolved: torque", n);
   force_on_host_ = mirror(force_), torque_on_host_ = mirror(torque_);
 }
 
-/// Which of the held grains each of this rank is; they stay.
+/// Which of the frozen grains each of this rank is; they stay.
 void ResolvedFlow::find_loads_of(const GrainState& grains) {
   const auto kin = host_copy(grains.kin);
   std::vector<int> load_of;
-  for (int g = 0; g < grains.n; ++g) load_of.push_back(held_.nearest(kin(g).x).body);
+  for (int g = 0; g < grains.n; ++g) load_of.push_back(frozen_.nearest(kin(g).x).body);
   load_of_ = to_device("resolved: loads", load_of);
 }
 

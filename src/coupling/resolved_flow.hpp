@@ -9,7 +9,7 @@ namespace barchan {
 
 /// coupling.scheme = "resolved": the flow goes round each grain as it does round a body, on cells
 /// far smaller than a grain. No fraction, no drag law: force and torque of each grain are those of
-/// the water on its surface. Grains are held: their faces are found once.
+/// the water on its surface. Grains are frozen: their faces are found once.
 class ResolvedFlow : public ExchangeScheme {
  public:
   ResolvedFlow(const CoupledCase& config, FluidSolver& solver, const Grid& grid);
@@ -24,7 +24,7 @@ class ResolvedFlow : public ExchangeScheme {
   const ExchangeLedger& ledger() const override { return ledger_; }
 
  private:
-  void hold(const GrainState& grains);
+  void place(const GrainState& grains);
   void find_loads_of(const GrainState& grains);
 
   FluidSolver& solver_;
@@ -32,9 +32,9 @@ class ResolvedFlow : public ExchangeScheme {
   Bodies bodies_;
   Vec3 gravity_;
   Real density_;  // of the liquid [kg/m^3]
-  bool holds_ = false;
-  HeldGrains held_;                     // of all ranks
-  Kokkos::View<int*> load_of_;          // of each grain of this rank, among those that are held
+  bool placed_ = false;
+  FrozenGrains frozen_;                 // of all ranks
+  Kokkos::View<int*> load_of_;          // of each grain of this rank, among all
   Kokkos::View<Vec3*> force_, torque_;  // of all grains [N], [N m]
   Kokkos::View<Vec3*>::host_mirror_type force_on_host_, torque_on_host_;
   ExchangeLedger ledger_;

@@ -14,7 +14,7 @@
 
 namespace barchan {
 
-/// Bodies and held grains. Direct forcing within the fluid step: faces inside a body are closed,
+/// Bodies and frozen grains. Direct forcing within the fluid step: faces inside a body are closed,
 /// and the friction of its wall acts on the faces next to these, where the wall is
 /// (docs/theory-fluid.md, "Bodies"). Nothing changes over a run.
 class BodiesInFlow {
@@ -66,7 +66,7 @@ class BodiesInFlow {
   Real density_;
   Kokkos::View<BodyFace*> faces_;
   std::vector<int> first_face_;  // of each body
-  int n_bodies_ = 0;             // those of the case; behind them come held grains
+  int n_bodies_ = 0;             // those of the case; behind them come frozen grains
   Kokkos::View<int*> first_face_of_grain_;
   Kokkos::View<Vec3*> foot_of_grain_;  // [m]
   Kokkos::View<BodyCell*> cells_;

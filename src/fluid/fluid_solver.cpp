@@ -63,7 +63,7 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
                        FilterWidth{grid, config_.wale_constant, c_w_delta_});
 }
 
-void FluidSolver::hold(const Solids& solids) {
+void FluidSolver::set_solids(const Solids& solids) {
   const auto n = static_cast<std::size_t>(solids.count());
   bodies_.emplace(solids, grid_, boundary_.halo(), config_);
   is_clear_ = true;

@@ -57,9 +57,9 @@ class FluidSolver {
   void flow_around_bodies(FluidState& fluid);
   /// From now on the flow goes round these, too; `solids` holds the bodies of the case. The solver
   /// must be of a variable fraction, and without exchange.
-  void hold(const Solids& solids);
+  void set_solids(const Solids& solids);
   /// Of the flow on the bodies of the case, in their order, over the last step; behind them on the
-  /// grains that are held.
+  /// frozen grains.
   const std::vector<BodyLoad>& body_loads() const { return loads_; }
   /// Null without.
   const BodiesInFlow* bodies() const { return bodies_ ? &*bodies_ : nullptr; }

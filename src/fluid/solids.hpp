@@ -1,4 +1,4 @@
-// Solids at rest in the flow: the bodies of a case, and grains that are held where they are.
+// Solids at rest in the flow: the bodies of a case, and frozen grains.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,21 @@
 
 namespace barchan {
 
-/// A grain that is held.
-struct HeldGrain {
+/// A frozen grain.
+struct FrozenGrain {
   Vec3 x;      // its centre, in the domain [m]
   Real r = 0;  // [m]
 };
 
 /// Any number of spheres in a domain that is periodic along x and z, found by cells, on the host.
-class HeldGrains {
+class FrozenGrains {
  public:
-  HeldGrains() = default;
+  FrozenGrains() = default;
   /// `reach`: distance from a surface up to which it is found [m].
-  HeldGrains(std::vector<HeldGrain> grains, Real lx, Real lz, Real reach);
+  FrozenGrains(std::vector<FrozenGrain> grains, Real lx, Real lz, Real reach);
 
   int count() const { return static_cast<int>(grains_.size()); }
-  const HeldGrain& operator[](int n) const { return grains_[static_cast<std::size_t>(n)]; }
+  const FrozenGrain& operator[](int n) const { return grains_[static_cast<std::size_t>(n)]; }
   /// The one whose surface is nearest to x, as Bodies::nearest has it; beyond the reach none, at
   /// that distance.
   Bodies::Nearest nearest(const Vec3& x) const;
@@ -36,7 +36,7 @@ class HeldGrains {
   void look_in(int i, int j, int k, const Vec3& x, Bodies::Nearest& found) const;
   void look_around(int ring, const int (&cell)[3], const Vec3& x, Bodies::Nearest& found) const;
 
-  std::vector<HeldGrain> grains_;
+  std::vector<FrozenGrain> grains_;
   Real lx_ = 1, lz_ = 1, reach_ = 0, r_max_ = 0;
   Cells x_, y_, z_;
   std::vector<int> first_, entry_;  // of each cell in entry_; grains by cell
@@ -45,7 +45,7 @@ class HeldGrains {
 /// What the flow goes round.
 class Solids {
  public:
-  explicit Solids(const Bodies& bodies, HeldGrains grains = {})
+  explicit Solids(const Bodies& bodies, FrozenGrains grains = {})
       : bodies_(bodies), grains_(std::move(grains)) {}
 
   int count() const { return bodies_.n + grains_.count(); }
@@ -58,7 +58,7 @@ class Solids {
 
  private:
   Bodies bodies_;
-  HeldGrains grains_;
+  FrozenGrains grains_;
 };
 
 }  // namespace barchan

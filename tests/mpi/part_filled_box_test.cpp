@@ -144,8 +144,8 @@ TEST(PartFilledBox, LedgerClosesAndARestartKeepsTheBits) {
   poisons_lent_memory = false;
 }
 
-/// Nine grains that are held, in a corner of a box of fine cells.
-Config held_config(const std::filesystem::path& table) {
+/// Nine frozen grains, in a corner of a box of fine cells.
+Config frozen_config(const std::filesystem::path& table) {
   Config c = test::coupled_config();
   c.size = {3e-3, 1.2e-3, 2e-3};
   c.fluid->cells = {60, 24, 40};
@@ -193,11 +193,11 @@ void expect_forces_in(const std::filesystem::path& folder, const std::vector<Vec
   }
 }
 
-TEST(PartFilledBox, FlowIsResolvedAroundGrainsThatAreHeld) {
+TEST(PartFilledBox, FlowIsResolvedAroundFrozenGrains) {
   if (rank_count(MPI_COMM_WORLD) > 2) GTEST_SKIP() << "on 1 and 2 ranks";
   poisons_lent_memory = true;
   const test::SharedFolder folder;
-  const auto table = folder.path() / "held.csv";
+  const auto table = folder.path() / "frozen.csv";
   if (is_first()) {
     std::ofstream file(table);
     file << "id,diameter,x,y,z\n";
@@ -205,7 +205,7 @@ TEST(PartFilledBox, FlowIsResolvedAroundGrainsThatAreHeld) {
       file << fmt::format("{},2e-4,{},1e-4,{}\n", n + 1, 2e-4 * (n % 3), 2e-4 + 2.1e-4 * (n / 3));
   }
   MPI_Barrier(MPI_COMM_WORLD);
-  const Config whole = held_config(table);
+  const Config whole = frozen_config(table);
   Config half = whole;
   half.time.end = whole.time.end / 2;
   const auto at_once = run(whole, folder.path() / "whole", {}, {.fluid = {}, .grains = table});
@@ -218,7 +218,7 @@ TEST(PartFilledBox, FlowIsResolvedAroundGrainsThatAreHeld) {
   const auto json = nlohmann::json::parse(read_text(folder.path() / "whole/run.json"));
   // In a flow of 0.24 m/s these forces act from the first step.
   const double impulse = json.at("ledger").at("impulse_of_flow_on_grains_x");
-  std::printf("[ measured ] impulse on held grains: %.17g N s\n", impulse);
+  std::printf("[ measured ] impulse on frozen grains: %.17g N s\n", impulse);
   EXPECT_GT(impulse, 1e-12);
 }
 

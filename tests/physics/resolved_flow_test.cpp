@@ -1,4 +1,4 @@
-// Flow resolved around grains that are held: the same as around bodies, and the grain that is
+// Flow resolved around frozen grains: the same as around bodies, and the grain that is
 // perched on a layer.
 #include <gtest/gtest.h>
 
@@ -111,26 +111,26 @@ TEST(ResolvedFlow, ThePerchedGrainIsPushedAtItsTop) {
   EXPECT_GT(load.force.y, 0);  // lifted
 }
 
-TEST(HeldGrains, TheNearestIsFoundAsByLookingAtAll) {
+TEST(FrozenGrains, TheNearestIsFoundAsByLookingAtAll) {
   const std::array<double, 3> size{2e-3, 1.5e-3, 1.2e-3};
   InitialGrains random = random_grains(60, {2e-3, 6e-4, 1.2e-3}, 3);
-  std::vector<HeldGrain> all;
+  std::vector<FrozenGrain> all;
   for (std::size_t g = 0; g < random.size(); ++g)
     all.push_back({random.x[g], random.diameter[g] / 2});
   const Real reach = 3e-4;
-  const HeldGrains held(all, size[0], size[2], reach);
+  const FrozenGrains frozen(all, size[0], size[2], reach);
   Uniform uniform(5);
   int far = 0;
   for (int n = 0; n < 3000; ++n) {
     const Vec3 x{size[0] * uniform(), size[1] * uniform() - 2e-4, size[2] * uniform()};
     Real least = reach;
-    for (const HeldGrain& g : all) {
+    for (const FrozenGrain& g : all) {
       Vec3 s = x - g.x;
       s.x -= size[0] * std::round(s.x / size[0]);
       s.z -= size[2] * std::round(s.z / size[2]);
       least = std::min(least, norm(s) - g.r);
     }
-    const Bodies::Nearest found = held.nearest(x);
+    const Bodies::Nearest found = frozen.nearest(x);
     ASSERT_NEAR(found.surface.distance, least, 1e-12);
     ASSERT_EQ(found.body < 0, least == reach);
     far += found.body < 0;
