@@ -50,15 +50,22 @@ struct UnsmoothedFraction {
 
 /// At each grain now.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;                // [m/s]
+  Kokkos::View<Vec3*> u;                // [m/s], as the drag feels it
   Kokkos::View<Vec3*> du_dt;            // its change over the last step [m/s^2], read as u
   Kokkos::View<Vec3*> u_grad_u;         // convective acceleration at the centre [m/s^2]
   Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
   Kokkos::View<Vec3*> stress;           // force of the stress, likewise
-  Kokkos::View<Real*> alpha_f;          // fraction of the flow
   Kokkos::View<Real*> alpha_l;          // what the drag law reads: of layers the mean over its
                                         // cells before the smoothing, else alpha_f
+  Kokkos::View<Real*> slip;             // that the law sees [m/s]
+  Kokkos::View<Real*> factor;           // of the law's beta, whose drag is along u - u_p
   Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
+
+  /// After u.
+  KOKKOS_FORCEINLINE_FUNCTION void set_whole_slip(int g, const Vec3& u_p) const {
+    slip(g) = norm(u(g) - u_p);
+    factor(g) = 1;
+  }
 };
 
 /// In drag laws a fluid fraction counts as at least 0.1.
@@ -91,7 +98,8 @@ struct FlowAtCentres {
     flow.u(g) = interpolate_faces(u, at);
     flow.du_dt(g) = interpolate_faces(du_dt, at);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
-    flow.alpha_f(g) = flow.alpha_l(g) = interpolate_cell(alpha_f, at);
+    flow.alpha_l(g) = interpolate_cell(alpha_f, at);
+    flow.set_whole_slip(g, grains(g).u);
   }
 };
 
@@ -106,7 +114,8 @@ struct FlowFromCells {
   KOKKOS_FUNCTION void operator()(int g) const {
     const CellPointFace at(grid, box, grains(g).x);
     flow.u(g) = {at(grid, x), at(grid, y), at(grid, z)};
-    flow.alpha_f(g) = flow.alpha_l(g) = at(grid, alpha_f);
+    flow.alpha_l(g) = at(grid, alpha_f);
+    flow.set_whole_slip(g, grains(g).u);
   }
 };
 
@@ -129,13 +138,16 @@ struct FlowOverCells {
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
-  KOKKOS_INLINE_FUNCTION void operator()(int g, const GrainCells& cells) const {
-    Real most = 0, mean = 0;
+  /// Returns the part of other grains in the solid of the cells.
+  KOKKOS_INLINE_FUNCTION Real operator()(int g, const GrainCells& cells) const {
+    const Real volume = sphere_volume(grains(g).r);
+    Real most = 0, mean = 0, own = 0;
     Vec3 of_pressure, of_stress;
     for (int q = 0; q < cells.n; ++q) {
       const CellIndex c = cells.cell[q];
       const Real w = cells.weight(q), here = unsmoothed(c.i, c.j, c.k);
       mean += w * here;
+      own += w * w * volume / stencil.grid.cell_volume(c.j);
       most = Kokkos::max(most, (1 - here) / Kokkos::max(alpha_f(c.i, c.j, c.k), Real(1e-3)));
       if (with_pressure) of_pressure += w * pressure(c);
       if (with_stress) of_stress += w * stress(c);
@@ -144,6 +156,7 @@ struct FlowOverCells {
     flow.solid_per_fluid(g) = most;
     if (with_pressure) flow.pressure(g) = of_pressure;
     if (with_stress) flow.stress(g) = of_stress;
+    return own < 1 - mean ? 1 - own / (1 - mean) : 0;
   }
 };
 
@@ -159,19 +172,39 @@ struct LayeredFlow {
     const FlowAtGrains& flow = over_cells.flow;
     const GrainKinematics grain = over_cells.grains(g);
     const GrainRows rows = over_cells.stencil.rows_of(grain);
-    over_cells(g, over_cells.stencil(grain, rows));
+    const Real of_others = over_cells(g, over_cells.stencil(grain, rows));
     const PointStencil at(over_cells.stencil.grid, box, grain.x, rows.row[0]);
     const Real dense = solid_per_fluid_at(over_cells.unsmoothed, at, rows);
     flow.u(g) = of_rows(u, rows, at, dense);
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
-    flow.alpha_f(g) = interpolate_cell(over_cells.alpha_f, at);
+    set_slip(g, grain.u, of_others, at);
     if (!crowded) return;
     flow.solid_per_fluid(g) =
         Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
   }
 
  private:
+  /// The flow carries alpha_f of its velocity, and so the superficial slip is right: the drag sees
+  /// s = alpha_f/alpha_l of it, twice. Along surfaces of equal fraction, as over a bed, it knows
+  /// none of the other grains; `of_others` is their part in the solid of the grain's cells. So
+  ///   F = beta (s_a^2 v + (s^2 - s_a^2) n (n . v)), s_a^2 = 1 + (s^2 - 1) (1 - of_others).
+  KOKKOS_INLINE_FUNCTION void set_slip(int g, const Vec3& u_p, Real of_others,
+                                       const PointStencil& at) const {
+    const FlowAtGrains& flow = over_cells.flow;
+    const ConstFieldRef& alpha_f = over_cells.alpha_f;
+    const Real s =
+        limited_fraction(interpolate_cell(alpha_f, at)) / limited_fraction(flow.alpha_l(g));
+    const Real along_squared = 1 + (s * s - 1) * (1 - of_others);
+    const Real along = Kokkos::sqrt(along_squared);
+    const Vec3 change = interpolate_gradient(alpha_f, over_cells.stencil.grid, at);
+    const Real size = dot(change, change);
+    const Vec3 slip = flow.u(g) - u_p;
+    const Vec3 across = (size > 0 ? dot(slip, change) / size : Real(0)) * change;
+    flow.slip(g) = norm(along * slip + (s - along) * across);
+    flow.factor(g) = along_squared;
+    flow.u(g) += (s * s / along_squared - 1) * across;
+  }
   /// Solid per fluid in the fullest of the momentum cells that the grain belongs to.
   KOKKOS_INLINE_FUNCTION Real in_momentum_cells(const GrainRows& rows,
                                                 const GrainColumn& of) const {

@@ -66,17 +66,13 @@ struct GatherFluid {
   }
 
  private:
-  /// beta_p = s^2 beta(alpha_l, s |u_f - u_p|), s = alpha_f/alpha_l: the law knows the superficial
-  /// slip, and takes alpha_f of the whole force (model A); both go with the fraction of the flow.
   KOKKOS_INLINE_FUNCTION Real drag_coefficient(int g, const GrainKinematics& grain) const {
-    const Real alpha_l = limited_fraction(flow_at.alpha_l(g));
-    const Real s = limited_fraction(flow_at.alpha_f(g)) / alpha_l;
-    const LocalFlow flow{.alpha_f = alpha_l,
+    const LocalFlow flow{.alpha_f = limited_fraction(flow_at.alpha_l(g)),
                          .rho_f = rho_f,
                          .mu_f = mu_f,
-                         .slip = s * norm(flow_at.u(g) - grain.u),
+                         .slip = flow_at.slip(g),
                          .d_p = 2 * grain.r};
-    const Real beta = Real(forces.drag) * (s * s) * law(flow);
+    const Real beta = Real(forces.drag) * flow_at.factor(g) * law(flow);
     return forces.wall_drag ? beta * floor_drag_factor(flow, grain.x.y - grain.r) : beta;
   }
 };

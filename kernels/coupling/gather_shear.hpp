@@ -2,42 +2,76 @@
 // after the gather, and only if one of them acts.
 #pragma once
 
+#include "kernels/coupling/flow_at_grains.hpp"
 #include "kernels/coupling/shear_forces.hpp"
-#include "kernels/fluid/interpolation.hpp"
-#include "kernels/grains/fluid_on_grains.hpp"
 
 namespace barchan {
 
+template <class Law>
 struct GatherShear {
-  GridRef grid;
+  Law law;
+  DepositStencil stencil;
   PeriodicBox box;
   ConstFaceRef u;
+  ConstFieldRef alpha_f;  // before the smoothing
   Real rho_f = 0, mu_f = 0;
   bool lift = false, torque = false;
-  bool floor = false;  // no slip at y = 0
+  bool floor = false;   // no slip at y = 0
+  bool layers = false;  // each part of a grain feels the vorticity of its row; it has neighbours
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    const Vec3 vorticity = interpolate_curl(u, grid, PointStencil(grid, box, grain.x));
+    Vec3 vorticity;
+    Real alpha = 1;
+    if (layers) {
+      const GrainRows rows = stencil.rows_of(grain);
+      vorticity = over_rows(grain, rows);
+      alpha = limited_fraction(left_by_others(grain, stencil(grain, rows)));
+    } else {
+      vorticity = at_height(grain, grain.x.y);
+    }
     if (lift) {
-      const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity);
+      const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
       on_grains.steady_force(g) += force;
     }
     if (torque) {
       const Vec3 omega_f = Real(0.5) * vorticity;
       on_grains.omega_f(g) = omega_f;
-      on_grains.beta_r(g) = rotational_drag(rho_f, mu_f, 2 * grain.r, norm(omega_f - grain.omega));
+      on_grains.beta_r(g) = torque_among_grains(alpha) *
+                            rotational_drag(rho_f, mu_f, 2 * grain.r, norm(omega_f - grain.omega));
     }
   }
 
  private:
-  /// [N], at the slip that the drag sees.
+  KOKKOS_INLINE_FUNCTION Vec3 at_height(const GrainKinematics& grain, Real y) const {
+    return interpolate_curl(u, stencil.grid,
+                            PointStencil(stencil.grid, box, {grain.x.x, y, grain.x.z}));
+  }
+  /// Mean over the parts of a grain in its rows, each at its mean height.
+  KOKKOS_INLINE_FUNCTION Vec3 over_rows(const GrainKinematics& grain, const GrainRows& rows) const {
+    Vec3 mean;
+    for (int q = 0; q < rows.n; ++q)
+      mean += rows.weight(q) * at_height(grain, rows.height(stencil.grid, q));
+    return mean;
+  }
+  /// Fluid fraction in the cells of a grain without its own volume.
+  KOKKOS_INLINE_FUNCTION Real left_by_others(const GrainKinematics& grain,
+                                             const GrainCells& cells) const {
+    Real mean = 0;
+    for (int q = 0; q < cells.n; ++q) {
+      const CellIndex& c = cells.cell[q];
+      const Real own = cells.weight(q) * sphere_volume(grain.r) / stencil.grid.cell_volume(c.j);
+      mean += cells.weight(q) * (alpha_f(c.i, c.j, c.k) + own);
+    }
+    return mean;
+  }
+  /// [N], at the slip that the drag sees; over the drag it is that of a lone grain.
   KOKKOS_INLINE_FUNCTION Vec3 lift_on(const GrainKinematics& grain, const Vec3& slip,
-                                      const Vec3& vorticity) const {
+                                      const Vec3& vorticity, Real alpha) const {
     const Real w = norm(vorticity);
     if (w == 0) return {};
     const Real above = floor ? grain.x.y - grain.r : Kokkos::Experimental::infinity_v<Real>;
@@ -47,7 +81,15 @@ struct GatherShear {
                                      .slip = norm(slip),
                                      .vorticity = w,
                                      .gap = above > 0 ? above : Real(0)});
-    return (k / w) * cross(slip, vorticity);
+    return (drag_over_lone(grain, norm(slip), alpha) * k / w) * cross(slip, vorticity);
+  }
+  KOKKOS_INLINE_FUNCTION Real drag_over_lone(const GrainKinematics& grain, Real slip,
+                                             Real alpha) const {
+    LocalFlow flow{.alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = slip, .d_p = 2 * grain.r};
+    const Real lone = law(flow);
+    flow.alpha_f = alpha;
+    const Real here = law(flow);
+    return here > lone && lone > 0 ? here / lone : 1;
   }
 };
 

@@ -43,6 +43,10 @@ struct GrainRows {
   KOKKOS_INLINE_FUNCTION Real weight(int q) const {
     return Real(Kokkos::popcount(points[q])) / kDividedPoints;
   }
+  /// Mean height of the points in the q-th row [m].
+  KOKKOS_INLINE_FUNCTION Real height(const GridRef& grid, int q) const {
+    return grid.y_centre(row[q]) + over_lower[q] * grid.dy_centre(row[q]);
+  }
   KOKKOS_INLINE_FUNCTION int find(int j) const {
     int q = 0;
     while (q + 1 < n && row[q] != j) ++q;

@@ -97,4 +97,8 @@ KOKKOS_INLINE_FUNCTION Real rotational_drag(Real rho_f, Real mu_f, Real d, Real 
   return pi * mu_f * d * d * d * (factor > 1 ? factor : 1);
 }
 
+/// What neighbours make of it that leave the fluid fraction alpha: 1/alpha, by comparison with
+/// grains at the surface of resolved beds (docs/validation.md, "Forces at the surface of a bed").
+KOKKOS_INLINE_FUNCTION Real torque_among_grains(Real alpha) { return 1 / alpha; }
+
 }  // namespace barchan

@@ -88,6 +88,15 @@ KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const ConstFaceRef& f, const Point
           interpolate(f.z, s.z_faces, s.y_centre)};
 }
 
+/// Gradient of the interpolated field of cells at the point; exact for linear fields.
+KOKKOS_INLINE_FUNCTION Vec3 interpolate_gradient(const ConstFieldRef& f, const GridRef& g,
+                                                 const PointStencil& s) {
+  const auto &x = s.x_centre, &y = s.y_centre, &z = s.z_centre;
+  return {(interpolate(f, {x.i, 1}, y, z) - interpolate(f, {x.i, 0}, y, z)) / g.dx,
+          (interpolate(f, x, {y.i, 1}, z) - interpolate(f, x, {y.i, 0}, z)) / g.dy_centre(y.i + 1),
+          (interpolate(f, x, y, {z.i, 1}) - interpolate(f, x, y, {z.i, 0})) / g.dz};
+}
+
 /// Curl of the interpolated field at the point; exact for linear fields, and at a wall that of the
 /// ghost row.
 KOKKOS_INLINE_FUNCTION Vec3 interpolate_curl(const ConstFaceRef& f, const GridRef& g,

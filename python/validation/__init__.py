@@ -22,6 +22,7 @@ from validation import channel
 from validation import contacts
 from validation import flow
 from validation import laminar_bed
+from validation import resolved_bed
 from validation import threshold
 from validation import water
 from barchan.plot import fail
@@ -39,8 +40,9 @@ FIGURES = {
     bed_load.NAME: bed_load.draw,
     threshold.NAME: threshold.draw,
     laminar_bed.NAME: laminar_bed.draw,
+    resolved_bed.NAME: resolved_bed.draw,
 }
-STUDIES = {module.NAME: module for module in (bed_load, threshold, laminar_bed)}
+STUDIES = {module.NAME: module for module in (bed_load, threshold, laminar_bed, resolved_bed)}
 
 
 def parse(arguments):

@@ -35,11 +35,27 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
   return {};
 }
 
+namespace {
+
+/// The set that a word stands for.
+Mismatch convert_set(const Node& word, ForceSwitches& value) {
+  std::vector<std::string_view> names;
+  for (const ForceSet& set : kForceSets) names.push_back(set.name);
+  std::size_t at = 0;
+  if (const Mismatch mismatch = convert_name(word, names, at)) {
+    return fmt::format("an array of names, or {}", *mismatch);
+  }
+  value = kForceSets[at].forces;
+  return {};
+}
+
+}  // namespace
+
 Mismatch convert(const Node& node, ForceSwitches& value) {
+  const auto* chosen = std::get_if<NodeArray>(&node.value);
+  if (chosen == nullptr) return convert_set(node, value);
   std::vector<std::string_view> names;
   for (const ForceName& force : kForceNames) names.push_back(force.name);
-  const auto* chosen = std::get_if<NodeArray>(&node.value);
-  if (chosen == nullptr) return fmt::format("an array of \"{}\"", fmt::join(names, "\", \""));
   for (const ForceName& force : kForceNames) value.*force.on = false;
   for (const Node& element : *chosen) {
     std::size_t at = 0;
@@ -88,15 +104,17 @@ Form ValueKind<std::vector<SizeClass>>::form() {
 }
 
 Form ValueKind<ForceSwitches>::form() {
-  Form name{.of = Form::Of::choice};
+  Form name{.of = Form::Of::choice}, set{.of = Form::Of::choice};
   for (const ForceName& force : kForceNames) name.names.push_back(force.name);
-  return {.of = Form::Of::list, .parts = {name}};
+  for (const ForceSet& of : kForceSets) set.names.push_back(of.name);
+  return {.of = Form::Of::any_of, .parts = {set, {.of = Form::Of::list, .parts = {name}}}};
 }
 
 std::string ValueKind<ForceSwitches>::type() {
-  ForceSwitches all;
-  for (const ForceName& force : kForceNames) all.*force.on = true;
-  return "array of " + toml_text(all);
+  std::vector<std::string> sets;
+  for (const ForceSet& set : kForceSets) sets.push_back(toml_text(set.name));
+  return fmt::format("{} or array of {}", fmt::join(sets, ", "),
+                     toml_text(kForceSets.back().forces));
 }
 
 }  // namespace barchan

@@ -26,6 +26,14 @@ inline constexpr std::array<ForceName, 8> kForceNames{
      {"torque", &ForceSwitches::torque},
      {"wall_drag", &ForceSwitches::wall_drag}}};
 
+/// A word for a set of them.
+struct ForceSet {
+  std::string_view name;
+  ForceSwitches forces;
+};
+inline constexpr std::array<ForceSet, 2> kForceSets{
+    {{"paper", {}}, {"complete", {.lift = true, .torque = true, .wall_drag = true}}}};
+
 Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, std::vector<SizeClass>& value);
 Mismatch convert(const Node& node, ForceSwitches& value);

@@ -146,7 +146,8 @@ void add_coupling(Sections& all) {
       .by_default = "3 d";
   key("alpha_time_derivative", &C::alpha_time_derivative,
       "include d(alpha_f)/dt in the continuity equation");
-  key("forces", &C::forces, "forces of the flow on the grains");
+  key("forces", &C::forces,
+      "forces of the flow on the grains: a list, or those of the paper, or all");
 }
 
 void add_schemes(Sections& all) {

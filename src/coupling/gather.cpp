@@ -22,7 +22,7 @@ FluidForces forces_of(const ForceSwitches& f) {
 }  // namespace
 
 Gather::Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
-               CouplingFields& fields)
+               CouplingFields& fields, bool layers)
     : grid_(grid),
       fields_(fields),
       forces_(forces_of(config.coupling.forces)),
@@ -32,7 +32,8 @@ Gather::Gather(const CoupledCase& config, const GrainState& grains, const Coupli
               .displaced = forces_.buoyancy ? Real(config.fluid->fluid.density) : 0},
       rho_f_(config.fluid->fluid.density),
       nu_(config.fluid->fluid.kinematic_viscosity),
-      has_floor_(config.fluid->fluid.bottom == WallFlow::no_slip) {}
+      has_floor_(config.fluid->fluid.bottom == WallFlow::no_slip),
+      layers_(layers) {}
 
 void Gather::act_on(GrainState& grains, const FluidState& fluid, Real dt,
                     const ExchangeSums& sums) {
@@ -48,7 +49,8 @@ void Gather::reserve_flow(int n) {
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_entries(*array, n);
-  for (auto* array : {&flow_at_.alpha_f, &flow_at_.alpha_l, &flow_at_.solid_per_fluid})
+  for (auto* array :
+       {&flow_at_.alpha_l, &flow_at_.slip, &flow_at_.factor, &flow_at_.solid_per_fluid})
     reserve_entries(*array, n);
 }
 
@@ -143,18 +145,25 @@ void Gather::drag_and_share(const GrainState& grains, Real dt) const {
 }
 
 void Gather::lift_and_torque(const FluidState& fluid, const GrainState& grains) const {
-  Kokkos::parallel_for("coupling: gather shear", items(grains.n),
-                       GatherShear{.grid = grid_.grid,
-                                   .box = grid_.box,
-                                   .u = fluid.u,
-                                   .rho_f = rho_f_,
-                                   .mu_f = rho_f_ * nu_,
-                                   .lift = forces_.lift,
-                                   .torque = forces_.torque,
-                                   .floor = has_floor_,
-                                   .grains = grains.kin,
-                                   .on_grains = grains.fluid,
-                                   .exchange = grains.exchange});
+  std::visit(
+      [&](const auto& law) {
+        Kokkos::parallel_for("coupling: gather shear", items(grains.n),
+                             GatherShear{.law = law,
+                                         .stencil = grid_.stencil,
+                                         .box = grid_.box,
+                                         .u = fluid.u,
+                                         .alpha_f = fields_.unsmoothed(fluid),
+                                         .rho_f = rho_f_,
+                                         .mu_f = rho_f_ * nu_,
+                                         .lift = forces_.lift,
+                                         .torque = forces_.torque,
+                                         .floor = has_floor_,
+                                         .layers = layers_,
+                                         .grains = grains.kin,
+                                         .on_grains = grains.fluid,
+                                         .exchange = grains.exchange});
+      },
+      drag_);
 }
 
 }  // namespace barchan

@@ -14,7 +14,7 @@ namespace barchan {
 class Gather {
  public:
   Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
-         CouplingFields& fields);
+         CouplingFields& fields, bool layers);
 
   /// The next step is the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
@@ -54,6 +54,7 @@ class Gather {
   SubmergedWeight weight_;
   Real rho_f_, nu_;
   bool has_floor_;  // no slip at y = 0
+  bool layers_;     // each part of a grain feels its own row of cells
   bool is_first_step_ = false;
   FlowAtGrains flow_at_;
 };

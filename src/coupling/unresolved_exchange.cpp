@@ -3,10 +3,10 @@
 namespace barchan {
 
 UnresolvedExchange::UnresolvedExchange(const FlowAndGrains& of, const GrainVolume& volume,
-                                       bool has_interlayer_drag)
+                                       bool layers)
     : grid_(of.config, of.solver, of.grid, of.grains.r_max, volume.points),
-      fields_(of.solver, grid_, has_interlayer_drag),
-      gather_(of.config, of.grains, grid_, fields_),
+      fields_(of.solver, grid_, layers),
+      gather_(of.config, of.grains, grid_, fields_, layers),
       deposit_(of.config, of.grains, grid_, fields_, volume.most) {}
 
 void UnresolvedExchange::start(const GrainState& grains, FluidState& fluid) {

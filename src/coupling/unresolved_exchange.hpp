@@ -27,7 +27,7 @@ class UnresolvedExchange : public ExchangeScheme {
   const ExchangeLedger& ledger() const final { return ledger_; }
 
  protected:
-  UnresolvedExchange(const FlowAndGrains& of, const GrainVolume& volume, bool has_interlayer_drag);
+  UnresolvedExchange(const FlowAndGrains& of, const GrainVolume& volume, bool layers);
 
   /// Sets the regions of the gather, and the fluid fraction before its smoothing.
   void begin_gather(const FluidState& fluid, const GrainState& grains);

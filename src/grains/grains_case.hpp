@@ -99,7 +99,7 @@ struct GrainConfig {
   bool operator==(const GrainConfig&) const = default;
 };
 
-/// coupling.forces
+/// coupling.forces; by default those of the paper.
 struct ForceSwitches {
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
   bool lift = false, torque = false, wall_drag = false;

@@ -184,8 +184,9 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
                              .u_grad_u = {},
                              .pressure = {"test: found", n},
                              .stress = {},
-                             .alpha_f = {},
                              .alpha_l = {"test: mean", n},
+                             .slip = {},
+                             .factor = {},
                              .solid_per_fluid = {"test: largest", n}};
     Kokkos::parallel_for("test: gather", there.n,
                          FlowOverCells{.stencil = stencil,

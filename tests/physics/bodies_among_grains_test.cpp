@@ -80,7 +80,7 @@ TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
     for (const double smoothing : {0.0, 6e-4}) {
       const Config c = channel_with_post(scheme, smoothing);
       test::CoupledRun run(c, bed_around(c.bodies[0]));
-      run.advance(1300);
+      run.advance(2600);
       const FluidState& fluid = *run.state.fluid;
       const Vec3 drive = 1000 * kWidth * kHeight * kWidth * Vec3{fluid.drive.x, 0, fluid.drive.z};
       const Vec3 post = run.step.fluid_solver()->body_loads()[0].force;

@@ -57,6 +57,15 @@ TEST(ConfigLoad, ForcesAreThoseNamed) {
   const Config c = load_config_text(
       coupled_case() + "[coupling]\nforces = [\"drag\", \"stress\"]\n", "case.toml");
   EXPECT_EQ(c.coupling.forces, (ForceSwitches{true, false, true, false, false}));
+  const auto named = [](const std::string& set) {
+    return load_config_text(coupled_case(), "case.toml", {"coupling.forces=" + set})
+        .coupling.forces;
+  };
+  EXPECT_EQ(named("paper"), ForceSwitches{});
+  EXPECT_EQ(named("complete"), (ForceSwitches{true, true, true, true, true, true, true, true}));
+  refused(fluid_case("[coupling]\nforces = \"complet\"\n"),
+          "case.toml:8: [coupling] forces = \"complet\": must be an array of names, or one of "
+          "\"paper\", \"complete\" (did you mean \"complete\"?)");
   refused(fluid_case("[coupling]\nforces = [\"drag\", \"strss\"]\n"),
           "case.toml:8: [coupling] forces = [\"drag\", \"strss\"]: must be an array; \"strss\" "
           "must be one of \"drag\", \"pressure_gradient\", \"stress\", \"added_mass\", "

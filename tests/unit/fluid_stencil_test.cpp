@@ -68,6 +68,19 @@ TEST(FluidStencil, CurlAtAPointIsExactForLinearFields) {
   }
 }
 
+TEST(FluidStencil, GradientAtAPointIsExactForLinearFields) {
+  const Grid grid = awkward_grid();
+  const HostGrid h(grid);
+  const Vec3 slope{3, -7, 5};
+  const test::HostField host = test::host_field(grid, [&](int i, int j, int k) {
+    return dot(slope, {(i + 0.5) * grid.dx, h.y(j), (k + 0.5) * grid.dz});
+  });
+  for (const Vec3& point : {Vec3{0.201, 0.013, 0.33}, Vec3{0.07, 0.27, 0.45}}) {
+    const PointStencil at(h.ref(), {}, point);
+    EXPECT_NEAR(norm(interpolate_gradient(host.ref(), h.ref(), at) - slope), 0, 1e-10);
+  }
+}
+
 TEST(FluidStencil, GradientIsExactForLinearFieldsAndParabolasInY) {
   const Grid grid = awkward_grid();
   const HostGrid h(grid);
