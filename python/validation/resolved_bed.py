@@ -175,6 +175,8 @@ def draw(folder):
                                 ("threshold_by_drag", "without torque", ":")):
         panels[3].plot(np.nanquantile(usual[what], part), part, color="k", lw=0.9, ls=dashes, label=label)
     panels[3].set(xscale="log", xlim=(0.02, 2), xlabel="threshold of a grain", ylabel="part of the grains")
+    panels[3].yaxis.tick_right()
+    panels[3].yaxis.set_label_position("right")
     panels[3].legend(fontsize=6, loc="lower right")
     for index, axes in enumerate(panels):
         style.panel_label(axes, index)
