@@ -57,12 +57,14 @@ struct FlowAtGrains {
   Kokkos::View<Vec3*> stress;           // force of the stress, likewise
   Kokkos::View<Real*> alpha_l;          // what the drag law reads: of layers the mean over its
                                         // cells before the smoothing, else alpha_f
+  Kokkos::View<Real*> alpha_o;          // what the other grains leave of its cells
   Kokkos::View<Real*> slip;             // that the law sees [m/s]
   Kokkos::View<Real*> factor;           // of the law's beta, whose drag is along u - u_p
   Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
 
-  /// After u.
+  /// Of a scheme that knows no neighbours; after u.
   KOKKOS_FORCEINLINE_FUNCTION void set_whole_slip(int g, const Vec3& u_p) const {
+    alpha_o(g) = 1;
     slip(g) = norm(u(g) - u_p);
     factor(g) = 1;
   }
@@ -138,8 +140,7 @@ struct FlowOverCells {
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
-  /// Returns the part of other grains in the solid of the cells.
-  KOKKOS_INLINE_FUNCTION Real operator()(int g, const GrainCells& cells) const {
+  KOKKOS_INLINE_FUNCTION void operator()(int g, const GrainCells& cells) const {
     const Real volume = sphere_volume(grains(g).r);
     Real most = 0, mean = 0, own = 0;
     Vec3 of_pressure, of_stress;
@@ -153,10 +154,10 @@ struct FlowOverCells {
       if (with_stress) of_stress += w * stress(c);
     }
     flow.alpha_l(g) = mean;
+    flow.alpha_o(g) = Kokkos::min(mean + own, Real(1));
     flow.solid_per_fluid(g) = most;
     if (with_pressure) flow.pressure(g) = of_pressure;
     if (with_stress) flow.stress(g) = of_stress;
-    return own < 1 - mean ? 1 - own / (1 - mean) : 0;
   }
 };
 
@@ -172,13 +173,13 @@ struct LayeredFlow {
     const FlowAtGrains& flow = over_cells.flow;
     const GrainKinematics grain = over_cells.grains(g);
     const GrainRows rows = over_cells.stencil.rows_of(grain);
-    const Real of_others = over_cells(g, over_cells.stencil(grain, rows));
+    over_cells(g, over_cells.stencil(grain, rows));
     const PointStencil at(over_cells.stencil.grid, box, grain.x, rows.row[0]);
     const Real dense = solid_per_fluid_at(over_cells.unsmoothed, at, rows);
     flow.u(g) = of_rows(u, rows, at, dense);
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
-    set_slip(g, grain.u, of_others, at);
+    set_slip(g, grain.u, at);
     if (!crowded) return;
     flow.solid_per_fluid(g) =
         Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
@@ -187,15 +188,15 @@ struct LayeredFlow {
  private:
   /// The flow carries alpha_f of its velocity, and so the superficial slip is right: the drag sees
   /// s = alpha_f/alpha_l of it, twice. Along surfaces of equal fraction, as over a bed, it knows
-  /// none of the other grains; `of_others` is their part in the solid of the grain's cells. So
-  ///   F = beta (s_a^2 v + (s^2 - s_a^2) n (n . v)), s_a^2 = 1 + (s^2 - 1) (1 - of_others).
-  KOKKOS_INLINE_FUNCTION void set_slip(int g, const Vec3& u_p, Real of_others,
-                                       const PointStencil& at) const {
+  /// none of the other grains, whose part in the solid of the grain's cells is h. So
+  ///   F = beta (s_a^2 v + (s^2 - s_a^2) n (n . v)), s_a^2 = 1 + (s^2 - 1) (1 - h).
+  KOKKOS_INLINE_FUNCTION void set_slip(int g, const Vec3& u_p, const PointStencil& at) const {
     const FlowAtGrains& flow = over_cells.flow;
     const ConstFieldRef& alpha_f = over_cells.alpha_f;
     const Real s =
         limited_fraction(interpolate_cell(alpha_f, at)) / limited_fraction(flow.alpha_l(g));
-    const Real along_squared = 1 + (s * s - 1) * (1 - of_others);
+    const Real solid = 1 - flow.alpha_l(g), h = solid > 0 ? (1 - flow.alpha_o(g)) / solid : Real(0);
+    const Real along_squared = 1 + (s * s - 1) * (1 - h);
     const Real along = Kokkos::sqrt(along_squared);
     const Vec3 change = interpolate_gradient(alpha_f, over_cells.stencil.grid, at);
     const Real size = dot(change, change);

@@ -10,29 +10,22 @@ namespace barchan {
 template <class Law>
 struct GatherShear {
   Law law;
-  DepositStencil stencil;
+  GridRef grid;
   PeriodicBox box;
   ConstFaceRef u;
-  ConstFieldRef alpha_f;  // before the smoothing
   Real rho_f = 0, mu_f = 0;
   bool lift = false, torque = false;
   bool floor = false;   // no slip at y = 0
-  bool layers = false;  // each part of a grain feels the vorticity of its row; it has neighbours
+  bool layers = false;  // each part of a grain feels the vorticity of its row
   Kokkos::View<const GrainKinematics*> grains;
+  FlowAtGrains flow_at;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    Vec3 vorticity;
-    Real alpha = 1;
-    if (layers) {
-      const GrainRows rows = stencil.rows_of(grain);
-      vorticity = over_rows(grain, rows);
-      alpha = limited_fraction(left_by_others(grain, stencil(grain, rows)));
-    } else {
-      vorticity = at_height(grain, grain.x.y);
-    }
+    const Vec3 vorticity = layers ? over_rows(grain) : at_height(grain, grain.x.y);
+    const Real alpha = limited_fraction(flow_at.alpha_o(g));
     if (lift) {
       const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
@@ -48,25 +41,14 @@ struct GatherShear {
 
  private:
   KOKKOS_INLINE_FUNCTION Vec3 at_height(const GrainKinematics& grain, Real y) const {
-    return interpolate_curl(u, stencil.grid,
-                            PointStencil(stencil.grid, box, {grain.x.x, y, grain.x.z}));
+    return interpolate_curl(u, grid, PointStencil(grid, box, {grain.x.x, y, grain.x.z}));
   }
   /// Mean over the parts of a grain in its rows, each at its mean height.
-  KOKKOS_INLINE_FUNCTION Vec3 over_rows(const GrainKinematics& grain, const GrainRows& rows) const {
+  KOKKOS_INLINE_FUNCTION Vec3 over_rows(const GrainKinematics& grain) const {
+    const GrainRows rows(grid, grain.x.y, grain.r);
     Vec3 mean;
     for (int q = 0; q < rows.n; ++q)
-      mean += rows.weight(q) * at_height(grain, rows.height(stencil.grid, q));
-    return mean;
-  }
-  /// Fluid fraction in the cells of a grain without its own volume.
-  KOKKOS_INLINE_FUNCTION Real left_by_others(const GrainKinematics& grain,
-                                             const GrainCells& cells) const {
-    Real mean = 0;
-    for (int q = 0; q < cells.n; ++q) {
-      const CellIndex& c = cells.cell[q];
-      const Real own = cells.weight(q) * sphere_volume(grain.r) / stencil.grid.cell_volume(c.j);
-      mean += cells.weight(q) * (alpha_f(c.i, c.j, c.k) + own);
-    }
+      mean += rows.weight(q) * at_height(grain, rows.height(grid, q));
     return mean;
   }
   /// [N], at the slip that the drag sees; over the drag it is that of a lone grain.

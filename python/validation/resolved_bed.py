@@ -125,11 +125,6 @@ def settings(table):
         yield values, table.only(np.all([column == value for column, value in zip(columns, values)], axis=0))
 
 
-def quantiles(thresholds):
-    """Of all grains: one that never turns counts as infinite."""
-    return np.quantile(np.where(np.isfinite(thresholds), thresholds, 1e9), QUANTILES)
-
-
 def beside(resolved, layered):
     """Both means, and how the grains of both go together."""
     spreads = np.std(resolved), np.std(layered)

@@ -49,8 +49,8 @@ void Gather::reserve_flow(int n) {
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_entries(*array, n);
-  for (auto* array :
-       {&flow_at_.alpha_l, &flow_at_.slip, &flow_at_.factor, &flow_at_.solid_per_fluid})
+  for (auto* array : {&flow_at_.alpha_l, &flow_at_.alpha_o, &flow_at_.slip, &flow_at_.factor,
+                      &flow_at_.solid_per_fluid})
     reserve_entries(*array, n);
 }
 
@@ -149,10 +149,9 @@ void Gather::lift_and_torque(const FluidState& fluid, const GrainState& grains) 
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather shear", items(grains.n),
                              GatherShear{.law = law,
-                                         .stencil = grid_.stencil,
+                                         .grid = grid_.grid,
                                          .box = grid_.box,
                                          .u = fluid.u,
-                                         .alpha_f = fields_.unsmoothed(fluid),
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .lift = forces_.lift,
@@ -160,6 +159,7 @@ void Gather::lift_and_torque(const FluidState& fluid, const GrainState& grains) 
                                          .floor = has_floor_,
                                          .layers = layers_,
                                          .grains = grains.kin,
+                                         .flow_at = flow_at_,
                                          .on_grains = grains.fluid,
                                          .exchange = grains.exchange});
       },

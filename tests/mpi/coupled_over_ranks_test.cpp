@@ -185,6 +185,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
                              .pressure = {"test: found", n},
                              .stress = {},
                              .alpha_l = {"test: mean", n},
+                             .alpha_o = {"test: left by others", n},
                              .slip = {},
                              .factor = {},
                              .solid_per_fluid = {"test: largest", n}};
