@@ -4,6 +4,7 @@
 
 #include "kernels/coupling/deposit_cache.hpp"
 #include "kernels/coupling/layered_exchange.hpp"
+#include "kernels/coupling/stresslet.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/sphere.hpp"
@@ -22,6 +23,7 @@ struct ExchangeOfGrain {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
+  Stresslet stresslet{};
 
   KOKKOS_INLINE_FUNCTION GrainExchange operator()(int g) const {
     Vec3 steady = exchange.added_mass_force(g);
@@ -30,6 +32,15 @@ struct ExchangeOfGrain {
   }
   /// beta_p dt [kg].
   KOKKOS_INLINE_FUNCTION Real beta_dt(int g) const { return dt * on_grains.beta(g); }
+  /// What its rows give one another through it, at least beta_p dt [kg].
+  KOKKOS_INLINE_FUNCTION Real rows_dt(const GridRef& grid, int g, const LayerVelocity& u) const {
+    const GrainKinematics grain = grains(g);
+    const Vec3 slip = Vec3{u.mean_x, 0, u.mean_z} - Vec3{grain.u.x, 0, grain.u.z};
+    return dt * stresslet(grid, u.rows, grain, slip, u.solid, on_grains.beta(g));
+  }
+  KOKKOS_INLINE_FUNCTION Real most_dt(int g) const {
+    return beta_dt(g) + dt * stresslet.most(grains(g).r);
+  }
 };
 
 /// Marks the columns of cells, those of all ranks, that hold grains.
@@ -55,15 +66,15 @@ struct MarkColumns {
   }
 };
 
-/// What all grains together give: volume [m^3], beta_p dt [kg], sum of |impulse| components and the
-/// impulse itself [N s]. Bounds of what one cell can get.
+/// What all grains together give: volume [m^3], what joins rows, at most [kg], sum of |impulse|
+/// components and the impulse itself [N s]. Bounds of what one cell can get.
 struct GrainTotals {
-  Real volume = 0, beta_dt = 0, size = 0;
+  Real volume = 0, rows_dt = 0, size = 0;
   Vec3 impulse;
 
   KOKKOS_FORCEINLINE_FUNCTION GrainTotals& operator+=(const GrainTotals& more) {
     volume += more.volume;
-    beta_dt += more.beta_dt;
+    rows_dt += more.rows_dt;
     size += more.size;
     impulse += more.impulse;
     return *this;
@@ -75,7 +86,7 @@ struct AddTotals {
   KOKKOS_FUNCTION void operator()(int g, GrainTotals& sum) const {
     const auto [volume, impulse] = of_grain(g);
     const Real size = Kokkos::abs(impulse.x) + Kokkos::abs(impulse.y) + Kokkos::abs(impulse.z);
-    sum += {volume, of_grain.beta_dt(g), size, impulse};
+    sum += {volume, of_grain.most_dt(g), size, impulse};
   }
 };
 
@@ -125,35 +136,36 @@ struct DepositGrains {
       cell.impulse_z += deposits.impulse.encode(w * given.impulse.z);
     }
   }
-  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_p dt (u_jf - u_ff +
-  /// phi (u_ff - u_f))), and the conductance c_f C_j to the row below; upwards w_j J to row j. A
-  /// cell that flows faster than the grain sees on average drags it more: the differences add up
-  /// to nothing over the grain.
+  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_j dt (u_jf - u_ff) +
+  /// beta_p dt phi (u_ff - u_f)), and the conductance c_f C_j to the row below; upwards w_j J to
+  /// row j. A cell that flows faster than the grain sees on average drags it more: the differences
+  /// add up to nothing over the grain. beta_j is beta_p, or the stresslet's.
   KOKKOS_INLINE_FUNCTION void to_layers(int g, const GrainRows& rows, const LayerVelocity& u,
                                         const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
     const Real K = beta_dt * of_grain.on_grains.inv_fluid_mass(g);
-    const Real joined_x = u.x_faces.joined(K), joined_z = u.z_faces.joined(K);
+    const Real rows_dt = of_grain.rows_dt(exchange.stencil.grid, g, u);
+    const Real joined_x = beta_dt * u.x_faces.joined(K), joined_z = beta_dt * u.z_faces.joined(K);
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
-      const Real C_j = beta_dt * conductance_below(rows, j);
+      const Real C_j = rows_dt * conductance_below(rows, j);
       cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
       for (int side = 0; side < 2; ++side) {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
         if (c_x > 0) {
-          const Real faster =
-              (u.x[side][r] - u.mean_of_x[side]) + joined_x * (u.mean_of_x[side] - u.mean_x);
+          const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
+                              joined_x * (u.mean_of_x[side] - u.mean_x);
           CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
           cell.conductance_x += deposits.conductance.encode(c_x * C_j);
-          cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + beta_dt * faster));
+          cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + faster));
         }
         if (c_z > 0) {
-          const Real faster =
-              (u.z[side][r] - u.mean_of_z[side]) + joined_z * (u.mean_of_z[side] - u.mean_z);
+          const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
+                              joined_z * (u.mean_of_z[side] - u.mean_z);
           CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
           cell.conductance_z += deposits.conductance.encode(c_z * C_j);
-          cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + beta_dt * faster));
+          cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + faster));
         }
       }
     }

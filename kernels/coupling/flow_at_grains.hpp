@@ -16,7 +16,9 @@ namespace barchan {
 struct FluidForces {
   bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
   bool buoyancy = false;
-  bool lift = false, torque = false, wall_drag = false;  // GatherShear; a factor of the drag
+  bool lift = false, torque = false;  // GatherShear
+  bool wall_drag = false;             // a factor of the drag
+  bool mixture_viscosity = false;     // Stresslet
 };
 
 /// The first and the last face of a direction, where grains end at a wall though the flow passes.

@@ -101,10 +101,13 @@ struct LayerVelocity : GrainColumn {
   Real x[2][kDividedOffsets], z[2][kDividedOffsets];  // by face and row
   Real mean_of_x[2], mean_of_z[2];                    // by face
   Real mean_x = 0, mean_z = 0;                        // over the grain
+  Real solid;                                         // fraction in the cell of its centre
 
   KOKKOS_INLINE_FUNCTION LayerVelocity(const GrainRows& of_grain, const PointStencil& at,
                                        const ConstFaceRef& u, Real solid_per_fluid)
-      : GrainColumn(at, solid_per_fluid), rows(of_grain) {
+      : GrainColumn(at, solid_per_fluid),
+        rows(of_grain),
+        solid(solid_per_fluid / (1 + solid_per_fluid)) {
     const Real across_x = at.x_face.t - Real(0.5), across_z = at.z_face.t - Real(0.5);
     for (int side = 0; side < 2; ++side) {
       const Real wx = x_faces.weight(side), wz = z_faces.weight(side);

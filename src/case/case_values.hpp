@@ -16,7 +16,7 @@ struct ForceName {
   std::string_view name;
   bool ForceSwitches::*on;
 };
-inline constexpr std::array<ForceName, 8> kForceNames{
+inline constexpr std::array<ForceName, 9> kForceNames{
     {{"drag", &ForceSwitches::drag},
      {"pressure_gradient", &ForceSwitches::pressure_gradient},
      {"stress", &ForceSwitches::stress},
@@ -24,7 +24,8 @@ inline constexpr std::array<ForceName, 8> kForceNames{
      {"buoyancy", &ForceSwitches::buoyancy},
      {"lift", &ForceSwitches::lift},
      {"torque", &ForceSwitches::torque},
-     {"wall_drag", &ForceSwitches::wall_drag}}};
+     {"wall_drag", &ForceSwitches::wall_drag},
+     {"mixture_viscosity", &ForceSwitches::mixture_viscosity}}};
 
 /// A word for a set of them.
 struct ForceSet {
@@ -32,7 +33,8 @@ struct ForceSet {
   ForceSwitches forces;
 };
 inline constexpr std::array<ForceSet, 2> kForceSets{
-    {{"paper", {}}, {"complete", {.lift = true, .torque = true, .wall_drag = true}}}};
+    {{"paper", {}},
+     {"complete", {.lift = true, .torque = true, .wall_drag = true, .mixture_viscosity = true}}}};
 
 Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, std::vector<SizeClass>& value);

@@ -98,7 +98,7 @@ void Deposit::fetch_totals(const ExchangeSums& sums) {
   sums.copy_to_host();
   Kokkos::fence("coupling: columns and totals");
   const auto totals = sums.get<GrainTotals>(ExchangeSums::kTotals);
-  deposits_.conductance = fixed_point_for(totals.beta_dt * (kDividedOffsets * kDividedOffsets / 4));
+  deposits_.conductance = fixed_point_for(totals.rows_dt * (kDividedOffsets * kDividedOffsets / 4));
   deposits_.impulse = fixed_point_for(sums.largest_exchange());
 }
 

@@ -15,8 +15,8 @@ namespace barchan {
 namespace {
 
 FluidForces forces_of(const ForceSwitches& f) {
-  return {f.drag,   f.pressure_gradient, f.stress, f.added_mass, f.buoyancy, f.lift,
-          f.torque, f.wall_drag};
+  return {f.drag,   f.pressure_gradient, f.stress,           f.added_mass, f.buoyancy, f.lift,
+          f.torque, f.wall_drag,         f.mixture_viscosity};
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ class Gather {
   const FlowAtGrains& flow() const { return flow_at_; }
   const FluidForces& forces() const { return forces_; }
   Real rho_f() const { return rho_f_; }
+  /// None unless the exchange has layers and the case asks for it.
+  Stresslet stresslet() const {
+    return {.mu_f = layers_ && forces_.mixture_viscosity ? rho_f_ * nu_ : 0};
+  }
 
  private:
   void fill_faces_beside(FaceVector& force, const Region& cells) const;

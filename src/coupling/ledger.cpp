@@ -28,7 +28,7 @@ void ExchangeSums::combine_totals(MPI_Comm ranks) const {
 
 Real ExchangeSums::largest_exchange() const {
   const auto totals = get<GrainTotals>(kTotals);
-  return totals.size + 4 * get(kFastest) * totals.beta_dt;
+  return totals.size + 4 * get(kFastest) * totals.rows_dt;
 }
 
 ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {

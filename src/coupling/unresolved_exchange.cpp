@@ -30,8 +30,11 @@ void UnresolvedExchange::begin_gather(const FluidState& fluid, const GrainState&
 }
 
 ExchangeOfGrain UnresolvedExchange::begin_deposit(const GrainState& grains, Real dt) {
-  const ExchangeOfGrain of_grain{
-      .dt = dt, .grains = grains.kin, .on_grains = grains.fluid, .exchange = grains.exchange};
+  const ExchangeOfGrain of_grain{.dt = dt,
+                                 .grains = grains.kin,
+                                 .on_grains = grains.fluid,
+                                 .exchange = grains.exchange,
+                                 .stresslet = gather_.stresslet()};
   deposit_.add_totals(of_grain, grains, sums_);
   return of_grain;
 }

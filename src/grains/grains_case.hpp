@@ -102,7 +102,7 @@ struct GrainConfig {
 /// coupling.forces; by default those of the paper.
 struct ForceSwitches {
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
-  bool lift = false, torque = false, wall_drag = false;
+  bool lift = false, torque = false, wall_drag = false, mixture_viscosity = false;
   bool operator==(const ForceSwitches&) const = default;
 };
 

@@ -238,6 +238,7 @@ TEST(CoupledOverRanks, TwentyStepsAsOnOneRank) { twenty_steps(test::coupled_conf
 TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
   Config c = test::coupled_config();
   c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+  c.coupling.forces.mixture_viscosity = true;
   twenty_steps(c);
 }
 
@@ -281,6 +282,7 @@ Config fullest_case() {
   c.grains->boundary_x = GrainBoundaryX::wall;
   c.grains->boundary_z = GrainBoundaryZ::wall;
   c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+  c.coupling.forces.mixture_viscosity = true;
   c.initial.pour->centre = {0.003, 0.002};
   return c;
 }

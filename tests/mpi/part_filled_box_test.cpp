@@ -50,6 +50,7 @@ const Surroundings kSurroundings[] = {
     {"all forces", [](Config& c) {
        c.fluid->top = WallFlow::free_slip;
        c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
+       c.coupling.forces.mixture_viscosity = true;
      }}};
 
 struct Case {

@@ -62,14 +62,16 @@ TEST(ConfigLoad, ForcesAreThoseNamed) {
         .coupling.forces;
   };
   EXPECT_EQ(named("paper"), ForceSwitches{});
-  EXPECT_EQ(named("complete"), (ForceSwitches{true, true, true, true, true, true, true, true}));
+  EXPECT_EQ(named("complete"),
+            (ForceSwitches{true, true, true, true, true, true, true, true, true}));
   refused(fluid_case("[coupling]\nforces = \"complet\"\n"),
           "case.toml:8: [coupling] forces = \"complet\": must be an array of names, or one of "
           "\"paper\", \"complete\" (did you mean \"complete\"?)");
   refused(fluid_case("[coupling]\nforces = [\"drag\", \"strss\"]\n"),
           "case.toml:8: [coupling] forces = [\"drag\", \"strss\"]: must be an array; \"strss\" "
           "must be one of \"drag\", \"pressure_gradient\", \"stress\", \"added_mass\", "
-          "\"buoyancy\", \"lift\", \"torque\", \"wall_drag\" (did you mean \"stress\"?)");
+          "\"buoyancy\", \"lift\", \"torque\", \"wall_drag\", \"mixture_viscosity\" (did you mean "
+          "\"stress\"?)");
 }
 
 TEST(ConfigLoad, UnknownKeyNamesTheNearest) {

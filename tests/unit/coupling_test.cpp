@@ -74,10 +74,10 @@ TEST(Coupling, LedgerClosesWithEveryVoidFractionAndDragLaw) {
   }
 }
 
-TEST(Coupling, LedgerClosesWithLiftTorqueAndWallDrag) {
+TEST(Coupling, LedgerClosesWithAllForces) {
   Config config = coupled_config();
   ForceSwitches& forces = config.coupling.forces;
-  forces.lift = forces.torque = forces.wall_drag = true;
+  forces.lift = forces.torque = forces.wall_drag = forces.mixture_viscosity = true;
   config.coupling.drag = DragLaw::of<GidaspowBlended>();
   Coupled c(config);
   c.advance(30);

@@ -1,0 +1,55 @@
+// What a moving grain adds to the viscosity of the fluid that its rows share. Equations:
+// docs/theory-coupling.md, "Viscosity of the mixture".
+#pragma once
+
+#include "kernels/coupling/grain_rows.hpp"
+#include "kernels/grains/grain.hpp"
+#include "kernels/grains/sphere.hpp"
+
+namespace barchan {
+
+inline constexpr Real kDensestFlow = 0.585, kMostMixed = 0.5;
+
+/// Viscosity that grains of the solid fraction phi add to their fluid, over that of the fluid and
+/// over phi, without their contacts: Boyer, Guazzelli & Pouliquen, Phys. Rev. Lett. 107, 188301
+/// (2011),
+///   eta = 1 + 5/2 phi / (1 - phi/0.585).
+/// It is 5/2 at phi = 0 (Einstein 1906). A larger phi than 0.5 counts as 0.5.
+KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
+  return Real(2.5) / (1 - Kokkos::fmin(phi, kMostMixed) / kDensestFlow);
+}
+
+/// Rate [kg/s] at which a grain joins the rows that it lies in. Of the forces rate w_j (u_j - u_f)
+/// on them, which act in their middles, the moment is mu_f V_p eta times the shear: the stresslet
+/// of a sphere that follows its fluid.
+struct Stresslet {
+  Real mu_f = 0;  // [Pa s]; 0: none
+  // Mean heights of the points in two rows that share a grain differ by more than this times r.
+  static constexpr Real kClosest = 0.5;
+
+  /// At least `beta`, the rate of its drag; that alone of a grain at rest or in one row. A grain
+  /// that lags behind its fluid by `slip` counts by u_p^2/(u_p^2 + slip^2).
+  KOKKOS_INLINE_FUNCTION Real operator()(const GridRef& grid, const GrainRows& rows,
+                                         const GrainKinematics& grain, const Vec3& slip, Real phi,
+                                         Real beta) const {
+    const Real moving = grain.u.x * grain.u.x + grain.u.z * grain.u.z;
+    if (mu_f == 0 || rows.n < 2 || moving == 0) return beta;
+    Real mean = 0, middle = 0, both = 0;
+    for (int q = 0; q < rows.n; ++q) {
+      const Real height = rows.height(grid, q) - grain.x.y, w = rows.weight(q);
+      const Real of_row = grid.y_centre(rows.row[q]) - grain.x.y;
+      mean += w * height, middle += w * of_row, both += w * height * of_row;
+    }
+    const Real of_mixture =
+        mu_f * sphere_volume(grain.r) * viscosity_of_grains(phi) / (both - mean * middle);
+    const Real lag = slip.x * slip.x + slip.z * slip.z;
+    return beta + Kokkos::fmax(of_mixture - beta, Real(0)) * moving / (moving + lag);
+  }
+  /// Bound [kg/s] of rate times w (1 - w), of two rows.
+  KOKKOS_FORCEINLINE_FUNCTION Real most(Real r) const {
+    return mu_f * sphere_volume(r) * viscosity_of_grains(kMostMixed) /
+           (kClosest * r * kClosest * r);
+  }
+};
+
+}  // namespace barchan
