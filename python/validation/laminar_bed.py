@@ -22,10 +22,11 @@ CLEAR = 0.05  # solid fraction below which liquid counts as clear
 BLOCKS = 5  # of the second half of a run, which is measured
 LEVELS = 20  # of the solid fraction, per diameter
 KEYS = 6  # the first columns: which run a row is of
-COLUMNS = ("reynolds,row_height,smoothing_length,sliding_friction,torque,realisation,seconds,fluid_height,shields,"
+COLUMNS = ("reynolds,row_height,smoothing_length,sliding_friction,forces,realisation,seconds,fluid_height,shields,"
            "velocity_flux,velocity_flux_deviation,volume_flux,volume_flux_deviation")
 SETTING = COLUMNS.split(",")[1:5]
 CASES = "laminar_bed.csv"
+FORCES = {9: "all forces", 8: "without mixture viscosity", 5: "forces of the paper"}  # by their number
 
 
 @dataclass
@@ -106,7 +107,7 @@ def measure(run):
     by_volume = mean_and_deviation(history["grain_flux"][late])
     return (reynolds, config["fluid"]["first_cell_height"] / scales.size,
             config["coupling"]["smoothing_length"] / scales.size, config["grains"]["sliding_friction"],
-            float("torque" in config["coupling"]["forces"]), config["initial"]["realisation"], end / 2,
+            float(len(config["coupling"]["forces"])), config["initial"]["realisation"], end / 2,
             fluid_height / scales.size, scales.shields(reynolds, fluid_height),
             *(value / fluid_flux for value in (*by_velocity, *by_volume)))
 
@@ -170,13 +171,14 @@ def draw(folder):
                   label="Aussillous et al., experiment")
     left.plot(places, [one["resolved"] for one in known], ls="", marker="D", ms=4, color=style.ORANGE,
               label="Biegert et al., resolved")
-    for torque, shift, colour in ((0.0, 0.12, style.BLUE), (1.0, 0.24, style.VERMILLION)):
+    for (forces, name), shift, colour in zip(FORCES.items(), (0.12, 0.24, 0.36),
+                                             (style.VERMILLION, style.BLUE, style.GREEN)):
         shown = [(place + shift, *said_of(rows)) for place, one in zip(places, known)
-                 for values, rows in settings(beside(table, one)) if values == (*usual[:-1], torque)]
+                 for values, rows in settings(beside(table, one)) if values == (*usual[:-1], forces)]
         if shown:
             place, flux, error = np.array(shown).T
             left.errorbar(place, flux, yerr=error, ls="", marker="o", ms=4, capsize=2, color=colour,
-                          label=f"Barchan, rows of {usual[0]:.2g} $d$" + ", torque" * bool(torque))
+                          label=f"Barchan, {name}")
     left.set(xticks=places, ylim=(0, None),
              xticklabels=[f"{one['case']}\nSh {one['shields_measured']}" for one in known])
     left.legend(fontsize=6)

@@ -26,7 +26,8 @@ WINDOW, START = 0.25, 0.5  # [s]
 LEVELS = {"creep": 1e-3, "transport": 1e-2}  # q*
 FITTED = 1e-4, 1e-1  # q* of the windows that a level is read from: above the noise, below the law's bend
 FEWEST = 3  # windows with q* between creep and the upper end of FITTED, to say where motion ends
-COLUMNS = "rolling_friction,torque,falling,realisation,t,shields,q_star,load"
+COLUMNS = "rolling_friction,forces,falling,realisation,t,shields,q_star,load"
+OF_PAPER = 5  # forces
 CASE = COLUMNS.split(",")[:3]
 KEYS = 5  # the first columns: which window of which run a row is of
 LABELS = {"load": "load = 0", "flux": "$q^{*2/3}$ = 0",
@@ -48,7 +49,7 @@ def measure(run):
     volume = np.sum(np.pi / 6 * run.frame(0).d.astype(float)**3)
     acceleration = np.polyfit(history["t"], history["bulk_velocity"], 1)[0]
     stress = history["stress_on_grains"] - bed_load.WATER * acceleration * volume / area
-    case = (config["grains"]["rolling_friction"], float("torque" in config["coupling"]["forces"]),
+    case = (config["grains"]["rolling_friction"], float(len(config["coupling"]["forces"])),
             float(acceleration < 0), config["initial"]["realisation"])
     window = np.ceil(history["t"] / WINDOW - 1e-9)  # the one that ends next
     rows = []
@@ -121,22 +122,22 @@ def with_error(table, found):
 @dataclass
 class Case:
     rolling_friction: float
-    torque: bool
+    complete: bool  # more than the forces of the paper
     falling: bool
     rows: tables.Table
 
     @property
     def name(self):
         way = "falling" if self.falling else "rising"
-        return f"{way}, $\\mu_r$ = {self.rolling_friction:g}" + ", torque" * self.torque
+        return f"{way}, $\\mu_r$ = {self.rolling_friction:g}" + ", all forces" * self.complete
 
 
 def cases_of(table):
-    """By rolling friction, without torque first, rising first."""
+    """By rolling friction, the forces of the paper first, rising first."""
     different = sorted(set(zip(*(table[name].tolist() for name in CASE))))
-    return [Case(friction, bool(torque), bool(falling),
-                 table.where(CASE[0], friction).where(CASE[1], torque).where(CASE[2], falling))
-            for friction, torque, falling in different]
+    return [Case(friction, forces > OF_PAPER, bool(falling),
+                 table.where(CASE[0], friction).where(CASE[1], forces).where(CASE[2], falling))
+            for friction, forces, falling in different]
 
 
 def versions(runs):
@@ -185,8 +186,8 @@ def draw(folder):
 
 
 def draw_load(axes, case, colour):
-    """The windows, and the line whose zero is the threshold; with torque in a lighter shade."""
-    rows, shade = case.rows, 0.4 if case.torque else 1
+    """The windows, and the line whose zero is the threshold; with all forces in a lighter shade."""
+    rows, shade = case.rows, 0.4 if case.complete else 1
     axes.plot(rows["shields"], rows["load"], ls="", marker="v" if case.falling else "^", ms=3, color=colour,
               alpha=shade, mfc="none" if case.falling else colour, label=case.name)
     if np.isfinite(FOUND["load"](rows)):

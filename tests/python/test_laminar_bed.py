@@ -61,7 +61,7 @@ def test_a_run_is_measured():
     blocks = blocks if BuiltRun.step[-1] == 1 else 4 - blocks
     galileo = math.sqrt(1.1 * 9.81 * 1e-9) / 2e-4
     known = {"reynolds": fluid_flux / 2e-4, "row_height": 0.5, "smoothing_length": 1.5, "sliding_friction": 0.6,
-             "torque": 1, "realisation": 2, "seconds": 5, "fluid_height": (0.012 - bed) / 1e-3,
+             "forces": 2, "realisation": 2, "seconds": 5, "fluid_height": (0.012 - bed) / 1e-3,
              "shields": 6 * fluid_flux / 2e-4 / galileo**2 * (1e-3 / (0.012 - bed))**2,
              "velocity_flux": np.mean(blocks) * layers / fluid_flux,
              "velocity_flux_deviation": np.std(blocks) * layers / fluid_flux,
@@ -94,7 +94,7 @@ def test_what_it_needs(run, lack):
 
 
 def line(case, rows, realisation, flux):
-    return f"{case['reynolds']},{rows},1.5,0.6,0,{realisation},4,{case['height_resolved']},0.3,{flux},1e-4,1e-3,1e-4"
+    return f"{case['reynolds']},{rows},1.5,0.6,5,{realisation},4,{case['height_resolved']},0.3,{flux},1e-4,1e-3,1e-4"
 
 
 # Two runs of A9 with d/2, one with thick rows, one run of A1.
@@ -110,16 +110,16 @@ def folder(tmp_path):
 
 def test_the_summary(folder):
     assert list(laminar_bed.summary(folder)) == [
-        "A1 | 0.5, 1.5, 0.6, 0 | 1 | 7.15 | 0.300 | 6.00e-3 +- 0.10e-3 | 6.71e-3 | 12.00e-3 | 1.00e-3",
-        "A9 | 0.5, 1.5, 0.6, 0 | 2 | 10.33 | 0.300 | 7.50e-3 +- 0.71e-3 | 7.61e-3 | 8.20e-3 | 1.00e-3",
-        "A9 | 1.3, 1.5, 0.6, 0 | 1 | 10.33 | 0.300 | 1.00e-3 +- 0.10e-3 | 7.61e-3 | 8.20e-3 | 1.00e-3"]
+        "A1 | 0.5, 1.5, 0.6, 5 | 1 | 7.15 | 0.300 | 6.00e-3 +- 0.10e-3 | 6.71e-3 | 12.00e-3 | 1.00e-3",
+        "A9 | 0.5, 1.5, 0.6, 5 | 2 | 10.33 | 0.300 | 7.50e-3 +- 0.71e-3 | 7.61e-3 | 8.20e-3 | 1.00e-3",
+        "A9 | 1.3, 1.5, 0.6, 5 | 1 | 10.33 | 0.300 | 1.00e-3 +- 0.10e-3 | 7.61e-3 | 8.20e-3 | 1.00e-3"]
 
 
 def test_the_figure(folder):
     """One run is drawn, too."""
     figure = laminar_bed.draw(folder)
     labels = sum((axes.get_legend_handles_labels()[1] for axes in figure.axes[:2]), [])
-    assert "Barchan, rows of 0.5 $d$" in labels and "A9" in labels and "A1" not in labels
+    assert "Barchan, forces of the paper" in labels and "A9" in labels and "A1" not in labels
     tables.write(folder / "laminar_bed.csv", {"title": "one run"}, [laminar_bed.COLUMNS, LINES[-1]])
     laminar_bed.draw(folder)
 

@@ -19,7 +19,7 @@ def test_windows_of_a_run(rising):
     assert rising["shields"][2] == pytest.approx(0.5 / (1500 * 9.81 * 2e-4), rel=1e-6)  # the fifth window
     assert rising["q_star"][2] == pytest.approx(1e-3, rel=1e-6)
     assert rising["load"] == pytest.approx(np.full(len(rising["load"]), 0.1 * RisingRun.solid / 2e-4), rel=1e-6)
-    assert [rising[name][0] for name in threshold.CASE] == [0.1, 1, 0]
+    assert [rising[name][0] for name in threshold.CASE] == [0.1, 2, 0]
     assert rising["realisation"][0] == 2
 
 
@@ -28,7 +28,7 @@ def test_half_way_between_two_windows(rising):
     assert threshold.passing(10**-2.5)(tables.Table({}, rising)) == pytest.approx(expected, rel=1e-6)
 
 
-def rows_of(begin, number, *, case="0,0,0", scatter=0.0, top=0.2):
+def rows_of(begin, number, *, case="0,5,0", scatter=0.0, top=0.2):
     """A run whose load and flux begin at a known Shields number: windows at rest, then M = (s - begin)/2."""
     s = np.linspace(0.05, top, 16)
     noise = 1 + scatter * np.random.default_rng(number).standard_normal(s.size)
@@ -61,7 +61,7 @@ def test_a_threshold_is_no_level(tmp_path):
 
 def test_a_bent_load_does_not_count(tmp_path):
     """Windows above q* = 0.1, where the load bends upwards."""
-    bent = [f"0,0,0,1,9,{s},{2 * (s - 0.1)**1.5},{4 * (s - 0.1)}" for s in (0.3, 0.35)]
+    bent = [f"0,5,0,1,9,{s},{2 * (s - 0.1)**1.5},{4 * (s - 0.1)}" for s in (0.3, 0.35)]
     assert found_in(tmp_path, rows_of(0.1, 1) + bent)[0]["load"][0] == pytest.approx(0.1, rel=2e-3)
 
 
@@ -85,11 +85,11 @@ def test_a_bed_at_rest_has_no_threshold(tmp_path):
 
 
 def test_rising_and_falling_runs_are_told_apart(tmp_path):
-    found_in(tmp_path, rows_of(0.12, 1), rows_of(0.12, 2), rows_of(0.08, 1, case="0.1,1,1"))
+    found_in(tmp_path, rows_of(0.12, 1), rows_of(0.12, 2), rows_of(0.08, 1, case="0.1,9,1"))
     threshold.draw(tmp_path)
     lines = list(threshold.summary(tmp_path))
     assert lines[0].startswith("rising, mu_r = 0 | 2 | 0.120 +- 0.000 | 0.120 +- 0.000 | ")
-    assert lines[1].startswith("falling, mu_r = 0.1, torque | 1 | 0.080 | 0.080 | ")
+    assert lines[1].startswith("falling, mu_r = 0.1, all forces | 1 | 0.080 | 0.080 | ")
 
 
 def test_all_versions_are_named_once(tmp_path):
