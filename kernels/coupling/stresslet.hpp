@@ -8,13 +8,13 @@
 
 namespace barchan {
 
-inline constexpr Real kDensestFlow = 0.585, kMostMixed = 0.5;
+inline constexpr Real kDensestFlow = 0.585, kMostMixed = 0.565;
 
 /// Viscosity that grains of the solid fraction phi add to their fluid, over that of the fluid and
 /// over phi, without their contacts: Boyer, Guazzelli & Pouliquen, Phys. Rev. Lett. 107, 188301
 /// (2011),
 ///   eta = 1 + 5/2 phi / (1 - phi/0.585).
-/// It is 5/2 at phi = 0 (Einstein 1906). A larger phi than 0.5 counts as 0.5.
+/// It is 5/2 at phi = 0 (Einstein 1906), and 73 at the largest phi that counts, 0.565.
 KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
   return Real(2.5) / (1 - Kokkos::fmin(phi, kMostMixed) / kDensestFlow);
 }
