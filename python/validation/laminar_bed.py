@@ -158,18 +158,43 @@ def said_of(rows):
     return found.mean, found.deviation if found.count > 1 else rows["velocity_flux_deviation"][0]
 
 
+def by_height(table, usual):
+    """Of each case of the papers with several heights of rows: its reference, and (height, flux, error) of each."""
+    for one in references():
+        points = sorted((values[0], *said_of(rows)) for values, rows in settings(beside(table, one))
+                        if values[1:] == usual[1:])
+        if len(points) > 1:
+            yield one, np.array(points).T
+
+
 def draw(folder):
     table = tables.read_saved(folder, NAME)
-    figure, ((left, right),) = style.panels(None, 1, 2, figsize=(style.FULL_WIDTH, 2.9))
-    known, usual = references(), most_used(table)
-    for axes in (left, right):
+    usual = most_used(table)
+    heights = list(by_height(table, usual))
+    figure, (panels,) = style.panels(None, 1, 1 + bool(heights), figsize=(style.FULL_WIDTH, 2.9))
+    draw_cases(panels[0], table, usual)
+    for (one, (height, flux, error)), colour in zip(heights, (style.BLUE, style.GREEN, style.VERMILLION, style.PURPLE)):
+        panels[1].errorbar(height, flux, yerr=error, marker="o", ms=4, capsize=2, color=colour, label=one["case"])
+        panels[1].axhline(one["resolved"], color=colour, lw=0.7, ls=":")
+    if heights:
+        panels[1].set(xlabel="height of rows over $d$", ylim=(0, None))
+        panels[1].legend(fontsize=6)
+    for index, axes in enumerate(panels):
         axes.set(ylabel="$q_v/q_f$")
+        if heights:
+            style.panel_label(axes, index)
+    return figure
+
+
+def draw_cases(axes, table, usual):
+    """Each case of the papers: experiment, resolved, and each set of forces."""
+    known = references()
     measured = np.array([(one["measured"], one["measured"] - one["low"], one["high"] - one["measured"])
                          for one in known]).T
     places = np.arange(len(known))
-    left.errorbar(places - 0.15, measured[0], yerr=measured[1:], ls="", marker="s", ms=4, capsize=2, color="k",
+    axes.errorbar(places - 0.15, measured[0], yerr=measured[1:], ls="", marker="s", ms=4, capsize=2, color="k",
                   label="Aussillous et al., experiment")
-    left.plot(places, [one["resolved"] for one in known], ls="", marker="D", ms=4, color=style.ORANGE,
+    axes.plot(places, [one["resolved"] for one in known], ls="", marker="D", ms=4, color=style.ORANGE,
               label="Biegert et al., resolved")
     for (forces, name), shift, colour in zip(FORCES.items(), (0.12, 0.24, 0.36),
                                              (style.VERMILLION, style.BLUE, style.GREEN)):
@@ -177,24 +202,11 @@ def draw(folder):
                  for values, rows in settings(beside(table, one)) if values == (*usual[:-1], forces)]
         if shown:
             place, flux, error = np.array(shown).T
-            left.errorbar(place, flux, yerr=error, ls="", marker="o", ms=4, capsize=2, color=colour,
+            axes.errorbar(place, flux, yerr=error, ls="", marker="o", ms=4, capsize=2, color=colour,
                           label=f"Barchan, {name}")
-    left.set(xticks=places, ylim=(0, None),
+    axes.set(xticks=places, ylim=(0, 1.4 * max(one["high"] for one in known)),
              xticklabels=[f"{one['case']}\nSh {one['shields_measured']}" for one in known])
-    left.legend(fontsize=6)
-    for one, colour in zip(known, (style.BLUE, style.GREEN, style.VERMILLION, style.PURPLE)):
-        points = [(values[0], *said_of(rows)) for values, rows in settings(beside(table, one))
-                  if values[1:] == usual[1:]]
-        if len(points) > 1:
-            height, flux, error = np.array(sorted(points)).T
-            right.errorbar(height, flux, yerr=error, marker="o", ms=4, capsize=2, color=colour, label=one["case"])
-            right.axhline(one["resolved"], color=colour, lw=0.7, ls=":")
-    right.set(xlabel="height of rows over $d$", ylim=(0, None))
-    if right.has_data():
-        right.legend(fontsize=6)
-    for index, axes in enumerate((left, right)):
-        style.panel_label(axes, index)
-    return figure
+    axes.legend(fontsize=6)
 
 
 def summary(folder):
