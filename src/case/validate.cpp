@@ -100,6 +100,10 @@ void check_fluid(const Config& c, Findings& found) {
   found.error_if(c.coupling.forces.wall_drag && fluid.bottom != WallFlow::no_slip,
                  {"coupling.forces", "fluid.bottom"},
                  "must not hold \"wall_drag\" over a free-slip bottom, which is no wall to drag");
+  found.warning_if(
+      c.coupling.forces.mixture_viscosity && c.coupling.scheme != CouplingScheme::layered,
+      {"coupling.forces", "coupling.scheme"},
+      "holds \"mixture_viscosity\", which acts only with scheme = \"layered\"");
   check_flow_at_start(c, found);
   found.error_if(c.initial.starts_as<TurbulentFlow>() && fluid.kinematic_viscosity == 0,
                  {"initial.fluid", "fluid.kinematic_viscosity"}, "must come with a viscosity");

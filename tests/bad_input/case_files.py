@@ -108,6 +108,8 @@ CONTRADICTIONS = [
     Entry("a feed across nothing", "[grains.feed] rate = 10 ;; [grains.feed] across = [3e-3, 2e-3]", "@across | from below to"),
     Entry("a feed in a window", FOLLOW + " ;; [grains.feed] rate = 1e4 ;; [grains.feed] x = 2e-3 ;; " + SHORT, code=0),
     Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),
+    Entry("the viscosity of layers without them", '[coupling] forces = "complete" ;; [coupling] scheme = "smoothed"',
+          "warning | mixture_viscosity | layered", **GOOD),
     Entry("cells smaller than grains", "-[fluid] first_cell_height ;; [fluid] cells = [100, 50, 60] ;; " + FLUID_STEP +
           '1e-4 ;; [coupling] scheme = "smoothed"', "warning | 0.50 mean grain diameters | 1.2 to 1.6", **GOOD),
 ]
