@@ -136,10 +136,10 @@ struct DepositGrains {
       cell.impulse_z += deposits.impulse.encode(w * given.impulse.z);
     }
   }
-  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_j dt (u_jf - u_ff) +
+  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_l dt (u_jf - u_ff) +
   /// beta_p dt phi (u_ff - u_f)), and the conductance c_f C_j to the row below; upwards w_j J to
   /// row j. A cell that flows faster than the grain sees on average drags it more: the differences
-  /// add up to nothing over the grain. beta_j is beta_p, or the stresslet's.
+  /// add up to nothing over the grain. beta_l is beta_p, or the stresslet's.
   KOKKOS_INLINE_FUNCTION void to_layers(int g, const GrainRows& rows, const LayerVelocity& u,
                                         const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
