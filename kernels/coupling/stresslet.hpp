@@ -10,9 +10,8 @@ namespace barchan {
 
 inline constexpr Real kDensestFlow = 0.585, kMostMixed = 0.565;
 
-/// Viscosity that grains of the solid fraction phi add to their fluid, over that of the fluid and
-/// over phi, without their contacts: Boyer, Guazzelli & Pouliquen, Phys. Rev. Lett. 107, 188301
-/// (2011),
+/// (eta - 1)/phi of the relative viscosity eta of a suspension with the solid fraction phi, without
+/// contacts: Boyer, Guazzelli & Pouliquen, Phys. Rev. Lett. 107, 188301 (2011),
 ///   eta = 1 + 5/2 phi / (1 - phi/0.585).
 /// It is 5/2 at phi = 0 (Einstein 1906), and 73 at the largest phi that counts, 0.565.
 KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
@@ -20,8 +19,8 @@ KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
 }
 
 /// Rate [kg/s] at which a grain joins the rows that it lies in. Of the forces rate w_j (u_j - u_f)
-/// on them, which act in their middles, the moment is mu_f V_p eta times the shear: the stresslet
-/// of a sphere that follows its fluid.
+/// on them, which act in their middles, the moment is mu_f V_p (eta - 1)/phi times the shear: the
+/// stresslet of a sphere that follows its fluid.
 struct Stresslet {
   Real mu_f = 0;  // [Pa s]; 0: none
   // Mean heights of the points in two rows that share a grain differ by more than this times r.
@@ -34,14 +33,15 @@ struct Stresslet {
                                          Real beta) const {
     const Real moving = grain.u.x * grain.u.x + grain.u.z * grain.u.z;
     if (mu_f == 0 || rows.n < 2 || moving == 0) return beta;
-    Real mean = 0, middle = 0, both = 0;
+    Real mean_height = 0, mean_middle = 0, mean_product = 0;
     for (int q = 0; q < rows.n; ++q) {
       const Real height = rows.height(grid, q) - grain.x.y, w = rows.weight(q);
-      const Real of_row = grid.y_centre(rows.row[q]) - grain.x.y;
-      mean += w * height, middle += w * of_row, both += w * height * of_row;
+      const Real middle = grid.y_centre(rows.row[q]) - grain.x.y;
+      mean_height += w * height, mean_middle += w * middle;
+      mean_product += w * height * middle;
     }
-    const Real of_mixture =
-        mu_f * sphere_volume(grain.r) * viscosity_of_grains(phi) / (both - mean * middle);
+    const Real of_mixture = mu_f * sphere_volume(grain.r) * viscosity_of_grains(phi) /
+                            (mean_product - mean_height * mean_middle);
     const Real lag = slip.x * slip.x + slip.z * slip.z;
     return beta + Kokkos::fmax(of_mixture - beta, Real(0)) * moving / (moving + lag);
   }

@@ -23,6 +23,7 @@ SMOOTHING_ITSELF = 2.0  # [s]; from then on the bed is measured
 PACKED = 0.58  # solid fraction of a loose bed: gives the height of its surface
 GRAVITY, VISCOSITY, WATER = 9.81, 1e-6, 1000.0
 LAMINAR_THRESHOLD = 0.12, 0.03
+FORCES = {9: "all forces", 8: "without mixture viscosity", 5: "forces of the paper"}  # by their number
 MOVES = 1e-4  # q* below it counts as rest
 KEYS = 4  # the first columns: which run a row is of
 COLUMNS = ("rolling_friction,smoothing_length,mean_velocity,realisation,seconds,stress,shields,grain_reynolds,flux,"

@@ -26,7 +26,6 @@ COLUMNS = ("reynolds,row_height,smoothing_length,sliding_friction,forces,realisa
            "velocity_flux,velocity_flux_deviation,volume_flux,volume_flux_deviation")
 SETTING = COLUMNS.split(",")[1:5]
 CASES = "laminar_bed.csv"
-FORCES = {9: "all forces", 8: "without mixture viscosity", 5: "forces of the paper"}  # by their number
 
 
 @dataclass
@@ -196,7 +195,7 @@ def draw_cases(axes, table, usual):
                   label="Aussillous et al., experiment")
     axes.plot(places, [one["resolved"] for one in known], ls="", marker="D", ms=4, color=style.ORANGE,
               label="Biegert et al., resolved")
-    for (forces, name), shift, colour in zip(FORCES.items(), (0.12, 0.24, 0.36),
+    for (forces, name), shift, colour in zip(bed_load.FORCES.items(), (0.12, 0.24, 0.36),
                                              (style.VERMILLION, style.BLUE, style.GREEN)):
         shown = [(place + shift, *said_of(rows)) for place, one in zip(places, known)
                  for values, rows in settings(beside(table, one)) if values == (*usual[:-1], forces)]

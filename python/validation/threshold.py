@@ -27,7 +27,6 @@ LEVELS = {"creep": 1e-3, "transport": 1e-2}  # q*
 FITTED = 1e-4, 1e-1  # q* of the windows that a level is read from: above the noise, below the law's bend
 FEWEST = 3  # windows with q* between creep and the upper end of FITTED, to say where motion ends
 COLUMNS = "rolling_friction,forces,falling,realisation,t,shields,q_star,load"
-OF_PAPER = 5  # forces
 CASE = COLUMNS.split(",")[:3]
 KEYS = 5  # the first columns: which window of which run a row is of
 LABELS = {"load": "load = 0", "flux": "$q^{*2/3}$ = 0",
@@ -122,20 +121,20 @@ def with_error(table, found):
 @dataclass
 class Case:
     rolling_friction: float
-    complete: bool  # more than the forces of the paper
+    forces: float  # their number
     falling: bool
     rows: tables.Table
 
     @property
     def name(self):
         way = "falling" if self.falling else "rising"
-        return f"{way}, $\\mu_r$ = {self.rolling_friction:g}" + ", all forces" * self.complete
+        return f"{way}, $\\mu_r$ = {self.rolling_friction:g}, {bed_load.FORCES[self.forces]}"
 
 
 def cases_of(table):
     """By rolling friction, the forces of the paper first, rising first."""
     different = sorted(set(zip(*(table[name].tolist() for name in CASE))))
-    return [Case(friction, forces > OF_PAPER, bool(falling),
+    return [Case(friction, forces, bool(falling),
                  table.where(CASE[0], friction).where(CASE[1], forces).where(CASE[2], falling))
             for friction, forces, falling in different]
 
@@ -186,8 +185,8 @@ def draw(folder):
 
 
 def draw_load(axes, case, colour):
-    """The windows, and the line whose zero is the threshold; with all forces in a lighter shade."""
-    rows, shade = case.rows, 0.4 if case.complete else 1
+    """The windows, and the line whose zero is the threshold; with more than the forces of the paper in a lighter shade."""
+    rows, shade = case.rows, 0.4 if case.forces > min(bed_load.FORCES) else 1
     axes.plot(rows["shields"], rows["load"], ls="", marker="v" if case.falling else "^", ms=3, color=colour,
               alpha=shade, mfc="none" if case.falling else colour, label=case.name)
     if np.isfinite(FOUND["load"](rows)):

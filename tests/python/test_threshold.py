@@ -88,7 +88,7 @@ def test_rising_and_falling_runs_are_told_apart(tmp_path):
     found_in(tmp_path, rows_of(0.12, 1), rows_of(0.12, 2), rows_of(0.08, 1, case="0.1,9,1"))
     threshold.draw(tmp_path)
     lines = list(threshold.summary(tmp_path))
-    assert lines[0].startswith("rising, mu_r = 0 | 2 | 0.120 +- 0.000 | 0.120 +- 0.000 | ")
+    assert lines[0].startswith("rising, mu_r = 0, forces of the paper | 2 | 0.120 +- 0.000 | 0.120 +- 0.000 | ")
     assert lines[1].startswith("falling, mu_r = 0.1, all forces | 1 | 0.080 | 0.080 | ")
 
 
