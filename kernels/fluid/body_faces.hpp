@@ -60,8 +60,8 @@ struct BodyFace {
   bool closed = false;
   Real friction = 0;  // [1/s]
 
-  /// What is left of a push after dt, the friction being that of the velocity after it.
-  KOKKOS_FORCEINLINE_FUNCTION Real share(Real dt) const {
+  /// Factor of the implicit friction of a wall on an increment of u over dt; 0 on a closed face.
+  KOKKOS_FORCEINLINE_FUNCTION Real damping(Real dt) const {
     return closed ? Real(0) : 1 / (1 + dt * friction);
   }
   template <class Component>
@@ -89,37 +89,36 @@ struct BodyCell {
   bool closed = false;
 };
 
-/// What the velocity u* and the mobility c become at the faces of bodies. Keeps u* as it was in
-/// `free`.
-struct HoldBack {
+/// Direct forcing: damps u* and the mobility c at the faces of bodies.
+struct DirectForcing {
   GridRef grid;
   const BodyFace* faces;
   ConstFieldRef alpha;
   FaceRef u_star, c;
-  Real* free;
+  Real* unforced;  // u* before [m/s]
   Real dt;
 
   /// Adds up what flow rate along x [m^2/s], and response to a drive along x and z [m], they lose.
   KOKKOS_FUNCTION void operator()(int n, Vec3& lost) const {
     const BodyFace f = faces[n];
     Real &u = f.of(u_star)(f.i, f.j, f.k), &mobility = f.of(c)(f.i, f.j, f.k);
-    const Real share = f.share(dt), dy = (1 - share) * grid.dy(f.j);
-    free[n] = u;
+    const Real damping = f.damping(dt), dy = (1 - damping) * grid.dy(f.j);
+    unforced[n] = u;
     if (f.axis == 0) lost.x += f.mean(grid, alpha) * u * dy, lost.y += mobility * dy;
     if (f.axis == 2) lost.z += mobility * dy;
-    u *= share;
-    mobility *= share;
+    u *= damping;
+    mobility *= damping;
   }
 };
 
-/// Takes back what of the drive across the walls hold, after it has acted on all faces.
-struct HoldBackAcross {
+/// Damps the drive across at the faces of bodies, after it has acted on all faces.
+struct ForcingAcross {
   const BodyFace* faces;
   FieldRef u_z;
   Real drive_dt, dt;
   KOKKOS_FUNCTION void operator()(int n) const {
     const BodyFace f = faces[n];
-    if (f.axis == 2) u_z(f.i, f.j, f.k) -= (1 - f.share(dt)) * drive_dt;
+    if (f.axis == 2) u_z(f.i, f.j, f.k) -= (1 - f.damping(dt)) * drive_dt;
   }
 };
 
@@ -194,8 +193,8 @@ struct ForceAndTorque {
 struct LoadOnBody {
   GridRef grid;
   const BodyFace* faces;
-  const Real* free;  // u* before it was held back
-  ConstFaceRef u;    // after the step
+  const Real* unforced;  // u* before the direct forcing
+  ConstFaceRef u;        // after the step
   ConstFieldRef p, alpha;
   Vec3 foot;   // torque is about it
   Vec3 drive;  // f [m/s^2]
@@ -206,7 +205,7 @@ struct LoadOnBody {
     const Real mass = density * f.mean(grid, alpha) * f.volume(grid);
     if (!f.closed) return mass * f.friction * f.of(u)(f.i, f.j, f.k);
     const Real push = f.axis == 0 ? drive.x : f.axis == 1 ? drive.y : drive.z;
-    return mass * free[n] / dt + f.volume(grid) * (density * push - f.gradient(grid, p));
+    return mass * unforced[n] / dt + f.volume(grid) * (density * push - f.gradient(grid, p));
   }
   KOKKOS_FUNCTION void operator()(int n, ForceAndTorque& load) const {
     const BodyFace f = faces[n];

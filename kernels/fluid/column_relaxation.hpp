@@ -113,7 +113,7 @@ struct RelaxColumns {
   ColumnHeights height;
   ConstFieldRef pivot, r;
   FieldRef z;
-  Real* room;  // for a number in each cell
+  Real* workspace;  // a number of each cell
   Real over;
   int colour;
 
@@ -127,7 +127,7 @@ struct RelaxColumns {
     const int left = neighbors.left(i), right = neighbors.right(i);
     const int back = neighbors.back(k), front = neighbors.front(k);
     const Real per_dx2 = 1 / (grid.dx * grid.dx), per_dz2 = 1 / (grid.dz * grid.dz);
-    Real* const solved = room + std::ptrdiff_t{grid.ny} * (i + std::ptrdiff_t{grid.nx} * k);
+    Real* const solved = workspace + std::ptrdiff_t{grid.ny} * (i + std::ptrdiff_t{grid.nx} * k);
     Real below = 0;  // pivot * eliminated right-hand side of the row below
     for (int j = 0; j < rows; ++j) {
       const Real x = c.x(i, j, k) * z(left, j, k) + c.x(i + 1, j, k) * z(right, j, k);

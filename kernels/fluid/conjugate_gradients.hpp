@@ -91,10 +91,6 @@ struct Residual {
     return value * value * grid.dy(j);
   }
 };
-struct SetZero {
-  FieldRef f;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { f(i, j, k) = 0; }
-};
 /// q = A d; adds up <d, q>.
 struct ApplyOperator {
   GridRef grid;
@@ -142,16 +138,6 @@ struct NextDirection {
     return value * grid.dy(j);
   }
 };
-/// d = a z + b d: a first guess, linear in time through two pressures.
-struct Combine {
-  Real a;
-  ConstFieldRef z;
-  Real b;
-  FieldRef d;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    d(i, j, k) = a * z(i, j, k) + b * d(i, j, k);
-  }
-};
 /// Adds up <a, b>.
 struct InnerProduct {
   GridRef grid;
@@ -159,11 +145,6 @@ struct InnerProduct {
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     return a(i, j, k) * b(i, j, k) * grid.dy(j);
   }
-};
-struct Subtract {
-  FieldRef a;
-  LateReal constant;
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
 };
 
 }  // namespace barchan

@@ -112,29 +112,85 @@ struct StressDivergence {
   }
 };
 
-/// Whether the fluid fraction is one everywhere, so that nobody reads it.
+/// Fluid fraction: one everywhere, so that nobody reads it, or another field.
 enum class Fraction { uniform, variable };
 KOKKOS_FORCEINLINE_FUNCTION constexpr bool is_variable(Fraction fraction) {
   return fraction == Fraction::variable;
 }
+
+/// A cell field on faces; 1 where the fraction is uniform, without a look at the field.
+template <Fraction fraction>
+struct FractionOnFaces {
+  GridRef grid;
+  ConstFieldRef alpha;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
+    if constexpr (is_variable(fraction)) return cell_to_xface(alpha, i, j, k);
+    return 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
+    if constexpr (is_variable(fraction)) return cell_to_yface(grid, alpha, i, j, k);
+    return 1;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
+    if constexpr (is_variable(fraction)) return cell_to_zface(alpha, i, j, k);
+    return 1;
+  }
+};
+
+/// share div(2 (nu + nu_t) S) on faces [m/s^2]. The share of the stress that the fluid takes is its
+/// fraction (Set II), raw or smoothed.
+template <Fraction fraction>
+struct SharedStress {
+  FractionOnFaces<fraction> share;
+  StressDivergence stress;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
+    return share.x(i, j, k) * stress.x(i, j, k);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
+    return share.y(i, j, k) * stress.y(i, j, k);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
+    return share.z(i, j, k) * stress.z(i, j, k);
+  }
+};
+
+/// N, the sum of the explicit terms of the momentum equation on faces [m/s^2]. A term is a type
+/// with x, y and z.
+template <class... Terms>
+struct ExplicitTerms : Terms... {
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
+    return (this->Terms::x(i, j, k) + ...);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
+    return (this->Terms::y(i, j, k) + ...);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
+    return (this->Terms::z(i, j, k) + ...);
+  }
+};
+
+/// Explicit terms of the volume-averaged momentum equation.
+template <Fraction fraction>
+using MomentumTerms = ExplicitTerms<Convection, SharedStress<fraction>>;
 
 /// Weights of the explicit terms, now and one step ago, times dt [s].
 struct AdamsBashforth {
   Real now = 0, before = 0;
 };
 
-/// Explicit predictor: N = -div(alpha u u) + alpha div(2 (nu + nu_t) S) and
+/// Explicit predictor: with N the explicit terms,
 ///   alpha' u* = alpha u + now N + before N_before + impulse / rho,
-/// primes are the new time level. The alpha before the stress may be another one than that of the
-/// flow. Without exchange the impulse is zero. The drive is added later. `rate` holds N_before on
-/// entry and N on return. Of a uniform fraction alpha is one and not read, and flux is u.
+/// primes are the new time level. Without exchange the impulse is zero. The drive is added later.
 template <Fraction fraction, bool with_exchange>
 struct Predict {
   GridRef grid;
-  Convection convection;
-  StressDivergence stress;
-  ConstFieldRef stress_share, alpha_new;
-  FaceRef rate, u_star;
+  MomentumTerms<fraction> terms;
+  ConstFaceRef flux;                    // alpha u; u where the fraction is uniform [m/s]
+  FractionOnFaces<fraction> alpha_new;  // alpha'
+  FaceRef rate;                         // N_before on entry, N on return [m/s^2]
+  FaceRef u_star;
   ConstFaceRef impulse;  // given to the fluid per volume [N s/m^3]
   AdamsBashforth weight;
   Real inv_density;  // 1 / rho [m^3/kg]
@@ -149,39 +205,23 @@ struct Predict {
     if constexpr (with_exchange) return f(i, j, k);
     return 0;
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Real x_face(const ConstFieldRef& f, int i, int j, int k) {
-    if constexpr (is_variable(fraction)) return cell_to_xface(f, i, j, k);
-    return 1;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Real y_face(const ConstFieldRef& f, int i, int j, int k) const {
-    if constexpr (is_variable(fraction)) return cell_to_yface(grid, f, i, j, k);
-    return 1;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static Real z_face(const ConstFieldRef& f, int i, int j, int k) {
-    if constexpr (is_variable(fraction)) return cell_to_zface(f, i, j, k);
-    return 1;
-  }
 
   /// Returns alpha' u*_x dy, what this x-face adds to the flow rate [m^2/s].
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const ConstFaceRef& flux = convection.flux;
     const Real inside = j > 0 ? Real(1) : Real(0);  // y-face 0 is the wall
 
-    const Real alpha_x = x_face(alpha_new, i, j, k);
-    const Real nx = convection.x(i, j, k) + x_face(stress_share, i, j, k) * stress.x(i, j, k);
+    const Real alpha_x = alpha_new.x(i, j, k), nx = terms.x(i, j, k);
     const Real ux = advance(nx, rate.x(i, j, k), flux.x(i, j, k), alpha_x, at(impulse.x, i, j, k));
     rate.x(i, j, k) = nx;
     u_star.x(i, j, k) = ux;
 
-    const Real ny = convection.y(i, j, k) + y_face(stress_share, i, j, k) * stress.y(i, j, k);
-    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k), y_face(alpha_new, i, j, k),
-                            at(impulse.y, i, j, k));
+    const Real alpha_y = alpha_new.y(i, j, k), ny = terms.y(i, j, k);
+    const Real uy = advance(ny, rate.y(i, j, k), flux.y(i, j, k), alpha_y, at(impulse.y, i, j, k));
     rate.y(i, j, k) = inside * ny;
     u_star.y(i, j, k) = inside * uy;
 
-    const Real nz = convection.z(i, j, k) + z_face(stress_share, i, j, k) * stress.z(i, j, k);
-    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), z_face(alpha_new, i, j, k),
-                            at(impulse.z, i, j, k));
+    const Real alpha_z = alpha_new.z(i, j, k), nz = terms.z(i, j, k);
+    const Real uz = advance(nz, rate.z(i, j, k), flux.z(i, j, k), alpha_z, at(impulse.z, i, j, k));
     rate.z(i, j, k) = nz;
     u_star.z(i, j, k) = uz;
     return alpha_x * ux * grid.dy(j);

@@ -78,7 +78,7 @@ struct PressureSource {
   FieldRef b;
 
   KOKKOS_FORCEINLINE_FUNCTION Real continuity(int i, int j, int k) const {
-    if constexpr (fraction == Fraction::uniform) return div_at_cell(grid, u, i, j, k);
+    if constexpr (!is_variable(fraction)) return div_at_cell(grid, u, i, j, k);
     const auto x = [&](int ii) {
       return cell_to_xface(alpha, ii, j, k) * u.x(ii, j, k) + drive_dt * c.x(ii, j, k);
     };
@@ -110,16 +110,16 @@ struct DriveAcross {
   }
 };
 
-/// u = u* + f dt e_x - (dt / rho) grad p. Keeps the old velocity's change as du_dt. Walls stay at
-/// rest. With bodies a push moves the water as far as c is of alpha.
-template <Fraction fraction, bool with_bodies = false>
+/// u = u* + (c / alpha) (f dt e_x - (dt / rho) grad p). Keeps the change of the old velocity as
+/// du_dt. Walls stay at rest. The mobility c is alpha but on faces of bodies.
+template <Fraction fraction>
 struct CorrectVelocity {
   GridRef grid;
   ConstFaceRef u_star;
   ConstFieldRef p;      // with ghosts
-  ConstFieldRef alpha;  // with ghosts; one where the fraction is uniform, and not read
-  ConstFaceRef c;       // with bodies
-  Real inv_density;     // 1 / rho
+  ConstFieldRef alpha;  // with ghosts; not read where the fraction is uniform, nor is c
+  ConstFaceRef c;
+  Real inv_density;  // 1 / rho
   Real drive_dt, dt;
   FaceRef u, du_dt;
 
@@ -131,7 +131,7 @@ struct CorrectVelocity {
     Real push_x = drive_dt - push * ddx_at_xface(grid, p, i, j, k);
     Real push_y = push * ddy_at_yface(grid, p, i, j, k);
     Real push_z = push * ddz_at_zface(grid, p, i, j, k);
-    if constexpr (with_bodies) {
+    if constexpr (is_variable(fraction)) {
       push_x *= c.x(i, j, k) / cell_to_xface(alpha, i, j, k);
       push_y *= c.y(i, j, k) / cell_to_yface(grid, alpha, i, j, k);
       push_z *= c.z(i, j, k) / cell_to_zface(alpha, i, j, k);
@@ -146,7 +146,7 @@ struct CorrectVelocity {
     u.y(i, j, k) = uy;
     u.z(i, j, k) = uz;
     Real flow_x = ux * grid.dy(j), flow_z = uz * grid.dy(j);
-    if constexpr (fraction == Fraction::variable) {
+    if constexpr (is_variable(fraction)) {
       flow_x *= cell_to_xface(alpha, i, j, k);
       flow_z *= cell_to_zface(alpha, i, j, k);
     }

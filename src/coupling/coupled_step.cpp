@@ -45,7 +45,7 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     if (coupling.scheme == CouplingScheme::resolved) add_resolved_forces(*state.grains);
     fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
-    grains_->list().use_scratch(ScratchMemory(fluid_->scratch().of_any_bits()));
+    grains_->list().use_scratch(ScratchMemory(fluid_->workspace().of_any_bits()));
   } else if (grains.ambient) {
     add_fluid(*state.grains);
     still_.rho_f = still_.weight.displaced = grains.ambient->density;

@@ -15,11 +15,10 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
       on_faces{make_faces("exchange impulse", at.grid)} {
   on_faces.regions = &of_flow;
   of_grains.set({}), of_fraction.set({});  // none yet
-  const FluidSolver::Scratch idle = solver.scratch();
-  const auto& [flux, u_star] = idle.faces;
-  pressure_on_faces = stress_on_faces = flux;
-  smoothed_pressure = flux.x;
-  convective = u_star;
+  const Workspace& idle = solver.workspace();
+  pressure_on_faces = stress_on_faces = idle.flux;
+  smoothed_pressure = idle.flux.x;
+  convective = idle.u_star;
   const auto& [a, b, c] = idle.cells;
   pressure_in_cells = velocity_in_cells = impulse_in_cells = {a, b, c};
   stress_in_cells = {on_faces.impulse.x, on_faces.impulse.y, on_faces.impulse.z};

@@ -41,6 +41,7 @@ CouplingGrid::CouplingGrid(const CoupledCase& config, const FluidSolver& solver,
             .z = config.grains->grains.boundary_z == GrainBoundaryZ::wall},
       smoother(grid, smoothing_fft(config, solver, grid, walls), walls, smoothing_length),
       bodies(solver.bodies()),
+      pressure_reach(solver.pressure_reach()),
       marks("coupling: columns", grid, kMarks) {
   if (bodies == nullptr || smoothing_length == 0) return;
   kept = Field("coupling: kept by the smoothing", grid);

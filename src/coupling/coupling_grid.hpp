@@ -44,6 +44,7 @@ struct CouplingGrid {
   EvenExtension walls;    // of the grains, where the smoothing ends
   Smoother smoother;
   const BodiesInFlow* bodies;  // null without
+  int pressure_reach;          // cells around obstructed faces that the pressure solver needs
   Field kept;                  // share of what is smoothed that bodies leave; empty: all
   enum Mark : int { kOfGrains, kOfFraction, kMarks };  // alpha_f is less than one
   ColumnMarks marks;

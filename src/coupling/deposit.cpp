@@ -14,7 +14,9 @@ namespace {
 /// Cells around those that grains' volume is spread over: their faces, and the columns that the
 /// pressure equation relaxes. These reach four cells beyond what is obstructed by more than 1e-5,
 /// which ends where less than half of the twelve digits has decayed (LocalCorrection).
-int cells_around(int reach) { return 1 + std::max(0, kCellsAroundObstructed - reach / 2); }
+int cells_around(int smoothing_reach, int pressure_reach) {
+  return 1 + std::max(0, pressure_reach - smoothing_reach / 2);
+}
 
 /// Elsewhere than in a region the fraction before the smoothing is one.
 struct OneBeyond {
@@ -77,7 +79,7 @@ void Deposit::find_cells(const ExchangeSums& sums) {
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
   const ColumnMap of_flow = smoothed.united(fields_.of_fraction.cells.columns())
-                                .grown(cells_around(reach))
+                                .grown(cells_around(reach, grid_.pressure_reach))
                                 .in_blocks()
                                 .united(grid_.bodies ? grid_.bodies->columns() : ColumnMap{});
   fields_.of_flow.fraction.set(of_flow);

@@ -5,59 +5,56 @@
 
 #include "kernels/fluid/body_faces.hpp"
 #include "src/bodies/body_load.hpp"
-#include "src/fluid/exchange_on_faces.hpp"
+#include "src/fluid/flow_term.hpp"
 #include "src/fluid/fluid_case.hpp"
-#include "src/fluid/fluid_state.hpp"
 #include "src/fluid/solids.hpp"
 #include "src/parallel/halo.hpp"
-#include "src/parallel/tally.hpp"
 
 namespace barchan {
 
 /// Bodies and frozen grains. Direct forcing within the fluid step: faces inside a body are closed,
 /// and the friction of its wall acts on the faces next to these, where the wall is
 /// (docs/theory-fluid.md, "Bodies"). Nothing changes over a run.
-class BodiesInFlow {
+class BodiesInFlow : public FlowTerm {
  public:
-  BodiesInFlow(const Solids& solids, const Grid& grid, const Halo& halo, const FluidConfig& config);
+  /// `pressure_reach`: cells around closed faces that the pressure solver needs.
+  BodiesInFlow(const Solids& solids, const Grid& grid, const Halo& halo, const FluidConfig& config,
+               int pressure_reach);
 
   int count() const { return static_cast<int>(feet_.size()); }
-  /// The columns of cells that know of bodies, the same on all ranks.
+  /// Columns of cells that know of bodies, the same on all ranks.
   const ColumnMap& columns() const { return near_; }
-  /// Of a flow without grains.
-  const FlowRegions& regions() const { return regions_; }
-
-  /// Stops the water that runs in bodies. Whether there was any: the same on all ranks.
-  bool stop(FaceVector& u) const;
   /// Zero on closed faces.
   void close(FaceVector& f) const;
   /// Zero in closed cells.
   void close(Field& f) const;
-  /// alpha_before becomes alpha in closed cells: what stands there is not in the flow.
-  void forget_change(const Field& alpha, Field& alpha_before) const;
-  /// The volume of solid that alpha leaves for closed cells [m^3].
+  /// Volume of solid that alpha leaves for closed cells [m^3].
   void add_solid_inside(const Field& alpha, const Tally& tally, int slot) const;
-  /// No eddies in bodies.
-  void clear(Field& nu_t) const;
-  /// Predicted velocity and mobility of a step of dt; what flow rate and response they lose goes to
-  /// three numbers from `lost` on. Of a dt of zero walls do not slow down what they do not stop.
-  void hold_back(FaceVector& u_star, FaceVector& c, const Field& alpha, Real dt, const Tally& tally,
-                 int lost);
-  /// After a drive f_z dt has acted on all faces.
-  void hold_back_across(Field& u_z, Real drive_dt, Real dt) const;
-  /// Takes the mean over the water from a cell field, and sets it to zero in closed cells;
-  /// `number`: room for one. For the pressure, and for its source: when grains leave, the sum of
-  /// the source is not zero, and a periodic box has no pressure for that.
-  void take_mean_away(Field& f, const Tally& tally, int number) const;
 
-  static constexpr int kNumbersOfLoad = 6;
-  /// Of a step: kNumbersOfLoad for each body, from `first` on.
-  void add_loads(const FluidState& fluid, Real dt, const Tally& tally, int first) const;
-  /// As they were fetched.
-  std::vector<BodyLoad> loads(const Tally& tally, int first) const;
+  const FlowRegions* regions() const override { return &regions_; }
+  /// Old fraction becomes the new one in closed cells: what stands there is not in the flow.
+  void correct_fraction(FluidState& fluid) override;
+  /// No eddies in bodies.
+  void limit_eddies(Field& nu_t) override;
+  /// Direct forcing of u* and the mobility. Walls do not slow down in a dt of zero.
+  void after_predict(const FlowStep& step) override;
+  void after_drive_across(const FlowStep& step) override;
+  /// Takes the mean over the fluid away, and sets closed cells to zero. When grains leave, the sum
+  /// of the source is not zero, and a periodic box has no pressure for that.
+  void constrain_pressure(Field& f, const Tally& numbers) override;
+  void measure(const FlowStep& step) override;
+  void report(const Tally& numbers) override;
+  bool stop(FaceVector& u) override;
+
+  /// Count of numbers, from kOfTerms on.
+  std::size_t numbers() const { return kNumbersOfLoad * feet_.size(); }
+  /// Loads of the last step on each, as the host has fetched them.
+  const std::vector<BodyLoad>& loads() const { return loads_; }
 
  private:
-  void find_columns(const std::vector<BodyFace>& faces);
+  static constexpr int kNumbersOfLoad = 6;
+  static constexpr int number_of(int body) { return kOfTerms + kNumbersOfLoad * body; }
+  void find_columns(const std::vector<BodyFace>& faces, int pressure_reach);
   int n_faces() const { return faces_.extent_int(0); }
   int n_cells() const { return cells_.extent_int(0); }
 
@@ -70,10 +67,11 @@ class BodiesInFlow {
   Kokkos::View<int*> first_face_of_grain_;
   Kokkos::View<Vec3*> foot_of_grain_;  // [m]
   Kokkos::View<BodyCell*> cells_;
-  Real height_of_water_ = 0;  // of the cells that are not closed, over all columns [m]
-  Kokkos::View<Real*> free_;  // u* at the faces before it was held back [m/s]
+  Real height_of_fluid_ = 0;      // of the cells that are not closed, over all columns [m]
+  Kokkos::View<Real*> unforced_;  // u* at the faces before the direct forcing [m/s]
   ColumnMap near_;
   FlowRegions regions_;
+  std::vector<BodyLoad> loads_;
 };
 
 }  // namespace barchan

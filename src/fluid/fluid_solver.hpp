@@ -1,19 +1,15 @@
 // The fluid step: volume-averaged Navier-Stokes equations, Set II (model A).
 #pragma once
 
-#include <array>
 #include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "kernels/fluid/pressure.hpp"
 #include "src/fluid/bodies_in_flow.hpp"
 #include "src/fluid/boundary.hpp"
 #include "src/fluid/drive.hpp"
-#include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/flow_measures.hpp"
-#include "src/fluid/fluid_state.hpp"
+#include "src/fluid/grains_in_flow.hpp"
 #include "src/fluid/pressure_solver.hpp"
 
 namespace barchan {
@@ -38,31 +34,33 @@ void fill_ghosts(const Boundary& boundary, FluidState& fluid);
 ///   d(alpha u)/dt + div(alpha u u) = -(alpha/rho) grad p + alpha div(2 (nu + nu_t) S)
 ///                                    + alpha f + exchange / rho,
 ///   d(alpha)/dt + div(alpha u) = 0.
-/// Adams-Bashforth for convection and stress; interlayer drag is implicit. One pressure
-/// correction projects exactly, up to the tolerance of the pressure equation.
+/// Adams-Bashforth for convection and stress (MomentumTerms); grains and bodies are FlowTerms,
+/// whose drag and walls are implicit. One pressure correction projects exactly, up to the tolerance
+/// of the pressure equation. Where the fluid is clear, outside the regions of all terms, the
+/// fraction is one and not read.
 class FluidSolver {
  public:
-  /// The fraction of a case with grains is variable, and so is that of one with bodies.
+  /// The fluid fraction varies in a case with grains.
   FluidSolver(const FluidCase& config, const Grid& grid);
+  /// The fluid fraction varies where the state of the flow, or the exchange, says so.
   FluidSolver(const FluidCase& config, const Grid& grid, Fraction fraction);
+  FluidSolver(const FluidSolver&) = delete;
 
   const Drive& drive() const { return drive_; }
-  /// One step. Of a variable fraction fluid.alpha_f holds the new one and alpha_f_previous the old
-  /// one in the owned cells; a uniform one is one. `exchange`: with the grains, if there are any;
-  /// the fraction is then variable. On return all ghosts are valid.
+  /// Advances by dt. A fraction that varies is fluid.alpha_f, and alpha_f_previous before the last
+  /// deposit, in the owned cells. `exchange`: with grains; null: none. Ghosts are valid on return.
   FluidStepReport advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
 
-  /// Stops what flows inside bodies, the bulk velocity kept; nothing where nothing does. Ghosts of
-  /// the velocity are valid on return.
+  /// Stops the flow inside bodies, and keeps the bulk velocity. Does nothing where nothing flows
+  /// there. Ghosts of the velocity are valid on return.
   void flow_around_bodies(FluidState& fluid);
-  /// From now on the flow goes round these, too; `solids` holds the bodies of the case. The solver
-  /// must be of a variable fraction, and without exchange.
+  /// Makes the flow go round these, which hold the bodies of the case. The solver must be of a
+  /// variable fraction, and has no exchange from now on.
   void set_solids(const Solids& solids);
-  /// Of the flow on the bodies of the case, in their order, over the last step; behind them on the
-  /// frozen grains.
-  const std::vector<BodyLoad>& body_loads() const { return loads_; }
-  /// Null without.
-  const BodiesInFlow* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
+  /// Loads of the last step on the bodies of the case, in their order, then on the frozen grains.
+  const std::vector<BodyLoad>& body_loads() const;
+  /// Bodies of the flow; null without.
+  const BodiesInFlow* bodies() const { return bodies_.get(); }
 
   /// Makes all ghosts valid, to be called after a state was set or read.
   void fill_ghosts(FluidState& fluid) const { barchan::fill_ghosts(boundary_, fluid); }
@@ -78,72 +76,60 @@ class FluidSolver {
     return barchan::kinetic_energy(fluid, config_.density);
   }
 
-  /// What holds nothing between two calls of advance() of a solver with grains: scratch memory for
-  /// the coupling and the neighbour list.
-  struct Scratch {
-    FaceVector faces[2];
-    std::array<Field, 3> cells;  // for finite values: the solver multiplies some of them with zero
-    /// Those that may be left with any bits.
-    std::vector<Field> of_any_bits() const {
-      const auto& [a, b] = faces;
-      return {a.x, a.y, a.z, b.x, b.y, b.z};
-    }
-  };
-  Scratch scratch() const { return {{flux_, u_star_}, pressure_.scratch_fields()}; }
+  /// Memory that others may use between two steps.
+  const Workspace& workspace() const { return workspace_; }
+  /// Cells around obstructed faces that the regions of a term must hold.
+  int pressure_reach() const { return pressure_->reach(); }
 
   const Boundary& boundary() const { return boundary_; }
   const std::shared_ptr<const PlaneFft>& fft() const { return fft_; }
 
  private:
+  void add_bodies(const Solids& solids);
+  void list_terms();
+  void begin(FluidState& fluid, const ExchangeOnFaces* exchange);
+  FlowStep step(FluidState& fluid, Real dt);
   void update_eddy_viscosity(FluidState& fluid) const;
   void update_mass_flux(const FluidState& fluid);
-  void predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt);
+  void update_mobility(const FluidState& fluid);
   template <Fraction fraction, bool with_exchange>
-  Predict<fraction, with_exchange> prediction(FluidState& fluid, const ExchangeOnFaces* exchange,
+  Predict<fraction, with_exchange> prediction(FluidState& fluid, const ExchangeOnFaces& exchange,
                                               Real dt);
-  void interlayer_drag(const FluidState& fluid, const ExchangeOnFaces& exchange);
-  void update_mobility(const FluidState& fluid, Real dt);
-  void find_driven_flow(const FluidState& fluid);
-  void push(FluidState& fluid, Real dt);
+  void predict(FluidState& fluid, Real dt);
+  void balance_flow_rate(const FluidState& fluid);
+  void apply_drive(FluidState& fluid, Real dt);
   void solve_pressure(FluidState& fluid, Real dt);
-  void correct(FluidState& fluid, Real dt);
   template <Fraction fraction>
   PressureSource<fraction> pressure_source(const FaceVector& u, const FluidState& fluid,
                                            Real drive_x, Real dt);
-  template <Fraction fraction, bool with_bodies = false>
-  CorrectVelocity<fraction, with_bodies> correction(FluidState& fluid, Real dt);
+  template <Fraction fraction>
+  CorrectVelocity<fraction> correction(FluidState& fluid, Real dt);
+  void correct(FluidState& fluid, Real dt);
   void measure(FluidState& fluid, Real dt);
-
-  /// Sums and maxima of a step over all cells, two a slot along x and z, three that of a vector.
-  enum FlowNumber : int {
-    kContinuity,
-    kCourant,            // with the next ones a LargestAndSums
-    kNewRate,            // flow rate of the new velocity [m^2/s]
-    kPredictedRate = 4,  // of u* [m^2/s]
-    kMobility = 6,       // what the mobility lacks to one [m]
-    kHeld = 9,           // what bodies take of kPredictedRate [m^2/s] and kMobility along x, z [m]
-    kMeanOfWater = 12,   // of the pressure or its source, where there are bodies
-    kLoads               // on each body
-  };
+  /// One functor in the regions of the terms, the other in clear fluid.
+  template <class Near, class Clear>
+  ByRegion<Near, Clear> by_region(const Near& near, const Clear& clear) const {
+    return {regions_->fraction.cells.ref(), near, clear};
+  }
 
   FluidConfig config_;
-  Fraction fraction_;
-  Drive drive_;
-  Real tolerance_;  // of the pressure equation
   Grid grid_;
-  bool is_clear_;  // nothing but bodies makes the fraction variable
-  FlowRegions everywhere_;
-  const FlowRegions* regions_ = &everywhere_;  // of this step
+  bool fraction_varies_;
+  Drive drive_;
   Boundary boundary_;
   std::shared_ptr<const PlaneFft> fft_;
-  PressureSolver pressure_;
-  FaceVector u_star_, flux_, mobility_;  // predicted velocity, alpha u [m/s]; c of the pressure
-  Field source_;                         // right-hand side of the pressure equation
-  Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
-  std::optional<BodiesInFlow> bodies_;
-  std::vector<BodyLoad> loads_;
-  Tally numbers_;
-  DrivenFlow flow_;  // its rate is that with the drive after push()
+  Workspace workspace_;
+  FaceVector mobility_;            // c of the pressure equation
+  Field source_;                   // right-hand side of the pressure equation
+  Kokkos::View<Real*> c_w_delta_;  // of WALE, by row [m]
+  std::unique_ptr<PressureSolver> pressure_;
+  std::unique_ptr<BodiesInFlow> bodies_;
+  std::unique_ptr<GrainsInFlow> grains_;
+  std::vector<FlowTerm*> terms_;
+  FlowRegions everywhere_, nowhere_;
+  const FlowRegions* regions_ = &nowhere_;  // of this step
+  Tally numbers_;                           // FlowNumber
+  DrivenFlow flow_;                         // its rate is that with the drive after apply_drive()
   FluidStepReport report_;
 };
 

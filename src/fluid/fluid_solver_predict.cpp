@@ -1,5 +1,4 @@
-// The predictor of the fluid step.
-#include "kernels/fluid/interlayer_drag.hpp"
+// The predictor of the fluid step, and the drive.
 #include "src/fluid/fluid_solver.hpp"
 #include "src/parallel/tally_cells.hpp"
 
@@ -16,69 +15,84 @@ AdamsBashforth weights(const FluidState& fluid, Real dt) {
 
 }  // namespace
 
-/// alpha u of the old time level near the grains, with ghosts.
+/// alpha u of the old time level near grains and bodies, with ghosts.
 void FluidSolver::update_mass_flux(const FluidState& fluid) {
-  // Scratch memory: others may have used these fields since.
+  const Region& around = regions_->fraction.around;
+  // Walls are closed in every step: the workspace was lent.
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
-                CloseFaces{flux_, u_star_.y, grid_.ny});
-  for_each_cell("fluid: mass flux", regions_->fraction.around,
-                MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
-  if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(flux_);
+                CloseFaces{workspace_.flux, workspace_.u_star.y, grid_.ny});
+  for_each_cell("fluid: mass flux", around,
+                MassFlux{grid_, fluid.u, fluid.alpha_f_previous, workspace_.flux});
+  if (around.has_ghosts()) boundary_.fill_periodic(workspace_.flux);
+}
+
+/// c near grains and bodies, and how much a force along x and z adds to the flow.
+void FluidSolver::update_mobility(const FluidState& fluid) {
+  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.around,
+             UpdateMobility{grid_, fluid.alpha_f, mobility_});
 }
 
 template <Fraction fraction, bool with_exchange>
 Predict<fraction, with_exchange> FluidSolver::prediction(FluidState& fluid,
-                                                         const ExchangeOnFaces* exchange, Real dt) {
-  const bool shared = exchange != nullptr && exchange->stress_share.storage.size() > 0;
+                                                         const ExchangeOnFaces& exchange, Real dt) {
+  const FaceVector& flux = is_variable(fraction) ? workspace_.flux : fluid.u;
+  const bool shared = exchange.stress_share.storage.size() > 0;
+  const Field& share = shared ? exchange.stress_share : fluid.alpha_f_previous;
   return {.grid = grid_,
-          .convection = {grid_, fluid.u, is_variable(fraction) ? flux_ : fluid.u},
-          .stress = {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity},
-          .stress_share = shared ? exchange->stress_share : fluid.alpha_f_previous,
-          .alpha_new = fluid.alpha_f,
+          .terms = {{grid_, fluid.u, flux},
+                    {{grid_, share}, {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity}}},
+          .flux = flux,
+          .alpha_new = {grid_, fluid.alpha_f},
           .rate = fluid.rate_previous,
-          .u_star = u_star_,
-          .impulse = with_exchange ? exchange->impulse : FaceVector{},
+          .u_star = workspace_.u_star,
+          .impulse = exchange.impulse,
           .weight = weights(fluid, dt),
           .inv_density = 1 / config_.density};
 }
 
-void FluidSolver::predict(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {
-  const auto in_clear_water = prediction<Fraction::uniform, false>(fluid, exchange, dt);
-  const auto predict = [&](const auto& each_face) {
-    sum_each_cell("fluid: predict", numbers_, kPredictedRate, owned_cells(grid_), each_face);
-  };
-  if (is_variable(fraction_)) update_mass_flux(fluid);
-  if (exchange != nullptr) {
-    predict(ByRegion{
-        regions_->exchange.ref(), prediction<Fraction::variable, true>(fluid, exchange, dt),
-        ByRegion{regions_->fraction.cells.ref(),
-                 prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water}});
-    interlayer_drag(fluid, *exchange);
-  } else if (is_variable(fraction_)) {
-    predict(ByRegion{regions_->fraction.cells.ref(),
-                     prediction<Fraction::variable, false>(fluid, exchange, dt), in_clear_water});
-  } else {
-    predict(in_clear_water);
-  }
+void FluidSolver::predict(FluidState& fluid, Real dt) {
+  if (fraction_varies_) update_mass_flux(fluid);
+  const ExchangeOnFaces exchange = grains_ ? grains_->exchange() : ExchangeOnFaces{};
+  const auto in_clear_fluid = prediction<Fraction::uniform, false>(fluid, exchange, dt);
+  const auto near = prediction<Fraction::variable, false>(fluid, exchange, dt);
+  const auto with_exchange = prediction<Fraction::variable, true>(fluid, exchange, dt);
+  sum_each_cell("fluid: predict", numbers_, kPredictedRate, owned_cells(grid_),
+                ByRegion{regions_->exchange.ref(), with_exchange, by_region(near, in_clear_fluid)});
+  update_mobility(fluid);
+  for (FlowTerm* term : terms_) term->after_predict(step(fluid, dt));
+  if (fraction_varies_ && regions_->fraction.around.has_ghosts())
+    boundary_.fill_periodic(mobility_);
 }
 
-/// Moves momentum within columns alone, so the flow rate stays.
-void FluidSolver::interlayer_drag(const FluidState& fluid, const ExchangeOnFaces& exchange) {
-  if (exchange.conductance_x.storage.size() == 0) return;
-  for (const bool along_x : {true, false}) {
-    const Field& conductance = along_x ? exchange.conductance_x : exchange.conductance_z;
-    for_each_column("fluid: interlayer drag", regions_->exchange,
-                    InterlayerDrag{.grid = grid_,
-                                   .rows = regions_->exchange.range().j1,
-                                   .conductance = conductance,
-                                   .alpha = fluid.alpha_f,
-                                   .u = along_x ? fluid.u.x : fluid.u.z,
-                                   .density = config_.density,
-                                   .along_x = along_x,
-                                   .u_star = along_x ? u_star_.x : u_star_.z,
-                                   .pivot = source_});
+/// Flow rate and response to a force, as predictor, mobility and terms have added them up.
+void FluidSolver::balance_flow_rate(const FluidState& fluid) {
+  if (drive_.along_z()) {
+    sum_each_cell("fluid: flow rate across", numbers_, kPredictedRate + 1, owned_cells(grid_),
+                  FlowRateAcross{grid_, workspace_.u_star.z, fluid.alpha_f});
   }
+  numbers_.combine(ranks_of(grid_), kPredictedRate, kMeanOfFluid - kPredictedRate, MPI_SUM);
+  numbers_.fetch();
+  const auto mobility = numbers_.get<Vec3>(kMobility);
+  const auto [taken_rate, taken_along, taken_across] = numbers_.get<Vec3>(kTaken);
+  const Real full = grid_.height_of_all_columns();
+  flow_.height = full + mobility.y;
+  // The rate across is a sum over what terms have left.
+  flow_.rate = {numbers_.get(kPredictedRate) - taken_rate, numbers_.get(kPredictedRate + 1)};
+  flow_.response = {full + mobility.x - taken_along, full + mobility.z - taken_across};
+}
+
+/// The force along x is added where the pressure is; across, it is added to u* here.
+void FluidSolver::apply_drive(FluidState& fluid, Real dt) {
+  balance_flow_rate(fluid);
+  report_.wanted = drive_.target(fluid.time, fluid.bulk_at_start);
+  fluid.drive = report_.drive = drive_.force(fluid, flow_, dt);
+  flow_.rate.x += fluid.drive.x * dt * flow_.response.x;
+  flow_.rate.z += fluid.drive.z * dt * flow_.response.z;
+  report_.bulk_velocity = {flow_.rate.x / flow_.height, flow_.rate.z / flow_.height};
+  if (!drive_.along_z()) return;
+  for_each_cell("fluid: drive across", grid_, DriveAcross{workspace_.u_star.z, fluid.drive.z * dt});
+  for (FlowTerm* term : terms_) term->after_drive_across(step(fluid, dt));
 }
 
 }  // namespace barchan

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/fluid/conjugate_gradients.hpp"
+#include "kernels/fluid/field_algebra.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/flow_run.hpp"
 
@@ -31,7 +31,7 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   regions.exchange.set(mound.grown(1)), regions.fraction.set(mound.grown(5));
   for (test::FlowRun* run : {&whole, &near}) {
     test::set_random(run->fluid.u.y, run->grid, 3);
-    for_each_cell("test", run->grid, Combine{0, run->fluid.u.y, 0.01, run->fluid.u.y});
+    for_each_cell("test", run->grid, Axpby{0, run->fluid.u.y, 0.01, run->fluid.u.y});
     for (Field* alpha : {&run->fluid.alpha_f, &run->fluid.alpha_f_previous})
       test::set_field(*alpha, run->grid,
                       [&](int i, int j, int k) { return is_in_mound(i, j, k) ? 0.5 : 1; });

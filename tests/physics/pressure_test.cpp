@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "kernels/fluid/conjugate_gradients.hpp"
+#include "kernels/fluid/field_algebra.hpp"
+#include "src/fluid/local_correction.hpp"
 #include "src/fluid/pressure_solver.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/parallel/tally_cells.hpp"
@@ -26,8 +28,14 @@ PressureReport solve(const Boundary& boundary, const Grid& grid, Preconditioner 
   SolverConfig config;
   config.preconditioner = kind;
   config.max_iterations = 2000;
-  PressureSolver solver(grid, boundary.halo(), std::make_shared<const PlaneFft>(grid), config);
-  return solver.solve(c, Region(grid), b, p, tolerance);
+  config.pressure_tolerance = tolerance;
+  const Workspace workspace(grid, false);
+  const auto solver = make_pressure_solver({.grid = grid,
+                                            .halo = boundary.halo(),
+                                            .fft = std::make_shared<const PlaneFft>(grid),
+                                            .config = config,
+                                            .workspace = workspace});
+  return solver->solve(c, Region(grid), b, p);
 }
 
 double volume_dot(const Grid& grid, const Field& a, const Field& b) {

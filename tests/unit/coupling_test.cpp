@@ -246,7 +246,7 @@ std::vector<Real> owned_values(const FluidState& fluid) {
 TEST(Coupling, TheFlowDoesNotReadWhatOthersLeftInIdleFields) {
   Coupled a(coupled_config()), b(coupled_config());
   a.advance(3), b.advance(3);
-  for (const Field& field : b.step.fluid_solver()->scratch().of_any_bits()) {
+  for (const Field& field : b.step.fluid_solver()->workspace().of_any_bits()) {
     Kokkos::deep_copy(field.storage, Kokkos::Experimental::quiet_NaN_v<Real>);
   }
   for (Coupled* c : {&a, &b}) c->step.advance_fluid(c->state);

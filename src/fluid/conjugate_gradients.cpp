@@ -1,0 +1,134 @@
+#include "src/fluid/conjugate_gradients.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "kernels/fluid/conjugate_gradients.hpp"
+#include "kernels/fluid/field_algebra.hpp"
+#include "kernels/fluid/flow_sums.hpp"
+
+namespace barchan {
+
+ConjugateGradients::ConjugateGradients(const PressureProblem& problem, bool relaxes)
+    : grid_(problem.grid),
+      halo_(problem.halo),
+      config_(problem.config),
+      relaxes_(relaxes),
+      poisson_(grid_, problem.fft, 0, 1),
+      local_(grid_, halo_),
+      numbers_("pressure: numbers", kGradientNumbers),
+      r_("pressure: residual", grid_),
+      z_(problem.workspace.cells[0]),
+      d_(problem.workspace.cells[1]),
+      e_(problem.workspace.cells[2]) {}
+
+void ConjugateGradients::fill_ghosts_near(Field& f) const {
+  if (near_->has_ghosts()) halo_.fill(f);
+}
+
+/// z = M^-1 r.
+void ConjugateGradients::precondition() {
+  if (relaxes_) {
+    local_.apply(poisson_, r_, z_, e_);
+  } else {
+    poisson_.solve(r_, z_);
+  }
+}
+
+/// A few numbers from others, on the device.
+template <class Functor>
+void ConjugateGradients::launch_once(const char* label, const Functor& functor) const {
+  Kokkos::parallel_for(label, items(1), functor);
+}
+
+/// P p = b - E (the relaxed guess), relaxed; r = b - A p.
+void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
+  const MPI_Comm ranks = ranks_of(grid_);
+  fill_ghosts_near(p);
+  if (relaxes_) {
+    local_.relax(b, p, true);
+    fill_ghosts_near(p);
+  }
+  const NormAndMean norm{grid_, b};
+  sum_vector("pressure: clear water", numbers_, kNormOfB, owned_cells(grid_),
+             ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
+  numbers_.combine(ranks, kNormOfB, 2, MPI_SUM);
+  launch_once("pressure: mean of b", FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
+  poisson_.solve(b, p);
+  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.late(kMeanOfB)});
+  fill_ghosts_near(p);
+  const auto mean_of_p = [&](int slot) {
+    sum_each_cell("pressure: mean", numbers_, slot, *near_, HeightSum{grid_, p});
+  };
+  if (relaxes_) {
+    mean_of_p(kSumOfP);
+    local_.relax(e_, p, false);
+    mean_of_p(kSumOfRelaxed);
+    fill_ghosts_near(p);
+  }
+  sum_each_cell("pressure: residual", numbers_, kRR, *near_, Residual{grid_, c, p, e_, r_});
+  numbers_.combine(ranks, kSumOfP, 3, MPI_SUM);
+  launch_once("pressure: mean of p", FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
+}
+
+/// d from z; before, p goes along the last one.
+void ConjugateGradients::find_direction(Field& p, int iteration) {
+  if (iteration == 1) {
+    std::swap(z_, d_);
+    return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
+                         HeightSum{grid_, d_});
+  }
+  const LateReal a = numbers_.late(kA), surplus = numbers_.late(kSurplus);
+  launch_once("pressure: beta", FindBeta{numbers_.data()});
+  sum_each_cell("pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
+                NextDirection{grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), d_});
+}
+
+PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near, Field& b,
+                                         Field& p) {
+  if (near.columns().is_empty()) return solve_clear(b, p);
+  near_ = &near;
+  const MPI_Comm ranks = ranks_of(grid_);
+  if (relaxes_) local_.update(c, near, z_);
+  start(c, b, p);
+  local_.set_workspace(b);  // which is no longer needed
+  numbers_.fetch();
+  const Real norm_of_b = numbers_.get(kNormOfB) - numbers_.get(kSumOfB) * numbers_.get(kMeanOfB);
+  const Real enough = config_.pressure_tolerance * config_.pressure_tolerance * norm_of_b;
+  PressureReport report{.iterations = 1};
+  for (; numbers_.get(kRR) > enough && report.iterations < config_.max_iterations;
+       ++report.iterations) {
+    precondition();
+    sum_each_cell("pressure: <r, z>", numbers_, kRZ, *near_, InnerProduct{grid_, r_, z_});
+    numbers_.combine(ranks, kRZ, 1, MPI_SUM);
+    find_direction(p, report.iterations);
+    fill_ghosts_near(d_);
+    sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
+                  ApplyOperator{grid_, c, d_, e_});
+    numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
+    launch_once("pressure: step",
+                FindStep{numbers_.data(), grid_.height_of_all_columns(), report.iterations == 1});
+    sum_each_cell("pressure: advance", numbers_, kRR, *near_,
+                  AdvanceResidual{grid_, e_, r_, numbers_.late(kA)});
+    numbers_.combine(ranks, kRR, 1, MPI_SUM);
+    numbers_.fetch();
+  }
+  const LateReal surplus = numbers_.late(kSurplus);
+  if (report.iterations > 1) {
+    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.late(kA), surplus});
+  } else {
+    for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
+  }
+  for_each_cell("pressure: clear", near, SetZero{r_});
+  report.residual = norm_of_b > 0 ? std::sqrt(numbers_.get(kRR) / norm_of_b) : 0;
+  halo_.fill(p);
+  return report;
+}
+
+PressureReport ConjugateGradients::solve_clear(const Field& b, Field& p) {
+  poisson_.solve(b, p);
+  halo_.fill(p);
+  return {.iterations = 1, .residual = 0};
+}
+
+}  // namespace barchan
