@@ -19,9 +19,12 @@ enum GradientNumber : int {
   kSumOfD,     // <d, 1>
   kRZBefore,   // <r, z> one iteration before
   kMeanOfB,
-  kBeta,     // the next d is z + beta d,
-  kA,        // the next p is p + a d - surplus
-  kSurplus,  // of the mean of p
+  kBeta,        // the next d is z + beta d,
+  kA,           // the next p is p + a d - surplus
+  kSurplus,     // of the mean of p
+  kEnough,      // <r, r> at which the iterations end
+  kGoesOn,      // 1 until then, 0 after: iterations that were launched ahead change nothing
+  kDirections,  // directions that were taken
   kGradientNumbers
 };
 /// From the sum of b.
@@ -38,6 +41,25 @@ struct FindSurplus {
     number[kSurplus] = -(number[kSumOfP] / height) + number[kSumOfRelaxed] / height;
   }
 };
+/// Sets the end of the iterations, before the first one.
+struct FindEnd {
+  Real* number;
+  Real tolerance;  // of the residual over the right-hand side
+  KOKKOS_FUNCTION void operator()(int) const {
+    const Real norm_of_b = number[kNormOfB] - number[kSumOfB] * number[kMeanOfB];
+    number[kEnough] = tolerance * tolerance * norm_of_b;
+    number[kGoesOn] = number[kRR] > number[kEnough] ? 1 : 0;
+    number[kDirections] = 0;
+  }
+};
+/// Decides whether another iteration is needed.
+struct FindWhetherDone {
+  Real* number;
+  KOKKOS_FUNCTION void operator()(int) const {
+    number[kDirections] += number[kGoesOn];
+    if (!(number[kRR] > number[kEnough])) number[kGoesOn] = 0;
+  }
+};
 /// Before the next direction.
 struct FindBeta {
   Real* number;
@@ -49,6 +71,7 @@ struct FindStep {
   Real height;
   bool is_first;  // later NextDirection has taken off what there was
   KOKKOS_FUNCTION void operator()(int) const {
+    if (number[kGoesOn] == 0) return;
     number[kA] = number[kRZ] / number[kCurvature];
     const Real before = is_first ? number[kSurplus] : 0;
     number[kSurplus] = before + number[kA] * (number[kSumOfD] / height);
@@ -108,9 +131,10 @@ struct AdvanceResidual {
   GridRef grid;
   ConstFieldRef q;
   FieldRef r;
-  LateReal a;
+  LateReal a, goes_on;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    const Real value = r(i, j, k) - a * q(i, j, k);
+    Real value = r(i, j, k);
+    if (goes_on != 0) value -= a * q(i, j, k);
     r(i, j, k) = value;
     return value * value * grid.dy(j);
   }
@@ -129,9 +153,10 @@ struct NextDirection {
   GridRef grid;
   AdvancePressure advance;
   ConstFieldRef z;
-  LateReal b;
+  LateReal b, goes_on;
   FieldRef d;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
+    if (goes_on == 0) return 0;
     advance(i, j, k);
     const Real value = z(i, j, k) + b * d(i, j, k);
     d(i, j, k) = value;

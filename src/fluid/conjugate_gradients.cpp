@@ -1,5 +1,6 @@
 #include "src/fluid/conjugate_gradients.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,7 @@ ConjugateGradients::ConjugateGradients(const PressureProblem& problem, bool rela
       halo_(problem.halo),
       config_(problem.config),
       relaxes_(relaxes),
+      ahead_(problem.ahead),
       poisson_(grid_, problem.fft, 0, 1),
       local_(grid_, halo_),
       numbers_("pressure: numbers", kGradientNumbers),
@@ -72,57 +74,66 @@ void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
 }
 
 /// d from z; before, p goes along the last one.
-void ConjugateGradients::find_direction(Field& p, int iteration) {
-  if (iteration == 1) {
+void ConjugateGradients::find_direction(Field& p, int n) {
+  if (n == 1) {
     std::swap(z_, d_);
     return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
                          HeightSum{grid_, d_});
   }
   const LateReal a = numbers_.late(kA), surplus = numbers_.late(kSurplus);
   launch_once("pressure: beta", FindBeta{numbers_.data()});
-  sum_each_cell("pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
-                NextDirection{grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), d_});
+  sum_each_cell(
+      "pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
+      NextDirection{
+          grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), numbers_.late(kGoesOn), d_});
 }
 
 PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near, Field& b,
                                          Field& p) {
   if (near.columns().is_empty()) return solve_clear(b, p);
   near_ = &near;
-  const MPI_Comm ranks = ranks_of(grid_);
   if (relaxes_) local_.update(c, near, z_);
   start(c, b, p);
   local_.set_workspace(b);  // which is no longer needed
+  launch_once("pressure: end", FindEnd{numbers_.data(), config_.pressure_tolerance});
+  const int most = config_.max_iterations - 1;
+  const int ahead = std::min({directions_before_, ahead_, most});
+  for (int n = 1; n <= ahead; ++n) iterate(c, p, n);
   numbers_.fetch();
-  const Real norm_of_b = numbers_.get(kNormOfB) - numbers_.get(kSumOfB) * numbers_.get(kMeanOfB);
-  const Real enough = config_.pressure_tolerance * config_.pressure_tolerance * norm_of_b;
-  PressureReport report{.iterations = 1};
-  for (; numbers_.get(kRR) > enough && report.iterations < config_.max_iterations;
-       ++report.iterations) {
-    precondition();
-    sum_each_cell("pressure: <r, z>", numbers_, kRZ, *near_, InnerProduct{grid_, r_, z_});
-    numbers_.combine(ranks, kRZ, 1, MPI_SUM);
-    find_direction(p, report.iterations);
-    fill_ghosts_near(d_);
-    sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
-                  ApplyOperator{grid_, c, d_, e_});
-    numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
-    launch_once("pressure: step",
-                FindStep{numbers_.data(), grid_.height_of_all_columns(), report.iterations == 1});
-    sum_each_cell("pressure: advance", numbers_, kRR, *near_,
-                  AdvanceResidual{grid_, e_, r_, numbers_.late(kA)});
-    numbers_.combine(ranks, kRR, 1, MPI_SUM);
+  for (int n = ahead + 1; n <= most && numbers_.get(kGoesOn) != 0; ++n) {
+    iterate(c, p, n);
     numbers_.fetch();
   }
+  directions_before_ = static_cast<int>(numbers_.get(kDirections));
   const LateReal surplus = numbers_.late(kSurplus);
-  if (report.iterations > 1) {
+  if (directions_before_ > 0) {
     for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.late(kA), surplus});
   } else {
     for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
   }
   for_each_cell("pressure: clear", near, SetZero{r_});
-  report.residual = norm_of_b > 0 ? std::sqrt(numbers_.get(kRR) / norm_of_b) : 0;
   halo_.fill(p);
-  return report;
+  const Real norm_of_b = numbers_.get(kNormOfB) - numbers_.get(kSumOfB) * numbers_.get(kMeanOfB);
+  return {.iterations = 1 + directions_before_,
+          .residual = norm_of_b > 0 ? std::sqrt(numbers_.get(kRR) / norm_of_b) : 0};
+}
+
+/// One direction d and the residual after it; n counts from 1.
+void ConjugateGradients::iterate(const FaceVector& c, Field& p, int n) {
+  const MPI_Comm ranks = ranks_of(grid_);
+  precondition();
+  sum_each_cell("pressure: <r, z>", numbers_, kRZ, *near_, InnerProduct{grid_, r_, z_});
+  numbers_.combine(ranks, kRZ, 1, MPI_SUM);
+  find_direction(p, n);
+  fill_ghosts_near(d_);
+  sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
+                ApplyOperator{grid_, c, d_, e_});
+  numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
+  launch_once("pressure: step", FindStep{numbers_.data(), grid_.height_of_all_columns(), n == 1});
+  sum_each_cell("pressure: advance", numbers_, kRR, *near_,
+                AdvanceResidual{grid_, e_, r_, numbers_.late(kA), numbers_.late(kGoesOn)});
+  numbers_.combine(ranks, kRR, 1, MPI_SUM);
+  launch_once("pressure: whether done", FindWhetherDone{numbers_.data()});
 }
 
 PressureReport ConjugateGradients::solve_clear(const Field& b, Field& p) {

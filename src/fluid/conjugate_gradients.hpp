@@ -12,6 +12,9 @@ namespace barchan {
 /// is left of the equation lies near the grains alone, and so do the residuals of the conjugate
 /// gradients that follow (iterations in a subspace: Kuznetsov, Proc. Int. Congr. Math. Warsaw 1983,
 /// 1509).
+///
+/// As many iterations as the last solve took are launched without a look at the residual. Those
+/// beyond its end change nothing, so their number changes no bit.
 class ConjugateGradients : public PressureSolver {
  public:
   /// `relaxes`: with LocalCorrection around the direct solve.
@@ -23,7 +26,8 @@ class ConjugateGradients : public PressureSolver {
  private:
   PressureReport solve_clear(const Field& b, Field& p);
   void start(const FaceVector& c, Field& b, Field& p);
-  void find_direction(Field& p, int iteration);
+  void iterate(const FaceVector& c, Field& p, int n);
+  void find_direction(Field& p, int n);
   template <class Functor>
   void launch_once(const char* label, const Functor& functor) const;
   void precondition();
@@ -33,9 +37,11 @@ class ConjugateGradients : public PressureSolver {
   Halo halo_;
   SolverConfig config_;
   bool relaxes_;
+  int ahead_;
   PoissonFft poisson_;
   LocalCorrection local_;
   const Region* near_ = nullptr;  // of this solve
+  int directions_before_ = 0;     // of the last solve
   Tally numbers_;                 // GradientNumber
   Field r_;                       // residual, zero between solves and beyond near_
   Field z_, d_, e_;               // M^-1 r; direction; b, then A d

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "kernels/math/on_host.hpp"
 #include "src/fluid/fluid_case.hpp"
 #include "src/fluid/poisson_fft.hpp"
 #include "src/fluid/workspace.hpp"
@@ -38,7 +39,8 @@ struct PressureProblem {
   const Halo& halo;
   std::shared_ptr<const PlaneFft> fft;
   const SolverConfig& config;
-  const Workspace& workspace;  // its cells are the solver's during a solve
+  const Workspace& workspace;   // its cells are the solver's during a solve
+  int ahead = kOnHost ? 0 : 4;  // most iterations that may be launched before the host looks
 };
 
 /// Makes the solver that a case names.

@@ -194,6 +194,38 @@ TEST(FluidPressure, IterationsForAHeap) {
   EXPECT_LE(iterations(Preconditioner::of<RelaxedFft>()), 6);
 }
 
+/// A hard solve, then one that starts from the first solution, so that more is launched ahead than
+/// is needed.
+TEST(FluidPressure, IterationsLaunchedAheadChangeNoBit) {
+  const Mixture m = heap(test::stretched_grid({24, 12, 16}, {0.05, 0.025, 0.036}, 1e-3));
+  const Region everywhere(m.grid);
+  const Workspace workspace(m.grid, false);
+  const auto solve_twice = [&](int ahead) {
+    const SolverConfig config{.pressure_tolerance = 1e-9};
+    const auto solver = make_pressure_solver({.grid = m.grid,
+                                              .halo = m.boundary.halo(),
+                                              .fft = std::make_shared<const PlaneFft>(m.grid),
+                                              .config = config,
+                                              .workspace = workspace,
+                                              .ahead = ahead});
+    Field b("b", m.grid), p("p", m.grid);
+    std::vector<int> iterations;
+    for (int n = 0; n < 2; ++n) {
+      test::set_random(b, m.grid, 21);
+      iterations.push_back(solver->solve(m.c, everywhere, b, p).iterations);
+    }
+    return std::pair(iterations, test::to_host(p));
+  };
+  const auto [count, waiting] = solve_twice(0);
+  EXPECT_GT(count[0], count[1] + 1);
+  for (const int ahead : {1, 4, 50}) {
+    const auto [count_ahead, p] = solve_twice(ahead);
+    EXPECT_EQ(count_ahead, count);
+    test::for_owned_cells(
+        m.grid, [&](int i, int j, int k) { ASSERT_EQ(p(i, j, k), waiting(i, j, k)) << ahead; });
+  }
+}
+
 /// The inner product <a, M^-1 b> must not depend on the order, or conjugate gradients mislead.
 TEST(FluidPressure, LocalPreconditionerIsSelfAdjointOnOddSizes) {
   const Grid grid = test::stretched_grid({13, 7, 9}, {0.05, 0.025, 0.036}, 1e-3);
