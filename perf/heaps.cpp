@@ -24,7 +24,7 @@ int grain_count(const std::string& name) {
   return options().tiny ? 1000 : 100000;
 }
 
-/// Grains of the paper's Table II, in proportion, on the lattice that heaps settle from.
+/// Pours grains of the paper's Table II, in proportion, on the lattice that heaps settle from.
 void pour(Config& c, int n) {
   const auto part = [n](std::int64_t of_100k) { return of_100k * n / 100000; };
   c.grains->sizes = {{1.5e-4, part(2276)},

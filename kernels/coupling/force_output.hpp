@@ -22,7 +22,7 @@ struct DragAndAddedMass {
   }
 };
 
-/// At the end of the fluid step [N m].
+/// Torque of the flow at the end of the fluid step [N m].
 struct TorqueOfFlow {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;

@@ -10,16 +10,17 @@
 
 namespace barchan {
 
-/// K/(1 + K), K = (C_m rho_f V_p + beta_p dt)/m_f: the part of du/dt with which the fluid that a
-/// grain carries along goes on from the last step; the rest acts on the added mass alone. One where
-/// grain and fluid are tied; none where the grain hardly moves the fluid, whose changes of one step
-/// are noise as points of the grain cross cells.
+/// Inertial fraction K/(1 + K), K = (C_m rho_f V_p + beta_p dt)/m_f: the part of du/dt with which
+/// the fluid that a grain carries along goes on from the last step. The rest acts on the added mass
+/// alone. It is one where grain and fluid are tied. It is zero where the grain hardly moves the
+/// fluid, whose changes of one step are noise as points of the grain cross cells.
 KOKKOS_FORCEINLINE_FUNCTION Real part_carried_on(Real m_f_inv, Real m_added, Real beta_dt) {
   const Real K = m_f_inv * (m_added + beta_dt);
   return K / (1 + K);
 }
 
-/// What acts on a grain all along: weight and buoyancy, F_p, F_tau, the steady part of F_m [N].
+/// Forces that do not change in the fluid step: weight and buoyancy, F_p, F_tau, the steady part of
+/// F_m [N].
 KOKKOS_FORCEINLINE_FUNCTION Vec3 steady_force(const SubmergedWeight& weight,
                                               const GrainKinematics& grain,
                                               const ExchangeOnGrains& exchange, int g) {
@@ -27,8 +28,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 steady_force(const SubmergedWeight& weight,
          exchange.added_mass_force(g);
 }
 
-/// u_f, beta_p, m_f, a and the steady forces of each grain. beta_p is that of the slip at the start
-/// of the step; the drag itself follows the grain and its share of fluid, m_f.
+/// Gathers u_f, beta_p, m_f, a and the steady forces of each grain. beta_p is that of the slip at
+/// the start of the step; the drag itself follows the grain and its share of fluid, m_f.
 template <class Law>
 struct GatherFluid {
   Law law;
@@ -77,8 +78,8 @@ struct GatherFluid {
   }
 };
 
-/// After GatherFluid in the first step of a run, which has no I_- and no du/dt: a is then what
-/// pressure gradient, stress and convection do to the water.
+/// Replaces, after GatherFluid in the first step of a run, the terms that need I_- and du/dt, which
+/// are not there yet: a is that of pressure gradient, stress and convection alone.
 struct GatherFirstStep {
   Real rho_f = 0;
   SubmergedWeight weight;

@@ -9,7 +9,7 @@
 namespace barchan {
 
 /// Still, unbounded fluid around the grains: weight, buoyancy, Schiller-Naumann drag, added mass.
-/// Without a fluid the weight alone.
+/// Where there is no fluid: weight alone.
 struct GatherStillFluid {
   Real rho_f = 0, mu_f = 0;
   SubmergedWeight weight;

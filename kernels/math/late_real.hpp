@@ -6,8 +6,8 @@
 
 namespace barchan {
 
-/// Its value where kernels run on the host, for it is there already; on a device the place where it
-/// will be.
+/// Number that an earlier kernel computes: its value where kernels run on the host, because it is
+/// there already; on a device a pointer to where it will be.
 class LateReal {
  public:
   LateReal(Real value) : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one

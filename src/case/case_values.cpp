@@ -37,7 +37,7 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
 
 namespace {
 
-/// The set that a word stands for.
+/// Turns a word into the set that it stands for.
 Mismatch convert_set(const Node& word, ForceSwitches& value) {
   std::vector<std::string_view> names;
   for (const ForceSet& set : kForceSets) names.push_back(set.name);

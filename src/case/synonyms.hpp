@@ -12,7 +12,7 @@ struct Synonym {
   std::string_view keys;      // what it may stand for, dotted: "a.b" or "a.b, a.c"
 };
 
-// Of LIGGGHTS, CFDEM, OpenFOAM and textbooks. The first that fits counts.
+// Words of LIGGGHTS, CFDEM, OpenFOAM and textbooks. The first that fits counts.
 constexpr Synonym kSynonyms[] = {
     {"mu", "grains grains.wall", "grains.sliding_friction"},
     {"mu", "", "fluid.kinematic_viscosity"},

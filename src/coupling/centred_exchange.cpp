@@ -63,14 +63,16 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                     grains.kin, gather_.flow()});
 }
 
-/// Where the flow meets the exchange, and the cells whose content reaches the faces there.
+/// Finds the cells where the flow meets the exchange, and the cells whose content reaches their
+/// faces.
 void CentredExchange::find_faces() {
   FlowRegions& flow = fields_.of_flow;
   flow.exchange.set(smooths_ ? flow.fraction.cells.columns() : fields_.deposited.columns());
   fields_.of_impulse.set(flow.exchange.columns().grown(1));
 }
 
-/// Half of what cells got to each of their faces; adds up what the fluid loses [N s].
+/// Brings the impulse to faces, half of a cell's content to each of its two; adds up what the fluid
+/// loses [N s].
 void CentredExchange::to_faces() {
   const Region& cells = fields_.of_impulse;
   CellVector& impulse = fields_.impulse_in_cells;

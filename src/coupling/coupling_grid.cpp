@@ -9,15 +9,15 @@ namespace barchan {
 
 namespace {
 
-/// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
-/// or with walls others.
+/// Transforms for the smoothing: those of the flow, or others with walls. Walls of the grains stop
+/// the smoothing though the flow passes them.
 std::shared_ptr<const PlaneFft> smoothing_fft(const CoupledCase& config, const FluidSolver& solver,
                                               const Grid& grid, const EvenExtension& walls) {
   if (walls == EvenExtension{} || config.coupling.smoothing_length == 0) return solver.fft();
   return std::make_shared<const PlaneFft>(grid, walls);
 }
 
-// Deeper in a body there are no grains.
+// Least share that is kept: deeper in a body there are no grains.
 constexpr Real kLeastKept = 1e-3;
 
 WallFaces ends_of(const RankAxis& line, int n) {
@@ -63,7 +63,8 @@ void CouplingGrid::mark_columns_of(const GrainState& grains) const {
 }
 
 ColumnMap CouplingGrid::columns_of_grains() const {
-  return ColumnMap::marked(grid, marks, kOfGrains).grown(1);  // the other face of a momentum cell
+  // one column more: the other face of a momentum cell
+  return ColumnMap::marked(grid, marks, kOfGrains).grown(1);
 }
 
 void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {

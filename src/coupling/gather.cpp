@@ -80,7 +80,7 @@ void Gather::pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums
                                      .rho_f = rho_f_,
                                      .drive = fluid.drive,
                                      .force = on_faces});
-  if (grid_.bodies) grid_.bodies->close(on_faces);  // there it pushes the body
+  if (grid_.bodies) grid_.bodies->close(on_faces);  // closed faces push the body
   fill_faces_beside(on_faces, and_faces);
   to_cells(on_faces, fluid.alpha_f, cells, fields_.pressure_in_cells, sums,
            ExchangeSums::kPressureOnSolid);
@@ -104,14 +104,14 @@ void Gather::stress_on_solid(const Field& alpha, const NearGrains& where,
            ExchangeSums::kStressOnSolid);
 }
 
-/// Constant behind both walls, and ghosts.
+/// Fills the faces at both walls with those inside, and the ghosts.
 void Gather::fill_faces_beside(FaceVector& force, const Region& cells) const {
   for_each_column("coupling: force density at the walls", cells,
                   HoldForceAtWall{force.y, grid_.grid.ny});
   grid_.fill_ghosts(force, cells);
 }
 
-/// Adds up what the solid fraction 1 - alpha takes of it [N].
+/// Brings a force density to cells; adds up the part of the solid fraction 1 - alpha [N].
 void Gather::to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                       CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const {
   sum_vector("coupling: force density on cells", sums, sum, cells,

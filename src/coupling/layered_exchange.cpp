@@ -7,8 +7,9 @@ namespace barchan {
 
 namespace {
 
-/// Grains of diameter d that lie a diameter apart: of cells of width h, up to (h + d)/d per
-/// direction have their centres in one, and h/d fit in.
+/// Tells if a momentum cell may get twice the grains that fit into it. Grains of diameter d lie a
+/// diameter apart: in cells of width h, up to (h + d)/d per direction have their centres in one,
+/// and h/d fit in.
 bool may_be_crowded(const Grid& grid, Real d) { return (1 + d / grid.dx) * (1 + d / grid.dz) > 2; }
 
 }  // namespace
@@ -67,8 +68,8 @@ void LayeredExchange::pressure_gradient(const FluidState& fluid) {
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
 
-/// The same in two solves for three: without walls of the grains the smoothing commutes with
-/// differences along the floor.
+/// Smoothed pressure gradient in two solves instead of three: without walls of the grains the
+/// smoothing commutes with differences along the floor.
 void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
   const auto& [cells, around] = fields_.of_fraction;
   CellVector& in_cells = fields_.pressure_in_cells;
@@ -86,8 +87,8 @@ void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, of_grains);
 }
 
-/// The solid takes of the stress what it has before the smoothing, so there is none beyond the
-/// cells of the grains.
+/// Force of the stress on the solid. The solid takes the part that it has before the smoothing, so
+/// there is none beyond the cells of the grains.
 void LayeredExchange::stress(const FluidState& fluid) {
   const NearGrains& where = fields_.of_grains;
   gather_.stress_and_convection(fluid, where.around);
@@ -112,7 +113,7 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                    crowded_, fields_.solid_x, fields_.solid_z});
 }
 
-/// Exchange and conductances; adds up what the fluid loses [N s].
+/// Brings exchange and conductances to faces; adds up what the fluid loses [N s].
 void LayeredExchange::to_faces() {
   ExchangeOnFaces& on_faces = fields_.on_faces;
   sum_vector("coupling: layers to faces", sums_, ExchangeSums::kTakenFromFluid,

@@ -5,9 +5,9 @@
 
 namespace barchan {
 
-/// Grains get pressure gradient and stress the way that their volume goes to alpha_f, backwards. So
-/// they get what the solid fraction takes. Source and reason: docs/theory-coupling.md, "Layered
-/// exchange".
+/// Layered exchange. The forces of pressure gradient and stress reach the grains by the adjoint of
+/// the way in which their volume reaches alpha_f, so grains get what the solid fraction takes.
+/// Source and reason: docs/theory-coupling.md, "Layered exchange".
 class LayeredExchange final : public UnresolvedExchange {
  public:
   explicit LayeredExchange(const FlowAndGrains& of);

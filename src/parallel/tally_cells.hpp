@@ -1,4 +1,4 @@
-// Sums and maxima over the cells of this rank into a Tally. As in reduce.hpp, but without a wait,
+// Sums and maxima over the cells of this rank into a Tally, as in reduce.hpp, but without a wait,
 // and not over ranks. `where`: a CellRange or a Region.
 #pragma once
 
@@ -32,28 +32,29 @@ void reduce(const char* label, const Work<Functor>& work, const Result& result) 
 
 }  // namespace launch_detail
 
-/// Sum of functor(i, j, k) into one number.
+/// Sums functor(i, j, k) into one number.
 template <class Where, class Functor>
 void sum_each_cell(const char* label, const Tally& tally, int slot, const Where& where,
                    const Functor& functor) {
   launch_detail::reduce<launch_detail::Sum>(label, launch_detail::work(where, functor),
                                             tally.into(slot));
 }
-/// Of vectors, into three.
+/// Sums the vectors functor(i, j, k) into three numbers.
 template <class Where, class Functor>
 void sum_vector(const char* label, const Tally& tally, int slot, const Where& where,
                 const Functor& functor) {
   launch_detail::reduce<launch_detail::VectorSum>(label, launch_detail::work(where, functor),
                                                   tally.into<Vec3>(slot));
 }
-/// The largest, of values that are not negative; infinity if one is not a number.
+/// Finds the largest functor(i, j, k), for values that are not negative; infinity if one is not a
+/// number.
 template <class Where, class Functor>
 void max_each_cell(const char* label, const Tally& tally, int slot, const Where& where,
                    const Functor& functor) {
   launch_detail::reduce<launch_detail::Largest>(label, launch_detail::work(where, functor),
                                                 tally.largest_into(slot));
 }
-/// Of functors that return LargestAndSums, into three numbers.
+/// Reduces functors that return LargestAndSums into three numbers.
 template <class Where, class Functor>
 void largest_and_sums(const char* label, const Tally& tally, int slot, const Where& where,
                       const Functor& functor) {

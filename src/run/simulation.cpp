@@ -15,7 +15,7 @@ namespace barchan {
 
 namespace {
 
-/// Where the state of a start comes from, for messages.
+/// Source of a start state, for messages.
 std::string source_of(const Config& config, const RunOptions& options, const InitialFiles& files) {
   if (options.restart) return options.restart->string();
   return config.grains ? source_of_grains(config, files.grains) : "initial.fluid";
@@ -43,8 +43,8 @@ Simulation::Simulation(const SettledCase& the_case, const RunOptions& options,
   if (!options.restart) follow_first_dune(source);
 }
 
-/// The first place of the seam, if the window follows its dune. Refuses a start without a dune, or
-/// with grains at the seam.
+/// Places the seam first, if the window follows its dune. Refuses a start without a dune, or with
+/// grains at the seam.
 void Simulation::follow_first_dune(const std::string& source) {
   if (!run_.config.grains || run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
   GrainState& grains = *run_.state.grains;
@@ -91,7 +91,7 @@ Outcome Simulation::run() {
 }
 
 Outcome Simulation::loop() {
-  std::string stopped;  // why, if it was
+  std::string stopped;  // reason, if it was stopped
   while (run_.clock.step < run_.clock.end && stopped.empty()) {
     one_step();
     stopped = reason_to_stop();
@@ -123,7 +123,8 @@ void Simulation::one_step() {
               run_.coupled_step.impulse_on_grains());
 }
 
-/// Empty to go on. Clocks and signals may differ between ranks; all get the same answer.
+/// Reason to stop; empty to go on. Clocks and signals may differ between ranks; all get the same
+/// answer.
 std::string Simulation::reason_to_stop() const {
   const double limit = run_.config.time.wall_clock_limit;
   const bool out_of_time =
@@ -133,7 +134,7 @@ std::string Simulation::reason_to_stop() const {
   return requested ? "stopped on request" : "";
 }
 
-/// In run.json, if the disk that may be the problem lets us.
+/// Writes the failure to run.json, if the disk, which may be the problem, lets us.
 void Simulation::say_failed(const std::string& message) {
   progress_.finish();
   try {

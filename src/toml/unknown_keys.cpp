@@ -30,7 +30,8 @@ void ConfigReader::find_unknown(const std::string& section, const Node& node,
   }
 }
 
-/// " (did you mean ...?)" for keys that are there, named from within `section`; they were not read.
+/// Hint " (did you mean ...?)" for keys that are there, named from within `section`; they were not
+/// read.
 std::string ConfigReader::hint(const std::string& section, std::string_view keys) {
   const std::vector<std::string> here = names_in(section);
   std::string text;
