@@ -10,7 +10,7 @@
 namespace barchan {
 namespace {
 
-/// A mound of mixture in a sheared flow. Away from it water is clear: looked at near the mound
+/// A mound of mixture in a sheared flow, with clear fluid elsewhere. With kernels near the mound
 /// alone, the flow is the same, and nothing is read elsewhere.
 TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   Config config = test::flow_config({40, 12, 9}, {0.04, 0.012, 0.009}, 5e-4);

@@ -90,7 +90,7 @@ TEST(Simulation, RestartOfAFlowAroundABodyContinuesBitwise) {
   }
 }
 
-/// In a window that follows its dune, with grains that leave, come in and wait.
+/// Case of a window that follows its dune, with grains that leave, come in and wait.
 Config fed_config() {
   Config config = coupled_config();
   config.fluid->mean_velocity = 0.5;

@@ -22,7 +22,7 @@ using test::CoupledRun;
 
 constexpr Real kSmall = 1.5e-4, kLarge = 2.5e-4;  // diameters [m]
 
-/// A box of still water with an outlet, 12 x 3 x 4 mm; grains sink.
+/// Box of still fluid with an outlet, 12 x 3 x 4 mm; grains sink.
 Config fed_case(FeedAmount amount, double rate) {
   Config c = test::still_water({0.012, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::exit;
@@ -114,7 +114,7 @@ TEST(GrainFeed, PutsThemWhereItIsTold) {
   EXPECT_GE(across.size(), 3u);
 }
 
-/// Where one grain lies still no second one comes in.
+/// A grain that lies still keeps its place free of a second one.
 TEST(GrainFeed, OthersWaitWhileThePlaceIsTaken) {
   Config c = fed_case(FeedAmount::given, 4000);
   c.grains->gravity = {0, 0, 0};
@@ -176,7 +176,7 @@ TEST(GrainFeed, AsManyComeBackAsLeave) {
   EXPECT_EQ(sizes, sizes_before);
 }
 
-/// Also that of a grain that has left.
+/// Numbers of grains that have left are not given again.
 TEST(GrainFeed, NumbersGoOnFromTheLastThatWasGiven) {
   Config c = fed_case(FeedAmount::given, 4000);
   InitialGrains few = some_grains(8);
@@ -203,7 +203,7 @@ TEST(GrainFeed, RefusesNumbersThatLeaveNoneFree) {
   EXPECT_EQ(said(unfed, most + 1), "");
 }
 
-/// As of a run that all grains had left before its feed began: the feed has no bodies to choose
+/// State of a run that all grains had left before its feed began: the feed has no bodies to choose
 /// from, and gives back what leaves.
 TEST(GrainFeed, AFeedWithoutBodiesComesBackFromItsRestartFile) {
   const TemporaryFolder folder;
@@ -298,7 +298,7 @@ TEST(FollowingWindow, GrainsLeaveAtTheSeamAlone) {
   EXPECT_EQ(run.state.grains->n, 40) << "before the seam has a place";
   run.state.grains->seam_x = 1.99e-2;
   run.advance(1);
-  // From 18.9 to 20 and from 0 to 0.9 mm, centres at 0.25, 0.75, ... 19.75.
+  // Strip from 18.9 to 20 and from 0 to 0.9 mm, centres at 0.25, 0.75, ... 19.75.
   const auto left = diameters(*run.state.grains);
   for (const int id : {1, 2, 39, 40}) EXPECT_FALSE(left.contains(id)) << id;
   for (const int id : {3, 37}) EXPECT_TRUE(left.contains(id)) << id;

@@ -21,7 +21,7 @@ Grid grid_of(std::array<int, 3> n) {
   return test::stretched_grid(n, {n[0] * 1e-3, 0.01, n[2] * 1e-3}, 0.5 * 0.01 / n[1]);
 }
 
-/// Up to the rows [0, top).
+/// Map of these columns up to the rows [0, top).
 ColumnMap map_of(const Grid& grid, const std::vector<Column>& columns, int top) {
   const ColumnMarks marks("test: marks", grid, 1);
   for (const auto& [i, k] : columns) marks.on_host(0, i + grid.nx * k) = 1;
@@ -138,7 +138,7 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   EXPECT_FALSE(in.has_ghosts());
 }
 
-/// The same as over all columns, in the middle, across the periodic end, in two stretches.
+/// Solution as over all columns: in the middle, across the periodic end, in two stretches.
 TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
   const Grid grid = grid_of({90, 12, 10});
   const Real length = 4e-4;

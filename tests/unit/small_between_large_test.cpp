@@ -27,7 +27,7 @@ Config two_sizes() {
   return config;
 }
 
-/// Where the small grain is about the line through the centres of the large ones.
+/// Position of the small grain about the line through the centres of the large ones.
 struct Place {
   Real angle, distance;
 };
