@@ -47,7 +47,7 @@ class RunningCase {
 
   int grains() const { return state.grains ? state.grains->n : 0; }
   double cells() const;
-  std::int64_t bytes() const { return bytes_; }  // of its arrays, once it is warm
+  std::int64_t bytes() const { return bytes_; }  // memory of its arrays, once it is warm
   double per_grain(std::int64_t count) const { return static_cast<double>(count) / grains(); }
 
   CaseSpec spec;

@@ -56,7 +56,7 @@ InitialGrains settle(const std::string& name) {
   Config& config = spec.config;
   config.size = {0.4, 0.025, 0.1};
   pour(config, grain_count(name));
-  const int n_steps = options().tiny ? 40 : 200;  // of 2.5e-4 s
+  const int n_steps = options().tiny ? 40 : 200;  // steps of 2.5e-4 s
   if (!options().tiny) fmt::print(stderr, "settling {}, once\n", name);
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);

@@ -52,17 +52,17 @@ struct UnsmoothedFraction {
 
 /// Flow at each grain now.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;                // [m/s], as the drag feels it
-  Kokkos::View<Vec3*> du_dt;            // change of u over the last step [m/s^2], interpolated as u
-  Kokkos::View<Vec3*> u_grad_u;         // convective acceleration at the centre [m/s^2]
-  Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
-  Kokkos::View<Vec3*> stress;           // force of the stress on a volume [N/m^3]; zero where off
-  Kokkos::View<Real*> alpha_l;          // what the drag law reads: of layers the mean over its
-                                        // cells before the smoothing, else alpha_f
-  Kokkos::View<Real*> alpha_o;          // fluid fraction that the other grains leave in its cells
-  Kokkos::View<Real*> slip;             // slip that the law sees [m/s]
-  Kokkos::View<Real*> factor;           // factor on the law's beta, whose drag is along u - u_p
-  Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
+  Kokkos::View<Vec3*> u;         // [m/s], as the drag feels it
+  Kokkos::View<Vec3*> du_dt;     // change of u over the last step [m/s^2], interpolated as u
+  Kokkos::View<Vec3*> u_grad_u;  // convective acceleration at the centre [m/s^2]
+  Kokkos::View<Vec3*> pressure;  // force of its gradient on a volume [N/m^3]; zero where off
+  Kokkos::View<Vec3*> stress;    // force of the stress on a volume [N/m^3]; zero where off
+  Kokkos::View<Real*> alpha_l;   // fraction that the drag law reads: with layers the mean over
+                                 // its cells before the smoothing, else alpha_f
+  Kokkos::View<Real*> alpha_o;   // fluid fraction that the other grains leave in its cells
+  Kokkos::View<Real*> slip;      // slip that the law sees [m/s]
+  Kokkos::View<Real*> factor;    // factor on the law's beta, whose drag is along u - u_p
+  Kokkos::View<Real*> solid_per_fluid;  // largest of its cells and of its momentum cells
 
   /// Sets the slip for a scheme that knows no neighbours; call it after u is set.
   KOKKOS_FORCEINLINE_FUNCTION void set_whole_slip(int g, const Vec3& u_p) const {
@@ -170,8 +170,8 @@ struct LayeredFlow {
   FlowOverCells over_cells;
   PeriodicBox box;
   ConstFaceRef u, du_dt, u_grad_u;
-  bool crowded = false;            // by DepositSolid, with ghosts:
-  ConstFieldRef solid_x, solid_z;  // solid that belongs to the momentum cells, per volume
+  bool crowded = false;            // momentum cells may get too many grains
+  ConstFieldRef solid_x, solid_z;  // solid per volume of momentum cells, with ghosts
   KOKKOS_FUNCTION void operator()(int g) const {
     const FlowAtGrains& flow = over_cells.flow;
     const GrainKinematics grain = over_cells.grains(g);

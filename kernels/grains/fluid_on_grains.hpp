@@ -31,8 +31,8 @@ struct FluidOnGrains {
 /// Values that the gather keeps of each grain for the deposit and for output.
 struct ExchangeOnGrains {
   Kokkos::View<Vec3*> added_mass_force;  // C_m rho V_p (u . grad u + a part of du/dt) [N]
-  Kokkos::View<Vec3*> pressure_force;    // of the pressure gradient [N]
-  Kokkos::View<Vec3*> stress_force;      // of the stress [N]
+  Kokkos::View<Vec3*> pressure_force;    // force of the pressure gradient [N]
+  Kokkos::View<Vec3*> stress_force;      // force of the stress [N]
   Kokkos::View<Vec3*> lift;              // part of the steady force [N]; empty without lift
   // force of a resolved flow [N]; empty if the flow is unresolved
   Kokkos::View<Vec3*> resolved_force;

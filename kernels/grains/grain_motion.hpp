@@ -24,7 +24,7 @@ struct GrainMotion {
   Kokkos::View<GrainKinematics*> grains;
   Kokkos::View<const Vec3*> x_reference;  // positions at the last list rebuild
   FluidOnGrains fluid;
-  Kokkos::View<Real*> slack;  // of PairList
+  Kokkos::View<Real*> slack;  // as in PairList
 
   /// Block of grains: state and contact sums in, new state out.
   struct Tile {

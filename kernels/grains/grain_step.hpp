@@ -53,7 +53,7 @@ struct SumKickDrift {
   Walls<Law> walls;
   // contacts of each grain with bodies; empty: there are none
   Kokkos::View<const ContactSum*> of_bodies;
-  Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last grain step: [N], [N m]
+  Kokkos::View<Vec3*> contact_force, contact_torque;  // sums of the last grain step: [N], [N m]
   bool last = false;
   Real min_slack = 0;  // slack of a grain at rest [m]
 

@@ -8,7 +8,7 @@ namespace barchan {
 
 /// Coefficients of the motion of a grain and its fluid, constant over a fluid step.
 struct MotionCoefficients {
-  Real mass = 0;            // of the grain [kg]
+  Real mass = 0;            // mass of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
   Real inv_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]

@@ -192,7 +192,7 @@ struct FillPairs {
   ContactHistory history;
   Kokkos::View<const int*> old_entry;
   Kokkos::View<const std::int64_t*> id;
-  Kokkos::View<const std::uint8_t*> kind;  // of the grains; empty: one
+  Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
   bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {

@@ -19,7 +19,7 @@ enum class Command { none, run, check, keys, info, new_case };
 
 struct CommandLine {
   Command command = Command::none;
-  std::string text{};  // with Command::none
+  std::string text{};  // answer of Command::none
 
   std::filesystem::path file{};                // CONFIG of run and check, PATH of info
   std::string section{};                       // --section of keys; empty: all sections

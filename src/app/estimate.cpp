@@ -112,7 +112,7 @@ std::string note_of_others(const std::optional<ProcessorSeconds>& before) {
   const auto after = processor_seconds();
   if (!before || !after) return {};
   const double cores = cores_of_others(*before, *after);
-  constexpr double quiet = 0.25;  // of a core
+  constexpr double quiet = 0.25;  // part of a core
   if (cores < quiet) return {};
   return fmt::format(
       "  {:<24}the machine is busy: others had {:.1f} cores meanwhile. On a quiet one it takes "

@@ -8,8 +8,8 @@ namespace barchan {
 
 /// Processor time since some moment of the past [s].
 struct ProcessorSeconds {
-  double of_all = 0;  // of all programs, and the time that a host machine takes for others (steal)
-  double own = 0;     // of this process, all threads
+  double of_all = 0;  // time of all programs, and that which a host takes for others (steal)
+  double own = 0;     // time of this process, all threads
   double wall = 0;
 };
 

@@ -9,7 +9,7 @@ namespace barchan {
 
 /// Answers of the user from which a case is made.
 struct NewCase {
-  std::filesystem::path name;       // of the case; ".toml" may be left out
+  std::filesystem::path name;       // file of the case; ".toml" may be left out
   std::string diameter = "0.2 mm";  // mean of the grains, a length
   int grains = 3000;
   double density = 2500;                           // density of the grains [kg/m3]

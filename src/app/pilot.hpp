@@ -15,7 +15,7 @@ struct PartSeconds {
   double rebuild = 0;             // a new neighbour list
   double state_checks = 0;        // in a fluid step
   double dunes = 0;               // finding the dunes once
-  double sample = 0;              // of [statistics], once
+  double sample = 0;              // a sample of [statistics]
 };
 
 /// Runs the case itself for about `budget` seconds: its mesh and steps, with `grains` at rest where

@@ -22,10 +22,10 @@ Case load_case_of(const CommandLine& line);
 
 /// Case that another one starts from: [initial] fluid or grains = a .toml.
 struct StartCase {
-  Case first;     // as it stands in its file
-  Case realised;  // in the realisation that is asked for
+  Case first;     // case as it stands in its file
+  Case realised;  // case in the realisation that is asked for
   std::filesystem::path folder;
-  EarlierRun earlier;  // what is in the folder
+  EarlierRun earlier;  // run in the folder
 };
 
 /// Start in a realisation. Its folder is in `runs`, the folder_of_runs() of what starts from it.

@@ -70,7 +70,7 @@ struct GrainNumbers {
   std::int64_t count = 0;
   double d_min = 0, d_mean = 0, d_max = 0;     // [m]; mean by number
   double solid_volume = 0;                     // [m^3]
-  std::vector<KindNumbers> kinds;              // those that there are grains of
+  std::vector<KindNumbers> kinds;              // kinds that there are grains of
   KindNumbers fastest_contacts;                // the kind of the shortest Rayleigh time
   double fraction_min = 0, fraction_mean = 0;  // grain step over its Rayleigh times
   KindNumbers easiest;                         // the kind farthest above its threshold of motion

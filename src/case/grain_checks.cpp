@@ -17,7 +17,7 @@ namespace {
 /// Advice for a step that is `factor` times too long for grains this stiff [Pa]. The Rayleigh time
 /// is proportional to E^(-1/2).
 std::string softer_grains(double youngs_modulus, double factor) {
-  constexpr double kSoftest = 3e5;  // of the shipped cases; beyond it is no advice
+  constexpr double kSoftest = 3e5;  // softest of the shipped cases; advice ends there
   const double fits = youngs_modulus / (factor * factor);
   if (fits < kSoftest) return {};
   return fmt::format(

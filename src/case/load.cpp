@@ -58,7 +58,7 @@ Config as_read(ConfigReader& reading, const fs::path& file) {
 
 struct Loaded {
   Case result;
-  std::vector<Problem> problems;  // of this file, then of those it starts from
+  std::vector<Problem> problems;  // problems of this file, then of those it starts from
 };
 
 /// Context of a load: the cases that lead to it, and how to read grains from a file.
@@ -100,7 +100,7 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
 /// Cases that a case starts from.
 struct Starts {
   Loaded flow, grains;
-  std::vector<Problem> problems;  // of both
+  std::vector<Problem> problems;  // problems of both
 };
 
 Starts load_starts(Config& config, ConfigReader& reading, const Context& context) {
@@ -111,7 +111,7 @@ Starts load_starts(Config& config, ConfigReader& reading, const Context& context
   starts.flow = load_start(config, "initial.fluid", initial.fluid, reading, context);
   starts.problems = starts.flow.problems;
   if (initial.fluid == initial.grains && !reading.is_bad("initial.fluid")) {
-    starts.grains.result = starts.flow.result;  // its problems are told
+    starts.grains.result = starts.flow.result;  // its problems are reported there
   } else {
     starts.grains = load_start(config, "initial.grains", initial.grains, reading, context);
     std::ranges::copy(starts.grains.problems, std::back_inserter(starts.problems));

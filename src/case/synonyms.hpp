@@ -7,9 +7,9 @@
 namespace barchan {
 
 struct Synonym {
-  std::string_view word;      // as typed
+  std::string_view word;      // word as typed
   std::string_view sections;  // where, "grains grains.wall"; empty: anywhere
-  std::string_view keys;      // what it may stand for, dotted: "a.b" or "a.b, a.c"
+  std::string_view keys;      // keys that it may stand for, dotted: "a.b" or "a.b, a.c"
 };
 
 // Words of LIGGGHTS, CFDEM, OpenFOAM and textbooks. The first that fits counts.

@@ -45,7 +45,7 @@ std::vector<FrozenGrain> grains_of_all_ranks(const GrainState& grains) {
 /// Takes the load of the fluid on each grain, and its weight.
 struct TakeLoads {
   Kokkos::View<const int*> load_of;
-  Kokkos::View<const Vec3*> force, torque;  // of all grains
+  Kokkos::View<const Vec3*> force, torque;  // loads of all grains
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   ExchangeOnGrains exchange;

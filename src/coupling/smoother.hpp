@@ -51,7 +51,7 @@ class Smoother {
   std::vector<Real> decay_;  // decay from a row to the next
   std::shared_ptr<const PlaneFft> whole_fft_;
   mutable std::unique_ptr<const PoissonFft> whole_;  // made where it is needed
-  mutable std::list<Columns> columns_;               // of the last sizes, the latest first
+  mutable std::list<Columns> columns_;               // grids of the last sizes, the latest first
 };
 
 }  // namespace barchan

@@ -41,7 +41,7 @@ class DuneTracker {
   };
   struct Track {
     int label = 0;
-    bool missed = false;                   // not seen at the last time
+    bool missed = false;                   // dune not seen at the last time
     double x = 0.0, z = 0.0, reach = 0.0;  // last centroid; largest distance of the next
     std::deque<Sample> samples{};
   };

@@ -29,7 +29,7 @@ class ForceMap {
 
   struct Bin {
     double n = 0;  // grain samples
-    Vec3 force;    // their sum [N]
+    Vec3 force;    // sum of the forces [N]
   };
   /// Bins, by angle first, then by radius.
   const std::vector<Bin>& bins() const { return bins_; }

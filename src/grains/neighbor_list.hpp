@@ -104,8 +104,8 @@ class NeighborList {
   GrainSkins skins_;
   Real lx_ = 0;
   bool leaves_x_ = false;      // grains leave along x,
-  Real half_strip_ = 0;        // in a strip of this half width [m]; 0: at both ends
-  std::vector<NewGrain> new_;  // of the rebuild that goes on
+  Real half_strip_ = 0;        // half the strip around the seam [m]; 0: they leave at both ends
+  std::vector<NewGrain> new_;  // new grains of the present rebuild
   std::int64_t rebuilds_ = 0;
   double seconds_ = 0;
   OccupiedColumns occupied_;

@@ -12,7 +12,7 @@ namespace barchan {
 /// Files that the initial state comes from, once every .toml has become a restart file.
 struct InitialFiles {
   std::filesystem::path fluid, grains;  // empty: not from a file
-  std::string record{};                 // of their content (src/run/case_inputs.hpp)
+  std::string record{};                 // record of their content (src/run/case_inputs.hpp)
 };
 
 /// Gives the grains that come from `source` the kinds of the case; `source` has them in an order of

@@ -130,7 +130,7 @@ std::vector<Site> sites_of_thin(std::size_t n, const Heap& heap, double spacing,
   if (heap.shape != HeapShape::cone) lattice.stretch_z = across / rows;
   if (bed) lattice.stretch_x = std::max(1.0, along * rows / wanted);
   std::vector<Site> sites;
-  double reach = 2 * spacing;  // of the lowest layer, from the middle
+  double reach = 2 * spacing;  // reach of the lowest layer from the middle
   for (double top = 0; sites.size() < n && top <= highest; reach *= 1.4) {
     const bool sloped = !bed && reach < 0.9 * heap.half_x;
     top = sloped ? spacing / 2 / (1 - reach / heap.half_x) : std::max(spacing, 1.5 * top);

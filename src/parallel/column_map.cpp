@@ -17,7 +17,7 @@ struct MarkNotOne {
   ConstFieldRef field;
   int nx, ny;
   int first, stride, last;   // mark of this rank's first column, from plane to plane, of the height
-  Kokkos::View<int*> marks;  // of all ranks
+  Kokkos::View<int*> marks;  // marks of all ranks
 
   KOKKOS_FUNCTION void operator()(int item) const {
     int top = 0;

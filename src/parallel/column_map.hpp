@@ -71,7 +71,7 @@ class ColumnMap {
   }
   void unite_ranks(const Grid& grid);
 
-  int nx_ = 0, ny_ = 0, nz_ = 0;  // of all ranks
+  int nx_ = 0, ny_ = 0, nz_ = 0;  // columns and rows of all ranks
   int top_ = 0;                   // rows
   std::vector<std::uint8_t> on_;  // (nx_, nz_)
 };

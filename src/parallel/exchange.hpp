@@ -15,7 +15,7 @@ namespace barchan {
 /// Counts of messages of this rank since the program started.
 struct MessageCounts {
   std::int64_t messages = 0;     // sent to another rank
-  std::int64_t bytes = 0;        // in them
+  std::int64_t bytes = 0;        // bytes in the messages
   std::int64_t reductions = 0;   // a few numbers summed or compared over all ranks
   std::int64_t all_to_alls = 0;  // a number told to every rank, and one by each; not in `messages`
 };

@@ -24,7 +24,7 @@ void check_results_go_on(const std::filesystem::path& folder);
 /// Earlier run, whose results are in a folder.
 struct EarlierRun {
   std::string status;                            // as in run.json; empty: no run
-  bool same_config = false;                      // of exactly this configuration
+  bool same_config = false;                      // its configuration is exactly this one
   std::optional<std::filesystem::path> changed;  // file that it began from, with other content now
   std::optional<std::filesystem::path> restart;  // its last restart file
   bool same() const { return same_config && !changed; }

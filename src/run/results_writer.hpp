@@ -43,7 +43,7 @@ class ResultsWriter {
   OutputFiles output_;
   WallClock::time_point last_restart_ = WallClock::now();
   int rows_unfed_ = 0;  // successive rows of history.csv in which a feed found no place
-  CrateAction action_;  // of rank 0
+  CrateAction action_;  // action of rank 0
 };
 
 }  // namespace barchan

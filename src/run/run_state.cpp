@@ -22,7 +22,7 @@ namespace {
 /// Keys that changed since the restart file was written. Refuses a file that does not fit the case.
 std::vector<std::string> changes_since(const CheckpointReader& file, const Config& config) {
   const std::string resolved = file.provenance().config;
-  if (resolved.empty()) return {};  // not ours: its arrays must speak for themselves
+  if (resolved.empty()) return {};  // a foreign file: its arrays must speak for themselves
   const Config written = config_as_written(resolved, file.path());
   const auto conflicts = restart_conflicts(config, written);
   if (conflicts.empty()) return changed_keys(config, written);

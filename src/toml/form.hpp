@@ -15,8 +15,8 @@ struct Form {
   /// each part.
   enum class Of { choice, truth, integer, natural, positive, number, text, any_of, list, tuple };
   Of of = Of::text;
-  std::size_t count = 0;                     // of an array; 0: a single value
-  std::vector<std::string_view> names = {};  // to choose from
+  std::size_t count = 0;                     // length of an array; 0: a single value
+  std::vector<std::string_view> names = {};  // words to choose from
   std::vector<Form> parts = {};
 };
 

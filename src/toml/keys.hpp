@@ -19,10 +19,10 @@ inline constexpr const char* kAutomatic = "auto";
 
 struct Key {
   std::string section, name;
-  std::string type;  // in words
-  Form form;         // the same for programs
+  std::string type;  // type in words
+  Form form;         // type for programs
   Range range;
-  std::string unit;     // of its numbers; empty: none
+  std::string unit;     // unit of its numbers; empty: none
   std::string meaning;  // one line
   bool required = false;
   /// Default in words if it depends on the case: a length "3 d", kAutomatic, or words in brackets.
@@ -43,7 +43,7 @@ struct Key {
 struct Section {
   std::string name;  // dotted
   std::string meaning = {};
-  bool required = false;  // with a required key and no meaning in its absence
+  bool required = false;  // has a required key and no meaning in its absence
   /// Name of the section whose keys are the defaults of this one's; empty: none.
   std::string like = {};
   /// Gives the section its defaults, if the file has it; called before its keys are read.

@@ -48,7 +48,7 @@ Node convert(const toml::node& from, const Location& where) {
   return to;
 }
 
-constexpr int kMaxParts = 16;  // of a dotted key; ours have four
+constexpr int kMaxParts = 16;  // parts of a dotted key; ours have four
 
 /// Rest of `text` after the string or comment that it begins with, by the grammar of TOML 1.0; all
 /// of it, if it begins with none.
@@ -84,7 +84,7 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
     return problem_at(text.substr(nul),
                       "it holds a NUL byte: it is not text, or text of another encoding; save it "
                       "as UTF-8");
-  int points = 0;  // in a row, that join parts of a key
+  int points = 0;  // points in a row that join parts of a key
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view behind = after_string(rest);
     if (behind.size() < rest.size()) {

@@ -58,7 +58,7 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
   }
   const std::string close = nearest(name, names_in(section));
   if (!close.empty()) {
-    bad_.insert(join(section, close));  // what it stands for was not read
+    bad_.insert(join(section, close));  // its meaning was not read
     return did_you_mean(close);
   }
   if (table) return {};

@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-struct Config;  // what the keys are read into
+struct Config;  // target of the keys
 struct Section;
 using Sections = std::vector<Section>;
 
