@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/fluid/pressure.hpp"
-#include "kernels/math/late_real.hpp"
+#include "kernels/math/device_scalar.hpp"
 
 namespace barchan {
 
@@ -112,7 +112,7 @@ struct AdvanceResidual {
   GridRef grid;
   ConstFieldRef q;
   FieldRef r;
-  LateReal a;
+  DeviceScalar a;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     const Real value = r(i, j, k) - a * q(i, j, k);
     r(i, j, k) = value;
@@ -123,7 +123,7 @@ struct AdvanceResidual {
 struct AdvancePressure {
   ConstFieldRef d;
   FieldRef p;
-  LateReal a, surplus;
+  DeviceScalar a, surplus;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     p(i, j, k) += a * d(i, j, k) - surplus;
   }
@@ -133,7 +133,7 @@ struct NextDirection {
   GridRef grid;
   AdvancePressure advance;
   ConstFieldRef z;
-  LateReal b;
+  DeviceScalar b;
   FieldRef d;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     advance(i, j, k);
@@ -162,7 +162,7 @@ struct InnerProduct {
 };
 struct Subtract {
   FieldRef a;
-  LateReal constant;
+  DeviceScalar constant;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { a(i, j, k) -= constant; }
 };
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 

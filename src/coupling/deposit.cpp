@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "kernels/grains/sphere.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/poison.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 

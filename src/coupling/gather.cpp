@@ -8,7 +8,7 @@
 #include "kernels/coupling/force_density.hpp"
 #include "kernels/coupling/gather_shear.hpp"
 #include "src/grains/grain_arrays.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 

@@ -1,7 +1,7 @@
 #include "src/coupling/layered_exchange.hpp"
 
 #include "kernels/coupling/force_density.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 

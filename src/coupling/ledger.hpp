@@ -6,7 +6,7 @@
 
 #include "kernels/coupling/deposit.hpp"
 #include "src/grains/grain_state.hpp"
-#include "src/parallel/tally.hpp"
+#include "src/parallel/device_reductions.hpp"
 
 namespace barchan {
 
@@ -22,7 +22,7 @@ struct ExchangeLedger {
 };
 
 /// Sums of a step over cells and grains, on the device until the step needs them.
-struct ExchangeSums : Tally {
+struct ExchangeSums : DeviceReductions {
   enum Sum : int {
     kTotals,           // GrainTotals
     kFastest = 6,      // fastest flow along x or z [m/s]
@@ -34,7 +34,7 @@ struct ExchangeSums : Tally {
     kVolumeInBodies,        // part of the deposited volume that lies in bodies
     kSums
   };
-  ExchangeSums() : Tally("ledger: sums", kSums) {}
+  ExchangeSums() : DeviceReductions("ledger: sums", kSums) {}
 
   /// Combines over all ranks what grains give, and the fastest flow.
   void combine_totals(MPI_Comm ranks) const;

@@ -10,8 +10,8 @@
 
 #include "kernels/diagnostics/state_checks.hpp"
 #include "src/base/errors.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 

@@ -9,7 +9,7 @@
 #include "kernels/diagnostics/state_checks.hpp"
 #include "src/coupling/coupled_step.hpp"
 #include "src/coupling/coupling_case.hpp"
-#include "src/parallel/tally.hpp"
+#include "src/parallel/device_reductions.hpp"
 
 namespace barchan {
 
@@ -48,7 +48,7 @@ class StateChecks {
 
   CoupledCase config_;
   MPI_Comm ranks_;
-  Tally worst_{"state checks: worst", kSlots};
+  DeviceReductions worst_{"state checks: worst", kSlots};
 };
 
 }  // namespace barchan

@@ -6,9 +6,9 @@
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/fluid/body_faces.hpp"
 #include "src/fluid/pressure_solver.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -83,9 +83,10 @@ void BodiesInFlow::forget_change(const Field& alpha, Field& alpha_before) const 
                        CopyInBodies{cells_.data(), alpha, alpha_before});
 }
 
-void BodiesInFlow::add_solid_inside(const Field& alpha, const Tally& tally, int slot) const {
+void BodiesInFlow::add_solid_inside(const Field& alpha, const DeviceReductions& reductions,
+                                    int slot) const {
   Kokkos::parallel_reduce("bodies: solid inside", items(n_cells()),
-                          SolidInBodies{grid_, cells_.data(), alpha}, tally.into(slot));
+                          SolidInBodies{grid_, cells_.data(), alpha}, reductions.into(slot));
 }
 
 void BodiesInFlow::clear(Field& nu_t) const {
@@ -94,7 +95,7 @@ void BodiesInFlow::clear(Field& nu_t) const {
 }
 
 void BodiesInFlow::hold_back(FaceVector& u_star, FaceVector& c, const Field& alpha, Real dt,
-                             const Tally& tally, int lost) {
+                             const DeviceReductions& reductions, int lost) {
   Kokkos::parallel_reduce("bodies: hold back", items(n_faces()),
                           HoldBack{.grid = grid_,
                                    .faces = faces_.data(),
@@ -103,7 +104,7 @@ void BodiesInFlow::hold_back(FaceVector& u_star, FaceVector& c, const Field& alp
                                    .c = c,
                                    .free = free_.data(),
                                    .dt = dt},
-                          tally.into<Vec3>(lost));
+                          reductions.into<Vec3>(lost));
 }
 
 void BodiesInFlow::hold_back_across(Field& u_z, Real drive_dt, Real dt) const {
@@ -111,18 +112,18 @@ void BodiesInFlow::hold_back_across(Field& u_z, Real drive_dt, Real dt) const {
                        HoldBackAcross{faces_.data(), u_z, drive_dt, dt});
 }
 
-void BodiesInFlow::take_mean_away(Field& f, const Tally& tally, int number) const {
+void BodiesInFlow::take_mean_away(Field& f, const DeviceReductions& reductions, int number) const {
   close(f);
-  sum_each_cell("bodies: mean of the water", tally, number, owned_cells(grid_),
+  sum_each_cell("bodies: mean of the water", reductions, number, owned_cells(grid_),
                 HeightSum{grid_, f});
-  tally.combine(ranks_of(grid_), number, 1, MPI_SUM);
+  reductions.combine(ranks_of(grid_), number, 1, MPI_SUM);
   Kokkos::parallel_for("bodies: mean of the water", items(1),
-                       FindMeanOfWater{tally.data() + number, height_of_water_});
-  for_each_cell("bodies: mean of the water", grid_, Subtract{f, tally.late(number)});
+                       FindMeanOfWater{reductions.data() + number, height_of_water_});
+  for_each_cell("bodies: mean of the water", grid_, Subtract{f, reductions.scalar(number)});
   close(f);
 }
 
-void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tally,
+void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const DeviceReductions& reductions,
                              int first) const {
   const LoadOnBody all{.grid = grid_,
                        .faces = faces_.data(),
@@ -141,22 +142,22 @@ void BodiesInFlow::add_loads(const FluidState& fluid, Real dt, const Tally& tall
     load.faces += begin, load.free += begin;
     load.foot = feet_[static_cast<std::size_t>(body)];
     Kokkos::parallel_reduce("bodies: load", items(end - begin), load,
-                            tally.into<ForceAndTorque>(first + kNumbersOfLoad * body));
+                            reductions.into<ForceAndTorque>(first + kNumbersOfLoad * body));
   }
   const LoadsOnMany of_grains{
       .load = all,
       .first = first_face_of_grain_.data(),
       .foot = foot_of_grain_.data(),
-      .result = tally.into<ForceAndTorque>(first + kNumbersOfLoad * n_bodies_).data()};
+      .result = reductions.into<ForceAndTorque>(first + kNumbersOfLoad * n_bodies_).data()};
   if (count() > n_bodies_)
     Kokkos::parallel_for("bodies: loads on grains", items(count() - n_bodies_), of_grains);
-  tally.combine(ranks_of(grid_), first, kNumbersOfLoad * count(), MPI_SUM);
+  reductions.combine(ranks_of(grid_), first, kNumbersOfLoad * count(), MPI_SUM);
 }
 
-std::vector<BodyLoad> BodiesInFlow::loads(const Tally& tally, int first) const {
+std::vector<BodyLoad> BodiesInFlow::loads(const DeviceReductions& reductions, int first) const {
   std::vector<BodyLoad> all;
   for (int body = 0; body < count(); ++body) {
-    const auto load = tally.get<ForceAndTorque>(first + kNumbersOfLoad * body);
+    const auto load = reductions.get<ForceAndTorque>(first + kNumbersOfLoad * body);
     all.push_back({load.force, load.torque});
   }
   return all;

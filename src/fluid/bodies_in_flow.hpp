@@ -9,8 +9,8 @@
 #include "src/fluid/fluid_case.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/fluid/solids.hpp"
+#include "src/parallel/device_reductions.hpp"
 #include "src/parallel/halo.hpp"
-#include "src/parallel/tally.hpp"
 
 namespace barchan {
 
@@ -36,25 +36,26 @@ class BodiesInFlow {
   /// alpha_before becomes alpha in closed cells: what stands there is not in the flow.
   void forget_change(const Field& alpha, Field& alpha_before) const;
   /// The volume of solid that alpha leaves for closed cells [m^3].
-  void add_solid_inside(const Field& alpha, const Tally& tally, int slot) const;
+  void add_solid_inside(const Field& alpha, const DeviceReductions& reductions, int slot) const;
   /// No eddies in bodies.
   void clear(Field& nu_t) const;
   /// Predicted velocity and mobility of a step of dt; what flow rate and response they lose goes to
   /// three numbers from `lost` on. Of a dt of zero walls do not slow down what they do not stop.
-  void hold_back(FaceVector& u_star, FaceVector& c, const Field& alpha, Real dt, const Tally& tally,
-                 int lost);
+  void hold_back(FaceVector& u_star, FaceVector& c, const Field& alpha, Real dt,
+                 const DeviceReductions& reductions, int lost);
   /// After a drive f_z dt has acted on all faces.
   void hold_back_across(Field& u_z, Real drive_dt, Real dt) const;
   /// Takes the mean over the water from a cell field, and sets it to zero in closed cells;
   /// `number`: room for one. For the pressure, and for its source: when grains leave, the sum of
   /// the source is not zero, and a periodic box has no pressure for that.
-  void take_mean_away(Field& f, const Tally& tally, int number) const;
+  void take_mean_away(Field& f, const DeviceReductions& reductions, int number) const;
 
   static constexpr int kNumbersOfLoad = 6;
   /// Of a step: kNumbersOfLoad for each body, from `first` on.
-  void add_loads(const FluidState& fluid, Real dt, const Tally& tally, int first) const;
+  void add_loads(const FluidState& fluid, Real dt, const DeviceReductions& reductions,
+                 int first) const;
   /// As they were fetched.
-  std::vector<BodyLoad> loads(const Tally& tally, int first) const;
+  std::vector<BodyLoad> loads(const DeviceReductions& reductions, int first) const;
 
  private:
   void find_columns(const std::vector<BodyFace>& faces);

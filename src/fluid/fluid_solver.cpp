@@ -9,8 +9,8 @@
 #include "kernels/fluid/flow_sums.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/poison.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -68,7 +68,7 @@ void FluidSolver::set_solids(const Solids& solids) {
   bodies_.emplace(solids, grid_, boundary_.halo(), config_);
   is_clear_ = true;
   loads_.assign(n, {});
-  numbers_ = Tally("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * n);
+  numbers_ = DeviceReductions("fluid: numbers", kLoads + BodiesInFlow::kNumbersOfLoad * n);
 }
 
 FluidStepReport FluidSolver::advance(FluidState& fluid, const ExchangeOnFaces* exchange, Real dt) {

@@ -142,7 +142,7 @@ class FluidSolver {
   Kokkos::View<Real*> c_w_delta_;        // of WALE, by row [m]
   std::optional<BodiesInFlow> bodies_;
   std::vector<BodyLoad> loads_;
-  Tally numbers_;
+  DeviceReductions numbers_;
   DrivenFlow flow_;  // its rate is that with the drive after push()
   FluidStepReport report_;
 };

@@ -1,7 +1,7 @@
 // The predictor of the fluid step.
 #include "kernels/fluid/interlayer_drag.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 

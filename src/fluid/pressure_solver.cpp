@@ -107,7 +107,7 @@ void PressureSolver::precondition() {
 
 /// A few numbers from others, on the device.
 template <class Functor>
-void PressureSolver::launch_once(const char* label, const Functor& functor) const {
+void PressureSolver::launch_scalar_kernel(const char* label, const Functor& functor) const {
   Kokkos::parallel_for(label, items(1), functor);
 }
 
@@ -124,9 +124,10 @@ void PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
   sum_vector("pressure: clear water", numbers_, kNormOfB, owned_cells(grid_),
              ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
   numbers_.combine(ranks, kNormOfB, 2, MPI_SUM);
-  launch_once("pressure: mean of b", FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
+  launch_scalar_kernel("pressure: mean of b",
+                       FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
   poisson_.solve(b, p);
-  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.late(kMeanOfB)});
+  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.scalar(kMeanOfB)});
   fill_ghosts_near(p);
   const auto mean_of_p = [&](int slot) {
     sum_each_cell("pressure: mean", numbers_, slot, *near_, HeightSum{grid_, p});
@@ -139,7 +140,8 @@ void PressureSolver::start(const FaceVector& c, Field& b, Field& p) {
   }
   sum_each_cell("pressure: residual", numbers_, kRR, *near_, Residual{grid_, c, p, e_, r_});
   numbers_.combine(ranks, kSumOfP, 3, MPI_SUM);
-  launch_once("pressure: mean of p", FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
+  launch_scalar_kernel("pressure: mean of p",
+                       FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
 }
 
 /// d from z; before, p goes along the last one.
@@ -149,10 +151,10 @@ void PressureSolver::find_direction(Field& p, int iteration) {
     return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
                          HeightSum{grid_, d_});
   }
-  const LateReal a = numbers_.late(kA), surplus = numbers_.late(kSurplus);
-  launch_once("pressure: beta", FindBeta{numbers_.data()});
+  const DeviceScalar a = numbers_.scalar(kA), surplus = numbers_.scalar(kSurplus);
+  launch_scalar_kernel("pressure: beta", FindBeta{numbers_.data()});
   sum_each_cell("pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
-                NextDirection{grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), d_});
+                NextDirection{grid_, {d_, p, a, surplus}, z_, numbers_.scalar(kBeta), d_});
 }
 
 PressureReport PressureSolver::solve(const FaceVector& c, const Region& near, Field& b, Field& p,
@@ -176,16 +178,16 @@ PressureReport PressureSolver::solve(const FaceVector& c, const Region& near, Fi
     sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
                   ApplyOperator{grid_, c, d_, e_});
     numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
-    launch_once("pressure: step",
-                FindStep{numbers_.data(), grid_.height_of_all_columns(), report.iterations == 1});
+    launch_scalar_kernel("pressure: step", FindStep{numbers_.data(), grid_.height_of_all_columns(),
+                                                    report.iterations == 1});
     sum_each_cell("pressure: advance", numbers_, kRR, *near_,
-                  AdvanceResidual{grid_, e_, r_, numbers_.late(kA)});
+                  AdvanceResidual{grid_, e_, r_, numbers_.scalar(kA)});
     numbers_.combine(ranks, kRR, 1, MPI_SUM);
     numbers_.fetch();
   }
-  const LateReal surplus = numbers_.late(kSurplus);
+  const DeviceScalar surplus = numbers_.scalar(kSurplus);
   if (report.iterations > 1) {
-    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.late(kA), surplus});
+    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.scalar(kA), surplus});
   } else {
     for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
   }

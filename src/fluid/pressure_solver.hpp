@@ -7,8 +7,8 @@
 #include "kernels/fluid/column_relaxation.hpp"
 #include "src/fluid/fluid_case.hpp"
 #include "src/fluid/poisson_fft.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/halo.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -85,7 +85,7 @@ class PressureSolver {
   void start(const FaceVector& c, Field& b, Field& p);
   void find_direction(Field& p, int iteration);
   template <class Functor>
-  void launch_once(const char* label, const Functor& functor) const;
+  void launch_scalar_kernel(const char* label, const Functor& functor) const;
   void precondition();
   void fill_ghosts_near(Field& f) const;
 
@@ -95,7 +95,7 @@ class PressureSolver {
   PoissonFft poisson_;
   LocalCorrection local_;
   const Region* near_ = nullptr;  // of this solve
-  Tally numbers_;                 // GradientNumber
+  DeviceReductions numbers_;      // GradientNumber
   Field r_, z_, d_, e_;           // residual, zero between solves and beyond near_; M^-1 r;
                                   // direction; b, then A d
 };

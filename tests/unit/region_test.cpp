@@ -9,7 +9,7 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/coupling/smoother.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -111,11 +111,11 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   Region in(grid), out(grid);
   in.set(inner), out.set(outer);
   Field f("f", grid);
-  const Tally tally("test", 2);
+  const DeviceReductions reductions("test", 2);
   const auto sum_over = [&](const auto& cells, const auto& functor) {
-    sum_each_cell("test", tally, 1, cells, functor);
-    tally.fetch();
-    return tally.get(1);
+    sum_each_cell("test", reductions, 1, cells, functor);
+    reductions.fetch();
+    return reductions.get(1);
   };
   const Real sum =
       sum_over(owned_cells(grid),

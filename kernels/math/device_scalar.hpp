@@ -8,10 +8,11 @@ namespace barchan {
 
 /// Number that an earlier kernel computes: its value where kernels run on the host, because it is
 /// there already; on a device a pointer to where it will be.
-class LateReal {
+class DeviceScalar {
  public:
-  LateReal(Real value) : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one
-  explicit LateReal(const Real* at) {
+  DeviceScalar(Real value)
+      : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one
+  explicit DeviceScalar(const Real* at) {
     if constexpr (kOnHost) {
       value_ = *at;
     } else {

@@ -3,17 +3,17 @@
 
 #include <type_traits>
 
-#include "kernels/math/late_real.hpp"
+#include "kernels/math/device_scalar.hpp"
 #include "src/parallel/exchange.hpp"
 
 namespace barchan {
 
 /// Numbers on the device that reductions write without a wait. The host gets a copy of all at once.
-class Tally {
+class DeviceReductions {
   using Memory = Kokkos::DefaultExecutionSpace::memory_space;
 
  public:
-  Tally(const char* label, std::size_t n);
+  DeviceReductions(const char* label, std::size_t n);
 
   /// Place where a reduction leaves its result, a Real or a struct of Reals.
   template <class T = Real>
@@ -24,7 +24,7 @@ class Tally {
   Kokkos::Max<Real, Memory> largest_into(int slot) const {
     return Kokkos::Max<Real, Memory>(into(slot));
   }
-  LateReal late(int slot) const { return LateReal(on_device_.data() + slot); }
+  DeviceScalar scalar(int slot) const { return DeviceScalar(on_device_.data() + slot); }
   /// Numbers on the device, for kernels.
   Real* data() const { return on_device_.data(); }
 
