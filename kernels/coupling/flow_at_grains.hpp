@@ -170,7 +170,7 @@ struct LayeredFlow {
   FlowOverCells over_cells;
   PeriodicBox box;
   ConstFaceRef u, du_dt, u_grad_u;
-  bool crowded = false;            // momentum cells may get too many grains
+  bool oversubscribed = false;     // momentum cells may get too many grains
   ConstFieldRef solid_x, solid_z;  // solid per volume of momentum cells, with ghosts
   KOKKOS_FUNCTION void operator()(int g) const {
     const FlowAtGrains& flow = over_cells.flow;
@@ -183,7 +183,7 @@ struct LayeredFlow {
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     set_slip(g, grain.u, at);
-    if (!crowded) return;
+    if (!oversubscribed) return;
     flow.solid_per_fluid(g) =
         Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
   }

@@ -10,17 +10,19 @@ namespace {
 /// Tells if a momentum cell may get twice the grains that fit into it. Grains of diameter d lie a
 /// diameter apart: in cells of width h, up to (h + d)/d per direction have their centres in one,
 /// and h/d fit in.
-bool may_be_crowded(const Grid& grid, Real d) { return (1 + d / grid.dx) * (1 + d / grid.dz) > 2; }
+bool may_be_oversubscribed(const Grid& grid, Real d) {
+  return (1 + d / grid.dx) * (1 + d / grid.dz) > 2;
+}
 
 }  // namespace
 
 LayeredExchange::LayeredExchange(const FlowAndGrains& of)
     : UnresolvedExchange(of, {.points = PointModel::divided}, true),
-      crowded_(may_be_crowded(of.grid, 2 * of.grains.r_max)) {}
+      oversubscribed_(may_be_oversubscribed(of.grid, 2 * of.grains.r_max)) {}
 
 void LayeredExchange::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   begin_gather(fluid, grains);
-  if (crowded_) solid_of_momentum_cells(fluid, grains);
+  if (oversubscribed_) solid_of_momentum_cells(fluid, grains);
   pressure_gradient(fluid);
   stress(fluid);
   flow_at_grains(fluid, grains);
@@ -110,7 +112,7 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                  .flow = gather_.flow()};
   Kokkos::parallel_for("coupling: flow at grains", items(grains.n),
                        LayeredFlow{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective,
-                                   crowded_, fields_.solid_x, fields_.solid_z});
+                                   oversubscribed_, fields_.solid_x, fields_.solid_z});
 }
 
 /// Brings exchange and conductances to faces; adds up what the fluid loses [N s].

@@ -24,7 +24,8 @@ class LayeredExchange final : public UnresolvedExchange {
   void flow_at_grains(const FluidState& fluid, const GrainState& grains);
   void to_faces();
 
-  bool crowded_;  // cells so narrow that a momentum cell may get twice the grains that fit into it
+  bool oversubscribed_;  // cells so narrow that a momentum cell may get twice the grains that fit
+                         // into it
 };
 
 }  // namespace barchan
