@@ -19,18 +19,18 @@ struct KeepAbove {
 };
 /// Divides f by K chi.
 struct DivideBy {
-  ConstFieldRef kept;
+  ConstFieldRef smoothing_weight;
   FieldRef f;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    f(i, j, k) /= kept(i, j, k);
+    f(i, j, k) /= smoothing_weight(i, j, k);
   }
 };
 /// Fluid fraction before the smoothing, from the fraction without the division by K chi.
 struct FractionBesideBodies {
-  ConstFieldRef kept;
+  ConstFieldRef smoothing_weight;
   FieldRef fraction;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    fraction(i, j, k) = 1 - kept(i, j, k) * (1 - fraction(i, j, k));
+    fraction(i, j, k) = 1 - smoothing_weight(i, j, k) * (1 - fraction(i, j, k));
   }
 };
 

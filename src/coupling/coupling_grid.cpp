@@ -18,7 +18,7 @@ std::shared_ptr<const PlaneFft> smoothing_fft(const CoupledCase& config, const F
 }
 
 // Least share that is kept: deeper in a body there are no grains.
-constexpr Real kLeastKept = 1e-3;
+constexpr Real kLeastWeight = 1e-3;
 
 WallFaces ends_of(const RankAxis& line, int n) {
   WallFaces faces;
@@ -43,17 +43,19 @@ CouplingGrid::CouplingGrid(const CoupledCase& config, const FluidSolver& solver,
       bodies(solver.bodies()),
       marks("coupling: columns", grid, kMarks) {
   if (bodies == nullptr || smoothing_length == 0) return;
-  kept = Field("coupling: kept by the smoothing", grid);
-  Kokkos::deep_copy(kept.storage, Real(1));
-  bodies->close(kept);
+  smoothing_weight = Field("coupling: smoothing weight", grid);
+  Kokkos::deep_copy(smoothing_weight.storage, Real(1));
+  bodies->close(smoothing_weight);
   const Region everywhere(grid);
-  smoother.solve(kept, everywhere);
-  for_each_cell("coupling: least kept", grid, KeepAbove{kept, kLeastKept});
-  boundary.fill_scalars(kept);
+  smoother.solve(smoothing_weight, everywhere);
+  for_each_cell("coupling: least smoothing weight", grid,
+                KeepAbove{smoothing_weight, kLeastWeight});
+  boundary.fill_scalars(smoothing_weight);
 }
 
-void CouplingGrid::raise_to_kept(Field& f, const Region& region) const {
-  if (kept.storage.size() > 0) for_each_cell("coupling: over kept", region, DivideBy{kept, f});
+void CouplingGrid::renormalise(Field& f, const Region& region) const {
+  if (smoothing_weight.storage.size() > 0)
+    for_each_cell("coupling: renormalise", region, DivideBy{smoothing_weight, f});
 }
 
 void CouplingGrid::mark_columns_of(const GrainState& grains) const {

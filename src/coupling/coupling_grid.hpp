@@ -30,7 +30,7 @@ struct CouplingGrid {
   void fill_ghosts(FaceVector& f, const Region& region) const;
   void fill_ghosts(CellVector& f, const Region& region) const;
   /// Divides f by the share that the smoothing keeps in the fluid, if bodies take any.
-  void raise_to_kept(Field& f, const Region& region) const;
+  void renormalise(Field& f, const Region& region) const;
   /// First and last face across which the smoothing does not go, in this rank's pencil.
   WallFaces wall_faces_x() const;
   WallFaces wall_faces_z() const;
@@ -44,7 +44,7 @@ struct CouplingGrid {
   EvenExtension walls;    // walls of the grains, where the smoothing ends
   Smoother smoother;
   const BodiesInFlow* bodies;  // nullptr without bodies
-  Field kept;                  // share of a smoothed field that bodies leave; empty: all
+  Field smoothing_weight;      // share of a smoothed field that bodies leave; empty: all
   enum Mark : int { kOfGrains, kOfFraction, kMarks };  // alpha_f is less than one
   ColumnMarks marks;
 };

@@ -118,7 +118,7 @@ void Deposit::clear(const Region& cells) const {
 void Deposit::update_fraction(FluidState& fluid, const ExchangeSums& sums) const {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   decode(Deposits::kVolume, fields_.deposited, fields_.smoothed, fluid.alpha_f);
-  grid_.raise_to_kept(fluid.alpha_f, fields_.smoothed);
+  grid_.renormalise(fluid.alpha_f, fields_.smoothed);
   grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
   sum_each_cell("coupling: solid fraction to fluid fraction", sums, ExchangeSums::kDepositedVolume,
                 owned_cells(grid_.grid),

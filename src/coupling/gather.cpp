@@ -65,9 +65,9 @@ void Gather::undo_smoothing(const FluidState& fluid) {
                                    .walls_x = grid_.wall_faces_x(),
                                    .walls_z = grid_.wall_faces_z(),
                                    .unsmoothed = fields_.alpha_before_smoothing});
-  if (grid_.kept.storage.size() > 0)
+  if (grid_.smoothing_weight.storage.size() > 0)
     for_each_cell("coupling: fraction beside bodies", cells,
-                  FractionBesideBodies{grid_.kept, fields_.alpha_before_smoothing});
+                  FractionBesideBodies{grid_.smoothing_weight, fields_.alpha_before_smoothing});
   grid_.boundary.fill_scalars(cells, fields_.alpha_before_smoothing);
 }
 

@@ -65,7 +65,7 @@ void LayeredExchange::pressure_gradient(const FluidState& fluid) {
   const Region& cells = fields_.of_fraction.cells;
   for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z}) {
     grid_.smoother.solve(*component, cells);
-    grid_.raise_to_kept(*component, cells);
+    grid_.renormalise(*component, cells);
   }
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
