@@ -37,8 +37,8 @@ void CentredExchange::pressure_gradient(const FluidState& fluid, const GrainStat
 }
 
 void CentredExchange::stress(const FluidState& fluid, const GrainState& grains) {
-  const NearGrains& where = fields_.of_fraction;
-  gather_.stress_and_convection(fluid, where.around);
+  const ActiveRegion& where = fields_.of_fraction;
+  gather_.stress_and_convection(fluid, where.dilated);
   if (!gather_.forces().stress) return;
   gather_.stress_on_solid(fluid.alpha_f, where, sums_);
   at_centres(fields_.stress_on_faces, grains, gather_.flow().stress);
@@ -68,7 +68,7 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
 void CentredExchange::find_faces() {
   FlowRegions& flow = fields_.of_flow;
   flow.exchange.set(smooths_ ? flow.fraction.cells.columns() : fields_.deposited.columns());
-  fields_.of_impulse.set(flow.exchange.columns().grown(1));
+  fields_.of_impulse.set(flow.exchange.columns().dilated(1));
 }
 
 /// Brings the impulse to faces, half of a cell's content to each of its two; adds up what the fluid

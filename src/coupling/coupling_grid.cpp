@@ -66,7 +66,7 @@ void CouplingGrid::mark_columns_of(const GrainState& grains) const {
 
 ColumnMap CouplingGrid::columns_of_grains() const {
   // one column more: the other face of a momentum cell
-  return ColumnMap::marked(grid, marks, kOfGrains).grown(1);
+  return ColumnMap::marked(grid, marks, kOfGrains).dilated(1);
 }
 
 void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {

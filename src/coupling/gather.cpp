@@ -57,7 +57,7 @@ void Gather::reserve_flow(int n) {
 void Gather::undo_smoothing(const FluidState& fluid) {
   const Real length = grid_.smoothing_length;
   if (length == 0) return;
-  const Region& cells = fields_.of_fraction.around;
+  const Region& cells = fields_.of_fraction.dilated;
   for_each_cell("coupling: fraction before smoothing", cells,
                 UnsmoothedFraction{.grid = grid_.grid,
                                    .alpha_f = fluid.alpha_f,
@@ -97,9 +97,9 @@ void Gather::stress_and_convection(const FluidState& fluid, const Region& cells)
   grid_.fill_ghosts(fields_.convective, cells);
 }
 
-void Gather::stress_on_solid(const Field& alpha, const NearGrains& where,
+void Gather::stress_on_solid(const Field& alpha, const ActiveRegion& where,
                              const ExchangeSums& sums) const {
-  fill_faces_beside(fields_.stress_on_faces, where.around);
+  fill_faces_beside(fields_.stress_on_faces, where.dilated);
   to_cells(fields_.stress_on_faces, alpha, where.cells, fields_.stress_in_cells, sums,
            ExchangeSums::kStressOnSolid);
 }

@@ -32,7 +32,8 @@ class Gather {
   void stress_and_convection(const FluidState& fluid, const Region& cells) const;
   /// Sets the force density of the stress in cells, on the solid 1 - alpha; after
   /// stress_and_convection().
-  void stress_on_solid(const Field& alpha, const NearGrains& where, const ExchangeSums& sums) const;
+  void stress_on_solid(const Field& alpha, const ActiveRegion& where,
+                       const ExchangeSums& sums) const;
 
   /// Sets the action on the grains in the flow that the scheme has found at each; call it last.
   /// Books the forces of pressure gradient and stress on them.

@@ -49,7 +49,7 @@ LayerExchange LayeredExchange::layers(const FluidState& fluid) const {
 }
 
 void LayeredExchange::solid_of_momentum_cells(const FluidState& fluid, const GrainState& grains) {
-  const Region& cells = fields_.of_grains.around;
+  const Region& cells = fields_.of_grains.dilated;
   deposit_.add_solid(layers(fluid), grains, cells);
   deposit_.decode(Deposits::kSolidX, cells, cells, fields_.solid_x);
   deposit_.decode(Deposits::kSolidZ, cells, cells, fields_.solid_z);
@@ -73,15 +73,15 @@ void LayeredExchange::pressure_gradient(const FluidState& fluid) {
 /// Smoothed pressure gradient in two solves instead of three: without walls of the grains the
 /// smoothing commutes with differences along the floor.
 void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
-  const auto& [cells, around] = fields_.of_fraction;
+  const auto& [cells, dilated] = fields_.of_fraction;
   CellVector& in_cells = fields_.pressure_in_cells;
   Field& p = fields_.smoothed_pressure;
   PressureForceInCell force{
       .grid = grid_.grid, .p = fluid.p, .rho_f = gather_.rho_f(), .drive = fluid.drive};
-  sum_vector("coupling: pressure to smooth", sums_, ExchangeSums::kPressureOnSolid, around,
+  sum_vector("coupling: pressure to smooth", sums_, ExchangeSums::kPressureOnSolid, dilated,
              PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
   for (Field* f : {&p, &in_cells.y}) grid_.smoother.solve(*f, cells);
-  grid_.boundary.fill_scalars(around, p);
+  grid_.boundary.fill_scalars(dilated, p);
   force.p = p;
   const Region& of_grains = fields_.of_grains.cells;
   for_each_cell("coupling: smoothed pressure force", of_grains,
@@ -92,8 +92,8 @@ void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
 /// Force of the stress on the solid. The solid takes the part that it has before the smoothing, so
 /// there is none beyond the cells of the grains.
 void LayeredExchange::stress(const FluidState& fluid) {
-  const NearGrains& where = fields_.of_grains;
-  gather_.stress_and_convection(fluid, where.around);
+  const ActiveRegion& where = fields_.of_grains;
+  gather_.stress_and_convection(fluid, where.dilated);
   if (!gather_.forces().stress) return;
   const Field& alpha = fields_.unsmoothed(fluid);
   gather_.stress_on_solid(alpha, where, sums_);

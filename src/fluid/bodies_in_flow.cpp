@@ -58,7 +58,7 @@ void BodiesInFlow::find_columns(const std::vector<BodyFace>& faces) {
     marks.on_host(0, last) = std::max(marks.on_host(0, last), face.j + 1);
   }
   near_ = ColumnMap::marked(grid_, marks, 0);
-  near_ = near_.grown(1 + kCellsAroundObstructed).in_blocks();
+  near_ = near_.dilated(1 + kCellsAroundObstructed).padded_to_blocks();
   regions_.fraction.set(near_);
   regions_.exchange.set({});
 }

@@ -140,10 +140,10 @@ void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
 /// bodies hold back in dt is taken from c and u*.
 void FluidSolver::update_mobility(const FluidState& fluid, Real dt) {
   if (!is_variable(fraction_)) return;
-  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.around,
+  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.dilated,
              UpdateMobility{grid_, fluid.alpha_f, mobility_});
   if (bodies_) bodies_->hold_back(u_star_, mobility_, fluid.alpha_f, dt, numbers_, kHeld);
-  if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(mobility_);
+  if (regions_->fraction.dilated.has_ghosts()) boundary_.fill_periodic(mobility_);
 }
 
 /// What predictor and mobility added up.
@@ -190,7 +190,7 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
     solved = pressure_.solve_uniform(source_, fluid.p);
   } else {
     const Real last = fluid.has_history ? 2 : 1, before = fluid.has_history ? -1 : 0;
-    for_each_cell("fluid: extrapolate pressure", regions_->fraction.around,
+    for_each_cell("fluid: extrapolate pressure", regions_->fraction.dilated,
                   Combine{last, fluid.p_previous, before, fluid.p});
     for_each_cell("fluid: pressure source", grid_,
                   ByRegion{regions_->fraction.cells.ref(),

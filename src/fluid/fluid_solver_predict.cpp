@@ -22,9 +22,9 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
                 CloseFaces{flux_, u_star_.y, grid_.ny});
-  for_each_cell("fluid: mass flux", regions_->fraction.around,
+  for_each_cell("fluid: mass flux", regions_->fraction.dilated,
                 MassFlux{grid_, fluid.u, fluid.alpha_f_previous, flux_});
-  if (regions_->fraction.around.has_ghosts()) boundary_.fill_periodic(flux_);
+  if (regions_->fraction.dilated.has_ghosts()) boundary_.fill_periodic(flux_);
 }
 
 template <Fraction fraction, bool with_exchange>

@@ -91,7 +91,7 @@ ColumnMap ColumnMap::united(const ColumnMap& other) const {
   return both;
 }
 
-ColumnMap ColumnMap::in_blocks(int width) const {
+ColumnMap ColumnMap::padded_to_blocks(int width) const {
   ColumnMap blocks = *this;
   for (int k = 0; k < nz_; ++k) {
     for (int begin = 0; begin < nx_; begin += width) {
@@ -103,7 +103,7 @@ ColumnMap ColumnMap::in_blocks(int width) const {
   return blocks;
 }
 
-ColumnMap ColumnMap::grown(int by) const {
+ColumnMap ColumnMap::dilated(int by) const {
   if (is_empty()) return *this;
   ColumnMap wide = *this, all = *this;
   for (int k = 0; k < nz_; ++k) {

@@ -51,11 +51,11 @@ class ColumnMap {
   bool has(int i, int k) const { return on_[index(i, k)] != 0; }
 
   /// Set with so many columns and rows more on all sides.
-  ColumnMap grown(int by) const;
+  ColumnMap dilated(int by) const;
   ColumnMap united(const ColumnMap& other) const;
   /// Set with all columns of each block of `width` along x that has one of them: loops over blocks
   /// then fill whole vectors, and a rest would take as long as many of these.
-  ColumnMap in_blocks(int width = 8) const;
+  ColumnMap padded_to_blocks(int width = 8) const;
 
   struct Interval {
     int first, last;

@@ -42,13 +42,13 @@ class Region {
 };
 
 /// Cells near grains, and the same with one more on all sides.
-struct NearGrains {
-  explicit NearGrains(const Grid& grid) : cells(grid), around(grid) {}
+struct ActiveRegion {
+  explicit ActiveRegion(const Grid& grid) : cells(grid), dilated(grid) {}
   void set(const ColumnMap& columns) {
     cells.set(columns);
-    around.set(columns.grown(1));
+    dilated.set(columns.dilated(1));
   }
-  Region cells, around;
+  Region cells, dilated;
 };
 
 /// Calls functor(i, j, k) for the cells of a region.
