@@ -28,9 +28,9 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
 /// Sums up the inter-chunk contacts of the entries [begin, end): first those of an entry's own
 /// slots, then the others.
 template <bool rolls>
-KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
-                                              const Kokkos::View<GrainKinematics*>& grains,
-                                              int begin, int end, ContactSum* sums) {
+KOKKOS_FORCEINLINE_FUNCTION void sum_inter_chunk(const PairList& list,
+                                                 const Kokkos::View<GrainKinematics*>& grains,
+                                                 int begin, int end, ContactSum* sums) {
   for (int g = begin; g < end; ++g) sums[place_in_chunk(g, begin)] = ContactSum{};
   for (int p = list.first(begin); p < list.first(end); ++p) {
     const int g = list.i(p);
@@ -64,10 +64,10 @@ struct SumKickDrift {
     }
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kMaxChunk];
-    sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
+    sum_inter_chunk<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
     if constexpr (kOnHost) {
       if (pairs.list.expired(chunk)) find_active(chunk, begin, end);
-      pairs.add_inner(chunk, sums);
+      pairs.add_intra_chunk(chunk, sums);
     }
     const auto is_near = [&](int g) { return !kOnHost || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);

@@ -61,7 +61,7 @@ struct PairForces {
   }
 
   /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its entries.
-  KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums) const {
+  KOKKOS_FUNCTION void add_intra_chunk(int chunk, ContactSum* sums) const {
     const int first_entry = list.chunks.begin(chunk);
     const int* active = &list.active(list.intra_first(first_entry) - list.n_inter);
     const int n_active = list.n_active(chunk);
