@@ -14,7 +14,7 @@ namespace barchan {
 /// the fluid that a grain carries along goes on from the last step. The rest acts on the added mass
 /// alone. It is one where grain and fluid are tied. It is zero where the grain hardly moves the
 /// fluid, whose changes of one step are noise as points of the grain cross cells.
-KOKKOS_FORCEINLINE_FUNCTION Real part_carried_on(Real m_f_inv, Real m_added, Real beta_dt) {
+KOKKOS_FORCEINLINE_FUNCTION Real inertial_fraction(Real m_f_inv, Real m_added, Real beta_dt) {
   const Real K = m_f_inv * (m_added + beta_dt);
   return K / (1 + K);
 }
@@ -51,8 +51,8 @@ struct GatherFluid {
     const Real m_f_inv = flow_at.solid_per_fluid(g) / (rho_f * volume);
     // a = I_-/(m_f dt) + K/(1 + K) du/dt
     const Vec3 du_dt = flow_at.du_dt(g);
-    const Vec3 carried_on = part_carried_on(m_f_inv, m_added, dt * beta) * du_dt;
-    const Vec3 a = carried_on + (m_f_inv / dt) * on_grains.impulse(g);
+    const Vec3 inertial = inertial_fraction(m_f_inv, m_added, dt * beta) * du_dt;
+    const Vec3 a = inertial + (m_f_inv / dt) * on_grains.impulse(g);
 
     on_grains.u_f(g) = flow_at.u(g);
     on_grains.acceleration(g) = a;
@@ -62,7 +62,7 @@ struct GatherFluid {
     exchange.pressure_force(g) = volume * flow_at.pressure(g);
     exchange.stress_force(g) = volume * flow_at.stress(g);
     // C_m rho_f V_p (u . grad u + 1/(1 + K) du/dt)
-    exchange.added_mass_force(g) = m_added * (flow_at.u_grad_u(g) + du_dt - carried_on);
+    exchange.added_mass_force(g) = m_added * (flow_at.u_grad_u(g) + du_dt - inertial);
     on_grains.steady_force(g) = steady_force(weight, grain, exchange, g);
   }
 

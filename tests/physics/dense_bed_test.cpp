@@ -41,14 +41,14 @@ double growth(const Mixture& m) {
                                           .beta = 150 * c * c * mu_f / (m.alpha * d * d),
                                           .added_mass = kAddedMassCoefficient * c * rho_f};
     const double added_mass = coefficients.added_mass;
-    const double carried_on =
-        change * part_carried_on(per_share, added_mass, m.dt * coefficients.beta);
-    const double of_added_mass = added_mass * (change - carried_on);
+    const double inertial =
+        change * inertial_fraction(per_share, added_mass, m.dt * coefficients.beta);
+    const double of_added_mass = added_mass * (change - inertial);
     const double steady = (push + of_added_mass) / m.dt;
     const HalfKick kick(m.dt / n / 2, coefficients);
     GrainForces f;
     f.u_f = {u, 0, 0};
-    f.acceleration = {(carried_on + per_share * impulse) / m.dt, 0, 0};
+    f.acceleration = {(inertial + per_share * impulse) / m.dt, 0, 0};
     Vec3 velocity{w, 0, 0}, spin;
     impulse = 0;
     for (int k = 0; k < n; ++k) {
