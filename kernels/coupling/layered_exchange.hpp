@@ -47,7 +47,7 @@ struct GrainFaces {
   Real of_second = 0;  // the other face has the rest
   KOKKOS_INLINE_FUNCTION GrainFaces(const LinearStencil& face, Real solid_per_fluid)
       : first(face.i) {
-    const Real half = Real(0.5), width = 1 / (1 + kNearer * solid_per_fluid);
+    const Real half = Real(0.5), width = 1 / (1 + kNarrowing * solid_per_fluid);
     of_second = Kokkos::clamp((face.t - half) / width + half, Real(0), Real(1));
   }
   KOKKOS_FORCEINLINE_FUNCTION Real weight(int side) const {
@@ -56,16 +56,16 @@ struct GrainFaces {
   /// Limiter phi: the part of K = dt beta_p/m_f with which a grain joins the fluid at its two
   /// faces. The exchange is explicit: a grain takes c (1 - c) K of their difference, and must not
   /// take more than there is.
-  KOKKOS_FORCEINLINE_FUNCTION Real joined(Real K) const {
-    return Kokkos::fmin(Real(1), kMostJoined / (of_second * (1 - of_second) * K));
+  KOKKOS_FORCEINLINE_FUNCTION Real limiter(Real K) const {
+    return Kokkos::fmin(Real(1), kLargestExchange / (of_second * (1 - of_second) * K));
   }
 
  private:
   // Largest c (1 - c) K of a face. Grains may join it on both sides: up to 1/2 is stable, up to 1/4
   // no velocity overshoots another.
-  static constexpr Real kMostJoined = 0.25;
+  static constexpr Real kLargestExchange = 0.25;
   // A thirteenth of the grains join both faces at a solid fraction of 3/5.
-  static constexpr Real kNearer = 8;
+  static constexpr Real kNarrowing = 8;
 };
 
 /// A velocity along the floor in one column of momentum cells, those around its faces.

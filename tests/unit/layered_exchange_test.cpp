@@ -112,11 +112,11 @@ TEST(LayeredExchange, AGrainJoinsItsFacesNoHarderThanTheWaterStands) {
   for (const Real part : {0.0, 0.1, 0.46, 0.5, 0.97}) {
     const GrainFaces faces(LinearStencil{3, part}, 0.2);
     const Real both = faces.weight(0) * faces.weight(1);
-    EXPECT_EQ(faces.joined(0.9), 1) << part;
+    EXPECT_EQ(faces.limiter(0.9), 1) << part;
     for (const Real K : {0.0, 1.0, 4.0, 1e3, 1e9})
-      EXPECT_LE(both * faces.joined(K) * K, 0.25 + 1e-15) << part << ", K = " << K;
+      EXPECT_LE(both * faces.limiter(K) * K, 0.25 + 1e-15) << part << ", K = " << K;
   }
-  EXPECT_NEAR(GrainFaces(LinearStencil{3, 0.5}, 1).joined(8), 1.0 / 8, 1e-15);
+  EXPECT_NEAR(GrainFaces(LinearStencil{3, 0.5}, 1).limiter(8), 1.0 / 8, 1e-15);
 }
 
 }  // namespace
