@@ -39,7 +39,7 @@ struct ResultantForce {
   Real dt;
   Kokkos::View<Vec3*> total;
   KOKKOS_FUNCTION void operator()(int g) const {
-    total(g) = contact_force(g) + on_grains.steady_force(g);
+    total(g) = contact_force(g) + on_grains.explicit_force(g);
     if (on_grains.has_fluid) total(g) += (1 / dt) * on_grains.impulse(g);
   }
 };

@@ -21,9 +21,9 @@ KOKKOS_FORCEINLINE_FUNCTION Real inertial_fraction(Real m_f_inv, Real m_added, R
 
 /// Forces that do not change in the fluid step: weight and buoyancy, F_p, F_tau, the steady part of
 /// F_m [N].
-KOKKOS_FORCEINLINE_FUNCTION Vec3 steady_force(const SubmergedWeight& weight,
-                                              const GrainKinematics& grain,
-                                              const ExchangeOnGrains& exchange, int g) {
+KOKKOS_FORCEINLINE_FUNCTION Vec3 explicit_force(const SubmergedWeight& weight,
+                                                const GrainKinematics& grain,
+                                                const ExchangeOnGrains& exchange, int g) {
   return weight(grain) + (exchange.pressure_force(g) + exchange.stress_force(g)) +
          exchange.added_mass_force(g);
 }
@@ -63,7 +63,7 @@ struct GatherFluid {
     exchange.stress_force(g) = volume * flow_at.stress(g);
     // C_m rho_f V_p (u . grad u + 1/(1 + K) du/dt)
     exchange.added_mass_force(g) = m_added * (flow_at.u_grad_u(g) + du_dt - inertial);
-    on_grains.steady_force(g) = steady_force(weight, grain, exchange, g);
+    on_grains.explicit_force(g) = explicit_force(weight, grain, exchange, g);
   }
 
  private:
@@ -93,7 +93,7 @@ struct GatherFirstStep {
     const Vec3 a = (1 / rho_f) * (flow_at.pressure(g) + flow_at.stress(g)) - u_grad_u;
     on_grains.acceleration(g) = a;
     exchange.added_mass_force(g) = on_grains.added_mass(g) * u_grad_u;
-    on_grains.steady_force(g) = steady_force(weight, grains(g), exchange, g);
+    on_grains.explicit_force(g) = explicit_force(weight, grains(g), exchange, g);
   }
 };
 

@@ -29,7 +29,7 @@ struct GatherShear {
     if (lift) {
       const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
-      on_grains.steady_force(g) += force;
+      on_grains.explicit_force(g) += force;
     }
     if (torque) {
       const Vec3 omega_f = Real(0.5) * vorticity;

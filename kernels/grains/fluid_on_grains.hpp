@@ -13,13 +13,13 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> acceleration;
   Kokkos::View<Real*> inv_fluid_mass;  // 1 / mass of that share [1/kg]; 0: u_f does not change
   Kokkos::View<Real*> beta;            // [kg/s]
-  Kokkos::View<Vec3*> steady_force;    // weight, buoyancy, pressure gradient, ... [N]
+  Kokkos::View<Vec3*> explicit_force;  // weight, buoyancy, pressure gradient, ... [N]
   Kokkos::View<Real*> added_mass;      // [kg]
   Kokkos::View<Vec3*> impulse;         // impulse of drag and added mass on the grain so far [N s]
   Kokkos::View<Vec3*> u_start;         // velocity as the fluid step began [m/s]
   Kokkos::View<Vec3*> omega_f;         // half the vorticity of the fluid [rad/s]
   Kokkos::View<Real*> beta_r;          // torque = beta_r (omega_f - omega) [N m s]
-  bool has_fluid = false;              // without fluid, only steady_force is set
+  bool has_fluid = false;              // without fluid, only explicit_force is set
   bool has_torque = false;             // torque of the fluid: omega_f and beta_r are set
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].

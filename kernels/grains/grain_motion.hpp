@@ -98,7 +98,7 @@ struct GrainMotion {
   template <FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(const Tile& s, int q, int g) const {
     GrainForces f;
-    f.force = s.force.vec(q) + fluid.steady_force(g);
+    f.force = s.force.vec(q) + fluid.explicit_force(g);
     f.torque = s.torque.vec(q);
     if constexpr (effect != FluidEffect::none) {
       f.u_f = fluid.u_f_after(elapsed, g);

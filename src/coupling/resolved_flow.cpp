@@ -49,11 +49,11 @@ struct TakeLoads {
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   ExchangeOnGrains exchange;
-  Kokkos::View<Vec3*> steady_force;
+  Kokkos::View<Vec3*> explicit_force;
   KOKKOS_FUNCTION void operator()(int g) const {
     exchange.resolved_force(g) = force(load_of(g));
     exchange.resolved_torque(g) = torque(load_of(g));
-    steady_force(g) = exchange.resolved_force(g) + weight(grains(g));
+    explicit_force(g) = exchange.resolved_force(g) + weight(grains(g));
   }
 };
 
@@ -118,7 +118,7 @@ void ResolvedFlow::close(GrainState& grains, Real dt) {
                                  .weight = {.gravity = gravity_, .displaced = density_},
                                  .grains = grains.kin,
                                  .exchange = grains.exchange,
-                                 .steady_force = grains.fluid.steady_force});
+                                 .explicit_force = grains.fluid.explicit_force});
   ledger_.flow_on_solid = ledger_.flow_on_grains = dt * sum;
 }
 

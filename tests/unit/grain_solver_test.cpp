@@ -157,7 +157,7 @@ TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
   Kokkos::deep_copy(c.state.fluid.inv_fluid_mass, 1 / share);
   Kokkos::deep_copy(c.state.fluid.acceleration, Vec3{0, a, 0});
-  Kokkos::deep_copy(c.state.fluid.steady_force, Vec3{0, -weight, 0});
+  Kokkos::deep_copy(c.state.fluid.explicit_force, Vec3{0, -weight, 0});
   Kokkos::deep_copy(c.state.fluid.u_f, Vec3{u_f, 0, 0});
   c.advance(2000, 2.5e-6);
   const Vec3 u = rows_by_id(c.state)[1].u, impulse = host_copy(c.state.fluid.impulse)(0);
