@@ -44,18 +44,18 @@ struct GrainVolumeFlow {
 };
 
 /// Counts the grains that leave: those beyond 0 .. lx along the flow, or whose x is not a number.
-/// In a window that follows its dune they are those within a strip around the seam, where its ends
+/// In a window that follows its dune they are those within a strip around the edge, where its ends
 /// meet.
 struct CountLeaving {
   Kokkos::View<const GrainKinematics*> grains;
-  Real lx;              // [m]
-  Real half_strip = 0;  // half the width of the strip [m]; 0: there is none
-  Real seam_x = 0;      // its middle [m]; not a number: no seam yet
+  Real lx;               // [m]
+  Real half_strip = 0;   // half the width of the strip [m]; 0: there is none
+  Real window_edge = 0;  // its middle [m]; not a number: no edge yet
   KOKKOS_FORCEINLINE_FUNCTION bool leaves(int g) const {
     const Real x = grains(g).x.x;
     if (half_strip == 0) return !(x >= 0 && x <= lx);
-    const Real from_seam = x - seam_x;
-    return Kokkos::abs(from_seam - lx * Kokkos::round(from_seam / lx)) <= half_strip;
+    const Real from_window_edge = x - window_edge;
+    return Kokkos::abs(from_window_edge - lx * Kokkos::round(from_window_edge / lx)) <= half_strip;
   }
   KOKKOS_FUNCTION void operator()(int g, int& count) const { count += leaves(g) ? 1 : 0; }
 };

@@ -135,7 +135,7 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 bool is_periodic_x(const Config& config) { return config.grains && is_periodic_x(*config.grains); }
 
-double half_seam_strip(const Config& config) {
+double half_edge_strip(const Config& config) {
   const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
   return follows ? config.size[0] / config.fluid->cells[0] : 0;
 }

@@ -14,7 +14,7 @@ namespace barchan {
 bool is_periodic_x(const Config& config);
 /// Half the width of the strip along x in which grains leave a window that follows its dune, one
 /// cell [m]; 0 without such a window. Needs [grains].
-double half_seam_strip(const Config& config);
+double half_edge_strip(const Config& config);
 
 /// Mean diameter [m] by number of grains; there must be some.
 double mean_diameter(const std::vector<SizeClass>& sizes);

@@ -65,7 +65,7 @@ GrainFeed::GrainFeed(const GrainsCase& config)
       dt_(config.fluid_step),
       lz_(config.size[2]),
       walls_z_(config.grains.boundary_z == GrainBoundaryZ::wall),
-      from_seam_(config.grains.boundary_x == GrainBoundaryX::follow),
+      from_window_edge_(config.grains.boundary_x == GrainBoundaryX::follow),
       places_("feed: places", kPlaces),
       taken_("feed: taken places", kPlaces),
       n_leaving_("feed: grains that leave") {}
@@ -128,7 +128,8 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
       to = std::clamp(to, body.r, last);
     }
     const auto count = static_cast<std::uint64_t>(feed.n_tries++);
-    const Real inlet = from_seam_ && std::isfinite(grains.seam_x) ? grains.seam_x : 0;
+    const Real inlet =
+        from_window_edge_ && std::isfinite(grains.window_edge) ? grains.window_edge : 0;
     const Real x = inlet + config_.x + body.r;
     const Real z = from + (to - from) * uniform_number(config_.seed, kAcross, count);
     places.push_back({.x = box.wrap({x, config_.height + body.r, z}), .r = body.r});

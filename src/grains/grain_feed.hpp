@@ -30,10 +30,10 @@ class GrainFeed {
 
   FeedConfig config_;
   Bodies bodies_;
-  Real dt_ = 0;             // fluid step [s]
-  Real lz_ = 0;             // [m]
-  bool walls_z_ = false;    // the grains have walls in z
-  bool from_seam_ = false;  // x counts from the seam of a window that follows its dune
+  Real dt_ = 0;                    // fluid step [s]
+  Real lz_ = 0;                    // [m]
+  bool walls_z_ = false;           // the grains have walls in z
+  bool from_window_edge_ = false;  // x counts from the edge of a window that follows its dune
   Kokkos::View<FeedPlace*> places_;
   Kokkos::View<int*> taken_;
   Kokkos::View<LeavingGrain*> leaving_;

@@ -96,7 +96,7 @@ struct GrainState {
   std::int64_t n_left = 0;     // left through the outlet, on this rank
   FeedState feed;              // grains that come in
   // Place where the ends of a window that follows its dune meet [m]; not a number: not placed yet.
-  Real seam_x = Kokkos::Experimental::quiet_NaN_v<Real>;
+  Real window_edge = Kokkos::Experimental::quiet_NaN_v<Real>;
 };
 
 /// Largest number that a grain has or had.

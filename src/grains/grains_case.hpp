@@ -111,15 +111,15 @@ struct ForceSwitches {
 struct GrainsCase {
   GrainConfig grains;
   std::array<double, 3> size{};  // size of the domain [m]
-  // half the width of the strip around the seam of a window that follows its dune [m]
-  double half_seam_strip = 0;
+  // half the width of the strip around the edge of a window that follows its dune [m]
+  double half_edge_strip = 0;
   double fluid_step = 0;      // [s]
   bool keeps_forces = false;  // keeps the force of each pair, for output
   Bodies bodies;
   std::vector<std::string> body_names;
 };
 
-/// Tells if grains leave along x: at the ends, or at the seam of a window that follows its dune.
+/// Tells if grains leave along x: at the ends, or at the edge of a window that follows its dune.
 bool grains_leave(const GrainConfig& grains);
 /// Tells if grains that go beyond one end in x come in at the other.
 bool is_periodic_x(const GrainConfig& grains);

@@ -37,7 +37,7 @@ NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks,
     : skins_(config, r_max, reach),
       lx_(config.size[0]),
       leaves_x_(grains_leave(config.grains)),
-      half_strip_(config.half_seam_strip) {
+      half_strip_(config.half_edge_strip) {
   const Real lz = config.size[2];
   columns_.periodic_x = is_periodic_x(config.grains);
   columns_.periodic_z = config.grains.boundary_z == GrainBoundaryZ::periodic;

@@ -46,7 +46,7 @@ class NeighborList {
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
   /// Condition for the grains that leave now.
   CountLeaving leaving(const GrainState& grains) const {
-    return {grains.kin, lx_, half_strip_, grains.seam_x};
+    return {grains.kin, lx_, half_strip_, grains.window_edge};
   }
   /// Searches again from x_reference in the present order: gives the list of the last rebuild, with
   /// its contact history. If the skin has changed (grains.skin), it is a new list. All ranks call
@@ -104,7 +104,7 @@ class NeighborList {
   GrainSkins skins_;
   Real lx_ = 0;
   bool leaves_x_ = false;      // grains leave along x,
-  Real half_strip_ = 0;        // half the strip around the seam [m]; 0: they leave at both ends
+  Real half_strip_ = 0;        // half the strip around the edge [m]; 0: they leave at both ends
   std::vector<NewGrain> new_;  // new grains of the present rebuild
   std::int64_t rebuilds_ = 0;
   double seconds_ = 0;

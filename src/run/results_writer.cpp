@@ -65,7 +65,7 @@ void ResultsWriter::write_due() {
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
     for (const DuneRecord& dune : diagnostics_.find_dunes()) append_record(folder_, dune);
-    diagnostics_.place_seam(*run_.state.grains);
+    diagnostics_.place_window_edge(*run_.state.grains);
     for (const HeapShare& share : diagnostics_.heap_shares()) append_record(folder_, share);
   }
   if (diagnostics_.sample_due()) {

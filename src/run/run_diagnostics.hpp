@@ -27,9 +27,9 @@ class RunDiagnostics {
   /// Largest of the dunes last found.
   const std::optional<DuneRecord>& largest_dune() const { return largest_dune_; }
 
-  /// Puts the seam of a window that follows its dune half a box away from the largest dune; without
+  /// Puts the edge of a window that follows its dune half a box away from the largest dune; without
   /// a dune it stays where it is.
-  void place_seam(GrainState& grains) const;
+  void place_window_edge(GrainState& grains) const;
 
   /// Tells if a sample is due: from statistics.start on, every statistics.interval.
   bool sample_due() const;

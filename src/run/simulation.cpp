@@ -43,25 +43,25 @@ Simulation::Simulation(const SettledCase& the_case, const RunOptions& options,
   if (!options.restart) follow_first_dune(source);
 }
 
-/// Places the seam first, if the window follows its dune. Refuses a start without a dune, or with
-/// grains at the seam.
+/// Places the edge first, if the window follows its dune. Refuses a start without a dune, or with
+/// grains at the edge.
 void Simulation::follow_first_dune(const std::string& source) {
   if (!run_.config.grains || run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
   GrainState& grains = *run_.state.grains;
   diagnostics_.find_dunes();
-  diagnostics_.place_seam(grains);
-  const double seam = grains.seam_x, half = half_seam_strip(run_.config);
-  if (!std::isfinite(seam))
+  diagnostics_.place_window_edge(grains);
+  const double edge = grains.window_edge, half = half_edge_strip(run_.config);
+  if (!std::isfinite(edge))
     throw InputError(source + ": holds no dune that grains.boundary_x = \"follow\" could follow");
   int n_cut = 0;
-  Kokkos::parallel_reduce("grains: at the seam", grains.n,
+  Kokkos::parallel_reduce("grains: at the edge", grains.n,
                           run_.coupled_step.neighbor_list()->leaving(grains), n_cut);
   const std::int64_t n = sum_over(run_.ranks, n_cut);
   if (n == 0) return;
   throw InputError(fmt::format(
       "{}: {} grains lie within {:.4g} m of x = {:.4g} m, half a box from the largest dune, where "
       "grains leave with grains.boundary_x = \"follow\": take a longer domain.size",
-      source, n, half, seam));
+      source, n, half, edge));
 }
 
 void Simulation::open_folder() {

@@ -176,7 +176,7 @@ TEST(Simulation, ANumberIsNeverGivenTwice) {
   EXPECT_EQ(read_grains(last).last_id, 50 + fed);
 }
 
-TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {
+TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsEdge) {
   const TemporaryFolder scratch;
   Config config = fed_config();
   config.initial.pour->shape = PourShape::bed;  // its grains lie everywhere

@@ -287,16 +287,16 @@ TEST(GrainFeed, ANewGrainFallsLikeOneThatWasThereFromTheStart) {
   EXPECT_DOUBLE_EQ(a.u.y, b.u.y);
 }
 
-/// Grains within a cell of the seam leave, on both sides of it and across the ends of the box.
-TEST(FollowingWindow, GrainsLeaveAtTheSeamAlone) {
+/// Grains within a cell of the edge leave, on both sides of it and across the ends of the box.
+TEST(FollowingWindow, GrainsLeaveAtTheEdgeOfTheWindowAlone) {
   Config c = test::water_box({20, 4, 4}, {0.02, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::follow;
   InitialGrains grains;
   for (int g = 0; g < 40; ++g) test::add_grain(grains, 2e-4, {2.5e-4 + 5e-4 * g, 1e-3, 2e-3});
   CoupledRun run(c, grains);
   run.advance(2);
-  EXPECT_EQ(run.state.grains->n, 40) << "before the seam has a place";
-  run.state.grains->seam_x = 1.99e-2;
+  EXPECT_EQ(run.state.grains->n, 40) << "before the edge has a place";
+  run.state.grains->window_edge = 1.99e-2;
   run.advance(1);
   // Strip from 18.9 to 20 and from 0 to 0.9 mm, centres at 0.25, 0.75, ... 19.75.
   const auto left = diameters(*run.state.grains);
@@ -305,14 +305,14 @@ TEST(FollowingWindow, GrainsLeaveAtTheSeamAlone) {
   EXPECT_EQ(run.state.grains->n_left, 4);
 }
 
-/// A grain that goes beyond one end, far from the seam, comes in at the other.
+/// A grain that goes beyond one end, far from the edge, comes in at the other.
 TEST(FollowingWindow, IsPeriodicElsewhere) {
   Config c = test::water_box({20, 4, 4}, {0.02, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::follow;
   InitialGrains grains;
   test::add_grain(grains, 2e-4, {1.99e-2, 1e-3, 2e-3}, {0.4, 0, 0});
   CoupledRun run(c, grains);
-  run.state.grains->seam_x = 1e-2;
+  run.state.grains->window_edge = 1e-2;
   run.advance(8);
   run.step.neighbor_list()->rebuild(*run.state.grains, false);
   ASSERT_EQ(run.state.grains->n, 1);
