@@ -145,8 +145,8 @@ struct DepositGrains {
     const Real beta_dt = of_grain.beta_dt(g);
     const Real K = beta_dt * of_grain.on_grains.inv_fluid_mass(g);
     const Real rows_dt = of_grain.rows_dt(exchange.stencil.grid, g, u);
-    const Real limiter_x = beta_dt * u.x_faces.limiter(K),
-               limiter_z = beta_dt * u.z_faces.limiter(K);
+    const Real limited_x = beta_dt * u.x_faces.limiter(K),
+               limited_z = beta_dt * u.z_faces.limiter(K);
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
@@ -156,14 +156,14 @@ struct DepositGrains {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
         if (c_x > 0) {
           const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
-                              limiter_x * (u.mean_of_x[side] - u.mean_x);
+                              limited_x * (u.mean_of_x[side] - u.mean_x);
           CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
           cell.conductance_x += deposits.conductance.encode(c_x * C_j);
           cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + faster));
         }
         if (c_z > 0) {
           const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
-                              limiter_z * (u.mean_of_z[side] - u.mean_z);
+                              limited_z * (u.mean_of_z[side] - u.mean_z);
           CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
           cell.conductance_z += deposits.conductance.encode(c_z * C_j);
           cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + faster));

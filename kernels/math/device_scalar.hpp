@@ -10,8 +10,8 @@ namespace barchan {
 /// there already; on a device a pointer to where it will be.
 class DeviceScalar {
  public:
-  DeviceScalar(Real value)
-      : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is one
+  DeviceScalar(Real value) : value_(value) {}
   explicit DeviceScalar(const Real* at) {
     if constexpr (kOnHost) {
       value_ = *at;

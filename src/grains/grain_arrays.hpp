@@ -39,7 +39,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
   add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites | kDepositReads);
   add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
-  add(f.explicit_force,     "explicit_force",     "N",    always,     kGatherWrites);
+  add(f.explicit_force,   "explicit_force",   "N",    always,     kGatherWrites);
   add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites);
   add(f.u_start,          "u_start",          "m/s",  with_fluid);
   add(e.pressure_force,   "pressure_force",   "N",    with_flow,  kGatherWrites);
