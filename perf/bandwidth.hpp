@@ -1,4 +1,4 @@
-// The yardstick: how fast this machine streams memory.
+// Bandwidth at which this machine streams memory.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// a = b + s c over arrays larger than any cache, as in STREAM: 24 bytes an element.
+/// Triad a = b + s c over arrays larger than any cache, as in STREAM: 24 bytes an element.
 class Triad {
  public:
   Triad();
@@ -19,7 +19,7 @@ class Triad {
   Kokkos::View<Real*> a_, b_, c_;
 };
 
-/// Best of ten passes [bytes/s], measured at the first call.
+/// Bandwidth, the best of ten passes [bytes/s], measured at the first call.
 double measured_bandwidth();
 
 }  // namespace barchan

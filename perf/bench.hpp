@@ -1,4 +1,4 @@
-// The benchmarks of the suite, by what they share: a case is set up once for those that run on it.
+// Benchmarks of the suite. A case is set up once for all that run on it.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -75,7 +75,7 @@ void run_case(benchmark::State& run, const CaseSpec& spec) {
   const auto rebuilds_so_far = [&c]() -> std::int64_t {
     return c.state.grains ? c.step->neighbor_list()->rebuilds() : 0;
   };
-  // The peers' unit, where there is no flow: one step of the grains.
+  // Step of a case without flow: one grain step, the peers' unit.
   const int steps_at_once = c.state.fluid ? 1 : c.step->substeps();
   const std::int64_t rebuilds_before = rebuilds_so_far();
   double iterations = 0;
@@ -111,7 +111,7 @@ std::optional<std::filesystem::path> state_of(const std::string& run) {
   return latest_checkpoint(options().runs / run);
 }
 
-/// Moving dunes, where someone has computed them.
+/// Registers moving dunes, where someone has computed them.
 void register_dunes() {
   if (const auto dune = state_of("dune-10k")) add_case(moving_dune("coupled/dune_10k", *dune));
   if (const auto dune = state_of("dune-100k")) {
@@ -123,7 +123,7 @@ void register_dunes() {
 }  // namespace
 
 void register_cases() {
-  // First: the spare rows that grains leave behind would count as theirs.
+  // This case comes first: the spare rows that grains leave behind would count as its own.
   add_case(channel_flow("les/mesh1", 1));
   add_case(channel_flow("les/mesh2", 2));
   add_case(channel_flow("les/mesh3", 3));

@@ -14,7 +14,7 @@ namespace barchan {
 
 namespace {
 
-constexpr int kNSubsteps = 100;  // of the cases below
+constexpr int kNSubsteps = 100;  // grain steps in the cases below
 
 using Action = std::function<void()>;
 
@@ -22,7 +22,7 @@ struct Kernel {
   std::string name;
   CaseSpec spec;
   std::vector<std::string> labels;              // empty: the whole action is timed
-  std::function<Action(RunningCase&)> prepare;  // what is run again and again
+  std::function<Action(RunningCase&)> prepare;  // makes the action that is timed
   std::string unit;                             // "grain-steps", "grains" or "cell-steps"
   std::function<Work(RunningCase&)> per_unit;
   int steps_at_once = 1;  // steps of one action

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<double, 3> kPaperChannel{0.4, 0.025, 0.1};  // [m]
 
-/// The same physics in a box that takes milliseconds.
+/// Shrinks a case to a box that takes milliseconds, with the same physics.
 void shrink(Config& c) {
   c.size = {0.04, 0.0125, 0.02};
   if (c.fluid) c.fluid->cells = {32, 12, 16}, c.fluid->first_cell_height = 0;
@@ -104,7 +104,7 @@ CaseSpec moving_grains(const std::string& name, const std::filesystem::path& res
 
 namespace {
 
-/// Lets the water find its way around the grains before they may move: a flow that does not know of
+/// Lets the flow find its way around the grains before they may move: a flow that does not know of
 /// the heap would blow it apart in its first steps, and lists would be rebuilt all the time.
 void flow_around_held_grains(Config config, SystemState& state) {
   constexpr int n_steps = 30;
@@ -154,7 +154,7 @@ RunningCase::RunningCase(const CaseSpec& the_spec) : spec(the_spec) {
   bytes_ = array_bytes();
 }
 
-/// Those of a heap, or of a dune.
+/// Adds the grains of a heap, or of a dune.
 void RunningCase::put_grains() {
   Config& config = spec.config;
   Heap heap = spec.dune.empty() ? settled_heap(spec.heap)

@@ -1,6 +1,7 @@
 // Computed work of kernels and steps. Bytes: every array a pass needs is streamed once, 8 bytes a
-// double, writes without the line they fetch first; what a kernel reads again comes from cache.
-// Flops: counted in the source, with a division, a root and a comparison that selects as one each.
+// double, writes without the line they fetch first; values that a kernel reads again come from
+// cache. Flops: counted in the source; a division, a root and a comparison that selects are one
+// each.
 #pragma once
 
 #include <cmath>
@@ -26,8 +27,8 @@ inline Work pass(double doubles, double flops) { return {doubles * sizeof(Real),
 // --- grains, per grain and grain step
 // ---------------------------------------------------------------
 
-/// Sum, kicks, drift: kinematics there and back, reference position, steady force, wall bits; in
-/// water u_f, its acceleration, three numbers, and the impulse there and back. 105 flops, 60 more
+/// Sum, kicks, drift: kinematics there and back, reference position, steady force, wall bits; with
+/// a fluid u_f, its acceleration, three numbers, and the impulse there and back. 105 flops, 60 more
 /// with drag.
 inline Work integrate(bool in_water) {
   const double alone = 2.0 * sizeof(GrainKinematics) + 2.0 * sizeof(Vec3) + 2;
@@ -66,17 +67,17 @@ inline Work deposit() {
 // --- flow, per cell and fluid step
 // ------------------------------------------------------------------
 
-/// u, v, w read, nu_t written.
+/// WALE: u, v, w read, nu_t written.
 inline Work wale() { return pass(4, 135); }
-/// u, v, w, nu_t, three old rates read; rates and u* written.
+/// Predictor: u, v, w, nu_t, three old rates read; rates and u* written.
 inline Work predict() { return pass(13, 298); }
-/// FFT in x (there 2, back 2), in z (2, 2), columns (2 and half a pivot); real transforms take
-/// 2.5 n log2 n flops, the columns 10 a cell.
+/// Direct solve: FFT in x (there 2, back 2), in z (2, 2), columns (2 and half a pivot); real
+/// transforms take 2.5 n log2 n flops, the columns 10 a cell.
 inline Work poisson(int nx, int nz) { return pass(10.5, 5 * (std::log2(nx) + std::log2(nz)) + 10); }
-/// One iteration of the conjugate gradients: the solve above, direction and pressure (5).
+/// Iteration of the conjugate gradients: a direct solve, direction and pressure (5).
 inline Work pressure_iteration(int nx, int nz) { return poisson(nx, nz) + pass(5, 6); }
 
-/// A step without grains: WALE, predictor, source (4), solve, correction (13), continuity (3).
+/// Fluid step without grains: WALE, predictor, source (4), solve, correction (13), continuity (3).
 inline Work flow_step(int nx, int nz) {
   return wale() + predict() + pass(4, 9) + poisson(nx, nz) + pass(13, 32) + pass(3, 11);
 }

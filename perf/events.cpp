@@ -42,7 +42,7 @@ void on_deallocation(const Space, const char*, const void*, const std::uint64_t 
   bytes_alive -= static_cast<std::int64_t>(size);
 }
 
-bool is_fill(const char* source) {  // what Kokkos calls the source of a fill with one value
+bool is_fill(const char* source) {  // Kokkos' name for the source of a fill with one value
   return std::strcmp(source, "Scalar") == 0 || std::strcmp(source, "(none)") == 0;
 }
 

@@ -1,4 +1,4 @@
-// What Kokkos tells its tools, counted and timed inside the benchmark program.
+// Events that Kokkos reports to its tools, counted and timed inside the benchmark program.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ struct EventCounts {
   std::map<std::string, std::int64_t> copied;     // host copies by label
 };
 
-/// Keeps account of the memory of all views from here on.
+/// Keeps account of the memory of all views from now on.
 void watch_arrays();
 /// Memory of the views that are alive [bytes].
 std::int64_t array_bytes();
 
-/// Counts while it lives; after watch_arrays(). One at a time, and no KernelClock beside it.
+/// Counts events while it lives; after watch_arrays(). One at a time, and no KernelClock beside it.
 class EventCounter {
  public:
   EventCounter();
@@ -42,7 +42,7 @@ class KernelClock {
   KernelClock& operator=(const KernelClock&) = delete;
   /// Seconds since the last call.
   double take();
-  /// A label no kernel had so far; empty when all were met.
+  /// Label that no kernel had so far; empty when all were met.
   std::string missing() const;
 };
 

@@ -24,7 +24,7 @@ int grain_count(const std::string& name) {
   return options().tiny ? 1000 : 100000;
 }
 
-/// Grains of the paper's Table II, in proportion, on the lattice that heaps settle from.
+/// Pours grains of the paper's Table II, in proportion, on the lattice that heaps settle from.
 void pour(Config& c, int n) {
   const auto part = [n](std::int64_t of_100k) { return of_100k * n / 100000; };
   c.grains->sizes = {{1.5e-4, part(2276)},
@@ -56,7 +56,7 @@ InitialGrains settle(const std::string& name) {
   Config& config = spec.config;
   config.size = {0.4, 0.025, 0.1};
   pour(config, grain_count(name));
-  const int n_steps = options().tiny ? 40 : 200;  // of 2.5e-4 s
+  const int n_steps = options().tiny ? 40 : 200;  // steps of 2.5e-4 s
   if (!options().tiny) fmt::print(stderr, "settling {}, once\n", name);
   SystemState state = make_initial_state(config, {});
   CoupledStep step(config, state);

@@ -1,4 +1,4 @@
-// Where and with what a record was made.
+// Machine and program with which a record was made.
 #include <fmt/chrono.h>
 
 #include <Kokkos_Core.hpp>

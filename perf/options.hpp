@@ -1,4 +1,4 @@
-// What the user asked of the suite besides Google Benchmark's own options.
+// Options of the suite besides Google Benchmark's own.
 #pragma once
 
 #include <filesystem>

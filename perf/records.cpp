@@ -41,7 +41,7 @@ void add_times(json& record, const std::vector<double>& seconds, std::int64_t st
   };
 }
 
-/// Rates at the median time, computed work, and what share of the triad's bandwidth that is.
+/// Adds rates at the median time, computed work, and its share of the triad's bandwidth.
 void add_rates(json& record, const CaseFacts& facts) {
   const double seconds = record["seconds_per_step"]["median"];
   for (const auto& [unit, per_step] : facts.units) {
@@ -67,7 +67,7 @@ void add_counts(json& record, const std::vector<const Run*>& runs) {
   for (const auto& [name, values] : counts) record["counts"][name] = mean(values);
 }
 
-/// Of this program so far: of one case only where one case was run.
+/// Peak memory of this program so far: that of a single case only where one case was run.
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

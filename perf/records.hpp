@@ -1,4 +1,4 @@
-// One JSON line for each benchmark: what ran, on what, how fast, and what was counted.
+// Records of benchmarks: one JSON line each about program, machine, speed and counts.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -11,16 +11,16 @@
 
 namespace barchan {
 
-/// What a benchmark says about itself, over all repetitions; a step is one iteration.
+/// Facts about a benchmark, over all repetitions; a step is one iteration.
 struct CaseFacts {
   nlohmann::json sizes = nlohmann::json::object();    // grains, cells, ...
   nlohmann::json notes = nlohmann::json::object();    // heap, labels of allocations, ...
   std::vector<std::pair<std::string, double>> units;  // "grain-steps": per step; the first counts
-  std::string problem;                                // why it gave up; empty: it did not
+  std::string problem;                                // reason why it gave up; empty: it did not
   Work per_step;                                      // computed work of a step
 };
 
-/// Filled by the benchmark that runs, taken by the reporter when its repetitions are done.
+/// Facts of the benchmark that runs, taken by the reporter when its repetitions are done.
 CaseFacts& facts();
 
 /// Prints a line for each benchmark and adds its record to options().records.
@@ -35,7 +35,7 @@ class RecordReporter : public benchmark::BenchmarkReporter {
   bool failed_ = false;
 };
 
-/// Version, backend, device, threads, compiler, date ...: where and with what a record was made.
+/// Version, backend, device, threads, compiler, date ... of a record.
 nlohmann::json describe_machine();
 
 }  // namespace barchan

@@ -15,11 +15,11 @@ namespace barchan {
 using BodyShapes = Alternatives<shapes::Cylinder, shapes::Sphere, shapes::HalfSphere, shapes::Box,
                                 shapes::Fence, shapes::Dune, shapes::Wave>;
 
-/// One [[body]].
+/// A body of a case: one [[body]].
 struct Body {
   OneOf<BodyShapes> shape;
-  Vec3 foot;                  // middle of its underside [m]; of a dune below the crest
-  Real cosine = 1, sine = 0;  // of the angle by which it is turned from x towards z
+  Vec3 foot;                  // middle of its underside [m]; a dune's foot lies below its crest
+  Real cosine = 1, sine = 0;  // cosine and sine of the turning angle from x towards z
   Real lx = 0, lz = 0;        // periods of the domain [m]
 
   /// Distance from x, which may be outside the domain, and normal of the nearest image.
@@ -30,7 +30,7 @@ struct Body {
     const Vec3& n = at.normal;
     return {at.distance, {cosine * n.x - sine * n.z, n.y, cosine * n.z + sine * n.x}};
   }
-  /// x as seen from the foot of that image [m].
+  /// Position x seen from the foot of the nearest image of the body [m].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 from_foot(const Vec3& x) const {
     Vec3 s = x - foot;
     s.x -= lx * Kokkos::round(s.x / lx);
@@ -39,14 +39,14 @@ struct Body {
   }
   KOKKOS_FORCEINLINE_FUNCTION Real distance(const Vec3& x) const { return to_surface(x).distance; }
 
-  /// Radius of curvature where a grain touches it [m]; 0: as a flat wall. Grains are far smaller
-  /// than a cylinder, so the line of contact that it lacks does not count.
+  /// Radius of curvature where a grain touches the body [m]; 0: as a flat wall. A cylinder counts
+  /// as a sphere: grains are far smaller, so the line of contact does not matter.
   KOKKOS_FORCEINLINE_FUNCTION Real curvature() const {
     return shape.visit([](const auto& it) { return it.curvature(); });
   }
 };
 
-/// All bodies of a case.
+/// Largest number of bodies in a case.
 inline constexpr int kMostBodies = 8;
 struct Bodies {
   int n = 0;

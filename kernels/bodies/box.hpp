@@ -7,7 +7,7 @@
 
 namespace barchan::shapes {
 
-/// Half sizes along x and z; 0: no sides there.
+/// Box of half sizes along x and z; 0: no sides there.
 struct Box {
   static constexpr Named named{"box", "turned by `angle`, or through the whole domain"};
   Vec2 half;

@@ -5,7 +5,8 @@
 
 namespace barchan::shapes {
 
-/// Upright of a height, or with its lowest line at y = 0; of half length 0 without ends.
+/// Cylinder, upright with a height, or lying with its lowest line at y = 0. A lying one of half
+/// length 0 has no ends.
 struct Cylinder {
   static constexpr Named named{"cylinder", "upright, or lying along x or z"};
   Axis axis = Axis::y;

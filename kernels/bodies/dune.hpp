@@ -6,9 +6,9 @@
 namespace barchan::shapes {
 
 /// Straight slopes from a crest of `height` down to a foot of two half ellipses, as long as `stoss`
-/// upstream (towards smaller x) and `lee` downstream, as wide as 2 `half_width`. Convex, so the
-/// distance is the largest one to the planes that touch it, which an angle t counts, or that to the
-/// crest.
+/// upstream (towards smaller x) and `lee` downstream, and 2 `half_width` wide. The dune is convex:
+/// its distance is the largest one to the planes that touch it, counted by an angle t, or the
+/// distance to the crest.
 struct Dune {
   static constexpr Named named{"dune", "straight slopes over two half ellipses"};
   Real height = 0, stoss = 0, lee = 0, half_width = 0;

@@ -5,7 +5,7 @@
 
 namespace barchan::shapes {
 
-/// About the origin.
+/// Upper half of a sphere about the origin.
 struct HalfSphere {
   static constexpr Named named{"half_sphere", "the upper half of a sphere"};
   Real radius = 0;

@@ -32,7 +32,7 @@ struct Wave {
     const ToSurface near =
         to_hill(p.y, half * (1 + Kokkos::cos(k * p.x)), -half * k * Kokkos::sin(k * p.x), 0);
     if (Kokkos::abs(near.distance) * half * k * k > Real(0.5)) return near;
-    Real x = p.x - near.distance * near.normal.x;  // of the nearest point, by Newton's steps
+    Real x = p.x - near.distance * near.normal.x;  // x of the nearest point, by Newton's steps
     for (int n = 0; n < 4; ++n) {
       const Real f = half * (1 + Kokkos::cos(k * x)), slope = -half * k * Kokkos::sin(k * x);
       const Real curve = k * k * (half - f);

@@ -1,10 +1,9 @@
-// The smoothing beside bodies, into which it must not carry anything.
-//
-// With chi = 1 in the water, 0 in cells without an open face, and K the smoothing: phi = K (f / K
-// chi) keeps the sum of f over the water, because K is its own adjoint:
+// Smoothing beside bodies: nothing may be carried into them.
+// chi is 1 in the fluid and 0 in cells without an open face; K is the smoothing. Then phi = K (f /
+// K chi) keeps the sum of f over the fluid, because K is its own adjoint:
 //   <chi, K (f / K chi)> = <K chi, f / K chi> = <1, f>.
-// What stands in closed cells counts for nothing, and serves to undo the smoothing. The force of a
-// field g on what is smoothed so goes the adjoint way, K (chi g) / K chi.
+// Values in closed cells count for nothing; they only serve to undo the smoothing. A force field g
+// acts on the smoothed field by the adjoint, K (chi g) / K chi.
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
@@ -18,20 +17,20 @@ struct KeepAbove {
     f(i, j, k) = Kokkos::max(f(i, j, k), least);
   }
 };
-/// f / K chi.
+/// Divides f by K chi.
 struct DivideBy {
-  ConstFieldRef kept;
+  ConstFieldRef smoothing_weight;
   FieldRef f;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    f(i, j, k) /= kept(i, j, k);
+    f(i, j, k) /= smoothing_weight(i, j, k);
   }
 };
-/// The fluid fraction before the smoothing, of that without the division.
+/// Fluid fraction before the smoothing, from the fraction without the division by K chi.
 struct FractionBesideBodies {
-  ConstFieldRef kept;
+  ConstFieldRef smoothing_weight;
   FieldRef fraction;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    fraction(i, j, k) = 1 - kept(i, j, k) * (1 - fraction(i, j, k));
+    fraction(i, j, k) = 1 - smoothing_weight(i, j, k) * (1 - fraction(i, j, k));
   }
 };
 

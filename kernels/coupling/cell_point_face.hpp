@@ -9,10 +9,10 @@
 
 namespace barchan {
 
-/// Where a point is in its cell: the tetrahedron, and the weights of its four corners.
+/// Position of a point in its cell: the tetrahedron, and the weights of its four corners.
 struct CellPointFace {
   int cell[3];      // the cell along x, y, z
-  int axis[3];      // of the face, from its middle to the edge, along the edge
+  int axis[3];      // axis of the face, from its middle to the edge, along the edge
   int side[3];      // 0 or 1: lower or upper side of the cell, of the face and the edge
   Real face, edge;  // share of the way from the centre to the face, from there to the edge
   Real upper;       // share of the way along the edge
@@ -23,7 +23,7 @@ struct CellPointFace {
     cell[0] = Kokkos::clamp(GridRef::cell_along(p.x, grid.dx) - grid.i_begin, 0, grid.nx - 1);
     cell[1] = grid.row_of(p.y);
     cell[2] = Kokkos::clamp(GridRef::cell_along(p.z, grid.dz) - grid.k_begin, 0, grid.nz - 1);
-    // From the centre of the cell, in halves of its width.
+    // Distance from the centre of the cell, in halves of its width.
     const Real place[3] = {from_centre(p.x, grid.x_centre(cell[0]), grid.dx),
                            from_centre(p.y, grid.y_centre(cell[1]), grid.dy(cell[1])),
                            from_centre(p.z, grid.z_centre(cell[2]), grid.dz)};
@@ -55,12 +55,12 @@ struct CellPointFace {
     int n[3] = {cell[0], cell[1], cell[2]};
     n[axis[0]] += side[0] ? 1 : -1;
     const Real own = f(cell[0], cell[1], cell[2]), other = f(n[0], n[1], n[2]);
-    Real share = 0.5;  // of the cell beyond
+    Real share = 0.5;  // share of the cell beyond
     if (axis[0] == 1) share = grid.dy(cell[1]) / (grid.dy(cell[1]) + grid.dy(n[1]));
     return (1 - share) * own + share * other;
   }
 
-  /// At the lower (0) or upper (1) end of the edge.
+  /// Value at the lower (0) or upper (1) end of the edge.
   KOKKOS_INLINE_FUNCTION Real corner(const GridRef& grid, const ConstFieldRef& f, int end) const {
     int p[3] = {cell[0], cell[1], cell[2]};
     p[axis[0]] += side[0], p[axis[1]] += side[1], p[axis[2]] += end;

@@ -12,7 +12,7 @@
 
 namespace barchan {
 
-/// What one grain gives to the fluid in one fluid step.
+/// Volume and impulse that one grain gives to the fluid in one fluid step.
 struct GrainExchange {
   Real volume;   // [m^3]
   Vec3 impulse;  // drag, added mass and lift on the grain during the grain steps [N s]
@@ -30,9 +30,9 @@ struct ExchangeOfGrain {
     if (exchange.lift.extent(0) > 0) steady += exchange.lift(g);
     return {.volume = sphere_volume(grains(g).r), .impulse = on_grains.impulse(g) + dt * steady};
   }
-  /// beta_p dt [kg].
+  /// Drag of the grain over the step, beta_p dt [kg].
   KOKKOS_INLINE_FUNCTION Real beta_dt(int g) const { return dt * on_grains.beta(g); }
-  /// What its rows give one another through it, at least beta_p dt [kg].
+  /// Interlayer drag of the grain over the step, at least beta_p dt [kg].
   KOKKOS_INLINE_FUNCTION Real rows_dt(const GridRef& grid, int g, const LayerVelocity& u) const {
     const GrainKinematics grain = grains(g);
     const Vec3 slip = Vec3{u.mean_x, 0, u.mean_z} - Vec3{grain.u.x, 0, grain.u.z};
@@ -47,7 +47,7 @@ struct ExchangeOfGrain {
 struct MarkColumns {
   GridRef grid;
   Kokkos::View<const GrainKinematics*> grains;
-  Real reach;               // of points from a centre, at most [m]
+  Real reach;               // largest distance of points from a centre [m]
   Kokkos::View<int*> mark;  // i + nx_all k, then the rows up to the highest
 
   KOKKOS_FUNCTION void operator()(int g) const {
@@ -66,8 +66,8 @@ struct MarkColumns {
   }
 };
 
-/// What all grains together give: volume [m^3], what joins rows, at most [kg], sum of |impulse|
-/// components and the impulse itself [N s]. Bounds of what one cell can get.
+/// Sums over all grains that bound what one cell can get: volume [m^3], largest interlayer drag
+/// [kg], sum of |impulse| components, and the impulse itself [N s].
 struct GrainTotals {
   Real volume = 0, rows_dt = 0, size = 0;
   Vec3 impulse;
@@ -80,7 +80,7 @@ struct GrainTotals {
     return *this;
   }
 };
-/// Adds them up over the grains.
+/// Sums up GrainTotals over the grains.
 struct AddTotals {
   ExchangeOfGrain of_grain;
   KOKKOS_FUNCTION void operator()(int g, GrainTotals& sum) const {
@@ -104,7 +104,7 @@ struct DepositGrains {
   ExchangeOfGrain of_grain;
   Exchange exchange;
   Deposits deposits;
-  int n = 0;  // all grains
+  int n = 0;  // number of all grains
 
   using Cache = DepositCache<(grains_per_item > 1 ? 8 : 1)>;
   static constexpr int items_for(int n) { return (n + grains_per_item - 1) / grains_per_item; }
@@ -123,7 +123,7 @@ struct DepositGrains {
     if constexpr (Exchange::layered)
       to_layers(g, rows, exchange.velocity(rows, grain), given.impulse, cache);
   }
-  /// By shares of the points; with layers the volume alone.
+  /// Deposits by the shares of the points; with layers the volume alone.
   KOKKOS_INLINE_FUNCTION void to_cells(const GrainCells& cells, const GrainExchange& given,
                                        Cache& cache) const {
     for (int q = 0; q < cells.n; ++q) {
@@ -136,16 +136,17 @@ struct DepositGrains {
       cell.impulse_z += deposits.impulse.encode(w * given.impulse.z);
     }
   }
-  /// To the momentum cell of row j at face f goes J_jf = w_j c_f (J + beta_l dt (u_jf - u_ff) +
-  /// beta_p dt phi (u_ff - u_f)), and the conductance c_f C_j to the row below; upwards w_j J to
-  /// row j. A cell that flows faster than the grain sees on average drags it more: the differences
-  /// add up to nothing over the grain. beta_l is beta_p, or the stresslet's.
+  /// Adds J_jf = w_j c_f (J + beta_l dt (u_jf - u_ff) + beta_p dt phi (u_ff - u_f)) to the momentum
+  /// cell of row j at face f, and the conductance c_f C_j to the row below it. Upwards row j gets
+  /// w_j J. A cell that flows faster than the grain sees on average drags it more; over the grain
+  /// the differences add up to nothing. beta_l is beta_p, or the rate of the stresslet.
   KOKKOS_INLINE_FUNCTION void to_layers(int g, const GrainRows& rows, const LayerVelocity& u,
                                         const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
     const Real K = beta_dt * of_grain.on_grains.inv_fluid_mass(g);
     const Real rows_dt = of_grain.rows_dt(exchange.stencil.grid, g, u);
-    const Real joined_x = beta_dt * u.x_faces.joined(K), joined_z = beta_dt * u.z_faces.joined(K);
+    const Real limited_x = beta_dt * u.x_faces.limiter(K),
+               limited_z = beta_dt * u.z_faces.limiter(K);
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
@@ -155,14 +156,14 @@ struct DepositGrains {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
         if (c_x > 0) {
           const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
-                              joined_x * (u.mean_of_x[side] - u.mean_x);
+                              limited_x * (u.mean_of_x[side] - u.mean_x);
           CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
           cell.conductance_x += deposits.conductance.encode(c_x * C_j);
           cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + faster));
         }
         if (c_z > 0) {
           const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
-                              joined_z * (u.mean_of_z[side] - u.mean_z);
+                              limited_z * (u.mean_of_z[side] - u.mean_z);
           CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
           cell.conductance_z += deposits.conductance.encode(c_z * C_j);
           cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + faster));
@@ -172,8 +173,8 @@ struct DepositGrains {
   }
 };
 
-/// Volume of the grains that belong to each momentum cell along the floor, which may be more than
-/// what of them lies there.
+/// Volume of the grains that belong to each momentum cell along the floor. More grains may belong
+/// to a cell than lie in it.
 struct DepositSolid {
   LayerExchange exchange;
   Kokkos::View<const GrainKinematics*> grains;
@@ -223,7 +224,7 @@ struct ClearDeposits {
   }
 };
 
-/// One quantity of the deposits as a density on cells, sum / cell volume, without what is above
+/// Decodes one quantity of the deposits to a density on cells, sum / cell volume, cut off at
 /// `most`.
 struct DecodeDeposit {
   GridRef grid;
@@ -239,7 +240,8 @@ struct DecodeDeposit {
   }
 };
 
-/// alpha_f = 1 - solid fraction, which it replaces; adds up the volume of the grains [m^3].
+/// Turns the solid fraction into alpha_f = 1 - solid fraction, in place; adds up the volume of the
+/// grains [m^3].
 struct SolidToFluidFraction {
   GridRef grid;
   FieldRef alpha;
@@ -250,7 +252,7 @@ struct SolidToFluidFraction {
   }
 };
 
-/// Where no grains are.
+/// Sets alpha_f to 1 where no grains are.
 struct ClearWater {
   FieldRef alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {

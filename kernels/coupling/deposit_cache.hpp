@@ -1,4 +1,4 @@
-// What grains deposit in cells: integers, whose sums do not depend on the order.
+// Deposits of grains in cells: integers, whose sums do not depend on the order.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// What goes into one cell, in fixed point.
+/// Deposit in one cell, in fixed point.
 struct CellDeposit {
   std::int64_t volume = 0;
   std::int64_t conductance_x = 0,
@@ -22,8 +22,8 @@ struct CellDeposit {
   }
 };
 
-/// Sums over all grains, on owned cells and the ghosts beside them. Of layers the conductances and
-/// the impulses along the floor are those of the momentum cells around the faces.
+/// Sums over all grains, on owned cells and the ghosts beside them. With layers, conductances and
+/// impulses along the floor belong to the momentum cells around the faces.
 struct Deposits {
   enum Quantity {
     kVolume,
@@ -33,13 +33,13 @@ struct Deposits {
     kImpulseY,
     kImpulseZ,
     kQuantities,
-    kSolidX = kConductanceX,  // of DepositSolid, until the deposit
+    kSolidX = kConductanceX,  // from DepositSolid, until the deposit
     kSolidZ = kConductanceZ
   };
   Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
   FixedPoint volume, conductance, impulse;
 
-  /// At the same time as others.
+  /// Adds while other threads do.
   KOKKOS_INLINE_FUNCTION void add(std::int64_t cell, const CellDeposit& given) const {
     add(cell, kVolume, given.volume);
     add(cell, kConductanceX, given.conductance_x);
@@ -55,10 +55,10 @@ struct Deposits {
   }
 };
 
-/// What grains give to cells, on its way to the sums of all. The cells around a column of cells are
-/// kept until others take their slots: grains that follow one another in memory share cells, and an
-/// atomic addition takes longer than all else. Two columns along x and along z have slots of their
-/// own, and so many rows; one slot on a device.
+/// Buffer between a grain and the sums of all grains. It keeps the cells around a column of cells
+/// until others take their slots: grains that follow one another in memory share cells, and an
+/// atomic addition takes longer than all else. It has slots for two columns along x, two along z,
+/// and `rows` rows; on a device it is one slot.
 template <int rows>
 class DepositCache {
  public:
@@ -71,7 +71,7 @@ class DepositCache {
   }
   DepositCache(const DepositCache&) = delete;
 
-  /// Where to add what a cell is given.
+  /// Slot of a cell, to which deposits are added.
   KOKKOS_FORCEINLINE_FUNCTION CellDeposit& at(const CellIndex& c) {
     const std::int64_t cell = c.linear(grid_);
     const int slot = rows > 1 ? (c.i & 1) + 2 * (c.k & 1) + 4 * (c.j & (rows - 1)) : 0;

@@ -1,4 +1,4 @@
-// What grains gave to cells and layers, on the faces of the flow. Equations:
+// Deposits on cells and layers brought to the faces of the flow. Equations:
 // docs/theory-coupling.md.
 #pragma once
 
@@ -30,8 +30,8 @@ KOKKOS_INLINE_FUNCTION Vec3 over_face_volumes(const GridRef& grid, const Vec3& d
   return {density.x * row, density.y * floor * grid.dy_centre(j), density.z * row};
 }
 
-/// Cell densities to faces, integrals kept: half of a cell's content to each of its two faces.
-/// Returns what the fluid loses [N s].
+/// Spreads cell densities to faces, integrals kept: half of a cell's content goes to each of its
+/// two faces. Returns what the fluid loses [N s].
 struct SpreadToFaces {
   GridRef grid;
   ConstFieldRef impulse_x, impulse_y, impulse_z;  // on cells, ghosts in x and z valid
@@ -50,8 +50,8 @@ struct SpreadToFaces {
   }
 };
 
-/// Deposits of layers to faces: those along the floor are on theirs already. And the conductances
-/// between layers.
+/// Brings the deposits of layers to faces (those along the floor are on theirs already), and the
+/// conductances between layers.
 struct LayersToFaces {
   GridRef grid;
   Deposits deposits;

@@ -26,7 +26,7 @@ KOKKOS_INLINE_FUNCTION constexpr Real divided_offset(int q, bool along_z) {
   const Real size = (q - 1) % 4 < 2 ? shell : of_corner * shell;
   return q % 2 == 1 ? size : -size;
 }
-/// Which of them point p has.
+/// Index of a point's coordinate along each axis.
 struct DividedAxes {
   int x = 0, y = 0, z = 0;
 };

@@ -1,7 +1,7 @@
-// Drag of the fluid on one grain: one small type per law.
-// `DragLaws` at the end lists those that a case can choose.
-// Every law returns beta [kg/s] with F_drag = beta (u_f - u_p) on ONE grain, u_f the interstitial
-// velocity, force in the sense of model A (no further 1 / alpha_f). Finite at zero slip.
+// Drag of the fluid on one grain: one small type per law. `DragLaws` at the end lists those that a
+// case can choose. Every law returns beta [kg/s] with F_drag = beta (u_f - u_p) on ONE grain, u_f
+// the interstitial velocity, force in the sense of model A (no further 1 / alpha_f). All are finite
+// at zero slip.
 #pragma once
 
 #include <numbers>
@@ -35,7 +35,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real schiller_naumann(const LocalFlow& f, Real reyno
   return stokes_coefficient(f, f.d_p) * (1 + Real(0.15) * Kokkos::pow(reynolds, Real(0.687)));
 }
 
-/// One grain alone.
+/// Drag of a grain alone.
 struct SchillerNaumann {
   KOKKOS_INLINE_FUNCTION Real operator()(const LocalFlow& f) const {
     return schiller_naumann(f, reynolds_number(f, 1, f.d_p));
@@ -65,9 +65,9 @@ struct Gidaspow {
   }
 };
 
-/// The same two, blended across alpha_f = 0.8 by Huilin & Gidaspow (2003):
-/// beta = (1 - phi) Ergun + phi Wen-Yu, phi = atan(150 * 1.75 (0.2 - (1 - alpha_f)))/pi + 1/2.
-/// Limits: half of each at alpha_f = 0.8; within 1 % of either beyond 0.12 from it.
+/// Share of Wen-Yu in a blend with Ergun across alpha_f = 0.8 by Huilin & Gidaspow (2003): beta =
+/// (1 - phi) Ergun + phi Wen-Yu, phi = atan(150 * 1.75 (0.2 - (1 - alpha_f)))/pi + 1/2. Limits:
+/// half of each at alpha_f = 0.8; within 1 % of either beyond 0.12 from it.
 KOKKOS_INLINE_FUNCTION Real wen_yu_share(Real alpha_f) {
   return Kokkos::atan(Real(150 * 1.75) * (alpha_f - Real(0.8))) / std::numbers::pi_v<Real> +
          Real(0.5);

@@ -12,12 +12,12 @@
 
 namespace barchan {
 
-/// Which forces of the fluid act.
+/// Forces of the fluid that act.
 struct FluidForces {
   bool drag = false, pressure_gradient = false, stress = false, added_mass = false;
   bool buoyancy = false;
   bool lift = false, torque = false;  // GatherShear
-  bool wall_drag = false;             // a factor of the drag
+  bool wall_drag = false;             // a factor on the drag
   bool mixture_viscosity = false;     // Stresslet
 };
 
@@ -27,8 +27,8 @@ struct WallFaces {
   KOKKOS_FORCEINLINE_FUNCTION bool has(int face) const { return face == first || face == last; }
 };
 
-/// alpha_f before it was smoothed, (1 - L^2 lap) alpha_f: undoes the smoothing, which is implicit,
-/// to round-off.
+/// Fraction alpha_f before it was smoothed, (1 - L^2 lap) alpha_f: undoes the implicit smoothing to
+/// round-off.
 struct UnsmoothedFraction {
   GridRef grid;
   ConstFieldRef alpha_f;       // with ghosts
@@ -50,21 +50,21 @@ struct UnsmoothedFraction {
   }
 };
 
-/// At each grain now.
+/// Flow at each grain now.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;                // [m/s], as the drag feels it
-  Kokkos::View<Vec3*> du_dt;            // its change over the last step [m/s^2], read as u
-  Kokkos::View<Vec3*> u_grad_u;         // convective acceleration at the centre [m/s^2]
-  Kokkos::View<Vec3*> pressure;         // force of its gradient on a volume [N/m^3]; zero where off
-  Kokkos::View<Vec3*> stress;           // force of the stress, likewise
-  Kokkos::View<Real*> alpha_l;          // what the drag law reads: of layers the mean over its
-                                        // cells before the smoothing, else alpha_f
-  Kokkos::View<Real*> alpha_o;          // what the other grains leave of its cells
-  Kokkos::View<Real*> slip;             // that the law sees [m/s]
-  Kokkos::View<Real*> factor;           // of the law's beta, whose drag is along u - u_p
-  Kokkos::View<Real*> solid_per_fluid;  // volumes, largest of these cells and of momentum cells
+  Kokkos::View<Vec3*> u;         // [m/s], as the drag feels it
+  Kokkos::View<Vec3*> du_dt;     // change of u over the last step [m/s^2], interpolated as u
+  Kokkos::View<Vec3*> u_grad_u;  // convective acceleration at the centre [m/s^2]
+  Kokkos::View<Vec3*> pressure;  // force of its gradient on a volume [N/m^3]; zero where off
+  Kokkos::View<Vec3*> stress;    // force of the stress on a volume [N/m^3]; zero where off
+  Kokkos::View<Real*> alpha_l;   // fraction that the drag law reads: with layers the mean over
+                                 // its cells before the smoothing, else alpha_f
+  Kokkos::View<Real*> alpha_o;   // fluid fraction that the other grains leave in its cells
+  Kokkos::View<Real*> slip;      // slip that the law sees [m/s]
+  Kokkos::View<Real*> factor;    // factor on the law's beta, whose drag is along u - u_p
+  Kokkos::View<Real*> solid_per_fluid;  // largest of its cells and of its momentum cells
 
-  /// Of a scheme that knows no neighbours; after u.
+  /// Sets the slip for a scheme that knows no neighbours; call it after u is set.
   KOKKOS_FORCEINLINE_FUNCTION void set_whole_slip(int g, const Vec3& u_p) const {
     alpha_o(g) = 1;
     slip(g) = norm(u(g) - u_p);
@@ -72,7 +72,7 @@ struct FlowAtGrains {
   }
 };
 
-/// In drag laws a fluid fraction counts as at least 0.1.
+/// Fluid fraction as the drag laws take it: at least 0.1.
 KOKKOS_INLINE_FUNCTION Real limited_fraction(Real alpha) {
   return Kokkos::clamp(alpha, Real(0.1), Real(1));
 }
@@ -89,7 +89,7 @@ struct AtCentres {
   }
 };
 
-/// Velocity, its rate of change, convection and the fraction there, likewise.
+/// Velocity, its rate of change, convection and fluid fraction at the grains' centres, trilinear.
 struct FlowAtCentres {
   GridRef grid;
   PeriodicBox box;
@@ -111,7 +111,7 @@ struct FlowAtCentres {
 struct FlowFromCells {
   GridRef grid;
   PeriodicBox box;
-  ConstFieldRef x, y, z;  // velocity
+  ConstFieldRef x, y, z;  // velocity on cells
   ConstFieldRef alpha_f;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow;
@@ -131,9 +131,9 @@ struct CellVectorRef {
   }
 };
 
-/// Means of densities on cells over a grain's points, the adjoint of the deposit; of the fraction,
-/// too, and solid per fluid where its cells are fullest. The solid is that before the smoothing: as
-/// many grains as there are take the fluid.
+/// Means of cell densities, fluid fraction included, over a grain's points: the adjoint of the
+/// deposit. The solid per fluid is that of the fullest of its cells, before the smoothing: as many
+/// grains as there are share the fluid.
 struct FlowOverCells {
   DepositStencil stencil;
   ConstFieldRef alpha_f, unsmoothed;
@@ -163,14 +163,15 @@ struct FlowOverCells {
   }
 };
 
-/// Velocity and its rate of change in the layers that a grain lies in; upwards, convection and the
-/// fraction, at its centre; and what its cells hold.
+/// Flow in the layers that a grain lies in: velocity along the floor and its rate of change.
+/// Vertical velocity, convection and fluid fraction are those at its centre; the force densities
+/// are means over its cells.
 struct LayeredFlow {
   FlowOverCells over_cells;
   PeriodicBox box;
   ConstFaceRef u, du_dt, u_grad_u;
-  bool crowded = false;            // by DepositSolid, with ghosts:
-  ConstFieldRef solid_x, solid_z;  // solid that belongs to the momentum cells, per volume
+  bool oversubscribed = false;     // momentum cells may get too many grains
+  ConstFieldRef solid_x, solid_z;  // solid per volume of momentum cells, with ghosts
   KOKKOS_FUNCTION void operator()(int g) const {
     const FlowAtGrains& flow = over_cells.flow;
     const GrainKinematics grain = over_cells.grains(g);
@@ -182,15 +183,16 @@ struct LayeredFlow {
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     set_slip(g, grain.u, at);
-    if (!crowded) return;
+    if (!oversubscribed) return;
     flow.solid_per_fluid(g) =
         Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
   }
 
  private:
-  /// The flow carries alpha_f of its velocity, and so the superficial slip is right: the drag sees
-  /// s = alpha_f/alpha_l of it, twice. Along surfaces of equal fraction, as over a bed, it knows
-  /// none of the other grains, whose part in the solid of the grain's cells is h. So
+  /// Sets slip, velocity and factor of the drag. The flow carries alpha_f of its velocity, so the
+  /// superficial slip is right: the drag sees s = alpha_f/alpha_l of the slip, twice. Along
+  /// surfaces of equal fraction, as over a bed, it knows none of the other grains, whose part in
+  /// the solid of the grain's cells is h. So
   ///   F = beta (s_a^2 v + (s^2 - s_a^2) n (n . v)), s_a^2 = 1 + (s^2 - 1) (1 - h).
   KOKKOS_INLINE_FUNCTION void set_slip(int g, const Vec3& u_p, const PointStencil& at) const {
     const FlowAtGrains& flow = over_cells.flow;

@@ -53,8 +53,9 @@ struct HoldForceAtWall {
   }
 };
 
-/// The same on cells, the mean of their faces: the adjoint of alpha_f on faces. Returns what the
-/// solid fraction of a cell takes of it [N], over all cells what the flow does not get.
+/// Brings the force density to cells, as the mean of their faces: the adjoint of alpha_f on faces.
+/// Returns the part that the solid fraction of a cell takes [N]; summed over all cells, this is
+/// what the flow does not get.
 struct ForceOnCells {
   GridRef grid;
   ConstFaceRef force;  // with ghosts
@@ -71,8 +72,8 @@ struct ForceOnCells {
   }
 };
 
-/// The force of the pressure gradient likewise, straight from the pressure; along the floor it is a
-/// central difference, which commutes with the smoothing.
+/// Force density of the pressure gradient in a cell, straight from the pressure. Along the floor it
+/// is a central difference, which commutes with the smoothing.
 struct PressureForceInCell {
   GridRef grid;
   ConstFieldRef p;  // with ghosts in x and z
@@ -82,7 +83,7 @@ struct PressureForceInCell {
   KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
     return rho_f * drive.x - (p(i + 1, j, k) - p(i - 1, j, k)) * (Real(0.5) / grid.dx);
   }
-  /// A wall has what the first face inside has.
+  /// Vertical force density; a wall takes the value of the first face inside.
   KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
     if (grid.ny == 1) return 0;
     const int below = j > 0 ? j : 1, above = j + 1 < grid.ny ? j + 1 : j;
@@ -93,8 +94,8 @@ struct PressureForceInCell {
   }
 };
 
-/// What is to be smoothed of it, the pressure and the force upwards. Returns what the solid
-/// fraction takes [N].
+/// Writes the fields to be smoothed: the pressure and the vertical force density. Returns the force
+/// that the solid fraction takes [N].
 struct PressureToSmooth {
   PressureForceInCell force;
   ConstFieldRef alpha_f;
@@ -107,7 +108,7 @@ struct PressureToSmooth {
   }
 };
 
-/// And then the force along the floor, of the smoothed pressure.
+/// Writes the force density along the floor, from the smoothed pressure.
 struct SmoothedPressureForce {
   PressureForceInCell force;
   FieldRef x, z;

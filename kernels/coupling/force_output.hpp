@@ -22,7 +22,7 @@ struct DragAndAddedMass {
   }
 };
 
-/// At the end of the fluid step [N m].
+/// Torque of the flow at the end of the fluid step [N m].
 struct TorqueOfFlow {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
@@ -39,7 +39,7 @@ struct ResultantForce {
   Real dt;
   Kokkos::View<Vec3*> total;
   KOKKOS_FUNCTION void operator()(int g) const {
-    total(g) = contact_force(g) + on_grains.steady_force(g);
+    total(g) = contact_force(g) + on_grains.explicit_force(g);
     if (on_grains.has_fluid) total(g) += (1 / dt) * on_grains.impulse(g);
   }
 };

@@ -5,7 +5,8 @@
 
 namespace barchan {
 
-/// The impulse of a whole fluid step, in one kick of infinite mass: only the share of fluid moves.
+/// Impulse of a whole fluid step on a grain that does not move: one half kick with an infinite
+/// mass, so that only the grain's share of fluid moves.
 struct DragOnFrozenGrains {
   Real dt = 0;
   FluidOnGrains on_grains;

@@ -10,25 +10,26 @@
 
 namespace barchan {
 
-/// K/(1 + K), K = (C_m rho_f V_p + beta_p dt)/m_f: the part of du/dt with which the fluid that a
-/// grain carries along goes on from the last step; the rest acts on the added mass alone. One where
-/// grain and fluid are tied; none where the grain hardly moves the fluid, whose changes of one step
-/// are noise as points of the grain cross cells.
-KOKKOS_FORCEINLINE_FUNCTION Real part_carried_on(Real m_f_inv, Real m_added, Real beta_dt) {
+/// Inertial fraction K/(1 + K), K = (C_m rho_f V_p + beta_p dt)/m_f: the part of du/dt with which
+/// the fluid that a grain carries along goes on from the last step. The rest acts on the added mass
+/// alone. It is one where grain and fluid are tied. It is zero where the grain hardly moves the
+/// fluid, whose changes of one step are noise as points of the grain cross cells.
+KOKKOS_FORCEINLINE_FUNCTION Real inertial_fraction(Real m_f_inv, Real m_added, Real beta_dt) {
   const Real K = m_f_inv * (m_added + beta_dt);
   return K / (1 + K);
 }
 
-/// What acts on a grain all along: weight and buoyancy, F_p, F_tau, the steady part of F_m [N].
-KOKKOS_FORCEINLINE_FUNCTION Vec3 steady_force(const SubmergedWeight& weight,
-                                              const GrainKinematics& grain,
-                                              const ExchangeOnGrains& exchange, int g) {
+/// Forces that do not change in the fluid step: weight and buoyancy, F_p, F_tau, the steady part of
+/// F_m [N].
+KOKKOS_FORCEINLINE_FUNCTION Vec3 explicit_force(const SubmergedWeight& weight,
+                                                const GrainKinematics& grain,
+                                                const ExchangeOnGrains& exchange, int g) {
   return weight(grain) + (exchange.pressure_force(g) + exchange.stress_force(g)) +
          exchange.added_mass_force(g);
 }
 
-/// u_f, beta_p, m_f, a and the steady forces of each grain. beta_p is that of the slip at the start
-/// of the step; the drag itself follows the grain and its share of fluid, m_f.
+/// Gathers u_f, beta_p, m_f, a and the steady forces of each grain. beta_p is that of the slip at
+/// the start of the step; the drag itself follows the grain and its share of fluid, m_f.
 template <class Law>
 struct GatherFluid {
   Law law;
@@ -50,8 +51,8 @@ struct GatherFluid {
     const Real m_f_inv = flow_at.solid_per_fluid(g) / (rho_f * volume);
     // a = I_-/(m_f dt) + K/(1 + K) du/dt
     const Vec3 du_dt = flow_at.du_dt(g);
-    const Vec3 carried_on = part_carried_on(m_f_inv, m_added, dt * beta) * du_dt;
-    const Vec3 a = carried_on + (m_f_inv / dt) * on_grains.impulse(g);
+    const Vec3 inertial = inertial_fraction(m_f_inv, m_added, dt * beta) * du_dt;
+    const Vec3 a = inertial + (m_f_inv / dt) * on_grains.impulse(g);
 
     on_grains.u_f(g) = flow_at.u(g);
     on_grains.acceleration(g) = a;
@@ -61,8 +62,8 @@ struct GatherFluid {
     exchange.pressure_force(g) = volume * flow_at.pressure(g);
     exchange.stress_force(g) = volume * flow_at.stress(g);
     // C_m rho_f V_p (u . grad u + 1/(1 + K) du/dt)
-    exchange.added_mass_force(g) = m_added * (flow_at.u_grad_u(g) + du_dt - carried_on);
-    on_grains.steady_force(g) = steady_force(weight, grain, exchange, g);
+    exchange.added_mass_force(g) = m_added * (flow_at.u_grad_u(g) + du_dt - inertial);
+    on_grains.explicit_force(g) = explicit_force(weight, grain, exchange, g);
   }
 
  private:
@@ -77,8 +78,8 @@ struct GatherFluid {
   }
 };
 
-/// After GatherFluid in the first step of a run, which has no I_- and no du/dt: a is then what
-/// pressure gradient, stress and convection do to the water.
+/// Replaces, after GatherFluid in the first step of a run, the terms that need I_- and du/dt, which
+/// are not there yet: a is that of pressure gradient, stress and convection alone.
 struct GatherFirstStep {
   Real rho_f = 0;
   SubmergedWeight weight;
@@ -92,7 +93,7 @@ struct GatherFirstStep {
     const Vec3 a = (1 / rho_f) * (flow_at.pressure(g) + flow_at.stress(g)) - u_grad_u;
     on_grains.acceleration(g) = a;
     exchange.added_mass_force(g) = on_grains.added_mass(g) * u_grad_u;
-    on_grains.steady_force(g) = steady_force(weight, grains(g), exchange, g);
+    on_grains.explicit_force(g) = explicit_force(weight, grains(g), exchange, g);
   }
 };
 

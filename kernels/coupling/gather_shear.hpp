@@ -29,7 +29,7 @@ struct GatherShear {
     if (lift) {
       const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
-      on_grains.steady_force(g) += force;
+      on_grains.explicit_force(g) += force;
     }
     if (torque) {
       const Vec3 omega_f = Real(0.5) * vorticity;
@@ -51,7 +51,7 @@ struct GatherShear {
       mean += rows.weight(q) * at_height(grain, rows.height(grid, q));
     return mean;
   }
-  /// [N], at the slip that the drag sees; over the drag it is that of a lone grain.
+  /// Lift [N] at the slip that the drag sees. Its ratio to the drag is that of a lone grain.
   KOKKOS_INLINE_FUNCTION Vec3 lift_on(const GrainKinematics& grain, const Vec3& slip,
                                       const Vec3& vorticity, Real alpha) const {
     const Real w = norm(vorticity);

@@ -6,24 +6,24 @@
 
 namespace barchan {
 
-/// A height; what is beyond the floor or the lid is mirrored back.
+/// Height of a point; one beyond the floor or the lid is mirrored back.
 KOKKOS_INLINE_FUNCTION Real mirrored_inside(const GridRef& grid, Real y) {
   y = y < 0 ? -y : y;
   return y > grid.ly ? 2 * grid.ly - y : y;
 }
 
-/// Rows of cells that share a grain, and which of its points each holds. The first is that of its
-/// centre.
+/// Rows of cells that share a grain, and which of its points each holds. The first row is that of
+/// its centre.
 struct GrainRows {
   int n = 0;
   int row[kDividedOffsets];
   PointSet points[kDividedOffsets];
-  // Mean height of these points above the middle of the row, over the distance to the middle of the
-  // row below; over that to the row above.
+  // Mean height of a row's points above its middle, over the distance to the middle of the row
+  // below; the second, over the distance to that of the row above.
   Real over_lower[kDividedOffsets], over_upper[kDividedOffsets];
   PointSet outside = 0;  // points beyond the floor or the lid
 
-  /// Of a grain of radius r [m] whose centre has the height y [m].
+  /// Finds the rows of a grain of radius r [m] whose centre has the height y [m].
   KOKKOS_INLINE_FUNCTION GrainRows(const GridRef& grid, Real y, Real r) {
     const Real low = y - kOuterShell * r, high = y + kOuterShell * r;
     const int own = grid.row_of(mirrored_inside(grid, y));
@@ -56,7 +56,7 @@ struct GrainRows {
  private:
   static constexpr int kFew = 4;
 
-  /// A grain inside, in a few rows that follow one another.
+  /// Fills in a grain between floor and lid that lies in a few rows.
   KOKKOS_INLINE_FUNCTION void in_few(const GridRef& grid, Real y, Real r, int lowest, int own,
                                      int highest) {
     Real at[kDividedOffsets];
@@ -103,7 +103,7 @@ struct GrainRows {
     sum_[q] += sum_of_heights;
   }
 
-  Real sum_[kDividedOffsets];  // of the heights of the points [m]
+  Real sum_[kDividedOffsets];  // sum of the heights of the points [m]
 };
 
 }  // namespace barchan

@@ -1,6 +1,6 @@
-// Layered exchange: the part of a grain in a row of cells feels the water of that row at the
-// grain's centre, and that water loses what it gave. Source and reason:
-// docs/theory-coupling.md, "Layered exchange".
+// Layered exchange: the part of a grain in a row of cells feels the fluid of that row at the
+// grain's centre, and that fluid loses what it gave. Source and reason: docs/theory-coupling.md,
+// "Layered exchange".
 #pragma once
 
 #include "kernels/coupling/void_fraction.hpp"
@@ -14,12 +14,12 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
   return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
 }
 
-/// What of beta_p dt joins rows j - 1 and j through one grain: C_j of docs/theory-coupling.md,
-/// "Interlayer drag",
+/// Interlayer drag between rows j - 1 and j through one grain, over beta_p dt: C_j of
+/// docs/theory-coupling.md, "Interlayer drag",
 ///   sum over pairs of its rows a < j <= b of w_a w_b (b - a).
-/// At least as stiff as the drag itself (tests/physics/interlayer_drag_test.cpp). Over all j it
-/// adds up to kDividedOffsets^2 / 4 at most. Rows must be higher than a sixth of the grain: then
-/// each between its ends holds a point.
+/// It is at least as stiff as the drag itself (tests/physics/interlayer_drag_test.cpp). Its sum
+/// over all j is at most kDividedOffsets^2 / 4. Rows must be higher than a sixth of the grain: then
+/// each row between its ends holds a point.
 KOKKOS_INLINE_FUNCTION Real conductance_below(const GrainRows& rows, int j) {
   Real sum = 0;
   for (int a = 0; a < rows.n; ++a) {
@@ -37,50 +37,53 @@ KOKKOS_INLINE_FUNCTION Real solid_per_fluid_at(const ConstFieldRef& alpha_f, con
   return Kokkos::fmax(1 - fluid, Real(0)) / Kokkos::fmax(fluid, Real(0.1));
 }
 
-/// The two faces of a grain's column across a direction of the flow, and what of the grain belongs
-/// to the momentum cell of each. Alone in its water a grain belongs to both by its distance. Among
-/// others it belongs to the nearer one, but close to the middle: two pieces of water that many
-/// grains join would be dragged by each other, and at the surface of a bed one of them is open.
+/// Two faces of a grain's column across a direction of the flow, and the part of the grain that
+/// belongs to the momentum cell of each. A grain alone in its fluid belongs to both by its
+/// distance. Among others it belongs to the nearer one, except close to the middle: two pieces of
+/// fluid that many grains join would be dragged by each other, and at the surface of a bed one of
+/// them is open.
 struct GrainFaces {
   int first = 0;
   Real of_second = 0;  // the other face has the rest
   KOKKOS_INLINE_FUNCTION GrainFaces(const LinearStencil& face, Real solid_per_fluid)
       : first(face.i) {
-    const Real half = Real(0.5), width = 1 / (1 + kNearer * solid_per_fluid);
+    const Real half = Real(0.5), width = 1 / (1 + kNarrowing * solid_per_fluid);
     of_second = Kokkos::clamp((face.t - half) / width + half, Real(0), Real(1));
   }
   KOKKOS_FORCEINLINE_FUNCTION Real weight(int side) const {
     return side == 0 ? 1 - of_second : of_second;
   }
-  /// The part of K = dt beta_p/m_f with which a grain joins the water at its two faces. That is
-  /// explicit: a grain takes c (1 - c) K of their difference, and must not take more than there is.
-  KOKKOS_FORCEINLINE_FUNCTION Real joined(Real K) const {
-    return Kokkos::fmin(Real(1), kMostJoined / (of_second * (1 - of_second) * K));
+  /// Limiter phi: the part of K = dt beta_p/m_f with which a grain joins the fluid at its two
+  /// faces. The exchange is explicit: a grain takes c (1 - c) K of their difference, and must not
+  /// take more than there is.
+  KOKKOS_FORCEINLINE_FUNCTION Real limiter(Real K) const {
+    return Kokkos::fmin(Real(1), kLargestExchange / (of_second * (1 - of_second) * K));
   }
 
  private:
-  // A face may be joined on both sides: with c (1 - c) K up to 1/2 that is stable, up to 1/4 no
-  // velocity overshoots another.
-  static constexpr Real kMostJoined = 0.25;
-  static constexpr Real kNearer = 8;  // a thirteenth of the grains join, 3 solid in 5
+  // Largest c (1 - c) K of a face. Grains may join it on both sides: up to 1/2 is stable, up to 1/4
+  // no velocity overshoots another.
+  static constexpr Real kLargestExchange = 0.25;
+  // A thirteenth of the grains join both faces at a solid fraction of 3/5.
+  static constexpr Real kNarrowing = 8;
 };
 
 /// A velocity along the floor in one column of momentum cells, those around its faces.
 struct ColumnVelocity {
   const Real* first;      // in row 0
   int stride_y, to_side;  // to the next row; to the next column across the flow
-  Real across;            // of the grain's centre from the middle of the column, over its width
+  Real across;  // distance of the grain's centre from the middle of the column, over its width
 
   KOKKOS_FORCEINLINE_FUNCTION Real in_row(int j, int side = 0) const {
     return first[static_cast<std::ptrdiff_t>(stride_y) * j + side * to_side];
   }
-  /// What the distance from the middle changes, along a slope that makes no new extremum.
+  /// Change of the velocity off the middle, along a slope that makes no new extremum.
   KOKKOS_FORCEINLINE_FUNCTION Real off_middle(int j, Real here) const {
     return across * limited_slope(here - in_row(j, -1), in_row(j, 1) - here);
   }
 };
 
-/// The momentum cells that a grain belongs to: those of its rows at these faces of its column.
+/// Momentum cells that a grain belongs to: those of its rows at these faces of its column.
 struct GrainColumn {
   int i, k;
   GrainFaces x_faces, z_faces;  // across x, across z
@@ -92,16 +95,16 @@ struct GrainColumn {
         z_faces(at.z_face, solid_per_fluid) {}
 };
 
-/// Velocity along the floor in each row of a grain, x and z [m/s]: those of the momentum cells that
-/// the grain belongs to, with slopes upwards and across the flow that make no new extremum. A grain
-/// in a linear shear sees the shear; at the surface of a bed, where the flow above and beside is a
-/// hundred times faster than that between the grains, no grain sees the one for the other.
+/// Velocity along the floor in each row of a grain, x and z [m/s], from the momentum cells that the
+/// grain belongs to, with slopes upwards and across the flow that make no new extremum. A grain in
+/// a linear shear sees the shear. At the surface of a bed, where the flow above and beside is a
+/// hundred times faster than between the grains, no grain sees the one for the other.
 struct LayerVelocity : GrainColumn {
   const GrainRows& rows;
   Real x[2][kDividedOffsets], z[2][kDividedOffsets];  // by face and row
   Real mean_of_x[2], mean_of_z[2];                    // by face
-  Real mean_x = 0, mean_z = 0;                        // over the grain
-  Real solid;                                         // fraction in the cell of its centre
+  Real mean_x = 0, mean_z = 0;                        // mean over the grain
+  Real solid;                                         // solid fraction in the cell of its centre
 
   KOKKOS_INLINE_FUNCTION LayerVelocity(const GrainRows& of_grain, const PointStencil& at,
                                        const ConstFaceRef& u, Real solid_per_fluid)
@@ -124,7 +127,7 @@ struct LayerVelocity : GrainColumn {
   }
 
  private:
-  /// Returns the mean over the grain.
+  /// Sets the velocity in each row; returns the mean over the grain.
   KOKKOS_INLINE_FUNCTION Real in_rows(const ColumnVelocity& u, Real (&v)[kDividedOffsets]) const {
     Real below = 0, here = 0, above = 0, mean = 0;
     for (int r = 0; r < rows.n; ++r) {
@@ -151,7 +154,7 @@ struct LayerExchange {
   DepositStencil stencil;
   PeriodicBox box;
   ConstFaceRef u;
-  ConstFieldRef alpha_f;  // before the smoothing
+  ConstFieldRef alpha_f;  // fluid fraction before the smoothing
 
   KOKKOS_INLINE_FUNCTION LayerVelocity velocity(const GrainRows& rows,
                                                 const GrainKinematics& grain) const {
@@ -163,8 +166,8 @@ struct LayerExchange {
     const PointStencil at(stencil.grid, box, grain.x, rows.row[0]);
     return {at, solid_per_fluid_at(alpha_f, at, rows)};
   }
-  /// Faces of the momentum cells: the flow is periodic, and the last face is the first, or lies in
-  /// the ghosts where the grid is cut.
+  /// Face of a momentum cell. The flow is periodic: the last face is the first, or lies in the
+  /// ghosts where the grid is cut.
   KOKKOS_INLINE_FUNCTION CellIndex x_face(const GrainColumn& of, int side, int j) const {
     const int face = of.x_faces.first + side;
     return {face == stencil.grid.nx_all ? 0 : face, j, of.k};

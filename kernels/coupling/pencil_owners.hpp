@@ -1,4 +1,4 @@
-// Which rank has the cells around a grain.
+// Ranks that own the cells around a grain.
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
@@ -9,8 +9,8 @@ namespace barchan {
 /// Ranks by pencil, x running fastest. A position beyond an end that is not periodic belongs to the
 /// last pencil there.
 struct PencilOwners {
-  BlockPartition x, z;  // of the cells
-  Real dx = 1, dz = 1;  // of a cell [m]
+  BlockPartition x, z;  // parts of the cells along x and z
+  Real dx = 1, dz = 1;  // size of a cell [m]
   PeriodicBox box;
 
   KOKKOS_FUNCTION static int cell(Real at, Real spacing, int n) {

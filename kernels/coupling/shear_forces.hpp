@@ -1,6 +1,6 @@
-// What shear and a floor do to one grain beyond the drag laws: lift, the floor's part of the drag,
-// torque. All of a lone sphere; forces of the undisturbed flow at its centre. Sources and ranges:
-// docs/theory-coupling.md, "Lift, torque, wall drag".
+// Forces of shear and a floor on one grain beyond the drag laws: lift, the floor's part of the
+// drag, torque. All are those of a lone sphere in the undisturbed flow at its centre. Sources and
+// ranges: docs/theory-coupling.md, "Lift, torque, wall drag".
 #pragma once
 
 #include "kernels/coupling/drag.hpp"
@@ -48,7 +48,7 @@ KOKKOS_INLINE_FUNCTION Real floor_lift_coefficient(Real reynolds, Real delta) {
          (Kokkos::exp(a * Kokkos::pow(delta, b)) - lambda);
 }
 
-/// Between these gaps over d lift goes over from the floor's correlation to Saffman-Mei: the former
+/// Gaps over d between which lift changes from the floor's correlation to Saffman-Mei: the former
 /// takes the flow for a linear profile above the floor. Our choice.
 inline constexpr Real kFloorLiftWhole = 0.5, kFloorLiftNone = 1;
 
@@ -80,8 +80,8 @@ KOKKOS_INLINE_FUNCTION Real floor_drag_factor(Real reynolds, Real delta) {
   return creeping * (1 + a * Kokkos::pow(re, b)) / (1 + Real(0.15) * Kokkos::pow(re, Real(0.687)));
 }
 
-/// The same in a flow as the drag laws see it, at the gap [m]; a grain pressed into the floor is on
-/// it.
+/// Floor drag factor in a flow as the drag laws see it, at the gap [m]; a grain pressed into the
+/// floor counts as on it.
 KOKKOS_INLINE_FUNCTION Real floor_drag_factor(const LocalFlow& f, Real gap) {
   return floor_drag_factor(reynolds_number(f, 1, f.d_p), gap > 0 ? gap / f.d_p : Real(0));
 }
@@ -97,7 +97,7 @@ KOKKOS_INLINE_FUNCTION Real rotational_drag(Real rho_f, Real mu_f, Real d, Real 
   return pi * mu_f * d * d * d * (factor > 1 ? factor : 1);
 }
 
-/// What neighbours make of it that leave the fluid fraction alpha: 1/alpha, by comparison with
+/// Factor 1/alpha on the torque among neighbours that leave the fluid fraction alpha; fitted to
 /// grains at the surface of resolved beds (docs/validation.md, "Forces at the surface of a bed").
 KOKKOS_INLINE_FUNCTION Real torque_among_grains(Real alpha) { return 1 / alpha; }
 

@@ -9,7 +9,7 @@
 namespace barchan {
 
 /// Still, unbounded fluid around the grains: weight, buoyancy, Schiller-Naumann drag, added mass.
-/// Without a fluid the weight alone.
+/// Where there is no fluid: weight alone.
 struct GatherStillFluid {
   Real rho_f = 0, mu_f = 0;
   SubmergedWeight weight;
@@ -18,7 +18,7 @@ struct GatherStillFluid {
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const GrainKinematics grain = grains(g);
-    on_grains.steady_force(g) = weight(grain);
+    on_grains.explicit_force(g) = weight(grain);
     if (!on_grains.has_fluid) return;
     const LocalFlow flow{
         .alpha_f = 1, .rho_f = rho_f, .mu_f = mu_f, .slip = norm(grain.u), .d_p = 2 * grain.r};

@@ -1,4 +1,4 @@
-// What a moving grain adds to the viscosity of the fluid that its rows share. Equations:
+// Viscosity that a moving grain adds to the fluid that its rows share. Equations:
 // docs/theory-coupling.md, "Viscosity of the mixture".
 #pragma once
 
@@ -18,16 +18,17 @@ KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
   return Real(2.5) / (1 - Kokkos::fmin(phi, kMostMixed) / kDensestFlow);
 }
 
-/// Rate [kg/s] at which a grain joins the rows that it lies in. Of the forces rate w_j (u_j - u_f)
-/// on them, which act in their middles, the moment is mu_f V_p (eta - 1)/phi times the shear: the
+/// Rate [kg/s] at which a grain joins the rows that it lies in. The forces rate w_j (u_j - u_f) act
+/// in the middles of the rows; their moment is mu_f V_p (eta - 1)/phi times the shear: the
 /// stresslet of a sphere that follows its fluid.
 struct Stresslet {
   Real mu_f = 0;  // [Pa s]; 0: none
-  // Mean heights of the points in two rows that share a grain differ by more than this times r.
+  // Lower bound, over r, of the distance between the mean heights of the points in two rows of a
+  // grain.
   static constexpr Real kClosest = 0.5;
 
-  /// At least `beta`, the rate of its drag; that alone of a grain at rest or in one row. A grain
-  /// that lags behind its fluid by `slip` counts by u_p^2/(u_p^2 + slip^2).
+  /// Rate of the grain, at least `beta`, the rate of its drag. A grain at rest or in one row has
+  /// `beta` alone. A grain that lags behind its fluid by `slip` counts by u_p^2/(u_p^2 + slip^2).
   KOKKOS_INLINE_FUNCTION Real operator()(const GridRef& grid, const GrainRows& rows,
                                          const GrainKinematics& grain, const Vec3& slip, Real phi,
                                          Real beta) const {
@@ -45,7 +46,7 @@ struct Stresslet {
     const Real lag = slip.x * slip.x + slip.z * slip.z;
     return beta + Kokkos::fmax(of_mixture - beta, Real(0)) * moving / (moving + lag);
   }
-  /// Bound [kg/s] of rate times w (1 - w), of two rows.
+  /// Upper bound [kg/s] of rate times w (1 - w), for two rows.
   KOKKOS_FORCEINLINE_FUNCTION Real most(Real r) const {
     return mu_f * sphere_volume(r) * viscosity_of_grains(kMostMixed) /
            (kClosest * r * kClosest * r);

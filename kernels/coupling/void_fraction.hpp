@@ -1,5 +1,5 @@
-// Where a grain's volume lies on the grid: the divided void fraction, and deposits that add up to
-// the same bits in any order.
+// Volume of a grain on the grid: the divided void fraction, and deposits that add up to the same
+// bits in any order.
 #pragma once
 
 #include "kernels/coupling/grain_rows.hpp"
@@ -21,11 +21,11 @@ struct PointsAlong {
   }
 };
 
-/// Indices of a cell, owned or a ghost beside an owned one. Not set by default: GrainCells has
-/// many.
+/// Indices of a cell, owned or a ghost beside an owned one. They have no default values: GrainCells
+/// has many.
 struct CellIndex {
   int i, j, k;
-  /// Its number among the owned cells and the ghosts around them in x and z.
+  /// Number of the cell among the owned cells and the ghosts around them in x and z.
   KOKKOS_INLINE_FUNCTION std::int64_t linear(const GridRef& grid) const {
     return i + 1 + std::int64_t{grid.nx + 2} * (j + std::int64_t{grid.ny} * (k + 1));
   }
@@ -44,7 +44,7 @@ struct GrainCells {
   CellIndex cell[kDividedPoints];
   int count[kDividedPoints];
 
-  /// A cell that is not there yet, unless it holds no point.
+  /// Adds a cell that is not there yet, unless it holds no point.
   KOKKOS_INLINE_FUNCTION void put(const CellIndex& c, int points) {
     if (points == 0) return;
     n_points += points;
@@ -65,7 +65,8 @@ struct GrainCells {
   KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
 };
 
-/// `cfdem`: a point outside gives its share to the grain's own cell, as CFDEM does.
+/// Points that stand for a grain. `cfdem`: a point outside gives its share to the grain's own cell,
+/// as CFDEM does.
 enum class PointModel { divided, centre, cfdem };
 
 /// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
@@ -78,7 +79,7 @@ struct DepositStencil {
   int i_low = 0, i_high = 0;  // a point beyond belongs to these
   int k_low = 0, k_high = 0;
 
-  /// Index from 0 to n - 1 along a periodic direction, of one that is rarely a period off.
+  /// Wraps an index that is rarely a period off to 0 .. n - 1.
   KOKKOS_INLINE_FUNCTION static int wrap(int i, int n) {
     if (i >= 0 && i < n) return i;
     if (i >= -n && i < 2 * n) return i < 0 ? i + n : i - n;
@@ -90,7 +91,7 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
     return grid.cell_along(z, grid.dz) - grid.k_begin;
   }
-  /// Row of a height near a row; what is beyond a wall is mirrored back.
+  /// Row of a height near a row; a point beyond a wall is mirrored back.
   KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
     return grid.row_near(mirrored_inside(grid, y), row_nearby);
   }
@@ -137,7 +138,7 @@ struct DepositStencil {
   }
 
  private:
-  /// Columns along x, or along z, that hold the points of a grain: the first is that of its centre.
+  /// Columns along x, or along z, that hold the points of a grain; the first is that of its centre.
   template <bool along_z>
   KOKKOS_INLINE_FUNCTION PointsAlong columns_of_points(Real centre, Real r) const {
     constexpr DividedSets sets = divided_sets();
@@ -162,7 +163,7 @@ struct DepositStencil {
   }
 };
 
-/// On a grid that is not cut.
+/// Deposit stencil on a grid that is not cut among ranks.
 inline DepositStencil deposit_stencil_in(const GridRef& grid, PointModel points, bool periodic_x) {
   return {.grid = grid,
           .points = points,

@@ -1,4 +1,4 @@
-// The flow at points at rest.
+// Flow at points at rest: velocity, pressure, wall shear stress.
 #pragma once
 
 #include "kernels/fluid/flow_sums.hpp"
@@ -9,12 +9,13 @@ namespace barchan {
 struct FlowAtPoint {
   Vec3 u;           // velocity [m/s]
   Real p = 0;       // pressure without the hydrostatic and driving parts [Pa]
-  Vec2 wall_shear;  // of the water on the floor below [Pa]
+  Vec2 wall_shear;  // shear stress of the fluid on the floor below [Pa]
   static constexpr int n_numbers = 6;
 };
 
-/// Trilinear between the nodes of each staggering. Zero on ranks that do not own the column of a
-/// point, so that the sum over ranks has the bits of the one that does. Ghosts must be valid.
+/// Reads the flow at points, trilinear between the nodes of each staggering. Ranks that do not own
+/// the column of a point give zero, so that the sum over ranks has the bits of the one that does.
+/// Ghosts must be valid.
 struct ReadFlowAtPoints {
   GridRef grid;
   ConstFaceRef u;
@@ -41,7 +42,7 @@ struct ReadFlowAtPoints {
     return i >= grid.i_begin && i < grid.i_begin + grid.nx && k >= grid.k_begin &&
            k < grid.k_begin + grid.nz;
   }
-  /// At the floor [1/s].
+  /// Slope of a velocity at the floor [1/s].
   KOKKOS_INLINE_FUNCTION Real slope(const ConstFieldRef& f, const PlaneStencil& at) const {
     const WallShear wall{.grid = grid, .u = f, .row = 0, .u_wall = 0};
     Real sum = 0;

@@ -1,11 +1,11 @@
-// What turbulence statistics add up: over time in every cell, and over planes of constant height.
+// Sums for turbulence statistics: over time in every cell, and over planes of constant height.
 #pragma once
 
 #include "kernels/fluid/momentum.hpp"
 
 namespace barchan {
 
-/// What is summed at the cell centres; velocities there are means of the two faces [m/s].
+/// Quantities summed at the cell centres; velocities there are means of the two faces [m/s].
 enum FlowMoment : int {
   mean_u,
   mean_v,
@@ -24,8 +24,8 @@ enum FlowMoment : int {
 
 using FlowSums = Kokkos::Array<FieldRef, n_flow_moments>;
 
-/// Adds one instant. Products are of deviations from the flow at the first sample, so that a long
-/// mean does not drown small fluctuations.
+/// Adds one instant to the sums in cells. Products are of deviations from the flow at the first
+/// sample, so that a long mean does not drown small fluctuations.
 struct AddFlowMoments {
   ConstFaceRef u;
   ConstFieldRef p, alpha_f, nu_t;
@@ -87,7 +87,8 @@ struct PlaneSums {
   KOKKOS_INLINE_FUNCTION Real& operator[](Quantity q) { return value[q]; }
 };
 
-/// Adds one instant: a team per row. j = ny is the top boundary: its faces count, its cells do not.
+/// Adds one instant to the sums over planes, a team per row. j = ny is the top boundary: its faces
+/// count, its cells do not.
 struct AddPlaneMeans {
   GridRef grid;
   ConstFaceRef u;

@@ -1,4 +1,5 @@
-// How far the state is from where it cannot be right.
+// Measures of how close the state is to an impossible one: overlaps, displacements, Courant number,
+// fluid fraction.
 #pragma once
 
 #include "kernels/fluid/stencil.hpp"
@@ -9,12 +10,12 @@
 
 namespace barchan {
 
-/// What is not a number is worse than any number.
+/// Value itself, or infinity if it is not a number: the worst of all values.
 KOKKOS_FORCEINLINE_FUNCTION Real or_infinity(Real value) {
   return value == value ? value : Kokkos::Experimental::infinity_v<Real>;
 }
 
-/// Where something is worst, and how bad it is there.
+/// Place where something is worst, and the value there.
 using WorstItem = Kokkos::MaxLoc<Real, int>::value_type;
 KOKKOS_FORCEINLINE_FUNCTION void take_worse(WorstItem& worst, Real value, int at) {
   if (value > worst.val) worst = {value, at};
@@ -35,13 +36,13 @@ struct PairOverlap {
   }
 };
 
-/// The worst of grains, of two kinds.
+/// Worst grain by overlap with walls and bodies, and by displacement.
 struct WorstGrains {
   WorstItem in_wall{0, -1}, displacement{0, -1};
 };
 
-/// Of a grain: its overlap with walls and bodies over its diameter, and its displacement in a grain
-/// step over its radius [-]; infinite where its position or velocity is not finite.
+/// Limits of a grain: its overlap with walls and bodies over its diameter, and its displacement in
+/// a grain step over its radius [-]; infinite where its position or velocity is not finite.
 struct GrainLimits {
   Kokkos::View<const GrainKinematics*> grains;
   WallShapes walls;
@@ -58,7 +59,8 @@ struct GrainLimits {
     overlap = Kokkos::max(overlap, deepest_in(bodies, grain.x, grain.r) / (2 * grain.r));
     take_worse(worst.in_wall, overlap, g);
     const Real speed = norm(grain.u) + grain.r * norm(grain.omega);
-    const Real finite = 0 * (grain.x.x + grain.x.y + grain.x.z);  // zero, or not a number
+    // zero if finite, else not a number
+    const Real finite = 0 * (grain.x.x + grain.x.y + grain.x.z);
     take_worse(worst.displacement, or_infinity(dt * speed / grain.r + finite), g);
   }
   KOKKOS_FUNCTION static void join(WorstGrains& all, const WorstGrains& more) {
@@ -78,7 +80,7 @@ struct CourantOfCell {
   }
 };
 
-/// How far the fluid fraction lies outside (0, 1] [-]; negative or zero inside.
+/// Distance of the fluid fraction from (0, 1] [-]; negative or zero inside.
 struct FractionOutside {
   ConstFieldRef alpha;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
@@ -87,7 +89,7 @@ struct FractionOutside {
   }
 };
 
-/// Reduces a functor of cells to the worst one, by its number.
+/// Reduces a functor of cells to the worst cell, by its number.
 template <class Functor>
 struct WorstCell {
   Functor functor;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/fluid/pressure.hpp"
-#include "kernels/math/late_real.hpp"
+#include "kernels/math/device_scalar.hpp"
 
 namespace barchan {
 
@@ -131,7 +131,7 @@ struct AdvanceResidual {
   GridRef grid;
   ConstFieldRef q;
   FieldRef r;
-  LateReal a, goes_on;
+  DeviceScalar a, goes_on;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     Real value = r(i, j, k);
     if (goes_on != 0) value -= a * q(i, j, k);
@@ -143,7 +143,7 @@ struct AdvanceResidual {
 struct AdvancePressure {
   ConstFieldRef d;
   FieldRef p;
-  LateReal a, surplus;
+  DeviceScalar a, surplus;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     p(i, j, k) += a * d(i, j, k) - surplus;
   }
@@ -153,7 +153,7 @@ struct NextDirection {
   GridRef grid;
   AdvancePressure advance;
   ConstFieldRef z;
-  LateReal b, goes_on;
+  DeviceScalar b, goes_on;
   FieldRef d;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
     if (goes_on == 0) return 0;

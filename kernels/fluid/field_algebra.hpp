@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
-#include "kernels/math/late_real.hpp"
+#include "kernels/math/device_scalar.hpp"
 
 namespace barchan {
 
@@ -25,7 +25,7 @@ struct Axpby {
 /// f -= constant.
 struct Subtract {
   FieldRef f;
-  LateReal constant;
+  DeviceScalar constant;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { f(i, j, k) -= constant; }
 };
 

@@ -1,6 +1,6 @@
-// Bodies: the contact law with one side at rest (m_eff = m), flat or a sphere, as at walls. Only
-// the pairs of a grain and a body near it are looked at, a list that lives as long as the neighbour
-// list.
+// Contacts of grains with bodies: the contact law with one side at rest (m_eff = m), flat or a
+// sphere, as at walls. Only pairs of a grain and a body near it are looked at; their list lives as
+// long as the neighbour list.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real effective_radius(const Body& body, Real r) {
   return curvature > 0 ? r * curvature / (r + curvature) : r;
 }
 
-/// The largest overlap of a grain with a body [m]; 0 without bodies, infinite if not a number.
+/// Largest overlap of a grain with a body [m]; 0 without bodies, infinite if not a number.
 KOKKOS_INLINE_FUNCTION Real deepest_in(const Bodies& bodies, const Vec3& x, Real r) {
   Real deepest = 0;
   for (int b = 0; b < bodies.n; ++b) {
@@ -28,9 +28,9 @@ KOKKOS_INLINE_FUNCTION Real deepest_in(const Bodies& bodies, const Vec3& x, Real
   return deepest == deepest ? deepest : Kokkos::Experimental::infinity_v<Real>;
 }
 
-/// Pairs of a grain and a body, those of a grain one behind another.
+/// Pairs of a grain and a body near it. The pairs of a grain follow one another.
 struct NearBodies {
-  /// Of what a pair has done to its body: force, then torque about Body::foot.
+  /// Number of components of a load on a body: force, then torque about Body::foot.
   static constexpr int kParts = 6;
   int n = 0;
   Kokkos::View<int*> grain;
@@ -38,13 +38,13 @@ struct NearBodies {
   Kokkos::View<Real* [kParts]> load;  // summed over grain steps [N], [N m]
 };
 
-/// A bit for each body that a grain can touch before it has used up its skin. A grain that is near
-/// none touches none.
+/// Marks the bodies that a grain can touch before it has used up its skin, a bit each. A grain that
+/// is near none touches none.
 struct MarkNearBodies {
   Bodies bodies;
   Real law_reach = 0;  // [m]
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<const Vec3*> x_reference;  // where a grain was when its skin was new
+  Kokkos::View<const Vec3*> x_reference;  // position of a grain when its skin was new
   Kokkos::View<std::uint8_t*> touching, near;
 
   KOKKOS_FUNCTION void operator()(int g) const {
@@ -81,7 +81,8 @@ struct ListNearBodies {
   }
 };
 
-/// Contacts of a grain step. The first pair of a grain works for all pairs of that grain.
+/// Computes the contacts of grains with bodies in a grain step. The first pair of a grain works for
+/// all pairs of that grain.
 template <class Law>
 struct BodyContacts {
   Bodies bodies;
@@ -89,10 +90,10 @@ struct BodyContacts {
   ListValidity validity;
   NearBodies near;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<const std::uint8_t*> kind;                  // empty: one
+  Kokkos::View<const std::uint8_t*> kind;                  // kinds of the grains; empty: one kind
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, rolling;  // (grain, body): [m], [N m]
   Kokkos::View<std::uint8_t*> touching;                    // bit b: grain touches body b
-  Kokkos::View<ContactSum*> sums;                          // of the grains
+  Kokkos::View<ContactSum*> sums;                          // contact sums of the grains
 
   KOKKOS_FUNCTION void operator()(int first) const {
     if (!validity.holds()) return;
@@ -144,7 +145,7 @@ struct BodyContacts {
     if constexpr (Law::kRolls) sum.torque = sum.torque + vec4(result.rolling);
     push_back(p, bodies.body[b].from_foot(grain.x) - arm * normal, result);
   }
-  /// What the body gets, at a place seen from its foot.
+  /// Adds the reaction on the body, at a place seen from its foot.
   KOKKOS_FUNCTION void push_back(int p, const Vec3& place, const ContactResult& result) const {
     const Vec3 force = -result.force, torque = cross(place, force) - result.rolling;
     const Real parts[NearBodies::kParts]{force.x, force.y, force.z, torque.x, torque.y, torque.z};
@@ -152,13 +153,13 @@ struct BodyContacts {
   }
 };
 
-/// Adds what the pairs have done to their bodies since the last time to sums of whole numbers,
-/// which do not depend on the order, and counts the contacts.
+/// Adds the loads of the pairs since the last call to sums of whole numbers, which do not depend on
+/// the order, and counts the contacts.
 struct SumBodyLoads {
   NearBodies near;
   Real per_force, per_torque;                              // units in 1 N, in 1 N m
-  Real most;                                               // of a pair, in units
-  Kokkos::View<std::int64_t * [NearBodies::kParts]> sums;  // of the bodies
+  Real most;                                               // largest load of a pair, in units
+  Kokkos::View<std::int64_t * [NearBodies::kParts]> sums;  // sums over the pairs of each body
   Kokkos::View<std::int64_t*> contacts;
 
   KOKKOS_FUNCTION void operator()(int p) const {

@@ -1,7 +1,7 @@
-// The contact law: stiffness and damping, Hertz-Mindlin and linear spring-dashpot; the torque that
-// opposes relative rolling; force and torque of one contact with tangential history. The same law
-// serves grain-grain and grain-wall; it has no branches that a compiler cannot turn into selects,
-// so that a block of contacts vectorises.
+// Contact law: stiffness and damping, Hertz-Mindlin and linear spring-dashpot; the torque that
+// opposes relative rolling; force and torque of one contact with tangential history. Contacts of
+// grains with grains and with walls have the same law. It has no branches that a compiler cannot
+// turn into selects, so that a block of contacts vectorises.
 // Equation numbers: Lima et al. (2022), appendix A, with the misprints put right
 // (docs/barchan-10k.md). Laws of one kind are small types with the same call.
 #pragma once
@@ -39,14 +39,14 @@ KOKKOS_FORCEINLINE_FUNCTION Real damping_ratio(Real restitution) {
   return -log_e / Kokkos::sqrt(log_e * log_e + std::numbers::pi_v<Real> * std::numbers::pi_v<Real>);
 }
 
-/// What the force between two surfaces comes from.
+/// Material constants that set the force between two surfaces.
 struct ContactMaterial {
   Elastic a, b;
   Real restitution = 1;
   Real linear_stiffness = 0;  // [N/m]
 };
 
-/// One contact's elastic normal force, tangential spring, and dashpots.
+/// Elastic normal force, tangential spring and dashpots of one contact.
 struct ContactStiffness {
   Real elastic;           // [N]; negative: attraction
   Real k_t;               // [N/m]
@@ -115,7 +115,7 @@ struct LinearSpring {
 
 using ContactModels = Alternatives<HertzMindlin, LinearSpring>;
 
-/// What a rolling law sees of one contact.
+/// State of one contact as a rolling law needs it.
 struct RollingContact {
   Vec3 normal;            // unit, from j to i
   Vec3 omega_difference;  // omega_i - omega_j [rad/s]
@@ -131,7 +131,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_velocity(const RollingContact& c) {
   return fma(-dot(c.omega_difference, c.normal), c.normal, c.omega_difference);
 }
 
-/// `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff F_n.
+/// Rolling torque `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff
+/// F_n.
 KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c, Real k_r,
                                                         const Vec3& torque) {
   const Vec3 trial = fma(-k_r * c.dt, rolling_velocity(c), torque);
@@ -196,7 +197,7 @@ struct ContactPair {
   Real r_eff, m_eff;      // A2 [m], A3 [kg]
 };
 
-/// What a contact does to grain i; j gets -force, the same arm torque and -rolling torque.
+/// Effect of a contact on grain i; j gets -force, the same arm torque and -rolling torque.
 struct ContactResult {
   Vec3 force;        // normal + tangential, on i [N]
   Vec3 n_cross_f_t;  // n x F_t [N]; torque on either grain = -(lever arm) n_cross_f_t
@@ -242,7 +243,7 @@ KOKKOS_FORCEINLINE_FUNCTION ContactResult contact_force(const ContactStiffness& 
   const Real limit = friction.sliding * Kokkos::abs(elastic + friction.dashpot_in_limit * dashpot);
   const bool slides = dot(spring, spring) > limit * limit;
   const Vec3 trial = fma(slides ? Real(0) : -k.gamma_t, v_t, spring);
-  const Real size2 = dot(trial, trial);  // that of the spring where it slides
+  const Real size2 = dot(trial, trial);  // square of the spring's length where it slides
   const Real shorten = size2 > limit * limit ? limit / Kokkos::sqrt(size2) : Real(1);
   const Vec3 f_t = shorten * trial;
   xi = (slides ? shorten : Real(1)) * xi;

@@ -6,29 +6,29 @@
 
 namespace barchan {
 
-/// Geometry, relative motion and history of contacts in, forces and history out. Each contact goes
-/// through the same full vectors, so its result does not depend on its place in the block. The
-/// passes are short, so that a CPU has several vectors of contacts under way in each of them: roots
-/// and divisions take long, one after another.
+/// Block of contacts: geometry, relative motion and history in, forces and history out. Each
+/// contact goes through the same full vectors, so its result does not depend on its place in the
+/// block. The passes are short, so that a CPU has several vectors of contacts under way in each:
+/// roots and divisions take long, one after another.
 template <class Law>
 struct ContactTile {
   static constexpr bool kRolls = Law::kRolls;
   static constexpr int kVector = kTile < 8 ? kTile : 8;  // contacts in the widest vectors
 
-  SoaTile normal;                               // and the overlap [m], minus the reach if apart
-  SoaTile slip;                                 // [m/s]
-  SoaTile omega_difference;                     // [rad/s]
-  AosTile xi_t;                                 // [m], before and after
-  AosTile rolling;                              // [N m], before and after
-  AosTile force;                                // result [N], and the overlap [m]
-  AosTile n_cross_f_t;                          // result [N]
+  SoaTile normal;            // normal and overlap [m], the latter minus the reach if apart
+  SoaTile slip;              // [m/s]
+  SoaTile omega_difference;  // [rad/s]
+  AosTile xi_t;              // [m], before and after
+  AosTile rolling;           // [N m], before and after
+  AosTile force;             // result [N], and the overlap [m]
+  AosTile n_cross_f_t;       // result [N]
   alignas(64) Real r_eff[kTile], m_eff[kTile];  // [m], [kg]
   alignas(64) Real elastic[kTile], k_t[kTile], gamma_n[kTile],
       gamma_t[kTile];                           // [N], [N/m], [kg/s]
-  std::uint8_t law_of[Law::kMany ? kTile : 1];  // entry in the table of laws; of one kind not used
+  std::uint8_t law_of[Law::kMany ? kTile : 1];  // entry in the table of laws; unused for one kind
   SoaTile new_force, new_n_cross_f_t, new_xi_t, new_rolling;
 
-  /// n contacts in whole vectors; the block has room for so many.
+  /// Number of contacts, rounded up to whole vectors; the block has room for them.
   KOKKOS_FORCEINLINE_FUNCTION static int whole_vectors(int n) {
     return (n + kVector - 1) / kVector * kVector;
   }
@@ -40,7 +40,7 @@ struct ContactTile {
       return 0;
     }
   }
-  /// After evaluate().
+  /// Tells if contact q touches; call it after evaluate().
   KOKKOS_FORCEINLINE_FUNCTION bool touches(const Law& law, int q) const {
     return in_contact(law.table.of(law_at(q)), r_eff[q], force[q].w());
   }
@@ -52,7 +52,7 @@ struct ContactTile {
     r_eff[q] = pair.r_eff, m_eff[q] = pair.m_eff;
   }
 
-  /// Evaluates the first n; n is a multiple of kVector.
+  /// Evaluates the first n contacts; n is a multiple of kVector.
   KOKKOS_FORCEINLINE_FUNCTION void evaluate(const Law& law, int n) {
 #pragma GCC ivdep
     for (int q = 0; q < n; ++q) find_stiffness(law, q);

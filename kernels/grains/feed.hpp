@@ -11,14 +11,14 @@ namespace barchan {
 struct FeedPlace {
   Vec3 x;
   Real r = 0;
-  /// True if a grain there would overlap another one, of centre b [m] and radius r_b [m].
+  /// Tells if a grain at this place would overlap another one, of centre b [m] and radius r_b [m].
   KOKKOS_FORCEINLINE_FUNCTION bool overlaps(const PeriodicBox& box, const Vec3& b, Real r_b) const {
     const Vec3 s = box.nearest_image(x - b);
     return dot(s, s) < (r + r_b) * (r + r_b);
   }
 };
 
-/// Marks the places of which grain g takes a part.
+/// Marks the places that grain g overlaps.
 struct MarkTakenPlaces {
   PeriodicBox box;
   Kokkos::View<const GrainKinematics*> grains;
@@ -29,7 +29,7 @@ struct MarkTakenPlaces {
   KOKKOS_FUNCTION void operator()(int g) const {
     for (int p = 0; p < n_places; ++p) {
       if (places(p).overlaps(box, grains(g).x, grains(g).r))
-        Kokkos::atomic_store(&taken(p), 1);  // by whatever grain, with the same result
+        Kokkos::atomic_store(&taken(p), 1);  // any thread writes the same value
     }
   }
 };

@@ -1,25 +1,26 @@
-// What the fluid does to each grain over a fluid step, and what the grain gives back.
+// Action of the fluid on each grain over a fluid step, and the reaction of the grain.
 #pragma once
 
 #include "kernels/grains/grain.hpp"
 
 namespace barchan {
 
-/// What acts on the grains besides contacts over the grain steps of a fluid step. All but `impulse`
-/// is constant meanwhile.
+/// Action of the fluid on the grains over the grain steps of a fluid step. All but `impulse` is
+/// constant meanwhile.
 struct FluidOnGrains {
-  Kokkos::View<Vec3*> u_f;           // as the fluid step begins [m/s]
-  Kokkos::View<Vec3*> acceleration;  // of the grain's share of fluid, by all but the grain [m/s^2]
+  Kokkos::View<Vec3*> u_f;  // fluid velocity as the fluid step begins [m/s]
+  // acceleration of the grain's share of fluid, by all but the grain [m/s^2]
+  Kokkos::View<Vec3*> acceleration;
   Kokkos::View<Real*> inv_fluid_mass;  // 1 / mass of that share [1/kg]; 0: u_f does not change
   Kokkos::View<Real*> beta;            // [kg/s]
-  Kokkos::View<Vec3*> steady_force;    // weight, buoyancy, pressure gradient, ... [N]
+  Kokkos::View<Vec3*> explicit_force;  // weight, buoyancy, pressure gradient, ... [N]
   Kokkos::View<Real*> added_mass;      // [kg]
-  Kokkos::View<Vec3*> impulse;         // of drag and added mass on the grain so far [N s]
+  Kokkos::View<Vec3*> impulse;         // impulse of drag and added mass on the grain so far [N s]
   Kokkos::View<Vec3*> u_start;         // velocity as the fluid step began [m/s]
-  Kokkos::View<Vec3*> omega_f;         // of the fluid, half its vorticity [rad/s]
+  Kokkos::View<Vec3*> omega_f;         // half the vorticity of the fluid [rad/s]
   Kokkos::View<Real*> beta_r;          // torque = beta_r (omega_f - omega) [N m s]
-  bool has_fluid = false;              // without one nothing but steady_force is there
-  bool has_torque = false;             // of the fluid: omega_f and beta_r are there
+  bool has_fluid = false;              // without fluid, only explicit_force is set
+  bool has_torque = false;             // torque of the fluid: omega_f and beta_r are set
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
@@ -27,17 +28,18 @@ struct FluidOnGrains {
   }
 };
 
-/// What the gather keeps of each grain for the deposit and for output.
+/// Values that the gather keeps of each grain for the deposit and for output.
 struct ExchangeOnGrains {
   Kokkos::View<Vec3*> added_mass_force;  // C_m rho V_p (u . grad u + a part of du/dt) [N]
-  Kokkos::View<Vec3*> pressure_force;    // of the pressure gradient [N]
-  Kokkos::View<Vec3*> stress_force;      // of the stress [N]
+  Kokkos::View<Vec3*> pressure_force;    // force of the pressure gradient [N]
+  Kokkos::View<Vec3*> stress_force;      // force of the stress [N]
   Kokkos::View<Vec3*> lift;              // part of the steady force [N]; empty without lift
-  Kokkos::View<Vec3*> resolved_force;    // of a flow that is resolved [N]; empty: it is not
-  Kokkos::View<Vec3*> resolved_torque;   // the same about the centre [N m]
+  // force of a resolved flow [N]; empty if the flow is unresolved
+  Kokkos::View<Vec3*> resolved_force;
+  Kokkos::View<Vec3*> resolved_torque;  // torque of a resolved flow about the centre [N m]
 };
 
-/// A new fluid step: no impulse yet, and the velocity to compare with.
+/// Begins a fluid step: sets the impulse to zero and stores the velocities to compare with.
 struct BeginFluidStep {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;

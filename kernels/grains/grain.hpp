@@ -1,11 +1,11 @@
-// A grain as its neighbours see it, and what contacts do to it.
+// Grain as its neighbours see it, and the sum of its contact forces.
 #pragma once
 
 #include "kernels/math/vec4.hpp"
 
 namespace barchan {
 
-/// What a contact needs of one grain, side by side in memory: two cache lines per neighbour
+/// Values of a grain that contacts need, side by side in memory: two cache lines per neighbour
 /// instead of eleven.
 struct alignas(32) GrainKinematics {
   Vec3 x;         // centre [m]

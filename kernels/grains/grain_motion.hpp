@@ -9,11 +9,12 @@
 
 namespace barchan {
 
-/// What the fluid does to the grains: nothing, a force, or a force and a torque.
+/// Effect of the fluid on the grains: none, a force, or a force and a torque.
 enum class FluidEffect { none, force, force_and_torque };
 
-/// Between which grain steps grains move: half a kick and a drift before the first, a half kick of
-/// each of two and the drift of the next one, half a kick after the last.
+/// Part of velocity Verlet in one pass: half a kick and a drift before the first grain step;
+/// between two grain steps a half kick of each and the drift of the second; half a kick after the
+/// last.
 enum class Moves { into_first, between, out_of_last };
 
 /// The motion of the grains, a block of them at a time.
@@ -23,16 +24,16 @@ struct GrainMotion {
   Kokkos::View<GrainKinematics*> grains;
   Kokkos::View<const Vec3*> x_reference;  // positions at the last list rebuild
   FluidOnGrains fluid;
-  Kokkos::View<Real*> slack;  // of PairList
+  Kokkos::View<Real*> slack;  // as in PairList
 
-  /// Grains as they come, with the sums of their contacts, and as they go.
+  /// Block of grains: state and contact sums in, new state out.
   struct Tile {
     AosTile x_r, u_m, omega_skin, force, torque;
     SoaTile new_x, new_u, new_omega;
-    Real excess[kTile];  // over the skin [m^2]
+    Real excess[kTile];  // square of the displacement beyond that of the skin [m^2]
   };
 
-  /// Moves the grains [begin, end), a block of them at most, with the sums of their contacts.
+  /// Moves the grains [begin, end), at most a block of them, with the sums of their contacts.
   /// Returns whether one has used up its slack; raises `largest` to their largest excess over the
   /// skin [m^2].
   template <Moves moves>
@@ -97,7 +98,7 @@ struct GrainMotion {
   template <FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION GrainForces forces(const Tile& s, int q, int g) const {
     GrainForces f;
-    f.force = s.force.vec(q) + fluid.steady_force(g);
+    f.force = s.force.vec(q) + fluid.explicit_force(g);
     f.torque = s.torque.vec(q);
     if constexpr (effect != FluidEffect::none) {
       f.u_f = fluid.u_f_after(elapsed, g);
@@ -108,8 +109,8 @@ struct GrainMotion {
   }
 };
 
-/// The start of the grain steps with the stored contact forces, a block of grains per index.
-/// Reduces the largest excess over the skin of a grain [m^2].
+/// Starts the grain steps with the stored contact forces, a block of grains per index. Reduces the
+/// largest excess of a grain over its skin [m^2].
 struct KickAndDrift {
   GrainMotion motion;
   int n;

@@ -1,4 +1,4 @@
-// One pass over the chunks of grains per grain step: forces of their intra-chunk pairs and of the
+// Grain step in one pass over the chunks of grains: forces of their intra-chunk pairs and of the
 // walls, sum of all contacts, kick, and drift into the next grain step.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-/// Adds what an inter-chunk pair does to its first grain (sign 1) or second grain (-1).
+/// Adds the force of an inter-chunk pair to its first grain (sign 1) or second grain (-1).
 template <bool rolls>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair_force(const PairList& list, int slot, Real sign,
                                                 Real radius, ContactSum& sum) {
@@ -25,12 +25,12 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch_pair_force(const PairList& list, int s) {
   prefetch(list.j(list.incoming(s)));
 }
 
-/// Sums of the inter-chunk contacts of the entries [begin, end), of each entry its own slots first,
-/// then the others.
+/// Sums up the inter-chunk contacts of the entries [begin, end): first those of an entry's own
+/// slots, then the others.
 template <bool rolls>
-KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
-                                              const Kokkos::View<GrainKinematics*>& grains,
-                                              int begin, int end, ContactSum* sums) {
+KOKKOS_FORCEINLINE_FUNCTION void sum_inter_chunk(const PairList& list,
+                                                 const Kokkos::View<GrainKinematics*>& grains,
+                                                 int begin, int end, ContactSum* sums) {
   for (int g = begin; g < end; ++g) sums[place_in_chunk(g, begin)] = ContactSum{};
   for (int p = list.first(begin); p < list.first(end); ++p) {
     const int g = list.i(p);
@@ -43,30 +43,31 @@ KOKKOS_FORCEINLINE_FUNCTION void sum_crossing(const PairList& list,
   }
 }
 
-/// The end of a grain step, a chunk of grains per index: new contact forces, second half kick, and
-/// unless it is the last grain step the first half kick and drift of the next one. No grain of
-/// another chunk is read, so chunks may go ahead of each other.
+/// Ends a grain step, a chunk of grains per index: new contact forces, second half kick, and unless
+/// it is the last grain step the first half kick and drift of the next one. No grain of another
+/// chunk is read, so chunks may go ahead of each other.
 template <class Law>
 struct SumKickDrift {
   GrainMotion motion;
   PairForces<Law> pairs;
   Walls<Law> walls;
-  Kokkos::View<const ContactSum*> of_bodies;          // of each grain; empty: there are none
-  Kokkos::View<Vec3*> contact_force, contact_torque;  // of the last grain step: [N], [N m]
+  // contacts of each grain with bodies; empty: there are none
+  Kokkos::View<const ContactSum*> of_bodies;
+  Kokkos::View<Vec3*> contact_force, contact_torque;  // sums of the last grain step: [N], [N m]
   bool last = false;
-  Real min_slack = 0;  // of a grain at rest [m]
+  Real min_slack = 0;  // slack of a grain at rest [m]
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
-    if (!pairs.validity.holds()) {  // so that the next one is closed, too
+    if (!pairs.validity.holds()) {  // closes the next grain step, too
       largest = Kokkos::Experimental::infinity_v<Real>;
       return;
     }
     const int begin = pairs.list.chunks.begin(chunk), end = pairs.list.chunks.end(chunk);
     ContactSum sums[kMaxChunk];
-    sum_crossing<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
+    sum_inter_chunk<Law::kRolls>(pairs.list, motion.grains, begin, end, sums);
     if constexpr (kOnHost) {
       if (pairs.list.expired(chunk)) find_active(chunk, begin, end);
-      pairs.add_inner(chunk, sums);
+      pairs.add_intra_chunk(chunk, sums);
     }
     const auto is_near = [&](int g) { return !kOnHost || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
@@ -97,11 +98,11 @@ struct SumKickDrift {
     }
   }
 
-  /// The pairs, and the grains beside walls, that can come into contact before a grain has used up
-  /// its slack. That is as far as each comes in the same time at the speed that it has, and a
-  /// little more.
+  /// Finds the pairs, and the grains beside walls, that can come into contact before a grain has
+  /// used up its slack. The slack is the distance that a grain goes in the same time at its present
+  /// speed, and a little more.
   KOKKOS_FORCEINLINE_FUNCTION void find_active(int chunk, int begin, int end) const {
-    Real displacement = 0;  // of all grains in a grain step [m]
+    Real displacement = 0;  // sum of the displacements of the grains in a grain step [m]
     for (int g = begin; g < end; ++g) displacement += motion.dt * norm(motion.grains(g).u);
     const Real n_steps = steps_of_slack(displacement / (end - begin));
     for (int g = begin; g < end; ++g) {
@@ -112,10 +113,10 @@ struct SumKickDrift {
     pairs.find_active(chunk);
   }
 
-  /// For how many grain steps slack is best given. To look for active pairs costs once, more of
-  /// them cost in every grain step, and how many more grows with `displacement`, the mean one of a
-  /// grain in a grain step [m]. Measured (docs/dev/performance.md); hardly anything changes from
-  /// 20 to 200.
+  /// Number of grain steps for which slack is given. A search for active pairs costs once, more
+  /// active pairs cost in every grain step, and their number grows with `displacement`, the mean
+  /// one of a grain in a grain step [m]. Measured (docs/dev/performance.md); hardly anything
+  /// changes from 20 to 200.
   KOKKOS_FORCEINLINE_FUNCTION Real steps_of_slack(Real displacement) const {
     const Real n_steps = Kokkos::sqrt(100 * min_slack / displacement);
     return n_steps < 100 ? n_steps : 100;

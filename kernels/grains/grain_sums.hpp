@@ -1,4 +1,4 @@
-// What is added up over the grains for reports, and the parts of their contact forces for output.
+// Sums over the grains for reports.
 #pragma once
 
 #include "kernels/grains/contact_geometry.hpp"
@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// Number of touching pairs and the largest relative overlap [-]. Pairs whose first grain is a
+/// Number of touching pairs, and the largest relative overlap [-]. Pairs whose first grain is a
 /// ghost count on the rank that owns it.
 struct ContactsOfPairs {
   PeriodicBox box;
@@ -33,7 +33,7 @@ struct GrainKineticEnergy {
   }
 };
 
-/// Sum of V_p u along x or z [m^4/s].
+/// Volume flow of the grains: sum of V_p u along x or z [m^4/s].
 struct GrainVolumeFlow {
   Kokkos::View<const GrainKinematics*> grains;
   bool along_x;
@@ -43,18 +43,19 @@ struct GrainVolumeFlow {
   }
 };
 
-/// Grains that leave: those beyond 0 .. lx along the flow, or whose x is not a number. In a window
-/// that follows its dune: those within a strip around the seam, where its ends meet.
+/// Counts the grains that leave: those beyond 0 .. lx along the flow, or whose x is not a number.
+/// In a window that follows its dune they are those within a strip around the edge, where its ends
+/// meet.
 struct CountLeaving {
   Kokkos::View<const GrainKinematics*> grains;
-  Real lx;              // [m]
-  Real half_strip = 0;  // half the width of the strip [m]; 0: there is none
-  Real seam_x = 0;      // its middle [m]; not a number: no seam yet
+  Real lx;               // [m]
+  Real half_strip = 0;   // half the width of the strip [m]; 0: there is none
+  Real window_edge = 0;  // its middle [m]; not a number: no edge yet
   KOKKOS_FORCEINLINE_FUNCTION bool leaves(int g) const {
     const Real x = grains(g).x.x;
     if (half_strip == 0) return !(x >= 0 && x <= lx);
-    const Real from_seam = x - seam_x;
-    return Kokkos::abs(from_seam - lx * Kokkos::round(from_seam / lx)) <= half_strip;
+    const Real from_window_edge = x - window_edge;
+    return Kokkos::abs(from_window_edge - lx * Kokkos::round(from_window_edge / lx)) <= half_strip;
   }
   KOKKOS_FUNCTION void operator()(int g, int& count) const { count += leaves(g) ? 1 : 0; }
 };

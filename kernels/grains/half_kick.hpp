@@ -8,7 +8,7 @@ namespace barchan {
 
 /// Coefficients of the motion of a grain and its fluid, constant over a fluid step.
 struct MotionCoefficients {
-  Real mass = 0;            // of the grain [kg]
+  Real mass = 0;            // mass of the grain [kg]
   Real inertia_moment = 0;  // [kg m^2]
   Real inv_fluid_mass = 0;  // 1 / mass of its share of fluid [1/kg]
   Real beta = 0;            // F_drag = beta (u_f - u) [kg/s]
@@ -21,12 +21,12 @@ struct GrainForces {
   Vec3 force;         // all but drag and added mass [N]
   Vec3 torque;        // all but that of the fluid [N m]
   Vec3 u_f;           // velocity of the grain's share of fluid [m/s]
-  Vec3 acceleration;  // of that share by all but the grain [m/s^2]
+  Vec3 acceleration;  // acceleration of that share by all but the grain [m/s^2]
   Vec3 omega_f;       // angular velocity of the fluid [rad/s]
 };
 
-/// Factors of a half kick over h [s], the same for the end of one grain step and the start of the
-/// next. With m of the grain, m_f of its share of fluid, m_a the added mass and v = u_f - u:
+/// Factors of a half kick over h [s]. The end of one grain step and the start of the next have the
+/// same. With m of the grain, m_f of its share of fluid, m_a the added mass and v = u_f - u:
 ///   m (u' - u) = h F + J,   m_f (u_f' - u_f) = h m_f a - J,   J = h beta v' + m_a (v' - v),
 /// drag at the new slip, so stable at any step. Subtracted, with k = 1/m + 1/m_f:
 ///   (1 + k (m_a + h beta)) v' = (1 + k m_a) v + h (a - F/m).
@@ -48,7 +48,7 @@ struct HalfKick {
     gain = h * share;
   }
 
-  /// u, u_f of f and the spin after the kick; returns J, the impulse on the grain [N s].
+  /// Kicks u, u_f of f and the spin; returns J, the impulse on the grain [N s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(GrainForces& f, Vec3& u, Vec3& omega) const {
     const Vec3 slip = f.u_f - u, relative_acceleration = fma(-inv_mass, f.force, f.acceleration);
     const Vec3 impulse = fma(drag_and_added_mass, fma(decay, slip, gain * relative_acceleration),

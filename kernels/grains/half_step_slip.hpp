@@ -1,12 +1,12 @@
-// The slip of a contact of grains in a grain step.
+// Slip of a contact of two grains in a grain step.
 #pragma once
 
 #include "kernels/grains/contact_law.hpp"
 
 namespace barchan {
 
-/// Slip velocity [m/s] in velocity Verlet, whose velocities are those of half a step of dt [s]
-/// before its positions: taken apart along the normal of that time, then turned into the plane of
+/// Slip velocity [m/s] in velocity Verlet, whose velocities are half a step of dt [s] older than
+/// its positions. It is taken apart along the normal of that time, then turned into the plane of
 /// the present `normal`, the direction of `separation` [m]. With the present normal alone a grain
 /// that rolls between much larger ones takes a part of its approach for slip in every step, and
 /// friction holds it there (Vyas et al. 2025). Limit dt -> 0: contact_slip().

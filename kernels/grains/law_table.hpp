@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// Kinds of grains that a table has room for.
+/// Largest number of kinds of grains in a table.
 inline constexpr int kMaxKinds = 4;
 
 /// Entry of a contact of kind a with kind b, or with the walls (b = 0), in a table of many.
@@ -16,8 +16,8 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint8_t law_entry(int a, int b) {
   return static_cast<std::uint8_t>(a * kMaxKinds + b);
 }
 
-/// Stiffness and friction of contacts. Of one kind of grains there is one entry, and nobody reads
-/// which: the same instructions as without a table.
+/// Table of stiffness and friction of contacts. One kind of grains has one entry, and no index is
+/// read: the instructions are those of a code without a table.
 template <class StiffnessLaw, bool many>
 struct LawTable {
   static constexpr int kSize = many ? kMaxKinds * kMaxKinds : 1;

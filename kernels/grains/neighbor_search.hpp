@@ -10,8 +10,8 @@
 
 namespace barchan {
 
-/// Contacts under grains (entries before the replacement) with the id of the partner: ids survive
-/// sorting and migration.
+/// Contact history: contacts under grains (entries before the replacement) with the id of the
+/// partner. Ids survive sorting and migration.
 struct ContactHistory {
   Kokkos::View<int*> first;             // (entries + 1)
   Kokkos::View<std::int64_t*> partner;  // (contacts) id
@@ -31,7 +31,7 @@ struct ContactHistory {
 };
 
 /// Calls f(entry, id of the partner, sign) for the grains that keep the history of the contact in a
-/// slot: its first grain, or with `both` each one that is owned. History is that of the first
+/// slot: its first grain, or with `both` each one that is owned. The history is that of the first
 /// grain; seen from the second one it has the sign -1.
 struct GrainsWithHistory {
   PairList list;
@@ -56,8 +56,8 @@ struct CountContacts {
   }
 };
 
-/// Copies their history, that of one grain in whatever order the threads come; `cursor` starts as
-/// history.first.
+/// Copies the contact history; contacts of one grain come in the order of the threads. `cursor`
+/// starts as history.first.
 struct FillContactHistory {
   GrainsWithHistory grains;
   ContactHistory history;
@@ -75,10 +75,10 @@ struct FillContactHistory {
   }
 };
 
-/// Where grain i starts to look in the forward columns: grains below are too far down.
+/// First entry that grain i looks at in each forward column; grains before it are too low.
 using Windows = Kokkos::View<int* [kForwardColumns], Kokkos::MemoryUnmanaged>;
 
-/// Fills the windows of the grains of a column, walking up all five columns together: O(grains).
+/// Fills the windows of the grains of a column, all forward columns in one walk upwards: O(grains).
 struct FindWindows {
   Kokkos::View<const GrainKinematics*> grains;
   OccupiedColumns occupied;
@@ -118,7 +118,7 @@ struct PairSearch {
   PeriodicBox box;
   int n_owned = 0;  // entries from here on are ghosts; two of them are no pair of this rank
 
-  /// From entry `begin` on in column c.
+  /// Calls action(j) for the near partners in column c, from entry `begin` on.
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int c, int begin, const Action& action) const {
     const GrainKinematics& a = grains(i);
@@ -144,8 +144,8 @@ struct PairSearch {
   }
 
  private:
-  /// A pair of the outer ring is found by the wide one of its grains; if both are, by the one that
-  /// has the other in front.
+  /// Scans the outer ring. The wide grain of a pair finds it; if both are wide, the one that has
+  /// the other in front.
   template <class Action>
   KOKKOS_FUNCTION void scan_outer_ring(int i, int c, const Action& action) const {
     for (int m = 0; m < kOuterColumns; ++m) {
@@ -161,11 +161,11 @@ struct PairSearch {
   }
 };
 
-/// Partners that the counting pass notes down, so that few grains are searched twice.
+/// Number of partners that the counting pass notes down, so that few grains are searched twice.
 inline constexpr int kNoted = 8;
 using NotedPartners = Kokkos::View<int* [kNoted], Kokkos::MemoryUnmanaged>;
 
-/// Number of partners of each grain, in its own chunk and in others; notes the first of them.
+/// Counts the partners of each grain, in its own chunk and in others; notes the first of them.
 struct CountPairs {
   PairSearch search;
   Chunks chunks;
@@ -192,7 +192,7 @@ struct FillPairs {
   ContactHistory history;
   Kokkos::View<const int*> old_entry;
   Kokkos::View<const std::int64_t*> id;
-  Kokkos::View<const std::uint8_t*> kind;  // of the grains; empty: one
+  Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
   bool has_history = false;
 
   KOKKOS_FUNCTION void operator()(int i) const {
@@ -227,7 +227,7 @@ struct FillPairs {
     list.xi_t(slot) = known ? sign * history.xi_t(k) : Vec3{};
     if (list.has_rolling()) list.rolling(slot) = known ? sign * history.rolling(k) : Vec3{};
     if (list.has_force()) {
-      const bool has = known && history.has_force();  // restart files do without
+      const bool has = known && history.has_force();  // restart files have no forces
       list.force(slot) = has ? sign * history.force(k) : Vec3{};
     }
     if (slot < list.n_inter) list.pair_force(slot) = PairForce{};
@@ -244,7 +244,7 @@ struct FillIncoming {
   }
 };
 
-/// Ascending order of each grain's other slots, whatever order the threads came in.
+/// Sorts each grain's other slots in ascending order, whatever order the threads came in.
 struct SortIncoming {
   PairList list;
   KOKKOS_FUNCTION void operator()(int g) const {

@@ -1,5 +1,5 @@
-// Forces of listed pairs, a block at a time: lay the pairs out side by side, evaluate the law on
-// the whole block (vectorised on a CPU), hand the results on.
+// Forces of listed pairs, a block at a time: lays the pairs out side by side, evaluates the law on
+// the whole block (vectorised on a CPU), hands the results on.
 #pragma once
 
 #include "kernels/grains/contact_geometry.hpp"
@@ -11,7 +11,7 @@
 
 namespace barchan {
 
-/// As a kernel: the inter-chunk pairs, kTile of them per index.
+/// Computes the pairs. As a kernel, it takes the inter-chunk pairs, kTile of them per index.
 template <class Law>
 struct PairForces {
   using Contacts = ContactTile<Law>;
@@ -23,7 +23,7 @@ struct PairForces {
   ListValidity validity;
   Kokkos::View<const GrainKinematics*> grains;
   PairList list;
-  bool keep_force = false;  // the last grain step, and someone asks for the force of each pair
+  bool keep_force = false;  // set in the last grain step if the force of each pair is asked for
 
   /// A block of pairs (a, b), an entry each.
   struct Tile {
@@ -35,7 +35,7 @@ struct PairForces {
 
   KOKKOS_FUNCTION void operator()(int block) const {
     if (!validity.holds()) return;
-    if constexpr (kTile == 1) {  // constant indices: the stage stays in registers
+    if constexpr (kTile == 1) {  // constant indices: the tile stays in registers
       if (!is_near(block, 0)) return;
       Tile s;
       load(s, 0, block);
@@ -61,7 +61,7 @@ struct PairForces {
   }
 
   /// Adds the forces of the active pairs of a chunk to sums[0..], one for each of its entries.
-  KOKKOS_FUNCTION void add_inner(int chunk, ContactSum* sums) const {
+  KOKKOS_FUNCTION void add_intra_chunk(int chunk, ContactSum* sums) const {
     const int first_entry = list.chunks.begin(chunk);
     const int* active = &list.active(list.intra_first(first_entry) - list.n_inter);
     const int n_active = list.n_active(chunk);
@@ -85,8 +85,8 @@ struct PairForces {
     }
   }
 
-  /// Lists the intra-chunk pairs of a chunk as active that come into contact if both go as far as
-  /// their slacks.
+  /// Marks as active the intra-chunk pairs of a chunk that come into contact if both grains go as
+  /// far as their slacks.
   KOKKOS_FUNCTION void find_active(int chunk) const {
     const int begin = list.intra_first(list.chunks.begin(chunk));
     const int end = list.intra_first(list.chunks.end(chunk));
@@ -99,7 +99,7 @@ struct PairForces {
     list.n_active(chunk) = n;
   }
 
-  /// Within `margin` of contact; a pair that is not has its history cleared.
+  /// Tells if a pair is within `margin` of contact; clears the history of one that is not.
   KOKKOS_FORCEINLINE_FUNCTION bool is_near(int p, Real margin) const {
     const GrainKinematics& a = grains(list.i(p));
     const GrainKinematics& b = grains(list.j(p));
@@ -107,7 +107,7 @@ struct PairForces {
     const Real most =
         a.r + b.r + (margin + reach(stiffness_of(p), effective_pair(a.r, b.r, a.m, b.m).r));
     const bool near = dot(s, s) < most * most;
-    // One condition: a branch on `near` alone would go either way, often against the guess.
+    // A single condition: a branch on `near` alone would go either way, often against the guess.
     if (static_cast<int>(!near) & list.touching(p)) clear(p);
     return near;
   }

@@ -1,7 +1,7 @@
 // Columns for the neighbour search: grains are binned in x-z columns and sorted by height inside a
-// column, so only columns that hold grains exist and empty water costs nothing. Columns are
-// numbered along a Morton curve, so that grains of near rows are near in space; each rank owns a
-// piece of the curve.
+// column. Only columns that hold grains exist, so empty fluid costs nothing. Columns are numbered
+// along a Morton curve, so that grains of near rows are near in space; each rank owns a piece of
+// the curve.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint32_t gather_bits(std::uint32_t a)
   return (a | (a >> 8)) & 0x0000ffffu;
 }
 
-/// Columns along one direction, at most.
+/// Largest number of columns along one direction.
 inline constexpr int kMaxColumns = 65535;
 
 /// The x-z columns of the domain. The partners of a grain are in its column and the `rings` of
@@ -34,9 +34,9 @@ inline constexpr int kMaxColumns = 65535;
 /// rank, a piece of the Morton curve from `origin` on, come before those of others.
 struct SearchColumns {
   int nx = 1, nz = 1;
-  int rings = 1;                                  // 1 or 2
-  Real max_narrow = 0;                            // extent of a grain that is not wide, at most [m]
-  Real half_reach = 0;                            // of the contact law between two surfaces [m]
+  int rings = 1;        // 1 or 2
+  Real max_narrow = 0;  // largest extent of a grain that is not wide [m]
+  Real half_reach = 0;  // half the reach of the contact law between two surfaces [m]
   Real inverse_width_x = 0, inverse_width_z = 0;  // [1/m]
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
@@ -55,9 +55,9 @@ struct SearchColumns {
     return (spread_bits(static_cast<std::uint32_t>(ix)) << 1) |
            spread_bits(static_cast<std::uint32_t>(iz));
   }
-  /// Sort key: column, then height. The largest key is kept for grains to be dropped.
+  /// Sort key: column, then height. The largest key marks grains to be dropped.
   KOKKOS_FUNCTION std::uint64_t key_of(const Vec3& x) const {
-    // Heights of -1 .. 2 domain heights.
+    // Heights range from -1 to 2 domain heights.
     const Real level = Kokkos::clamp((x.y / height + 1) / 3, Real(0), Real(1));
     const auto code = static_cast<std::uint64_t>(level * Real(4294967295.0));
     return (static_cast<std::uint64_t>(column_of(x)) << 32) | code;
@@ -82,7 +82,7 @@ struct SearchColumns {
   }
 };
 
-/// How many of n ascending values are at most `value`.
+/// Number of those of n ascending values that are at most `value`.
 template <class Values>
 KOKKOS_FUNCTION int count_up_to(const Values& ascending, int n, std::uint32_t value) {
   int low = 0, high = n;
@@ -99,7 +99,7 @@ KOKKOS_FUNCTION int count_up_to(const Values& ascending, int n, std::uint32_t va
 
 inline constexpr std::uint64_t kDroppedKey = ~std::uint64_t{0};
 inline constexpr int kForwardColumns = 4;  // half of the eight columns around one
-inline constexpr int kOuterColumns = 16;   // of the ring around these
+inline constexpr int kOuterColumns = 16;   // columns of the ring around these
 
 /// The columns that hold grains, in key order.
 struct OccupiedColumns {
@@ -167,8 +167,8 @@ struct LinkColumns {
   }
 };
 
-/// Rank r owns the columns from code start(r) on the Morton curve up to start(r + 1); start(0) is
-/// 0. A rank that starts where the next one does owns nothing.
+/// Owners of columns: rank r has those from code start(r) on the Morton curve up to start(r + 1);
+/// start(0) is 0. A rank that starts where the next one does owns nothing.
 struct GrainOwners {
   int me = 0;
   Kokkos::View<const std::uint32_t*> start;  // (ranks)
@@ -178,7 +178,7 @@ struct GrainOwners {
   }
 };
 
-/// The other ranks that own a column in the rings around a grain's: they need a copy of it.
+/// Destinations of a grain's copies: the other ranks that own a column in the rings around its own.
 struct GhostDestinations {
   static constexpr int kMax = 8 + kOuterColumns;
   int n = 0;

@@ -1,4 +1,4 @@
-// A sphere.
+// Volume and moment of inertia of a sphere.
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// The longest grain step for which contacts are stable. In a packing the tangential dashpots of all
+// Longest grain step for which contacts are stable. In a packing the tangential dashpots of all
 // contacts of a grain brake its spin together: they, not the springs, limit an explicit step.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace barchan {
 
-/// Adds up the tangential springs and dashpots of the contacts of each grain, which gives the step
-/// within some 10 % of that of all grains together (docs/theory-grains.md); reduces the shortest
-/// step of any contact alone [s].
+/// Adds up the tangential springs and dashpots of the contacts of each grain; reduces the shortest
+/// step of any contact alone [s]. The sums give the step within some 10 % of that of all grains
+/// together (docs/theory-grains.md).
 template <class Laws>
 struct TangentialOfPairs {
   Laws laws;  // a LawTable
@@ -35,7 +35,7 @@ struct TangentialOfPairs {
     const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
     shortest = step < shortest ? step : shortest;
   }
-  /// To a grain of this rank.
+  /// Adds a contact to a grain of this rank; ghosts are skipped.
   KOKKOS_FUNCTION void add(int g, const ContactStiffness& k) const {
     if (g >= list.chunks.n) return;
     Kokkos::atomic_add(&sums(g, 0), k.k_t);
@@ -43,15 +43,15 @@ struct TangentialOfPairs {
   }
 };
 
-/// Adds walls and bodies; reduces the shortest step of all grains [s].
+/// Adds the contacts with walls and bodies; reduces the shortest step of all grains [s].
 template <class Laws>
 struct StableStepOfGrains {
-  Laws laws;  // a LawTable, of the walls
+  Laws laws;  // a LawTable for the walls
   WallShapes walls;
   Bodies bodies;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
-  Kokkos::View<const std::uint8_t*> kind;  // empty: one
+  Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);

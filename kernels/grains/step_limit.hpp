@@ -1,4 +1,4 @@
-// The longest step for which one mode of motion is stable.
+// Longest step for which one mode of motion is stable.
 #pragma once
 
 #include "kernels/math/vec3.hpp"
@@ -13,8 +13,8 @@ KOKKOS_INLINE_FUNCTION Real stable_step(Real k, Real gamma, Real m) {
   return 4 * m / (gamma + Kokkos::sqrt(gamma * gamma + 4 * k * m));
 }
 
-/// Inertia of a sphere against slip at its surface over its mass: 1 / (1 + m r^2 / I) = 2/7; of its
-/// spin alone I / (m r^2) = 2/5.
+/// Inertia of a sphere over its mass, against slip at its surface: 1 / (1 + m r^2 / I) = 2/7;
+/// against its spin alone: I / (m r^2) = 2/5.
 inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
 
 }  // namespace barchan

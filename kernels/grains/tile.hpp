@@ -7,16 +7,17 @@
 
 namespace barchan {
 
-/// Of a block: enough to fill vectors, small enough for the L1 cache; on a GPU one.
+/// Number of entries in a block: enough to fill vectors, small enough for the L1 cache; one on a
+/// GPU.
 inline constexpr int kTile = kOnHost ? 32 : 1;
 
-/// How many of a block there are from `begin` on: a constant on a GPU, so that it keeps the block
-/// in registers.
+/// Number of entries of a block that begins at `begin`: a constant on a GPU, so that it keeps the
+/// block in registers.
 KOKKOS_FORCEINLINE_FUNCTION constexpr int size_of_block(int begin, int end) {
   return kTile == 1 || begin + kTile <= end ? kTile : end - begin;
 }
 
-/// A Vec4 of each, as numbers that a loop over the block can read.
+/// Block with a Vec4 per entry, as numbers that a loop can read.
 struct alignas(64) AosTile {
   Real lane[kTile][Vec4::kSize];
 
@@ -26,8 +27,8 @@ struct alignas(64) AosTile {
   KOKKOS_FORCEINLINE_FUNCTION Real w(int q) const { return lane[q][3]; }
 };
 
-/// A vector and a spare number of each, component by component: a loop over the block reads and
-/// writes them in full vectors, a pass of its own makes Quads of them.
+/// Block with a vector and a spare number per entry, component by component: a loop over it reads
+/// and writes full vectors. `to_aos` interleaves them in a pass of its own.
 struct alignas(64) SoaTile {
   Real x[kTile], y[kTile], z[kTile], w[kTile];
 

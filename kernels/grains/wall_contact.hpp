@@ -1,4 +1,5 @@
-// Walls: the contact law with one side at rest (m_eff = m), flat (r_eff = r) or a glued sphere.
+// Contacts of grains with walls: the contact law with one side at rest (m_eff = m), flat (r_eff =
+// r) or a glued sphere.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace barchan {
 
-/// The walls, their material and every grain's history with them.
+/// Walls, their material, and the contact history of every grain with them.
 template <class Law>
 struct Walls {
   WallShapes shapes;
@@ -18,16 +19,17 @@ struct Walls {
   // (grain, history of the wall): [m], [N m]; torque of rolling springs alone
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> xi_t, torque;
   Kokkos::View<std::uint8_t*> touching;    // bit w: grain touches wall w
-  Kokkos::View<const std::uint8_t*> kind;  // of the grains; empty: one
+  Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
 
-  /// Contacts side by side: of which grain, with which wall, at which arm [m].
+  /// Block of contacts: grain, wall, and lever arm [m] of each.
   struct Tile {
     int grain[kTile], wall[kTile];
     Real arm[kTile];
     ContactTile<Law> contacts;
   };
 
-  /// Within `margin` of contact with a wall [m]; a grain that is not touches none.
+  /// Tells if a grain is within `margin` of contact with a wall [m]; a grain that is not touches
+  /// none.
   KOKKOS_FORCEINLINE_FUNCTION std::uint8_t is_near(int g, Real margin) const {
     for (int w = 0; w < shapes.n; ++w) {
       if (shapes.at(w, grains(g).x).overlap(grains(g)) > -(margin + reach_of(g, w))) return 1;
@@ -36,8 +38,8 @@ struct Walls {
     return 0;
   }
 
-  /// Adds the forces and torques of all walls on the grains of entries [begin, end) that are near
-  /// one to sums[0..], and takes their history a grain step on.
+  /// Adds the forces and torques of all walls on the near grains of entries [begin, end) to
+  /// sums[0..], and advances their history by a grain step.
   template <class Near>
   KOKKOS_FORCEINLINE_FUNCTION void add(int begin, int end, const Near& near,
                                        ContactSum* sums) const {

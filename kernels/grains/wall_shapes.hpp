@@ -1,4 +1,4 @@
-// The walls as grains meet them: flat ones, and a floor of glued spheres.
+// Shapes of the walls: flat ones, and a floor of glued spheres.
 #pragma once
 
 #include "kernels/grains/grain.hpp"
@@ -18,20 +18,20 @@ struct Plane {
   }
 };
 
-/// Equal spheres glued to the floor in one close-packed layer, their tops in the plane y = 0. They
-/// stand in rows along x, at x = (i + j/2) a and z = j b, b = a sqrt(3)/2. Their colour is
-/// (i - j) mod 3, so the three corners of every triangle differ, and a grain that no other sphere
-/// holds up touches at most one sphere of a colour. Rows and columns are stretched to fit into the
-/// periodic domain.
+/// Floor of equal spheres glued in one close-packed layer, their tops in the plane y = 0. They
+/// stand in rows along x, at x = (i + j/2) a and z = j b, b = a sqrt(3)/2. Their colour is (i - j)
+/// mod 3, so the three corners of every triangle differ, and a grain that no other sphere holds up
+/// touches at most one sphere of a colour. Rows and columns are stretched to fit into the periodic
+/// domain.
 struct GluedFloor {
   static constexpr int kColours = 3;
-  Real r = 0;         // of a sphere [m]; 0: a flat floor
-  Real a = 1, b = 1;  // between spheres of a row, between rows [m]
+  Real r = 0;         // radius of a sphere [m]; 0: a flat floor
+  Real a = 1, b = 1;  // distance between spheres of a row, and between rows [m]
 
-  /// Number of walls that it stands for.
+  /// Number of walls that the floor stands for.
   KOKKOS_FORCEINLINE_FUNCTION int walls() const { return r > 0 ? kColours : 0; }
 
-  /// Centre of the nearest sphere of a colour. Those of a colour stand at the corners and in the
+  /// Centre of the nearest sphere of a colour. Spheres of a colour stand at the corners and in the
   /// middle of rectangles of 3 a times 2 b.
   KOKKOS_INLINE_FUNCTION Vec3 nearest(int colour, const Vec3& x) const {
     const Real along = x.x / a - colour, across = x.z / b;
@@ -46,8 +46,8 @@ struct GluedFloor {
     return {a * ((corner ? corner_x : middle_x) + colour), -r, b * (corner ? corner_z : middle_z)};
   }
 
-  /// The plane that touches the nearest sphere of a colour below x. For one that has sunk below the
-  /// centres that over all tops, which shows how deep it is.
+  /// Plane that touches the nearest sphere of a colour below x. For an x that has sunk below the
+  /// centres it is the plane over all tops, which shows how deep it is.
   KOKKOS_INLINE_FUNCTION Plane under(int colour, const Vec3& x) const {
     const Vec3 centre = nearest(colour, x), up = x - centre;
     if (up.y <= 0) return {.normal = {0, 1, 0}, .offset = 0};
@@ -56,7 +56,7 @@ struct GluedFloor {
   }
 };
 
-/// A layer of spheres of radius r in a domain of lx times lz, that fits into it without a gap.
+/// Layer of spheres of radius r that fits into a domain of lx times lz without a gap.
 inline GluedFloor glued_floor(Real r, Real lx, Real lz) {
   const Real a = 2 * r, b = a * Kokkos::sqrt(Real(3)) / 2;
   return {.r = r,
@@ -64,21 +64,21 @@ inline GluedFloor glued_floor(Real r, Real lx, Real lz) {
           .b = lz / (2 * Kokkos::floor(lz / (2 * b) * (1 + Real(1e-12))))};
 }
 
-/// The floor, the top, and two walls each in x and z. A bit each in GrainState::wall_touching, also
-/// of restart files.
+/// Largest number of walls: the floor, the top, and two walls each in x and z. Each has a bit in
+/// GrainState::wall_touching, which restart files hold, too.
 inline constexpr int kMaxWalls = GluedFloor::kColours + 5;
 static_assert(kMaxWalls <= 8);
 
-/// The walls of the domain. Each has a history of contact of its own, but two that stand opposite
-/// each other, farther apart than a grain is wide, share one. A floor of glued spheres is the first
-/// three walls, one for each colour.
+/// Walls of the domain. Each has a contact history of its own, except that two opposite walls
+/// farther apart than a grain is wide share one. A floor of glued spheres is the first three walls,
+/// one for each colour.
 struct WallShapes {
   int n = 0, n_histories = 0;
   Plane plane[kMaxWalls];
   int history[kMaxWalls]{};
   GluedFloor glued;
 
-  /// The wall as a grain at x meets it.
+  /// Wall w as a grain at x meets it.
   KOKKOS_FORCEINLINE_FUNCTION Plane at(int w, const Vec3& x) const {
     return w < glued.walls() ? glued.under(w, x) : plane[w];
   }

@@ -11,7 +11,7 @@
 
 namespace barchan {
 
-/// The word for an alternative in a case, and what it is, with its source.
+/// Word for an alternative in a case, and its meaning with its source.
 struct Named {
   std::string_view word, meaning;
 };
@@ -19,7 +19,8 @@ struct Named {
 template <class List>
 struct Choice;
 
-/// Each type has a `static constexpr Named named`. One that takes numbers has a `from(given)`.
+/// List of types that a case can choose from. Each has a `static constexpr Named named`. One that
+/// takes numbers has a `from(given)`.
 template <class... Types>
 struct Alternatives {
   using Variant = std::variant<Types...>;
@@ -42,7 +43,7 @@ struct Alternatives {
   static constexpr void each(const F& f) {
     (f.template operator()<Types>(), ...);
   }
-  /// The same with the chosen one alone.
+  /// Calls f.template operator()<Type>() with the chosen type alone.
   template <class F>
   static constexpr void with(Choice<Alternatives> choice, const F& f) {
     ((choice.template is<Types>() ? f.template operator()<Types>() : void()), ...);

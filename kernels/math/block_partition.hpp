@@ -1,11 +1,11 @@
-// Something divided among many.
+// Division of [0, n) into consecutive parts.
 #pragma once
 
 #include <Kokkos_Core.hpp>
 
 namespace barchan {
 
-/// [0, n) in consecutive parts, as equal as can be, the longer ones first.
+/// Partition of [0, n) into consecutive parts, as equal as can be, the longer ones first.
 struct BlockPartition {
   int n = 1, parts = 1;
 

@@ -1,19 +1,19 @@
-// Where kernels run.
+// Flags that tell where kernels run.
 #pragma once
 
 #include <Kokkos_Core.hpp>
 
 namespace barchan {
 
-/// A build in which the host plays a device: kernels have the shapes that they have there, and the
-/// host has copies of its own of all arrays (docs/dev/reliability.md).
+/// True in a build in which the host plays a device: kernels have the shapes that they have there,
+/// and the host has copies of its own of all arrays (docs/dev/reliability.md).
 #ifdef BARCHAN_REHEARSAL
 inline constexpr bool kRehearsal = true;
 #else
 inline constexpr bool kRehearsal = false;
 #endif
 
-/// Whether kernels run on the host, in its memory.
+/// True if kernels run on the host, in its memory.
 inline constexpr bool kOnHost =
     !kRehearsal &&
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,

@@ -1,4 +1,4 @@
-// One of several small types, on a device as on the host.
+// Value of one of several small types, on a device as on the host.
 #pragma once
 
 #include <Kokkos_Macros.hpp>
@@ -34,7 +34,7 @@ union PartsOfOne<Last> {
   }
 };
 
-/// What std::variant is on the host. The types can be copied bit by bit.
+/// Variant for host and device. Its types can be copied bit by bit.
 template <class List>
 class OneOf;
 template <class... Types>
@@ -44,7 +44,7 @@ class OneOf<Alternatives<Types...>> {
   template <class Type>
   explicit OneOf(const Type& value)
       : place_(Alternatives<Types...>::template place_of<Type>()), parts_(value) {}
-  /// f(the one that it is).
+  /// Returns f(the value that it holds).
   template <class F>
   KOKKOS_FORCEINLINE_FUNCTION constexpr auto visit(const F& f) const {
     return parts_.visit(place_, f);

@@ -1,11 +1,11 @@
-// A maximum of what many threads find.
+// Maximum over threads.
 #pragma once
 
 #include <Kokkos_Core.hpp>
 
 namespace barchan {
 
-/// *at becomes the larger of *at and value. It is read first, for few values are larger than all
+/// Raises *at to value if that is larger. *at is read first, because few values are larger than all
 /// before them.
 KOKKOS_FORCEINLINE_FUNCTION void raise_to(int* at, int value) {
   if (Kokkos::atomic_load(at) < value) Kokkos::atomic_max(at, value);

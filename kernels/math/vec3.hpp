@@ -7,8 +7,8 @@ namespace barchan {
 
 using Real = double;
 
-/// a b + c, rounded once where the processor does that in one instruction. Written out where it
-/// counts: left to the compiler, it would depend on where a formula is inlined.
+/// Fused a b + c, rounded once where the processor does that in one instruction. It is written out
+/// where it counts: left to the compiler, it would depend on where a formula is inlined.
 KOKKOS_FORCEINLINE_FUNCTION constexpr Real fma(Real a, Real b, Real c) {
 #if defined(__FMA__) || defined(__CUDA_ARCH__)
   return __builtin_fma(a, b, c);
@@ -17,7 +17,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real fma(Real a, Real b, Real c) {
 #endif
 }
 
-/// Along the floor: x along the flow, z across.
+/// Vector along the floor: x along the flow, z across.
 struct Vec2 {
   Real x = 0, z = 0;
 };
@@ -50,7 +50,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real dot(const Vec3& a, const Vec3& b) {
 KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
 }
-/// s a + b, each component fused.
+/// Fused s a + b in each component.
 KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3 fma(Real s, const Vec3& a, const Vec3& b) {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }

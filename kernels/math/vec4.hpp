@@ -9,8 +9,8 @@
 
 namespace barchan {
 
-/// On a CPU one vector register, on a device four numbers. A compiler by itself leaves the unused
-/// fourth out and computes three one by one. Each component gets the bits that it gets on its own.
+/// Four numbers: one vector register on a CPU. A compiler by itself leaves the unused fourth out
+/// and computes three one by one. Each component gets the bits that it gets on its own.
 struct Vec4 {
   static constexpr int kSize = 4;
 #ifdef BARCHAN_VECTOR_REGISTERS
@@ -45,7 +45,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec4 operator-(const Vec4& a, const Vec4& b) {
 }
 KOKKOS_FORCEINLINE_FUNCTION Vec4 fma(Real s, const Vec4& a, const Vec4& b) {
   Vec4 sum;
-#if defined(__FMA__) && !defined(__clang__)  // which g++ does not find by itself
+#if defined(__FMA__) && !defined(__clang__)  // g++ does not find these by itself
   const Vec4 factor(s, s, s, s);
   sum.v = __builtin_ia32_vfmaddpd256(factor.v, a.v, b.v);
 #else

@@ -11,7 +11,7 @@
 namespace barchan {
 namespace {
 
-/// CLI11 alone would say that a subcommand is missing, not that this one is unknown.
+/// Names an unknown command: CLI11 alone would say that a subcommand is missing.
 void check_command(int argc, const char* const* argv) {
   const std::vector<std::string> commands{"run", "check", "new", "info", "keys"};
   if (argc < 2 || argv[1][0] == '-' || std::ranges::count(commands, argv[1]) > 0) return;
@@ -20,7 +20,8 @@ void check_command(int argc, const char* const* argv) {
                                fmt::join(commands, ", ")));
 }
 
-/// What CLI11 lists as "not expected", in order, with the option it may have been meant for.
+/// Arguments that CLI11 lists as "not expected", in order, with the option each may have been meant
+/// for.
 std::string not_expected(const CLI::App& app, const CLI::App& command,
                          const std::vector<std::string>& overrides) {
   for (const std::string& key : overrides) {

@@ -19,12 +19,13 @@ namespace barchan {
 
 namespace {
 
-// Measured in runs of the shipped cases (docs/dev/performance.md, "Estimates"). A grain step of
-// a moving dune is dearer than one at rest: contacts come and go, and are looked for more often.
+// Ratio of times of a grain step, measured in runs of the shipped cases (docs/dev/performance.md,
+// "Estimates"). A step of a moving dune is dearer than one at rest: contacts come and go, and are
+// looked for more often.
 constexpr double kMovingOverResting = 1.2;
 // Direct solves of the pressure equation in a step where grains move.
 constexpr double kIterationsOfMoving = 2.5;
-// A line of history.csv with run.json [s], and what frames take on their way to the disk [byte/s].
+// Time of a line of history.csv with run.json [s], and rate at which frames are written [byte/s].
 constexpr double kSecondsPerHistoryLine = 1e-3, kBytesPerSecond = 1e8;
 constexpr double kBytesOfGrain = 100, kBytesOfCell = 56;
 
@@ -53,7 +54,7 @@ double output_seconds(const Config& config, double n_grains, const PartSeconds& 
   return seconds;
 }
 
-/// The fastest grains, about [m/s]: slower than the flow, else as they fall.
+/// Estimated speed of the fastest grains [m/s]: slower than the flow, else as they fall.
 double fastest_of(const SettledCase& the_case) {
   const Config& config = the_case.config;
   if (the_case.numbers.fluid) return std::max(0.4 * the_case.numbers.fluid->bulk_velocity, 1e-3);
@@ -70,14 +71,14 @@ bool loses_no_energy(const GrainConfig& grains) {
                              [](const KindConfig& kind) { return kind.material.restitution == 1; });
 }
 
-/// Grains for the pilot: those that are there, or what those that are poured will settle to.
+/// Grains for the pilot: those that are there, or the bed that poured ones will settle to.
 InitialGrains grains_for(const PlannedGrains& planned) {
   const Config& config = planned.settled.config;
   if (!config.grains) return {};
   if (planned.grains) return *planned.grains;
   const SettledCase& pours = planned.poured_in;
   InitialGrains poured = checked_grains(pours, {});  // throws as the run would
-  // What loses no energy does not settle.
+  // Grains that lose no energy do not settle.
   if (loses_no_energy(*config.grains)) return poured;
   return packed_grains(pours.heaps, pours.config.size, pours.bodies());
 }
@@ -87,7 +88,7 @@ RunSeconds timed(const PlannedGrains& planned, double budget) {
   return run_seconds(planned.settled, time_parts(planned.settled.config, grains, budget));
 }
 
-/// Two digits of what takes less than ten seconds.
+/// Time in words, with two digits below ten seconds.
 std::string about(double seconds) {
   return "about " + (seconds < 9.95 ? fmt::format("{:.1f} s", seconds) : format_duration(seconds));
 }
@@ -106,12 +107,12 @@ std::string shares(const RunSeconds& s) {
   return text;
 }
 
-/// Says so where others were busy: what was timed is then too long.
+/// Note that the estimate is too long if other programs were busy meanwhile; else empty.
 std::string note_of_others(const std::optional<ProcessorSeconds>& before) {
   const auto after = processor_seconds();
   if (!before || !after) return {};
   const double cores = cores_of_others(*before, *after);
-  constexpr double quiet = 0.25;  // of a core
+  constexpr double quiet = 0.25;  // part of a core
   if (cores < quiet) return {};
   return fmt::format(
       "  {:<24}the machine is busy: others had {:.1f} cores meanwhile. On a quiet one it takes "
@@ -142,13 +143,13 @@ RunSeconds run_seconds(const SettledCase& the_case, const PartSeconds& parts) {
     s.grains =
         steps * derived.grain_substeps * parts.grain_step * (moving_flow ? kMovingOverResting : 1) +
         steps * parts.state_checks;
-    // Rebuilds during a grain step: one at most.
+    // Rebuilds in the run, at most one in a grain step.
     const double rebuilds = std::min(rebuild_rate(the_case) * config.time.end + fed_grains(config),
                                      steps * derived.grain_substeps);
     s.lists = rebuilds * parts.rebuild;
   }
   double n_grains = derived.grains ? static_cast<double>(derived.grains->count) : 0;
-  if (n_grains > 0) {  // half of those that come in are there on average
+  if (n_grains > 0) {  // on average half of the fed grains are there
     const double more = 1 + fed_grains(config) / 2 / n_grains;
     n_grains *= more;
     for (double* part : {&s.exchange, &s.grains, &s.lists}) *part *= more;

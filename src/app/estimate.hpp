@@ -1,4 +1,4 @@
-// How long a case will take on this machine.
+// Estimate of how long a case will take on this machine.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,15 @@ struct RunSeconds {
   double all() const { return flow + exchange + grains + lists + output; }
 };
 
-/// What a run of the case takes whose parts take so long.
+/// Wall seconds of a run of the case, from the times of its parts.
 RunSeconds run_seconds(const SettledCase& the_case, const PartSeconds& parts);
 
-/// New neighbour lists in a second of simulated time, about. The case must have sizes.
+/// Estimated number of new neighbour lists in a second of simulated time. The case must have sizes.
 double rebuild_rate(const SettledCase& the_case);
 
-/// Lines for a terminal: what the case takes on this machine, timed for about a second, and the
-/// starts that are missing beside `folder`. `planned`: its grains. Kokkos must run; all ranks
-/// together.
+/// Lines for a terminal: the time that the case takes on this machine, estimated from about a
+/// second of timing, and the starts that are missing beside `folder`. `planned`: its grains. Kokkos
+/// must run; all ranks call it together.
 std::string estimate(const Case& the_case, const std::filesystem::path& folder,
                      const PlannedGrains& planned);
 

@@ -12,7 +12,7 @@ namespace barchan {
 
 namespace {
 
-// In the order of ElementType.
+// Names of the element types, in the order of ElementType.
 constexpr const char* kTypeNames[] = {"float32", "float64", "int32", "int64", "other"};
 
 std::string describe_array(const Hdf5File& file, const std::string& path,
@@ -30,9 +30,10 @@ std::string describe_array(const Hdf5File& file, const std::string& path,
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
-// Deeper than any group of ours: links of a foreign file may lead in circles.
+// Depth of groups that is listed, more than ours have: links of a foreign file may lead in circles.
 constexpr int kDeepestGroup = 4;
-// More than any of our files holds below "/" or "grid": the text stays readable, and within memory.
+// Longest listing [bytes], more than any of our files holds below "/" or "grid": the text stays
+// readable, and within memory.
 constexpr std::size_t kLongestListing = 100000;
 
 /// Arrays below a group, with the groups below it.
@@ -72,7 +73,7 @@ std::string describe_frames(const Hdf5File& file, const std::vector<FrameInfo>& 
   return text;
 }
 
-/// A run may be at work on it.
+/// Tells if the file has just changed: a run may be at work on it.
 bool has_just_changed(const std::filesystem::path& path) {
   std::error_code error;
   const auto changed = std::filesystem::last_write_time(path, error);

@@ -1,4 +1,4 @@
-// The command info.
+// Command info: result and restart files.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// What a result or restart file holds, and where it came from: several lines. Throws
+/// Describes a result or restart file in several lines: its content, and where it came from. Throws
 /// std::runtime_error with a sentence for the user when it is missing, cut short, or not one of
 /// ours. A file that changed a moment ago may be in the hands of a run: it is tried again for as
 /// long as `patience`.

@@ -30,7 +30,7 @@ std::string word(const Json& json, const char* key) {
                                              : std::string("unknown");
 }
 
-/// The number of a key; nothing if it is not there: another version, or the run goes on.
+/// Number of a key; empty if it is not there, as in another version or while the run goes on.
 std::optional<double> number(const Json& json, const char* key) {
   const auto at = json.find(key);
   if (at == json.end() || !at->is_number()) return {};

@@ -1,4 +1,4 @@
-// The command info: folders.
+// Command info: folders.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace barchan {
 
-/// What run.json or study.json says of a folder, with the files in it. Throws std::runtime_error
-/// with a sentence for the user if it is neither a run nor a study.
+/// Describes a folder from its run.json or study.json, with the files in it. Throws
+/// std::runtime_error with a sentence for the user if it is neither a run nor a study.
 std::string describe_folder(const std::filesystem::path& folder);
 
 }  // namespace barchan

@@ -26,7 +26,7 @@ namespace barchan {
 namespace fs = std::filesystem;
 namespace {
 
-/// The lines of a table below its header that are no comments, the first and the last of them.
+/// First and last line of a table below its header, comments left out.
 struct Rows {
   std::string header, first, last;
   std::size_t count = 0;
@@ -48,7 +48,7 @@ Rows rows_of(const std::string& text) {
   return rows;
 }
 
-/// Words for docs/files.md without their links, [words](page).
+/// Removes the links from words for docs/files.md, [words](page).
 std::string without_links(std::string text) {
   for (std::size_t open; (open = text.find("](")) != text.npos;) {
     text.erase(open, text.find(')', open) - open + 1);
@@ -59,7 +59,8 @@ std::string without_links(std::string text) {
 
 std::string first_cell(const std::string& line) { return line.substr(0, line.find(',')); }
 
-/// One of ours: its columns with units and meanings; nothing if it has another header.
+/// Describes one of our tables: its columns with units and meanings; empty if it has another
+/// header.
 template <class Record>
 std::string describe_table(const CsvTable<Record>& table, const Rows& rows) {
   if (rows.header != table.header()) return {};
@@ -104,7 +105,7 @@ std::string describe_csv(const fs::path& path) {
                      printable(h, 1000));
 }
 
-/// What drives a flow, in words.
+/// Drive of a flow, in words.
 std::string driven_by(const FluidConfig& fluid) {
   if (fluid.pressure_gradient) return fmt::format("{:g} Pa/m along x", *fluid.pressure_gradient);
   if (fluid.schedule.empty())

@@ -1,4 +1,4 @@
-// The command info: what lies at a path, whatever it is.
+// Command info: whatever lies at a path.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace barchan {
 
-/// A run or study folder, a result or restart file, a table or a case: several lines that say what
-/// it holds and where it came from. Throws std::runtime_error with a sentence for the user.
+/// Describes a run or study folder, a result or restart file, a table or a case in several lines:
+/// its content, and where it came from. Throws std::runtime_error with a sentence for the user.
 std::string describe_path(const std::filesystem::path& path);
 
 }  // namespace barchan

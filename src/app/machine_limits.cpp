@@ -13,7 +13,7 @@ namespace barchan {
 
 namespace {
 
-// What Open MPI 4.1 needs, tried out: it shares memory through a file of 4 MiB in the folder for
+// Needs of Open MPI 4.1, found by trial: it shares memory through a file of 4 MiB in the folder for
 // temporary files.
 constexpr std::uint64_t kOpenFiles = 64, kFile = 4 << 20, kMemory = 300'000'000, kRoom = 10'000'000;
 

@@ -46,7 +46,7 @@ struct MpiScope {
   MPI_Comm refusals = MPI_COMM_NULL;  // ranks may meet here while others are busy in the world
 };
 
-/// Kokkos ends the program with a stack trace when it cannot read its own settings.
+/// Refuses settings that Kokkos cannot read: it would end the program with a stack trace.
 void check_environment() {
   constexpr int kMost = std::numeric_limits<int>::max();
   for (const auto& [name, least, most] :
@@ -65,7 +65,7 @@ void check_environment() {
   }
 }
 
-/// Those that --threads asks for, or as many as Kokkos can have; 0: Kokkos chooses.
+/// Number of threads that --threads asks for, or as many as Kokkos can have; 0: Kokkos chooses.
 int threads_of(const CommandLine& line) {
   if (line.threads > 0) return line.threads;
   // NOLINTBEGIN(concurrency-mt-unsafe): there are no other threads yet
@@ -77,8 +77,8 @@ int threads_of(const CommandLine& line) {
   return by_itself > kMostThreads ? kMostThreads : 0;
 }
 
-/// A standard stream that is closed leads to nowhere. Else the next file that is opened would take
-/// its number, and what is said would go into the results.
+/// Opens closed standard streams to nowhere. Else the next file that is opened would take the
+/// number of one, and messages would go into the results.
 void keep_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0)
@@ -125,8 +125,8 @@ int execute(const CommandLine& line) {
   return 0;
 }
 
-/// One message and an end for all ranks. A problem that all of them met is told by rank 0, which
-/// ends the others; one that another rank met alone is told by that rank a moment later.
+/// Reports a problem once and ends all ranks. Rank 0 tells a problem that all of them met and ends
+/// the others; a rank that met one alone tells it a moment later.
 int fail(const std::string& words, int exit_code) {
   const std::string message = printable_lines(words);
   const int rank = rank_of(MPI_COMM_WORLD);
@@ -140,7 +140,8 @@ int fail(const std::string& words, int exit_code) {
   return exit_code;
 }
 
-/// Bad input is a quiet end where all ranks read the same; a file may also be missing on one node.
+/// Reports bad input. All ranks end quietly where all read the same; a file may also be missing on
+/// one node.
 int refuse(const MpiScope& mpi, const std::string& message) {
   constexpr int bad_input = 2;
   if (!all_come(mpi.refusals, std::chrono::seconds(2))) return fail(message, bad_input);

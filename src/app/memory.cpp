@@ -13,17 +13,17 @@ namespace barchan {
 
 namespace {
 
-// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and what a restart file is
-// gathered in.
+// Bytes of a grain: arrays of a coupled case 700 (docs/performance.md), and the memory in which a
+// restart file is gathered.
 constexpr double kBytesPerGrain = 1000;
 
-/// With the history of its contacts with bodies.
+/// Bytes of a grain with the history of its contacts with bodies.
 double bytes_per_grain(const Config& config) {
   if (config.bodies.empty()) return kBytesPerGrain;
   return kBytesPerGrain + 70 + 48 * static_cast<double>(config.bodies.size());
 }
 
-/// Of a cell: the state, about 30 numbers of work space and two complex transforms.
+/// Bytes of a cell: the state, about 30 numbers of work space and two complex transforms.
 double bytes_per_cell() {
   int numbers = 30 + 4;
   for_each_fluid_field(FluidState(), [&](const auto& member, const FluidField&) {

@@ -25,12 +25,13 @@ struct File {
   std::string text;
 };
 
-/// A multiple of 4, at least 8: the transforms of the pressure like small factors.
+/// Cells along a length: a multiple of 4, at least 8, because the transforms of the pressure are
+/// fast for small factors.
 int cells_along(double length, double size) {
   return std::max(8, 4 * static_cast<int>(std::lround(length / size / 4)));
 }
 
-/// The numbers of a case, in SI units.
+/// Numbers of a case, in SI units.
 struct Plan {
   double d = 0, scale = 0;  // scale: d times the cube root of the count, some 0.7 heap radii
   double velocity = 0;
@@ -40,7 +41,7 @@ struct Plan {
   double flow_end = 0, heap_end = 0, end = 0;
 };
 
-/// As many rows that grow by 8 % at most.
+/// Number of rows that fill the height if they grow by 8 % at most.
 int rows_for(double height, double first, double uniform_to) {
   RowSpacing rows{.height = height, .rows = 8, .first = first, .uniform_to = uniform_to};
   const auto too_few = [&] {  // rows that need not shrink, but grow too fast
@@ -51,12 +52,13 @@ int rows_for(double height, double first, double uniform_to) {
   return rows.rows;
 }
 
-/// The rules of docs/choosing.md; times and heaps in proportion to configs/barchan-10k.toml.
+/// Plan by the rules of docs/choosing.md; times and heaps in proportion to
+/// configs/barchan-10k.toml.
 Plan plan_of(const NewCase& asked, double d) {
   Plan p{.d = d, .scale = d * std::cbrt(asked.grains)};
   const double submerged = (asked.density / kWater - 1) * kGravity;
   p.size[1] = 6 * p.scale;
-  constexpr double shields = 0.09;  // of the paper
+  constexpr double shields = 0.09;  // Shields number of the paper's flow
   const double wanted = bulk_velocity_of(std::sqrt(shields * submerged * d), p.size[1], kViscosity);
   p.velocity = asked.velocity.value_or(rounded(wanted, 2));
   const double wall_unit = kViscosity / friction_velocity(p.velocity, p.size[1], kViscosity);
@@ -77,7 +79,7 @@ Plan plan_of(const NewCase& asked, double d) {
 
 std::string mm(double metres) { return fmt::format("\"{:.4g} mm\"", 1e3 * metres); }
 
-/// Five classes about the mean, in the proportions of Table II of the paper.
+/// Sizes of grains: five classes about the mean, in the proportions of Table II of the paper.
 std::string sizes_text(int grains, double d) {
   constexpr std::array<double, 5> ratio{0.75, 0.875, 1, 1.125, 1.25};
   constexpr std::array<double, 5> share{0.0227, 0.1359, 0, 0.1359, 0.0227};
@@ -215,7 +217,7 @@ void refuse_what_is_there(const std::vector<File>& files) {
   }
 }
 
-/// All or nothing: a case that is refused leaves no file. Returns the case as it is read.
+/// Writes all files or none: a case that is refused leaves no file. Returns the case as it is read.
 Case write_checked(const std::vector<File>& files) {
   refuse_what_is_there(files);
   const auto remove_all = [&] {

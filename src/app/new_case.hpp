@@ -1,4 +1,4 @@
-// The command new: a case of one's own, its numbers by the rules of docs/choosing.md.
+// Command new: a case of one's own, its numbers by the rules of docs/choosing.md.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace barchan {
 
-/// What the user asked for.
+/// Answers of the user from which a case is made.
 struct NewCase {
-  std::filesystem::path name;       // of the case; ".toml" may be left out
+  std::filesystem::path name;       // file of the case; ".toml" may be left out
   std::string diameter = "0.2 mm";  // mean of the grains, a length
   int grains = 3000;
-  double density = 2500;                // [kg/m3] of the grains
-  std::optional<double> velocity = {};  // [m/s]; none: that which moves these grains well
+  double density = 2500;                           // density of the grains [kg/m3]
+  std::optional<double> velocity = {};             // [m/s]; empty: one that moves these grains well
   std::optional<std::filesystem::path> from = {};  // a case to be based on, instead of all this
 };
 

@@ -18,20 +18,21 @@ namespace {
 
 constexpr double kMaxCells = 1e6, kMaxGrains = 3e5;
 
-/// A part of the case that has the same cells and grains: all of it, or a slice across x.
+/// Part of the case that has the same cells and grains: all of it, or a slice across x.
 struct Slice {
   Config config;
   InitialGrains grains;
-  double cells_per_cell = 1, grains_per_grain = 1;  // of the case, for each in the slice
+  // cells and grains of the case for each in the slice
+  double cells_per_cell = 1, grains_per_grain = 1;
 };
 
-/// A grain of another list, at rest and at x.
+/// Adds grain g of another list, at rest and at x.
 void add_at_rest(InitialGrains& to, const InitialGrains& from, std::size_t g, const Vec3& x) {
   to.add(from.id[g], from.diameter[g], x);
   if (!from.kind.empty()) to.kind.push_back(from.kind[g]);
 }
 
-/// `grains` in order of x from the first on, as many as are timed, moved to x = 0.
+/// First `grains` in order of x, as many as are timed, moved to x = 0.
 InitialGrains first_grains(const InitialGrains& grains, double length) {
   std::vector<std::size_t> order(grains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -64,7 +65,8 @@ Slice slice_of(const Config& config, const InitialGrains& grains) {
   return slice;
 }
 
-/// So heavy that nothing moves them: they touch as they do in the heap for as long as is timed.
+/// Makes the grains so heavy that nothing moves them: while they are timed, they touch as in the
+/// heap.
 void hold_grains(GrainConfig& grains) {
   grains.feed.reset();
   grains.density *= 1e9;
@@ -73,7 +75,8 @@ void hold_grains(GrainConfig& grains) {
   grains.max_overlap = 1;
 }
 
-/// What lies outside the domain would be met by no cell; a start in another domain may have that.
+/// Grains inside the domain. Those outside, which a start in another domain may have, lie in no
+/// cell.
 InitialGrains inside(const InitialGrains& grains, const std::array<double, 3>& size) {
   InitialGrains kept;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -105,7 +108,7 @@ double seconds_of(const Work& work) {
   return seconds_since(start);
 }
 
-/// A quarter of the values are less: other programs only ever make a part take longer.
+/// Lower quartile: other programs only ever make a part take longer.
 double lower_quartile(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
@@ -151,13 +154,14 @@ class Pilot {
     iterations_.push_back(step.fluid_report().pressure_iterations);
     step.close_step(state);
     checks_took_.push_back(seconds_of([&] { check(); }));
-    // As many grain steps as take about 20 ms, but some: the first looks for contacts anew.
+    // Number of grain steps that take about 20 ms, but not too few: the first looks for contacts
+    // anew.
     constexpr int least = 16;
     if (moves_)
       n_ = std::min(std::max(least, static_cast<int>(0.02 / grains_.back())), step.substeps());
   }
 
-  /// What the checks of a run say of this one does not matter.
+  /// Times the checks of a run; their findings about this one do not matter.
   void check() {
     try {
       checks_.check(run_.state, run_.coupled_step);
@@ -165,8 +169,8 @@ class Pilot {
     }
   }
 
-  /// What does not happen in every step. In a state that is still sound: a flow that is unstable in
-  /// these steps takes its grains with it, and then there is no list of neighbours.
+  /// Times the parts that do not act in every step, in a state that is still sound: a flow that is
+  /// unstable in these steps takes its grains with it, and then there is no neighbour list.
   void once_in_a_while() {
     PartSeconds& p = parts_;
     if (moves_) {

@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The case was stopped on request, or one that it starts from.
+/// Stop on request of the case, or of one that it starts from.
 struct Stopped {};
 
-/// Where there is no state yet that a restart file could hold.
+/// Ends the program if a stop was asked for before there is a state that a restart file could hold.
 void end_if_asked() {
   if (!any_rank(stop_signal != 0, MPI_COMM_WORLD)) return;
   report::info("stopped on request; the same command goes on");
@@ -56,7 +56,8 @@ void check_on_root(const Check& check) {
   if (broadcast(!problem.empty(), MPI_COMM_WORLD)) throw InputError(problem);
 }
 
-/// Before the folder is made or locked, and before hours go into what the case starts from.
+/// Checks the place of the results before the folder is made or locked, and before hours go into
+/// what the case starts from.
 void check_place(const Config& config, const RunOptions& options) {
   check_on_root([&] {
     check_out_folder(options.folder);
@@ -64,7 +65,7 @@ void check_place(const Config& config, const RunOptions& options) {
   });
 }
 
-/// The lock of a folder, on rank 0; empty if another process has it.
+/// Lock of a folder, on rank 0; empty if another process has it.
 std::optional<FolderLock> try_to_lock(const fs::path& folder) {
   std::optional<FolderLock> lock;
   check_on_root([&] {
@@ -77,7 +78,7 @@ std::optional<FolderLock> try_to_lock(const fs::path& folder) {
   return lock;
 }
 
-/// Waits for whoever computes there.
+/// Waits until no other process computes in the folder.
 std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
   using namespace std::chrono_literals;
   for (bool told = false;; told = true) {
@@ -93,8 +94,8 @@ std::optional<FolderLock> wait_for_lock(const fs::path& folder) {
   }
 }
 
-/// Results of another start in its folder: nobody asked for their end, so they stay under another
-/// name.
+/// Sets aside the results of another start in its folder: nobody asked for their end, so they stay
+/// under another name.
 void set_aside(const fs::path& folder, const EarlierRun& earlier) {
   check_on_root([&] {
     fs::path kept = folder;
@@ -128,7 +129,8 @@ void make_start(const Case& source, const fs::path& runs, int realisation) {
   }
 }
 
-/// The last state of a case, which is run in this realisation, or to its end, if it is missing.
+/// File with the last state of a case. Runs the case in this realisation, or to its end, if the
+/// file is missing.
 fs::path start_file(const Case& source, const fs::path& runs, int realisation) {
   const bool done = start_case(source, runs, realisation).earlier.done();
   if (!broadcast(done, MPI_COMM_WORLD)) make_start(source, runs, realisation);
@@ -138,7 +140,7 @@ fs::path start_file(const Case& source, const fs::path& runs, int realisation) {
   return *start.earlier.restart;
 }
 
-/// The files a case starts from; what is missing of them is run.
+/// Files that a case starts from; missing ones are computed.
 InitialFiles start_files(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   const fs::path runs = folder_of_runs(config.file, folder);
@@ -156,7 +158,8 @@ InitialFiles start_files(const Case& the_case, const fs::path& folder) {
   return files;
 }
 
-/// What goes on began from the old content, and so do its results.
+/// Warns that an input file has changed: a run that goes on began from the old content, and so do
+/// its results.
 void tell_changed_input(const Case& the_case, const std::string& record) {
   const auto recorded =
       record.empty() ? nlohmann::json() : nlohmann::json::parse(record, nullptr, false);
@@ -166,7 +169,7 @@ void tell_changed_input(const Case& the_case, const std::string& record) {
   }
 }
 
-/// A case in a folder that this process has locked.
+/// Runs a case in a folder that this process has locked.
 void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   const Config& config = the_case.config;
   SettledCase settled = the_case;
@@ -199,8 +202,8 @@ void run_locked(const Case& the_case, const RunOptions& options, Role role) {
   }
 }
 
-/// What --restart names: a file, the last one in a folder, or with "latest" the last one of the
-/// run.
+/// File that --restart names: a file, the last one in a folder, or with "latest" the last one of
+/// the run.
 std::optional<fs::path> named_restart(const CommandLine& line) {
   if (!line.restart) return std::nullopt;
   std::error_code error;
@@ -214,8 +217,8 @@ std::optional<fs::path> named_restart(const CommandLine& line) {
   return last;
 }
 
-/// The case that was asked for, unless its results are there. Nothing that took time is removed
-/// unless the user said so.
+/// Runs the case that was asked for, unless its results are there. Nothing that took time is
+/// removed unless the user said so.
 void run_one(const Case& the_case, RunOptions options, const CommandLine& line) {
   const Config& config = the_case.config;
   const fs::path& folder = options.folder;

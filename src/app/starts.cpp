@@ -67,7 +67,7 @@ std::string shown(const fs::path& folder) {
 }
 
 Case load_case_of(const CommandLine& line) {
-  // Not checked_grains: the box of the case may be given in their diameters.
+  // Sizes are read without checked_grains: the box of the case may be given in their diameters.
   return load_case(line.file, line.overrides, [](const Config& config, const fs::path& file) {
     InitialGrains grains = as_input([&] { return read_grains(file); });
     take_kinds(grains, *config.grains, file.string());
@@ -144,7 +144,7 @@ double top_of(const PlannedGrains& planned) {
   return top;
 }
 
-/// What a run starts with, before its feed is looked at.
+/// Grains that a run starts with, before its feed is looked at.
 PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   const Config& config = the_case.config;
   if (config.fluid) check_passage(the_case.fluid());

@@ -23,7 +23,7 @@ class Descriptor {
   ~Descriptor() { ::close(fd_); }
   int get() const { return fd_; }
 
-  /// All of `text`; `path` is for the complaint.
+  /// Writes all of `text`; `path` is for the complaint.
   void write(std::string_view text, const std::filesystem::path& path) const {
     while (!text.empty()) {
       const auto written = ::write(fd_, text.data(), text.size());
@@ -66,7 +66,8 @@ void append_text(const std::filesystem::path& path, std::string_view text) {
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (const Descriptor file(from, O_RDWR); ::fsync(file.get()) != 0) cannot("write", from);
   if (std::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
-  // The new name is an entry of the folder. Some file systems cannot sync folders: no harm done.
+  // Syncs the folder, because the new name is an entry of it. Some file systems cannot sync
+  // folders: no harm done.
   const Descriptor folder(to.has_parent_path() ? to.parent_path() : ".", O_RDONLY | O_DIRECTORY);
   static_cast<void>(::fsync(folder.get()));
 }

@@ -27,11 +27,11 @@ void rename_durably(const std::filesystem::path& from, const std::filesystem::pa
 /// call returns. Throws std::runtime_error naming the file and the reason.
 void append_text(const std::filesystem::path& path, std::string_view text);
 
-/// Why `path` is not a file to read, "No such file or directory" or the like; empty if it is one.
-/// Devices and pipes count as none: reading them may never end.
+/// Reason why `path` is not a file to read, "No such file or directory" or the like; empty if it is
+/// one. Devices and pipes count as none: reading them may never end.
 std::string not_a_file(const std::filesystem::path& path);
 
-/// The whole of a text file. Throws std::runtime_error naming the file and the reason.
+/// Content of a text file. Throws std::runtime_error naming the file and the reason.
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// The names of an enum's values, as they are written in the source. They are the words of a case.
+// Names of an enum's values, as they are written in the source. They are the words of a case.
 #pragma once
 
 #include <array>

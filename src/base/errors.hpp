@@ -1,4 +1,4 @@
-// Whose fault a problem is decides the exit code.
+// Exceptions by whose fault a problem is, which decides the exit code.
 #pragma once
 
 #include <stdexcept>
@@ -9,8 +9,8 @@
 
 namespace barchan {
 
-/// What the user gave cannot be used: one sentence naming the file and the place in it. Leads to
-/// exit code 2; nothing has been written when it is thrown.
+/// Input of the user that cannot be used: one sentence naming the file and the place in it. Leads
+/// to exit code 2; nothing has been written when it is thrown.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,15 +32,14 @@ class ConfigError : public InputError {
   std::vector<std::string> lines_;
 };
 
-/// True for what Kokkos and the language throw when there is no memory left: nobody's input, and
-/// nothing that another input of the same size would mend.
+/// Tells if the problem is what Kokkos and the language throw when there is no memory left: no
+/// input is at fault, and another input of the same size would not help.
 inline bool is_out_of_memory(const std::exception& problem) {
   const std::string_view what = problem.what();
   return what.find("failed to allocate") != what.npos || what.find("bad_alloc") != what.npos;
 }
 
-/// What read() returns. What the user gave is wrong if it fails, whatever the layer that met it
-/// says.
+/// Returns the result of read(); every exception that it throws becomes an InputError.
 template <class Read>
 auto as_input(const Read& read) {
   try {
@@ -53,10 +52,10 @@ auto as_input(const Read& read) {
   }
 }
 
-/// The state of a run can no longer be right: where, the likely cause and a remedy. Leads to exit
-/// code 1 after the state was written for a look at it.
+/// Error of a run whose state can no longer be right: where, the likely cause and a remedy. Leads
+/// to exit code 1 after the state was written for a look at it.
 struct StateError : std::runtime_error {
-  /// `together`: all ranks throw it, so they can still do something together.
+  /// Makes the error. `together`: all ranks throw it, so they can still do something together.
   StateError(const std::string& message, bool together)
       : std::runtime_error(message), on_all_ranks(together) {}
   bool on_all_ranks;

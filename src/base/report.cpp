@@ -14,7 +14,7 @@ namespace barchan {
 
 namespace {
 
-/// The terminal knows at most one live line; log lines go above it.
+/// State of the terminal. It has at most one live line; log lines go above it.
 struct State {
   report::Shown shown = report::Shown::progress;
   bool silent = false;
@@ -29,7 +29,7 @@ State& state() {
 
 constexpr const char* kClearLine = "\r\033[K";
 
-/// Whoever reads may go away (`| head`); that must not cost the run.
+/// Writes to a stream whose reader may go away (`| head`); that must not cost the run.
 void put(std::FILE* stream, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stream);
   std::fflush(stream);
@@ -42,15 +42,15 @@ void print(std::FILE* stream, std::string_view text) {
   put(stream, fmt::format("{}\n", text));
 }
 
-/// One line of log.txt. A full disk is reported by the results themselves; the log must not stop or
-/// clutter the run.
+/// Adds a line to log.txt. A full disk is reported by the results themselves; the log must not stop
+/// or clutter the run.
 void log(std::string_view text) {
   std::ofstream& file = state().log;
   file.clear();
   if (file.is_open()) file << text << '\n' << std::flush;
 }
 
-/// Cut to the width of the terminal: a wrapped line could not be written over.
+/// Shows the live line, cut to the width of the terminal: a wrapped line could not be written over.
 void show_live(std::string_view text) {
   winsize window{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1) {
@@ -80,7 +80,7 @@ void start(Shown shown, int rank) {
 void log_to(const std::filesystem::path& file, bool append) {
   if (state().silent) return;
   stop_log();
-  // What another has put there as a link would lead our lines elsewhere.
+  // A link that somebody put there would lead our lines elsewhere.
   if (std::filesystem::is_symlink(file)) remove_name(file);
   state().log.open(file, std::ios::binary | (append ? std::ios::app : std::ios::trunc));
   if (!state().log.is_open()) cannot("write", file);

@@ -1,4 +1,4 @@
-// Times that were written and come back.
+// Comparison of times that were written and read back.
 #pragma once
 
 namespace barchan {

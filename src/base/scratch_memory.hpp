@@ -1,6 +1,6 @@
 // Scratch memory: fields of the flow that hold nothing between two fluid steps serve the coupling
-// and the neighbour list. It saves 117 of 702 bytes a grain in a coupled case. Two rules: who takes
-// a piece writes it before reading it and needs it no more when the owner's next step begins; the
+// and the neighbour list. It saves 117 of 702 bytes a grain in a coupled case. Two rules: a user
+// writes a piece before reading it and needs it no more when the owner's next step begins; the
 // owner writes each field before it reads it. Fields that are multiplied with zero somewhere must
 // be left with finite values.
 #pragma once
@@ -29,13 +29,13 @@ class ScratchMemory {
     }
   }
 
-  /// What was given out is no longer in use.
+  /// Takes back all pieces that were given out.
   void free_all() {
     for (Block& block : blocks_) block.used = 0;
   }
 
-  /// Room for n values, not initialised, in the first block that has it; a view without extent
-  /// where none has. The view does not keep the fields alive, this does.
+  /// Takes room for n values, not initialised, in the first block that has it; a view without
+  /// extent where none has. This object, not the view, keeps the fields alive.
   template <class T>
   Kokkos::View<T*> take(std::size_t n) {
     const std::size_t bytes = (n * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;

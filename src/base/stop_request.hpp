@@ -1,4 +1,4 @@
-// A polite end: SIGINT, SIGTERM, SIGHUP or the wall-clock limit.
+// Polite end of a run: SIGINT, SIGTERM, SIGHUP or the wall-clock limit.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@ static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<std::time_t>::is_always_lock_free,
               "a signal handler may not wait for a lock");
 
-/// Leaves a note. Launchers and batch systems may send several signals at once; one that comes more
-/// than a second later is a person who means it, and ends the program.
+/// Notes a signal. Launchers and batch systems may send several signals at once; one that comes
+/// more than a second later is a person who means it, and ends the program.
 inline void note_stop_signal(int signal) {
   std::timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);  // as std::signal and std::raise, allowed in a handler
@@ -29,8 +29,8 @@ inline void note_stop_signal(int signal) {
   }
 }
 
-/// From now on SIGINT, SIGTERM and SIGHUP only leave a note, which stays: a case that is run before
-/// the one that was asked for must not use it up. A SIGHUP that is ignored (nohup) stays so.
+/// Makes SIGINT, SIGTERM and SIGHUP only leave a note, which stays: a case that is run before the
+/// one that was asked for must not use it up. A SIGHUP that is ignored (nohup) stays so.
 inline void catch_stop_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const auto before = std::signal(signal, note_stop_signal);

@@ -6,10 +6,9 @@
 namespace barchan {
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of a quotient
+constexpr double kRoundOff = 1e-9;  // round-off of a quotient
 
-/// Smallest whole number >= x, forgiving what division of decimal steps leaves
-/// (100.00000000000001).
+/// Smallest whole number >= x, up to the round-off of dividing decimal steps (100.00000000000001).
 double ceil_tolerant(double x) { return std::ceil(x - kRoundOff * std::max(1.0, x)); }
 
 }  // namespace

@@ -15,13 +15,15 @@ struct TimeConfig {
   bool operator==(const TimeConfig&) const = default;
 };
 
-/// True of a quotient of two times that is a whole number, but for what division leaves.
+/// Tells if a quotient of two times is a whole number up to round-off.
 bool is_whole(double quotient);
-/// Fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number is that.
+/// Number of fluid steps of a run, ceil(end / fluid_step); a quotient within 1e-9 of a whole number
+/// is that.
 std::int64_t fluid_steps(const TimeConfig& time);
-/// Grain steps per fluid step, ceil(fluid_step / grain_step), in the same sense; at least 1.
+/// Number of grain steps per fluid step, ceil(fluid_step / grain_step) with the same round-off; at
+/// least 1.
 int grain_substeps(const TimeConfig& time);
-/// The grain step really taken, fluid_step / grain_substeps [s].
+/// Grain step really taken, fluid_step / grain_substeps [s].
 double true_grain_step(const TimeConfig& time);
 
 }  // namespace barchan

@@ -80,7 +80,7 @@ std::string did_you_mean(std::string_view close) {
 
 std::string nearest_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
-  constexpr int kMost = 10000;  // of a folder of other things
+  constexpr int kMost = 10000;  // in a folder of other things
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
   const fs::path as_case = path.has_extension() ? path : fs::path(path).concat(".toml");
@@ -104,7 +104,7 @@ std::string nearest_file(const std::filesystem::path& path) {
 std::filesystem::path case_name(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   const fs::path whole = fs::absolute(file).lexically_normal(), stem = whole.stem();
-  fs::path below;  // the last folder called configs
+  fs::path below;  // path below the last folder called configs
   bool found = false;
   for (const fs::path& part : whole.parent_path()) {
     if (part == "configs") {

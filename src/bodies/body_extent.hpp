@@ -8,7 +8,7 @@
 namespace barchan {
 
 /// Smallest box around a body with sides along the axes [m]: from `low` to `high`, x, y, z. A body
-/// through the whole domain has that of the domain there.
+/// through the whole domain extends as far as the domain.
 struct BodyExtent {
   std::array<double, 3> low{}, high{};
 };

@@ -1,4 +1,4 @@
-// What pushes a body.
+// Load of the flow or the grains on a body.
 #pragma once
 
 #include "kernels/math/vec3.hpp"

@@ -1,4 +1,4 @@
-// The bodies of a case, as the kernels know them.
+// Bodies of a case, as the kernels know them.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// `domain`: its size [m].
+/// Makes the bodies in a `domain` of this size [m].
 Bodies make_bodies(const std::vector<BodyConfig>& bodies, const std::array<double, 3>& domain);
 
 }  // namespace barchan

@@ -22,7 +22,7 @@ std::string key_of(std::size_t n, std::string_view key) {
   return fmt::format("body.{}.{}", n + 1, key);
 }
 
-/// What a body is called in messages.
+/// Name of a body in messages.
 std::string words_for(const BodyConfig& body) {
   std::string words = fmt::format("shape = \"{}\"", body.shape.word());
   BodyShapes::with(body.shape, [&]<class Shape>() {
@@ -31,7 +31,7 @@ std::string words_for(const BodyConfig& body) {
   return words;
 }
 
-/// The keys that its shape needs, and no other ones; true if all is well.
+/// Checks that a body has the keys that its shape needs, and no others; true if all is well.
 bool check_keys(const Config& c, std::size_t n, Findings& found) {
   ShapeKeys shape;
   BodyShapes::with(c.bodies[n].shape, [&]<class S>() { shape = S::keys(c.bodies[n]); });
@@ -59,7 +59,7 @@ bool check_keys(const Config& c, std::size_t n, Findings& found) {
   return well;
 }
 
-/// Adds what a shape says of its body, if it says something; true if all is well.
+/// Reports the fault that a shape finds in its body, if any; true if all is well.
 bool check(const ShapeFault& fault, std::size_t n, Findings& found) {
   if (fault.message == nullptr) return true;
   KeyNames keys;
@@ -68,7 +68,7 @@ bool check(const ShapeFault& fault, std::size_t n, Findings& found) {
   return !found.error_if(true, keys, "{}", fmt::format(fmt::runtime(fault.message), fault.number));
 }
 
-/// What keys cannot say one by one; true if all is well.
+/// Checks keys of a body against each other; true if all is well.
 bool check_sizes(const BodyConfig& body, std::size_t n, Findings& found) {
   bool well = true;
   BodyShapes::with(body.shape, [&]<class Shape>() {
@@ -102,7 +102,7 @@ void check_place(const Config& c, std::size_t n, Findings& found) {
                  "must leave water beside or above the body");
 }
 
-/// What the periods of the domain ask for: a place knows the image whose foot is nearest.
+/// Checks a body against the periods of the domain: a place knows the image whose foot is nearest.
 void check_periods(const Config& c, std::size_t n, Findings& found) {
   const BodyConfig& body = c.bodies[n];
   BodyShapes::with(body.shape, [&]<class Shape>() {
@@ -111,7 +111,7 @@ void check_periods(const Config& c, std::size_t n, Findings& found) {
   });
 }
 
-/// Along the floor against the cells, upwards against the lowest rows.
+/// Compares a body with the cells along the floor, and with the lowest rows upwards.
 void check_resolution(const Config& c, std::size_t n, Findings& found) {
   const auto [nx, ny, nz] = c.fluid->cells;
   double cell = c.size[0] / nx;

@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// The bodies alone, with each other, and with the domain and the cells.
+/// Checks the bodies alone, with each other, and with the domain and the cells.
 void check_bodies(const Config& c, Findings& found);
 
 }  // namespace barchan

@@ -6,7 +6,7 @@
 namespace barchan {
 namespace {
 
-/// A key that is done with before any other is read (bases.cpp).
+/// Key that is used before any other is read (bases.cpp).
 Key read_first(const char* name, const char* meaning) {
   return {
       .section = "case",

@@ -19,7 +19,7 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
   const std::string expected = "an array of [diameter in m above 0, count above 0]";
   const auto* classes = std::get_if<NodeArray>(&node.value);
   if (classes == nullptr) return expected;
-  constexpr std::int64_t max = std::numeric_limits<int>::max();  // what a run can number
+  constexpr std::int64_t max = std::numeric_limits<int>::max();  // largest number of a grain
   std::int64_t total = 0;
   for (const Node& element : *classes) {
     const auto* pair = std::get_if<NodeArray>(&element.value);
@@ -37,7 +37,7 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
 
 namespace {
 
-/// The set that a word stands for.
+/// Turns a word into the set that it stands for.
 Mismatch convert_set(const Node& word, ForceSwitches& value) {
   std::vector<std::string_view> names;
   for (const ForceSet& set : kForceSets) names.push_back(set.name);

@@ -1,4 +1,4 @@
-// Values of a case that are of its own types: velocities along the floor, sizes of grains, forces.
+// Values of a case with types of their own: velocities along the floor, sizes of grains, forces.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace barchan {
 
-/// The members of coupling.forces, by name.
+/// Member of coupling.forces with its name.
 struct ForceName {
   std::string_view name;
   bool ForceSwitches::*on;
@@ -27,7 +27,7 @@ inline constexpr std::array<ForceName, 9> kForceNames{
      {"wall_drag", &ForceSwitches::wall_drag},
      {"mixture_viscosity", &ForceSwitches::mixture_viscosity}}};
 
-/// A word for a set of them.
+/// Word for a set of forces.
 struct ForceSet {
   std::string_view name;
   ForceSwitches forces;

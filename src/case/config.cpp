@@ -25,7 +25,7 @@ GrainsCase grains_case(const Config& c, const Bodies& bodies) {
   for (const BodyConfig& body : c.bodies) names.push_back(body.name);
   return {.grains = c.grains.value(),
           .size = c.size,
-          .half_seam_strip = half_seam_strip(c),
+          .half_edge_strip = half_edge_strip(c),
           .fluid_step = c.time.fluid_step,
           .keeps_forces = c.output.grain_forces,
           .bodies = bodies,

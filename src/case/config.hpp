@@ -1,4 +1,4 @@
-// The configuration as a typed tree: the sections of all rooms. Defaults live in their structs and
+// Configuration as a typed tree: the sections of all rooms. Defaults live in their structs and
 // nowhere else; SI units throughout.
 #pragma once
 
@@ -66,7 +66,7 @@ struct InitialConfig {
   bool operator==(const InitialConfig&) const = default;
 };
 
-/// The most that a byte of a grain can name, one value being none.
+/// Largest number of heaps: as many as a byte of a grain can name, one value being none.
 inline constexpr int kMostHeaps = 255;
 
 struct Config {
@@ -86,7 +86,7 @@ struct Config {
   std::optional<StatisticsConfig> statistics = {};
   bool operator==(const Config&) const = default;
 
-  // What a room computes with; solvers take it in place of the case. A run has it from its
+  // Parts that rooms compute with; solvers take them in place of the case. A run has them from its
   // SettledCase.
   // NOLINTBEGIN(google-explicit-constructor): a solver can be made from a case alone
   operator FluidCase() const;

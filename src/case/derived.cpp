@@ -62,7 +62,7 @@ double soulsby_threshold(double diameter, double submerged, double gravity, doub
   return 0.30 / (1 + 1.2 * size) + 0.055 * (1 - std::exp(-0.020 * size));
 }
 
-/// `sizes`: of the grains of this kind.
+/// Derives the numbers of a kind. `sizes`: of the grains of this kind.
 KindNumbers derive_kind(const Config& config, const KindConfig& kind,
                         const std::vector<SizeClass>& sizes,
                         const std::optional<FluidNumbers>& flow) {
@@ -118,7 +118,7 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
   return n;
 }
 
-/// Cells against grains. `top`: highest point of the grains [m], 0: not known.
+/// Compares cells with grains. `top`: highest point of the grains [m], 0: not known.
 void compare_cells(const Config& config, const FluidNumbers& flow, double top, GrainNumbers& n) {
   n.cell_ratio = std::min({flow.dx, flow.dy_first, flow.dz}) / n.d_mean;
   n.floor_ratio = flow.dy_first / n.d_mean;
@@ -135,7 +135,7 @@ void compare_cells(const Config& config, const FluidNumbers& flow, double top, G
 
 bool is_periodic_x(const Config& config) { return config.grains && is_periodic_x(*config.grains); }
 
-double half_seam_strip(const Config& config) {
+double half_edge_strip(const Config& config) {
   const bool follows = config.grains->boundary_x == GrainBoundaryX::follow && config.fluid;
   return follows ? config.size[0] / config.fluid->cells[0] : 0;
 }
@@ -171,7 +171,8 @@ double friction_velocity(double bulk_velocity, double delta, double viscosity) {
 
 double bulk_velocity_of(double u_star, double delta, double viscosity) {
   if (u_star == 0 || viscosity == 0 || delta == 0) return 0;
-  // Each law of friction alone; friction_velocity takes the larger u*, so U is the smaller.
+  // Bulk velocity by each law of friction alone; friction_velocity takes the larger u*, so U is the
+  // smaller.
   const double dean =
       std::pow(u_star * u_star / 0.0365 * std::pow(2 * delta / viscosity, 0.25), 4.0 / 7.0);
   const double laminar = u_star * u_star * delta / (3 * viscosity);
@@ -180,7 +181,7 @@ double bulk_velocity_of(double u_star, double delta, double viscosity) {
 
 double settling_velocity(double diameter, double density_ratio, double viscosity, double gravity) {
   const double stokes = (density_ratio - 1) * gravity * diameter * diameter / (18 * viscosity);
-  // v (1 + 0.15 Re^0.687) = v_Stokes; the left side grows with v.
+  // Bisection of v (1 + 0.15 Re^0.687) = v_Stokes, whose left side grows with v.
   double low = 0, high = stokes;
   for (int n = 0; n < 100; ++n) {
     const double v = 0.5 * (low + high);

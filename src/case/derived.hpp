@@ -1,4 +1,4 @@
-// Numbers that follow from a configuration: what `check` prints and the cross-checks rest on.
+// Numbers that follow from a configuration: `check` prints them, and the cross-checks use them.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace barchan {
 
-/// True if grains that go beyond one end in x come in at the other: without [grains] not.
+/// Tells if grains that go beyond one end in x come in at the other; false without [grains].
 bool is_periodic_x(const Config& config);
 /// Half the width of the strip along x in which grains leave a window that follows its dune, one
 /// cell [m]; 0 without such a window. Needs [grains].
-double half_seam_strip(const Config& config);
+double half_edge_strip(const Config& config);
 
 /// Mean diameter [m] by number of grains; there must be some.
 double mean_diameter(const std::vector<SizeClass>& sizes);
@@ -31,7 +31,7 @@ double linear_contact_time(double mass, double stiffness);
 /// (1978) Cf = 0.073 (2 delta U / nu)^(-1/4), or the laminar 12 / (2 delta U / nu) where larger.
 /// `delta` [m] from the wall to the free surface or the middle. 0 for U = 0 or nu = 0.
 double friction_velocity(double bulk_velocity, double delta, double viscosity);
-/// The bulk velocity [m/s] of a given friction velocity: the inverse of the above.
+/// Bulk velocity [m/s] of a given friction velocity: the inverse of friction_velocity().
 double bulk_velocity_of(double u_star, double delta, double viscosity);
 
 /// Fall velocity [m/s] of a lone sphere under Schiller & Naumann's drag.
@@ -41,7 +41,7 @@ struct FluidNumbers {
   std::int64_t cells = 0;
   double dx = 0, dz = 0, dy_first = 0, dy_last = 0;  // [m]
   double stretching = 1;                             // ratio of neighbouring rows
-  double bulk_velocity = 0;  // [m/s], the largest; of a pressure gradient: expected
+  double bulk_velocity = 0;  // [m/s], the largest; with a pressure gradient the expected one
   bool varies = false;       // has a schedule
   double delta = 0;          // [m], from a wall to the free surface or the middle; 0: no wall
   double reynolds = 0;       // 2 delta U / nu
@@ -54,12 +54,12 @@ struct FluidNumbers {
   double viscous_number = 0;     // 4 nu dt (1/dx^2 + 1/dy^2 + 1/dz^2), first row
 };
 
-/// Of the grains of one kind.
+/// Numbers of the grains of one kind.
 struct KindNumbers {
   std::string name;                            // empty: there is one
   double density = 0;                          // [kg/m^3]
   double youngs_modulus = 0;                   // [Pa]
-  double d_min = 0, d_mean = 0;                // [m]; mean by number
+  double d_min = 0, d_mean = 0;                // smallest and mean diameter [m]; mean by number
   double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
   double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
   double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
@@ -70,17 +70,17 @@ struct GrainNumbers {
   std::int64_t count = 0;
   double d_min = 0, d_mean = 0, d_max = 0;     // [m]; mean by number
   double solid_volume = 0;                     // [m^3]
-  std::vector<KindNumbers> kinds;              // those that there are grains of
-  KindNumbers fastest_contacts;                // that of the shortest Rayleigh time
+  std::vector<KindNumbers> kinds;              // kinds that there are grains of
+  KindNumbers fastest_contacts;                // the kind of the shortest Rayleigh time
   double fraction_min = 0, fraction_mean = 0;  // grain step over its Rayleigh times
-  KindNumbers easiest;                         // that is farthest above its threshold of motion
+  KindNumbers easiest;                         // the kind farthest above its threshold of motion
   double cell_ratio = 0;    // smallest cell length over the mean diameter; 0 without cells
-  double floor_ratio = 0;   // height of the lowest row over it
-  double column_ratio = 0;  // length of a cell along x over it
-  double width_ratio = 0;   // the smaller of its lengths along x and z over it
+  double floor_ratio = 0;   // height of the lowest row over the mean diameter
+  double column_ratio = 0;  // length of a cell along x over the mean diameter
+  double width_ratio = 0;   // the smaller of a cell's lengths along x and z over the mean diameter
   double top = 0;           // [m] highest point of the grains; 0: not known
   double top_ratio = 0;     // height of the row there over the mean diameter
-  bool as_poured = false;   // they are still to settle
+  bool as_poured = false;   // the grains are still to settle
 };
 
 struct Derived {
@@ -93,13 +93,14 @@ struct Derived {
   CouplingScheme scheme = CouplingScheme::layered;
 };
 
-/// `sizes` as of the Case; may be empty. `config` must have passed validate. `top`: highest
-/// point of the grains [m], 0: not known.
+/// Derives the numbers of a `config` that has passed validate. `sizes` as of the Case; may be
+/// empty. `top`: highest point of the grains [m], 0: not known.
 Derived derive(const Config& config, const std::vector<SizeClass>& sizes, double top = 0);
 
-/// "31680 cells, 3000 grains of 0.15 to 0.25 mm, 2400 steps of 50 grain steps": for one line.
+/// Summary in one line: "31680 cells, 3000 grains of 0.15 to 0.25 mm, 2400 steps of 50 grain
+/// steps".
 std::string summary(const Derived& derived);
-/// The numbers in lines for a terminal, each ending in a newline.
+/// Numbers in lines for a terminal, each ending in a newline.
 std::string to_text(const Derived& derived);
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// What `check` prints of the derived numbers.
+// Text of the derived numbers, as `check` prints it.
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ void add_cells_against_grains(std::string& text, const GrainNumbers& n, Coupling
        resolved ? "0.1 or less" : "1.2 to 1.6");
 }
 
-/// Of several kinds each line names its own.
+/// Adds the lines of a kind. With several kinds each line names its own.
 void add_kind(std::string& text, const KindNumbers& n) {
   const std::string of = n.name.empty() ? "" : n.name + ": ";
   if (!of.empty()) line(text, "density", "{}{:.6g} kg/m3", of, n.density);

@@ -5,9 +5,10 @@
 
 namespace barchan {
 
-/// A case that others start from, in a realisation (1: as it stands). Turbulent flow without grains
+/// Case that others start from, in a realisation (1: as it stands). A turbulent flow without grains
 /// goes on for one turnover, depth over friction velocity, per realisation: the same run at another
-/// time. All else takes other random numbers (initial.realisation). What draws none stays as it is.
+/// time. Other cases take other random numbers (initial.realisation). A case that draws none stays
+/// as it is.
 Case ensemble_member(const Case& the_case, int realisation);
 
 }  // namespace barchan

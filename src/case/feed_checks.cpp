@@ -29,7 +29,7 @@ void check_feed(const Config& c, Findings& found) {
                  "contradicts frozen: grains could not move on");
   found.error_if(feed.x >= c.size[0], {"grains.feed.x", "domain.size"},
                  "must lie within the domain, below {:.4g} m", c.size[0]);
-  const double strip = half_seam_strip(c);
+  const double strip = half_edge_strip(c);
   found.error_if(feed.x < strip, {"grains.feed.x", "grains.boundary_x", "fluid.cells"},
                  "must be at least a cell, {:.4g} m, with boundary_x = \"follow\": nearer to where "
                  "the ends of the window meet grains leave",

@@ -6,10 +6,10 @@
 
 namespace barchan {
 
-/// A window that follows its dune: grains leave in a strip of two cells.
+/// Checks a window that follows its dune: grains leave in a strip of two cells.
 void check_following(const Config& config, Findings& found);
 void check_feed(const Config& config, Findings& found);
-/// The largest of the grains has a place where it comes in. d_max [m].
+/// Checks that the largest of the grains has a place where it comes in. d_max [m].
 void check_fed_sizes(const Config& config, double d_max, Findings& found);
 
 }  // namespace barchan

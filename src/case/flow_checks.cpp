@@ -7,10 +7,10 @@
 namespace barchan {
 namespace {
 
-/// Fluid steps of a sine's period, at least.
+/// Smallest number of fluid steps in a sine's period.
 constexpr double kStepsOfPeriod = 10;
 
-/// An entry alone; `number` counts from 1.
+/// Checks an entry alone; `number` counts from 1.
 void check_entry(const FlowTarget& entry, std::size_t number, const Config& c, Findings& found) {
   const bool swings = entry.amplitude != PlaneVelocity{};
   found.error_if(swings && entry.period == 0, {"fluid.schedule", "fluid.schedule.period"},
@@ -24,7 +24,7 @@ void check_entry(const FlowTarget& entry, std::size_t number, const Config& c, F
                  kStepsOfPeriod, number);
 }
 
-/// An entry with the one before it.
+/// Checks an entry against the one before it.
 void check_order(const FlowTarget& before, const FlowTarget& entry, std::size_t number,
                  Findings& found) {
   if (found.error_if(entry.time <= before.time, {"fluid.schedule", "fluid.schedule.time"},
@@ -40,7 +40,7 @@ void check_order(const FlowTarget& before, const FlowTarget& entry, std::size_t 
                  number - 1, entry.time, until);
 }
 
-/// Entries that ask for the same warning, of which there may be thousands.
+/// Entries with the same warning, of which there may be thousands.
 struct Entries {
   std::size_t first = 0, count = 0;  // numbers count from 1
   void add(bool one, std::size_t number) {

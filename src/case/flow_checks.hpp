@@ -1,4 +1,4 @@
-// Checks of what drives the flow.
+// Checks of the drive of the flow.
 #pragma once
 
 #include "src/case/config.hpp"
@@ -6,10 +6,11 @@
 
 namespace barchan {
 
-/// The entries of [[fluid.schedule]] with each other, and with the rest of a case with [fluid].
+/// Checks the entries of [[fluid.schedule]] against each other, and against the rest of a case with
+/// [fluid].
 void check_schedule(const Config& config, Findings& found);
 
-/// initial.fluid "turbulent" and "uniform", which begin at the bulk velocity of t = 0.
+/// Checks initial.fluid "turbulent" and "uniform", which begin at the bulk velocity of t = 0.
 void check_flow_at_start(const Config& config, Findings& found);
 
 }  // namespace barchan

@@ -17,7 +17,7 @@ namespace {
 /// Advice for a step that is `factor` times too long for grains this stiff [Pa]. The Rayleigh time
 /// is proportional to E^(-1/2).
 std::string softer_grains(double youngs_modulus, double factor) {
-  constexpr double kSoftest = 3e5;  // of the shipped cases; beyond it is no advice
+  constexpr double kSoftest = 3e5;  // softest of the shipped cases; advice ends there
   const double fits = youngs_modulus / (factor * factor);
   if (fits < kSoftest) return {};
   return fmt::format(
@@ -41,7 +41,8 @@ void check_hertz_step(const Config& c, const GrainNumbers& n, Findings& found) {
               fmt::format("is {}; above 20 % contacts are less accurate", text));
 }
 
-/// Linear springs: the step against the duration of a contact of two of the lightest grains.
+/// Checks the step of linear springs against the duration of a contact of two of the lightest
+/// grains.
 void check_linear_step(const Config& c, const GrainNumbers& n, Findings& found) {
   if (c.grains->linear_stiffness == 0) return;
   double mass = std::numeric_limits<double>::infinity();
@@ -82,9 +83,9 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
                      "is over a quarter of the height: it would smear the dune away");
 }
 
-/// Thin rows resolve a surface where the exchange goes row by row. Where a grain's force goes to
-/// the cells around its centre, or is smeared, the rule of Lima et al. (2022) holds for the
-/// smallest cell.
+/// Checks cells against grains. Thin rows resolve a surface where the exchange goes row by row.
+/// Where a grain's force goes to the cells around its centre, or is smeared, the rule of Lima et
+/// al. (2022) holds for the smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const KeyNames keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
   if (c.coupling.scheme == CouplingScheme::resolved) {
@@ -117,10 +118,10 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
                      "some of its rows empty");
 }
 
-/// One of the 29 points of a grain that changes cells in a step dt moves its share of the volume,
-/// pi/6 d^3 / 29, through an area of about d^2. Here over the speed of the flow, or of grains that
-/// sink in it, and over the steps in which a grain follows the liquid: tau = (s + 1/2) d^2 / (18
-/// nu).
+/// Displacement of the fluid by a point of a grain, relative to the flow. One of its 29 points that
+/// changes cells in a step dt moves its share of the volume, pi/6 d^3 / 29, through an area of
+/// about d^2. This is divided by the speed of the flow, or of grains that sink in it, and by the
+/// steps in which a grain follows the liquid: tau = (s + 1/2) d^2 / (18 nu).
 double push_of_a_point(const Config& c, const Derived& derived) {
   const double nu = c.fluid->kinematic_viscosity, dt = c.time.fluid_step;
   double speed = std::max(derived.fluid->bulk_velocity, std::abs(c.fluid->top_velocity)), most = 0;
@@ -134,8 +135,9 @@ double push_of_a_point(const Config& c, const Derived& derived) {
   return most;
 }
 
-/// Measured with grains of 0.2 mm in a Couette flow: of 1.2 their velocity is 2.9 % off (rms), 0.8
-/// % without the derivative; of 0.9 it is 1.7 %, of 0.2 as without.
+/// Warns if that push is strong. Measured with grains of 0.2 mm in a Couette flow: at 1.2 their
+/// velocity is 2.9 % off (rms), 0.8 % without the derivative; at 0.9 it is 1.7 %, at 0.2 as
+/// without.
 void check_push(const Config& c, const Derived& derived, Findings& found) {
   if (c.grains->frozen || !c.coupling.alpha_time_derivative) return;
   const double push = push_of_a_point(c, derived);
@@ -148,7 +150,7 @@ void check_push(const Config& c, const Derived& derived, Findings& found) {
                    push);
 }
 
-/// What rises, and what the flow will not move.
+/// Warns of grains that rise, and of those that the flow will not move.
 void check_motion(const Config& c, const Derived& derived, Findings& found) {
   const GrainConfig& grains = *c.grains;
   if (grains.frozen) return;
@@ -160,7 +162,8 @@ void check_motion(const Config& c, const Derived& derived, Findings& found) {
     found.warning_if(kind.density <= around, {"grains.density", "fluid.density"},
                      "is not above that of the fluid, {:.6g} kg/m3: {} float", around, who);
   }
-  // In a laminar flow a bed is as a rule so deep that u* of the whole height says little.
+  // Laminar flows get no warning: their beds are as a rule so deep that u* of the whole height says
+  // little.
   const bool turbulent = derived.fluid && derived.fluid->reynolds > 2000;
   found.warning_if(
       turbulent && n.easiest.shields < n.easiest.shields_threshold,

@@ -9,10 +9,11 @@
 
 namespace barchan {
 
-/// [grains] and its cone against each other and against the fluid. `config` has the section.
+/// Checks [grains] and its cone against each other and against the fluid. `config` has the section.
 void check_grains(const Config& config, Findings& found);
 
-/// Only what depends on the sizes: the grain step against the Rayleigh time, cells against grains.
+/// Checks that depend on the sizes alone: the grain step against the Rayleigh time, cells against
+/// grains.
 std::vector<Finding> check_grain_sizes(const Config& config, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

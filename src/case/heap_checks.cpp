@@ -21,7 +21,7 @@ struct HeapKeys {
   std::string operator()(const char* key) const { return section + "." + key; }
 };
 
-/// Along x and, but for a ridge, along z.
+/// Checks that a heap lies in the domain along x and, unless it is a ridge, along z.
 void check_place(const HeapConfig& heap, const HeapKeys& key, const std::array<double, 3>& domain,
                  Findings& found) {
   const bool cone = heap.shape == HeapShape::cone;
@@ -38,7 +38,7 @@ void check_place(const HeapConfig& heap, const HeapKeys& key, const std::array<d
   }
 }
 
-/// False if nothing is to be concluded from its shape.
+/// Checks the shape of a heap; false if nothing is to be concluded from it.
 bool check_shape(const HeapConfig& heap, const HeapKeys& key, const std::array<double, 3>& domain,
                  Findings& found) {
   const bool bed = heap.shape == HeapShape::bed;
@@ -68,7 +68,7 @@ double gap(const HeapConfig& a, const HeapConfig& b, const Config& c) {
   return (ridge ? x : std::hypot(x, z)) - a.radius - b.radius - grain;
 }
 
-/// The nth heap against those before it.
+/// Checks the nth heap against those before it.
 void check_apart(const std::vector<HeapConfig>& heaps, std::size_t n, const HeapKeys& key,
                  const Config& c, Findings& found) {
   const HeapConfig& heap = heaps[n];
@@ -85,7 +85,8 @@ void check_apart(const std::vector<HeapConfig>& heaps, std::size_t n, const Heap
   }
 }
 
-/// False if its kind is not known, or it has sizes and does not say of which of several kinds.
+/// Checks the kind of a heap; false if it is not known, or if the heap has sizes and does not say
+/// of which of several kinds.
 bool check_kind(const Config& c, std::size_t n, Findings& found) {
   const HeapConfig& heap = c.initial.heaps[n];
   const HeapKeys key{fmt::format("initial.heap.{}", n + 1)};
@@ -111,7 +112,7 @@ void check_names(const std::vector<HeapConfig>& heaps, Findings& found) {
   }
 }
 
-/// The rim lies in the domain.
+/// Checks that the rims of craters lie in the domain.
 void check_craters(const Config& c, Findings& found) {
   for (std::size_t n = 0; n < c.initial.craters.size(); ++n) {
     const CraterConfig& crater = c.initial.craters[n];

@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// Shapes, sizes and places of what is poured, and of hollows in it; `c` has grains.
+/// Checks shapes, sizes and places of what is poured, and of hollows in it; `c` has grains.
 void check_heaps(const Config& c, Findings& found);
 
 }  // namespace barchan

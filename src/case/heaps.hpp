@@ -1,4 +1,4 @@
-// The heaps and beds that a case pours.
+// Heaps and beds that a case pours.
 #pragma once
 
 #include <array>
@@ -9,11 +9,12 @@
 
 namespace barchan {
 
-/// Poured grains stand on a close-packed lattice this far apart [m]: 1 % more than the largest.
+/// Distance [m] between poured grains, which stand on a close-packed lattice: 1 % more than the
+/// largest.
 double poured_spacing(const std::vector<SizeClass>& sizes);
-/// About the height [m] to which the grains of a heap fill their cone, ridge or bed.
+/// Approximate height [m] to which the grains of a heap fill their cone, ridge or bed.
 double poured_height(const HeapConfig& heap, const std::array<double, 3>& domain);
-/// About the height [m] of the highest grain of all heaps; those after a bed stand on it.
+/// Approximate height [m] of the highest grain of all heaps; those after a bed stand on it.
 double poured_top(const std::vector<HeapConfig>& heaps, const std::array<double, 3>& domain);
 
 /// What `pour` asks for as a heap of grains of `sizes`; it has no name.
@@ -21,9 +22,9 @@ HeapConfig as_heap(const PourConfig& pour, const std::vector<SizeClass>& sizes);
 /// The heaps that a case pours, in their order, each with its name, its sizes and the seed of the
 /// case's realisation; empty: it pours none.
 std::vector<HeapConfig> poured_heaps(const Config& config);
-/// How many grains these are.
+/// Number of these grains.
 std::int64_t count_of(const std::vector<SizeClass>& sizes);
-/// The grains of all heaps; empty if those of one are not known.
+/// Sizes of the grains of all heaps; empty if those of one are not known.
 std::vector<SizeClass> sizes_of(const std::vector<HeapConfig>& heaps);
 
 }  // namespace barchan

@@ -122,7 +122,7 @@ void add_feed(Sections& all) {
   key("start", &F::start, at_least(0), "s", "time from which grains enter, and losses count");
   key("x", &F::x, between(0, 1e6), "m",
       "x at which grains enter (upstream edge); with `boundary_x` \"follow\": distance from the "
-      "seam "
+      "edge "
       "of the window, half a box from the dune");
   key("across", &F::across, between(0, 1e6), "m",
       "[from, to] along z in which grains enter (centres); both 0: the whole width");

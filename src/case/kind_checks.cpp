@@ -10,7 +10,8 @@
 namespace barchan {
 namespace {
 
-/// Letters, digits, points, dashes and underscores: a cell of a table, an element of a list.
+/// Tells if a name has only letters, digits, points, dashes and underscores: a cell of a table, an
+/// element of a list.
 bool is_plain(const std::string& name) {
   return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
     return (c < 0x80 && std::isalnum(c) != 0) || c == '_' || c == '-' || c == '.';
@@ -30,8 +31,8 @@ void check_names(const GrainConfig& grains, Findings& found) {
   }
 }
 
-/// What every kind has of its own is of no use in [grains], and elastic constants are of no use to
-/// linear springs.
+/// Warns of keys without use: those in [grains] that every kind has of its own, and elastic
+/// constants beside linear springs.
 void check_use(const GrainConfig& grains, Findings& found) {
   const auto all_differ = [&](auto KindConfig::*member, const auto& common) {
     return std::ranges::none_of(grains.kinds,

@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// [[grains.kind]] and [[grains.pair]] against each other and against the rest of [grains].
+/// Checks [[grains.kind]] and [[grains.pair]] against each other and against the rest of [grains].
 void check_kinds(const GrainConfig& grains, Findings& found);
 
 }  // namespace barchan

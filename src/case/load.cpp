@@ -23,7 +23,8 @@ namespace {
 
 bool is_case(const fs::path& start) { return start.extension() == ".toml"; }
 
-/// If the start `key` is a file: is it of a known kind, and there? Makes its path absolute.
+/// Checks a start `key` that is a file: its kind is known, and it is there. Makes its path
+/// absolute.
 void resolve_start(ConfigReader& reading, const std::string& key, fs::path& start) {
   const bool flow = key == "initial.fluid";
   const Node* node = reading.tree().find(key);
@@ -57,10 +58,10 @@ Config as_read(ConfigReader& reading, const fs::path& file) {
 
 struct Loaded {
   Case result;
-  std::vector<Problem> problems;  // of this file, then of those it starts from
+  std::vector<Problem> problems;  // problems of this file, then of those it starts from
 };
 
-/// Where a load is: the cases that lead to it, and how to read grains from a file.
+/// Context of a load: the cases that lead to it, and how to read grains from a file.
 struct Context {
   SizesInFile sizes_in;
   std::vector<fs::path> chain = {};
@@ -69,7 +70,8 @@ struct Context {
 Loaded load(std::string_view text, const fs::path& file, const std::vector<std::string>& overrides,
             const Context& context);
 
-/// Reports errors that rest on values as written: one read wrongly would only confuse.
+/// Reports errors in values that were read. An error that rests on a value read wrongly would only
+/// confuse.
 void report(const std::vector<Finding>& findings, ConfigReader& reading) {
   for (const Finding& finding : findings) {
     const bool doubtful = std::any_of(finding.keys.begin(), finding.keys.end(),
@@ -80,7 +82,7 @@ void report(const std::vector<Finding>& findings, ConfigReader& reading) {
   }
 }
 
-/// The case that the start `key` names, if it names one.
+/// Loads the case that the start `key` names, if it names one.
 Loaded load_start(const Config& config, const std::string& key, const fs::path& start,
                   ConfigReader& reading, Context context) {
   Loaded loaded;
@@ -95,10 +97,10 @@ Loaded load_start(const Config& config, const std::string& key, const fs::path& 
   return loaded;
 }
 
-/// What a case starts from.
+/// Cases that a case starts from.
 struct Starts {
   Loaded flow, grains;
-  std::vector<Problem> problems;  // of both
+  std::vector<Problem> problems;  // problems of both
 };
 
 Starts load_starts(Config& config, ConfigReader& reading, const Context& context) {
@@ -109,7 +111,7 @@ Starts load_starts(Config& config, ConfigReader& reading, const Context& context
   starts.flow = load_start(config, "initial.fluid", initial.fluid, reading, context);
   starts.problems = starts.flow.problems;
   if (initial.fluid == initial.grains && !reading.is_bad("initial.fluid")) {
-    starts.grains.result = starts.flow.result;  // its problems are told
+    starts.grains.result = starts.flow.result;  // its problems are reported there
   } else {
     starts.grains = load_start(config, "initial.grains", initial.grains, reading, context);
     std::ranges::copy(starts.grains.problems, std::back_inserter(starts.problems));
@@ -117,7 +119,7 @@ Starts load_starts(Config& config, ConfigReader& reading, const Context& context
   return starts;
 }
 
-/// Of the grains of a start; empty if it has none, or they are not known.
+/// Sizes of the grains of a start; empty if it has none, or they are not known.
 std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts,
                                       const ConfigReader& reading, const SizesInFile& sizes_in) {
   if (!config.grains || reading.is_bad("initial.grains")) return {};
@@ -128,14 +130,14 @@ std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts
   try {
     return sizes_in(config, file);
   } catch (const InputError&) {
-    return {};  // told where the grains are read
+    return {};  // reported where the grains are read
   }
 }
 
-/// Gives the keys that rest on the grains their values. `sizes`: of the grains that are poured,
-/// here or in the case that this one starts from; of others [grains] sizes need not be true.
+/// Gives values to the keys that depend on the grains. `sizes`: of the grains that are poured, here
+/// or in the case that this one starts from. For other grains, [grains] sizes need not be true.
 void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes, bool tell) {
-  // The d of a case is rounded, so that a few grains more or less have the same mesh.
+  // The diameter d of a case is rounded, so that a few grains more or less have the same mesh.
   reading.settle_lengths(config, sizes.empty() ? 0 : rounded(mean_diameter(sizes), 3), tell);
   std::optional<PourConfig>& pour = config.initial.pour;
   if (pour && pour->shape == PourShape::cone && !reading.tree().find("initial.grains.pour.centre"))
@@ -146,7 +148,7 @@ void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>&
     config.time.grain_step = chosen_grain_step(config, sizes);
 }
 
-/// Reads what stands in a file, its bases and the assignments, and checks it against its starts.
+/// Reads a file, its bases and the assignments, and checks it against its starts.
 void read_case(ConfigReader& reading, const fs::path& file, const Context& context,
                Loaded& loaded) {
   Case& result = loaded.result;
@@ -211,7 +213,8 @@ Loaded load(std::string_view text, const fs::path& file, const std::vector<std::
 /// Throws if there is any problem.
 Case checked(Loaded loaded) {
   if (loaded.problems.empty()) return std::move(loaded.result);
-  constexpr std::size_t max_told = 30;  // of what is no case at all there may be any number
+  // a file that is no case at all may have any number of problems
+  constexpr std::size_t max_told = 30;
   const std::size_t count = loaded.problems.size();
   std::vector<std::string> lines;
   for (const Problem& problem : loaded.problems) {

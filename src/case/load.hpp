@@ -1,4 +1,4 @@
-// From a TOML file to a Config, or to all that is wrong with it.
+// Loading of a case: from a TOML file to a Config, or to all that is wrong with it.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace barchan {
 
-/// A case and the cases that it starts from, read once and handed on.
+/// Case and the cases that it starts from, read once and handed on.
 struct Case : SettledCase {  // without sizes when a .csv or .h5 decides, or there are no grains
   bool random = false;       // its start, or one behind it, draws random numbers: turbulent
                              // flow or poured grains
@@ -34,27 +34,28 @@ using SizesInFile =
 /// poured. Throws ConfigError.
 Case load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                const SizesInFile& sizes_in = {});
-/// Of a text, as if it stood in `file` (which need not exist).
+/// Reads and validates a text, as if it stood in `file` (which need not exist).
 Case load_case_text(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
-/// The same where nobody asks for what it starts from.
+/// Reads and validates a case whose starts are of no interest.
 Config load_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
 Config load_config_text(std::string_view text, const std::filesystem::path& file,
                         const std::vector<std::string>& overrides = {});
 
-/// The configuration that a result file carries, its keys read as far as they can be: neither
-/// checked nor followed to the files it names, which may be gone.
+/// Configuration that a result file carries, its keys read as far as they can be: neither checked
+/// nor followed to the files it names, which may be gone.
 Config config_as_written(std::string_view resolved, const std::filesystem::path& file);
 
-/// True if a resolved text says exactly `config`, in whatever words; keys that it lacks, as of an
-/// earlier version, count as their defaults.
+/// Tells if a resolved text says exactly `config`, in whatever words. Keys that it lacks, as one of
+/// an earlier version may, count as their defaults.
 bool says(std::string_view resolved, const Config& config);
-/// The same of `file`, a config.toml.
+/// Tells if `file`, a config.toml, says exactly `config`.
 bool is_written_in(const std::filesystem::path& file, const Config& config);
 
-/// What is unwise in a case with grains of these sizes, and what it writes as earlier versions did.
+/// Warnings about a case with grains of these sizes: unwise values, and keys as earlier versions
+/// wrote them.
 std::vector<std::string> case_warnings(const Case& the_case, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// The keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
+// Keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
 #pragma once
 
 #include "src/grains/grains_case.hpp"
@@ -6,7 +6,8 @@
 
 namespace barchan {
 
-/// In [grains], and again where a material of its own may be given. `get` as in Keys.
+/// Adds the keys of a material, to [grains] and to each section with a material of its own. `get`
+/// as in Keys.
 template <class Get>
 void add_material(Section& section, Get get) {
   Keys key(section, get);
@@ -20,7 +21,7 @@ void add_material(Section& section, Get get) {
       "coefficient of rolling friction");
 }
 
-/// [grains.wall], [[grains.kind]], [[grains.pair]].
+/// Adds [grains.wall], [[grains.kind]], [[grains.pair]].
 void add_wall(Sections& all);
 void add_kinds(Sections& all);
 void add_pairs(Sections& all);

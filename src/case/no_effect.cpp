@@ -26,15 +26,15 @@ constexpr const char* kWhereResolved = "must be absent with scheme = \"resolved\
 constexpr const char* kWithSprings =
     "must be absent with contact_model = \"linear\", which has a linear_stiffness";
 
-/// What a key, or all keys of a section, must have to be of any effect.
+/// Condition under which a key, or all keys of a section, have an effect.
 struct Need {
   std::string_view key, rests_on;
   bool (*met)(const Config&);
   const char* message;
 };
 
-// Not here: what a key turns off that is set over a whole case (grains.frozen, a friction of 0, an
-// initial.grains instead of what the case pours).
+// Not listed: keys made void by grains.frozen, a friction of 0 or an initial.grains instead of what
+// the case pours, which studies set on top of a complete case.
 constexpr Need kNeeds[] = {
     {"coupling", "fluid", has_fluid, kWithoutFluid},
     {"coupling", "grains", has_grains, kWithoutGrains},

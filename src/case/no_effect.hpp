@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// Keys that were changed and can do nothing.
+/// Reports keys that were changed and can do nothing.
 void check_effects(const Config& config, Findings& found);
 
 }  // namespace barchan

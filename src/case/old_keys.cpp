@@ -11,7 +11,8 @@
 namespace barchan {
 namespace {
 
-// Until version 0.3 coupling.exchange times coupling.void_fraction stood for coupling.scheme.
+// Keys before and after: until version 0.3 coupling.exchange times coupling.void_fraction stood for
+// coupling.scheme.
 constexpr const char *kExchange = "coupling.exchange", *kFraction = "coupling.void_fraction",
                      *kScheme = "coupling.scheme",
                      *kSmoothExchange = "coupling.cfdem.smooth_exchange";
@@ -31,7 +32,7 @@ std::string text_of(const Node* node) {
   return text != nullptr ? *text : "";
 }
 
-/// The scheme that a tree has, in the words of before.
+/// Scheme of a tree, in the words of before.
 OldExchange in_old_words(const Node& tree) {
   const std::string scheme = text_of(tree.find(kScheme));
   OldExchange old;
@@ -54,7 +55,7 @@ struct Assignment {
   bool is_default;
 };
 
-/// The same in the words of today, at a place.
+/// Assignments in the words of today, at a place.
 std::vector<Assignment> in_new_words(const OldExchange& old, const Location& where) {
   const bool smooths = old.exchange == "smoothed";
   if (old.void_fraction == "cfdem_faithful")

@@ -22,7 +22,7 @@ void check_probe_name(const std::vector<ProbeConfig>& probes, std::size_t n, Fin
                    "must be another one: \"{}\" is the name of an earlier probe", name);
 }
 
-/// A point or a line, whole, and not both.
+/// Checks that a probe is a point or a line, whole, and not both.
 void check_probe_shape(const ProbeConfig& probe, std::size_t n, Findings& found) {
   const bool line = probe.from || probe.to || probe.points != 0;
   if (found.error_if(probe.at && line, {probe_key(n, "at"), probe_key(n, "from")},

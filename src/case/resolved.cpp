@@ -10,7 +10,7 @@
 namespace barchan {
 namespace {
 
-/// The value of a key; of a section that is there many times, those of all of them.
+/// Value of a key; of a section that is there many times, those of all of them.
 std::optional<std::string> text_of(const Section& section, const Key& key, const Config& config) {
   if (!section.repeated()) return key.text(config, 0);
   std::vector<std::string> texts;
@@ -25,7 +25,7 @@ struct Difference {
   std::string here, there;
 };
 
-/// The keys in which two cases differ.
+/// Keys in which two cases differ.
 std::vector<Difference> differences(const Config& a, const Config& b, const Sections& table,
                                     bool fixed_by_restart) {
   std::vector<Difference> found;
@@ -39,7 +39,7 @@ std::vector<Difference> differences(const Config& a, const Config& b, const Sect
   return found;
 }
 
-/// Rows of probes.csv name a probe by its number: those that are there keep theirs.
+/// Checks that probes keep their numbers: rows of probes.csv name them by these.
 void check_probes_kept(const Config& config, const Config& written,
                        std::vector<std::string>& conflicts) {
   const std::vector<ProbeConfig>& here = config.output.probes;

@@ -48,7 +48,7 @@ double stable_step_in_bed(double d, double d_mean, double density, double weight
   return stable_step(contacts * k.k_t, contacts * k.gamma_t, kSpinInertia * mass);
 }
 
-/// Of one size of grains [s].
+/// Longest grain step for one size of grains [s].
 double limit_of(const SizeClass& size, double d_mean, const Config& config) {
   const GrainConfig& grains = *config.grains;
   const KindConfig kind = all_kinds(grains)[static_cast<std::size_t>(size.kind)];
@@ -75,11 +75,11 @@ double grain_step_limit(const Config& config, const std::vector<SizeClass>& size
   return limit;
 }
 
-/// Of the flow, and of grains that sink in it [s].
+/// Longest fluid step for the flow, and for grains that sink in it [s].
 double fluid_step_limit(const Config& config, const std::vector<SizeClass>& sizes) {
   if (!config.fluid) return 100 * grain_step_limit(config, sizes);
   if (!rows_fit(row_spacing(*config.fluid, config.size[1])))
-    return kNoLimit;  // an error that is told
+    return kNoLimit;  // an error that is reported elsewhere
   Config one = config;
   one.time.fluid_step = one.time.grain_step = 1;
   const Derived of_one_second = derive(one, sizes);

@@ -1,5 +1,5 @@
-// The steps that the program chooses where a case says "auto", by the rules of docs/choosing.md.
-// They follow from the case alone, so a run that goes on has the same.
+// Steps that the program chooses where a case says "auto", by the rules of docs/choosing.md. They
+// follow from the case alone, so a run that goes on has the same.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,8 @@ namespace barchan {
 double chosen_fluid_step(const Config& config, const std::vector<SizeClass>& sizes);
 
 /// Longest grain step [s] that is 20 % of the Rayleigh time of the smallest grain, and stable below
-/// 15 layers (docs/theory-grains.md, "Stable grain step"). Linear springs: a tenth of a contact.
+/// 15 layers (docs/theory-grains.md, "Stable grain step"). Linear springs take a tenth of the
+/// duration of a contact.
 double chosen_grain_step(const Config& config, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

@@ -9,7 +9,7 @@
 namespace barchan {
 namespace {
 
-/// Is `name` one of the words of `list`?
+/// Tells if `name` is one of the words of `list`.
 bool holds(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     const std::size_t end = std::min(list.find(' '), list.size());

@@ -7,12 +7,12 @@
 namespace barchan {
 
 struct Synonym {
-  std::string_view word;      // as typed
+  std::string_view word;      // word as typed
   std::string_view sections;  // where, "grains grains.wall"; empty: anywhere
-  std::string_view keys;      // what it may stand for, dotted: "a.b" or "a.b, a.c"
+  std::string_view keys;      // keys that it may stand for, dotted: "a.b" or "a.b, a.c"
 };
 
-// Of LIGGGHTS, CFDEM, OpenFOAM and textbooks. The first that fits counts.
+// Words of LIGGGHTS, CFDEM, OpenFOAM and textbooks. The first that fits counts.
 constexpr Synonym kSynonyms[] = {
     {"mu", "grains grains.wall", "grains.sliding_friction"},
     {"mu", "", "fluid.kinematic_viscosity"},

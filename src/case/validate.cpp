@@ -64,7 +64,7 @@ void check_flow_step(const Config& c, const FluidNumbers& n, Findings& found) {
               "is over half of the viscous limit; eddy viscosity comes on top");
 }
 
-/// True if the rows cannot fill the height.
+/// Checks the rows; true if they cannot fill the height.
 bool check_rows(const Config& c, Findings& found) {
   const RowSpacing rows = row_spacing(*c.fluid, c.size[1]);
   if (rows_fit(rows)) return false;
@@ -137,7 +137,7 @@ void check_initial(const Config& c, Findings& found) {
                  "must say where the [grains] start: a file or {{ pour = {{...}} }}");
 }
 
-/// Of what is written, or sampled, at an interval: the steps are what they are.
+/// Checks an interval of writing or sampling against the steps, which are what they are.
 void check_interval(const Config& c, const std::string& key, double interval, Findings& found) {
   const double step = c.time.fluid_step, steps = interval / step;
   found.warning_if(steps > 1 && interval <= c.time.end && !is_whole(steps),

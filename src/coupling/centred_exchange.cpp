@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
@@ -37,8 +37,8 @@ void CentredExchange::pressure_gradient(const FluidState& fluid, const GrainStat
 }
 
 void CentredExchange::stress(const FluidState& fluid, const GrainState& grains) {
-  const NearGrains& where = fields_.of_fraction;
-  gather_.stress_and_convection(fluid, where.around);
+  const ActiveRegion& where = fields_.of_fraction;
+  gather_.stress_and_convection(fluid, where.dilated);
   if (!gather_.forces().stress) return;
   gather_.stress_on_solid(fluid.alpha_f, where, sums_);
   at_centres(fields_.stress_on_faces, grains, gather_.flow().stress);
@@ -63,14 +63,16 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                     grains.kin, gather_.flow()});
 }
 
-/// Where the flow meets the exchange, and the cells whose content reaches the faces there.
+/// Finds the cells where the flow meets the exchange, and the cells whose content reaches their
+/// faces.
 void CentredExchange::find_faces() {
   FlowRegions& flow = fields_.of_flow;
   flow.exchange.set(smooths_ ? flow.fraction.cells.columns() : fields_.deposited.columns());
-  fields_.of_impulse.set(flow.exchange.columns().grown(1));
+  fields_.of_impulse.set(flow.exchange.columns().dilated(1));
 }
 
-/// Half of what cells got to each of their faces; adds up what the fluid loses [N s].
+/// Brings the impulse to faces, half of a cell's content to each of its two; adds up what the fluid
+/// loses [N s].
 void CentredExchange::to_faces() {
   const Region& cells = fields_.of_impulse;
   CellVector& impulse = fields_.impulse_in_cells;

@@ -6,7 +6,8 @@
 
 namespace barchan {
 
-/// Schemes "centred" and, where the loss is smoothed as the fluid fraction is, "smoothed".
+/// Exchange of the schemes "centred" and, where the loss is smoothed as the fluid fraction is,
+/// "smoothed".
 class CentredExchange : public UnresolvedExchange {
  public:
   CentredExchange(const FlowAndGrains& of, VoidFraction void_fraction, bool smooths);

@@ -1,12 +1,12 @@
-// Exchange as CFDEM does it, for comparison with it.
+// Exchange as in CFDEM, for comparison with it.
 #pragma once
 
 #include "src/coupling/centred_exchange.hpp"
 
 namespace barchan {
 
-/// Volume above a solid fraction of 0.9 is dropped; grains read velocity and fraction from the
-/// centres of cells.
+/// Exchange of the scheme "cfdem": volume above a solid fraction of 0.9 is dropped; grains read
+/// velocity and fraction from the centres of cells.
 class CfdemExchange final : public CentredExchange {
  public:
   CfdemExchange(const FlowAndGrains& of, bool smooths)

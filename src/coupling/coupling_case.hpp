@@ -1,4 +1,4 @@
-// What a case says of the forces between grains and flow.
+// Keys of a case about the forces between grains and flow.
 #pragma once
 
 #include "kernels/coupling/drag.hpp"
@@ -36,7 +36,7 @@ struct CouplingConfig {
   bool operator==(const CouplingConfig&) const = default;
 };
 
-/// What flow and grains together are computed from, settled once.
+/// Input of the coupled step, settled once.
 struct CoupledCase {
   CouplingConfig coupling;
   TimeConfig time;

@@ -40,7 +40,7 @@ struct CouplingFields {
   // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
   // the deposit: those over which it spreads their volume, and what the flow has to know, which
   // holds all of these and the last ones of alpha_f.
-  NearGrains of_grains, of_fraction;
+  ActiveRegion of_grains, of_fraction;
   Region smoothed;
   FlowRegions of_flow;
   // And those that grains give to; those whose impulse goes to the faces of `of_flow.exchange`,

@@ -9,16 +9,16 @@ namespace barchan {
 
 namespace {
 
-/// What stops grains stops what is smoothed, though the flow passes: the transforms of the flow,
-/// or with walls others.
+/// Transforms for the smoothing: those of the flow, or others with walls. Walls of the grains stop
+/// the smoothing though the flow passes them.
 std::shared_ptr<const PlaneFft> smoothing_fft(const CoupledCase& config, const FluidSolver& solver,
                                               const Grid& grid, const EvenExtension& walls) {
   if (walls == EvenExtension{} || config.coupling.smoothing_length == 0) return solver.fft();
   return std::make_shared<const PlaneFft>(grid, walls);
 }
 
-// Deeper in a body there are no grains.
-constexpr Real kLeastKept = 1e-3;
+// Least share that is kept: deeper in a body there are no grains.
+constexpr Real kLeastWeight = 1e-3;
 
 WallFaces ends_of(const RankAxis& line, int n) {
   WallFaces faces;
@@ -44,17 +44,19 @@ CouplingGrid::CouplingGrid(const CoupledCase& config, const FluidSolver& solver,
       pressure_reach(solver.pressure_reach()),
       marks("coupling: columns", grid, kMarks) {
   if (bodies == nullptr || smoothing_length == 0) return;
-  kept = Field("coupling: kept by the smoothing", grid);
-  Kokkos::deep_copy(kept.storage, Real(1));
-  bodies->close(kept);
+  smoothing_weight = Field("coupling: smoothing weight", grid);
+  Kokkos::deep_copy(smoothing_weight.storage, Real(1));
+  bodies->close(smoothing_weight);
   const Region everywhere(grid);
-  smoother.solve(kept, everywhere);
-  for_each_cell("coupling: least kept", grid, KeepAbove{kept, kLeastKept});
-  boundary.fill_scalars(kept);
+  smoother.solve(smoothing_weight, everywhere);
+  for_each_cell("coupling: least smoothing weight", grid,
+                KeepAbove{smoothing_weight, kLeastWeight});
+  boundary.fill_scalars(smoothing_weight);
 }
 
-void CouplingGrid::raise_to_kept(Field& f, const Region& region) const {
-  if (kept.storage.size() > 0) for_each_cell("coupling: over kept", region, DivideBy{kept, f});
+void CouplingGrid::renormalise(Field& f, const Region& region) const {
+  if (smoothing_weight.storage.size() > 0)
+    for_each_cell("coupling: renormalise", region, DivideBy{smoothing_weight, f});
 }
 
 void CouplingGrid::mark_columns_of(const GrainState& grains) const {
@@ -64,7 +66,8 @@ void CouplingGrid::mark_columns_of(const GrainState& grains) const {
 }
 
 ColumnMap CouplingGrid::columns_of_grains() const {
-  return ColumnMap::marked(grid, marks, kOfGrains).grown(1);  // the other face of a momentum cell
+  // one column more: the other face of a momentum cell
+  return ColumnMap::marked(grid, marks, kOfGrains).dilated(1);
 }
 
 void CouplingGrid::fill_ghosts(FaceVector& f, const Region& region) const {

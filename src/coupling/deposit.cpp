@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "kernels/grains/sphere.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/poison.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -75,20 +75,20 @@ void Deposit::find_cells(const ExchangeSums& sums) {
   fetch_totals(sums);
   const int reach = grid_.smoother.reach();
   const ColumnMap of_grains = grid_.columns_of_grains();
-  ColumnMap smoothed = of_grains.grown(reach);
+  ColumnMap smoothed = of_grains.dilated(reach);
   smoothed.set_top(grid_.smoother.top_above(of_grains.top()));
   fields_.smoothed.set(smoothed);
   const ColumnMap of_flow = smoothed.united(fields_.of_fraction.cells.columns())
-                                .grown(cells_around(reach, grid_.pressure_reach))
-                                .in_blocks()
+                                .dilated(cells_around(reach, grid_.pressure_reach))
+                                .padded_to_blocks()
                                 .united(grid_.bodies ? grid_.bodies->columns() : ColumnMap{});
   fields_.of_flow.fraction.set(of_flow);
-  fields_.deposited.set(of_grains.grown(1).in_blocks());
+  fields_.deposited.set(of_grains.dilated(1).padded_to_blocks());
   if (grid_.smoothing_length == 0) return;
   Field& before_smoothing = fields_.alpha_before_smoothing;
-  const Region& around = fields_.of_flow.fraction.around;  // of whose faces both sides are read
+  const Region& around = fields_.of_flow.fraction.dilated;  // of whose faces both sides are read
   for_each_cell("coupling: fraction before smoothing", around,
-                OneBeyond{fields_.of_fraction.around.ref(), before_smoothing});
+                OneBeyond{fields_.of_fraction.dilated.ref(), before_smoothing});
   grid_.boundary.fill_scalars(around, before_smoothing);
 }
 
@@ -120,7 +120,7 @@ void Deposit::clear(const Region& cells) const {
 void Deposit::update_fraction(FluidState& fluid, const ExchangeSums& sums) const {
   std::swap(fluid.alpha_f, fluid.alpha_f_previous);
   decode(Deposits::kVolume, fields_.deposited, fields_.smoothed, fluid.alpha_f);
-  grid_.raise_to_kept(fluid.alpha_f, fields_.smoothed);
+  grid_.renormalise(fluid.alpha_f, fields_.smoothed);
   grid_.smoother.solve(fluid.alpha_f, fields_.smoothed);
   sum_each_cell("coupling: solid fraction to fluid fraction", sums, ExchangeSums::kDepositedVolume,
                 owned_cells(grid_.grid),

@@ -11,8 +11,8 @@ namespace barchan {
 
 namespace {
 
-/// One direction. Points beyond the end of a pencil lie in its ghosts; beyond an end of the domain
-/// they wrap by `length`, or without a period belong to the last cell.
+/// Sets the ends of one direction. Points beyond the end of a pencil lie in its ghosts; beyond an
+/// end of the domain they wrap by `length`, or without a period belong to the last cell.
 void set_ends(const RankAxis& line, bool periodic, int n, Real& length, int& low, int& high) {
   if (!periodic || line.count > 1) length = 0;
   if (line.count == 1) return;

@@ -22,7 +22,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const ForceS
   add_exchange(copies_, forces);
 }
 
-/// Fills entry_, in the order of the owners, and counts_.
+/// Finds the owners of the grains: fills entry_, in their order, and counts_.
 void FluidSideGrains::find_owners(const GrainState& grains) {
   const Kokkos::View<int*> owner("fluid-side grains: owners", grains.kin.extent(0));
   const auto kin = grains.kin;

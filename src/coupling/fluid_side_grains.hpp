@@ -6,26 +6,28 @@
 
 namespace barchan {
 
-/// Grains live on ranks of their own, chosen for equal contact work. For gather and deposit
-/// copies of them go to the pencils of the flow, and results come back. Where one rank has
-/// everything there are no copies: the grains themselves are on the fluid's rank.
+/// Copies of the grains on the ranks of the flow. Grains live on ranks of their own, chosen for
+/// equal contact work. For gather and deposit copies of them go to the pencils of the flow, and
+/// results come back. Where one rank has everything there are no copies: the grains themselves are
+/// on the fluid's rank.
 class FluidSideGrains {
  public:
   FluidSideGrains() = default;
-  /// `periodic_x`: grains beyond one end come in at the other. `forces`: whose arrays they have.
+  /// Makes empty copies. `periodic_x`: grains beyond one end come in at the other. `forces`: those
+  /// whose arrays the grains have.
   FluidSideGrains(const Grid& grid, bool periodic_x, const ForceSwitches& forces = {});
 
-  /// The grains whose centres lie in this rank's pencil; of their arrays those of the `uses` (see
-  /// GrainUse) are filled. Positions are inside the domain. Valid until the next call. All ranks
-  /// together.
+  /// Sends copies to the ranks of the flow. Returns the grains whose centres lie in this rank's
+  /// pencil, with the arrays of the `uses` (see GrainUse). Positions are inside the domain. Valid
+  /// until the next call. All ranks call it together.
   GrainState& to_fluid_ranks(GrainState& grains, unsigned uses);
   const GrainState& to_fluid_ranks(const GrainState& grains, unsigned uses);
 
-  /// The arrays of the `uses` back to the grains that were sent last; no grain may have moved to
-  /// another entry since. All ranks together.
+  /// Sends the arrays of the `uses` back to the grains that were sent last; no grain may have moved
+  /// to another entry since. All ranks call it together.
   void to_grain_ranks(GrainState& grains, unsigned uses);
 
-  // Public only because nvcc takes no device lambda from a private function.
+  // Parts of the sending; public only because nvcc takes no device lambda from a private function.
   void find_owners(const GrainState& grains);
   void wrap_copies() const;
 
@@ -37,7 +39,7 @@ class FluidSideGrains {
   PencilOwners owners_;
   GrainState copies_;
   ExchangeCounts counts_;
-  Kokkos::View<int*> entry_;  // of the grains, in the order of their owners
+  Kokkos::View<int*> entry_;  // entries of the grains, in the order of their owners
   EntryExchange exchange_{"fluid-side grains"};
 };
 

@@ -8,7 +8,7 @@
 #include "kernels/coupling/force_density.hpp"
 #include "kernels/coupling/gather_shear.hpp"
 #include "src/grains/grain_arrays.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
@@ -57,7 +57,7 @@ void Gather::reserve_flow(int n) {
 void Gather::undo_smoothing(const FluidState& fluid) {
   const Real length = grid_.smoothing_length;
   if (length == 0) return;
-  const Region& cells = fields_.of_fraction.around;
+  const Region& cells = fields_.of_fraction.dilated;
   for_each_cell("coupling: fraction before smoothing", cells,
                 UnsmoothedFraction{.grid = grid_.grid,
                                    .alpha_f = fluid.alpha_f,
@@ -65,9 +65,9 @@ void Gather::undo_smoothing(const FluidState& fluid) {
                                    .walls_x = grid_.wall_faces_x(),
                                    .walls_z = grid_.wall_faces_z(),
                                    .unsmoothed = fields_.alpha_before_smoothing});
-  if (grid_.kept.storage.size() > 0)
+  if (grid_.smoothing_weight.storage.size() > 0)
     for_each_cell("coupling: fraction beside bodies", cells,
-                  FractionBesideBodies{grid_.kept, fields_.alpha_before_smoothing});
+                  FractionBesideBodies{grid_.smoothing_weight, fields_.alpha_before_smoothing});
   grid_.boundary.fill_scalars(cells, fields_.alpha_before_smoothing);
 }
 
@@ -80,7 +80,7 @@ void Gather::pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums
                                      .rho_f = rho_f_,
                                      .drive = fluid.drive,
                                      .force = on_faces});
-  if (grid_.bodies) grid_.bodies->close(on_faces);  // there it pushes the body
+  if (grid_.bodies) grid_.bodies->close(on_faces);  // closed faces push the body
   fill_faces_beside(on_faces, and_faces);
   to_cells(on_faces, fluid.alpha_f, cells, fields_.pressure_in_cells, sums,
            ExchangeSums::kPressureOnSolid);
@@ -97,21 +97,21 @@ void Gather::stress_and_convection(const FluidState& fluid, const Region& cells)
   grid_.fill_ghosts(fields_.convective, cells);
 }
 
-void Gather::stress_on_solid(const Field& alpha, const NearGrains& where,
+void Gather::stress_on_solid(const Field& alpha, const ActiveRegion& where,
                              const ExchangeSums& sums) const {
-  fill_faces_beside(fields_.stress_on_faces, where.around);
+  fill_faces_beside(fields_.stress_on_faces, where.dilated);
   to_cells(fields_.stress_on_faces, alpha, where.cells, fields_.stress_in_cells, sums,
            ExchangeSums::kStressOnSolid);
 }
 
-/// Constant behind both walls, and ghosts.
+/// Fills the faces at both walls with those inside, and the ghosts.
 void Gather::fill_faces_beside(FaceVector& force, const Region& cells) const {
   for_each_column("coupling: force density at the walls", cells,
                   HoldForceAtWall{force.y, grid_.grid.ny});
   grid_.fill_ghosts(force, cells);
 }
 
-/// Adds up what the solid fraction 1 - alpha takes of it [N].
+/// Brings a force density to cells; adds up the part of the solid fraction 1 - alpha [N].
 void Gather::to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                       CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const {
   sum_vector("coupling: force density on cells", sums, sum, cells,

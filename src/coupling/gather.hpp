@@ -1,4 +1,4 @@
-// From the flow to the grains.
+// Gather: forces of the flow on the grains.
 #pragma once
 
 #include "kernels/coupling/deposit.hpp"
@@ -9,14 +9,15 @@
 
 namespace barchan {
 
-/// Forces of the flow on solid in cells; drag coefficient, share of fluid and steady forces of each
-/// grain, from the flow that a scheme finds there. Grid and fields outlive it.
+/// Gather of the forces of the flow on solid in cells, and of drag coefficient, share of fluid and
+/// steady forces of each grain, from the flow that a scheme finds there. Grid and fields outlive
+/// it.
 class Gather {
  public:
   Gather(const CoupledCase& config, const GrainState& grains, const CouplingGrid& grid,
          CouplingFields& fields, bool layers);
 
-  /// The next step is the first of grains that have just been placed.
+  /// Makes the next step the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
   /// Reserves memory for the flow at n grains; first of all.
   void reserve_flow(int n);
@@ -25,21 +26,23 @@ class Gather {
 
   // Forces per volume of solid [N/m^3]. What the solid takes is booked.
 
-  /// Sets that of the pressure gradient, on faces and in cells.
+  /// Sets the force density of the pressure gradient, on faces and in cells.
   void pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums) const;
-  /// Sets that of the stress on faces, and the convective acceleration.
+  /// Sets the force density of the stress on faces, and the convective acceleration.
   void stress_and_convection(const FluidState& fluid, const Region& cells) const;
-  /// Sets that of the stress in cells, on the solid 1 - alpha; after stress_and_convection().
-  void stress_on_solid(const Field& alpha, const NearGrains& where, const ExchangeSums& sums) const;
+  /// Sets the force density of the stress in cells, on the solid 1 - alpha; after
+  /// stress_and_convection().
+  void stress_on_solid(const Field& alpha, const ActiveRegion& where,
+                       const ExchangeSums& sums) const;
 
-  /// Sets what acts on the grains in the flow that the scheme has found at each; last of all. Books
-  /// the forces of pressure gradient and stress on them.
+  /// Sets the action on the grains in the flow that the scheme has found at each; call it last.
+  /// Books the forces of pressure gradient and stress on them.
   void act_on(GrainState& grains, const FluidState& fluid, Real dt, const ExchangeSums& sums);
 
   const FlowAtGrains& flow() const { return flow_at_; }
   const FluidForces& forces() const { return forces_; }
   Real rho_f() const { return rho_f_; }
-  /// None unless the exchange has layers and the case asks for it.
+  /// Stresslet of the grains; none unless the exchange has layers and the case asks for it.
   Stresslet stresslet() const {
     return {.mu_f = layers_ && forces_.mixture_viscosity ? rho_f_ * nu_ : 0};
   }

@@ -1,25 +1,28 @@
 #include "src/coupling/layered_exchange.hpp"
 
 #include "kernels/coupling/force_density.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
 namespace {
 
-/// Grains of diameter d that lie a diameter apart: of cells of width h, up to (h + d)/d per
-/// direction have their centres in one, and h/d fit in.
-bool may_be_crowded(const Grid& grid, Real d) { return (1 + d / grid.dx) * (1 + d / grid.dz) > 2; }
+/// Tells if a momentum cell may get twice the grains that fit into it. Grains of diameter d lie a
+/// diameter apart: in cells of width h, up to (h + d)/d per direction have their centres in one,
+/// and h/d fit in.
+bool may_be_oversubscribed(const Grid& grid, Real d) {
+  return (1 + d / grid.dx) * (1 + d / grid.dz) > 2;
+}
 
 }  // namespace
 
 LayeredExchange::LayeredExchange(const FlowAndGrains& of)
     : UnresolvedExchange(of, {.points = PointModel::divided}, true),
-      crowded_(may_be_crowded(of.grid, 2 * of.grains.r_max)) {}
+      oversubscribed_(may_be_oversubscribed(of.grid, 2 * of.grains.r_max)) {}
 
 void LayeredExchange::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   begin_gather(fluid, grains);
-  if (crowded_) solid_of_momentum_cells(fluid, grains);
+  if (oversubscribed_) solid_of_momentum_cells(fluid, grains);
   pressure_gradient(fluid);
   stress(fluid);
   flow_at_grains(fluid, grains);
@@ -46,7 +49,7 @@ LayerExchange LayeredExchange::layers(const FluidState& fluid) const {
 }
 
 void LayeredExchange::solid_of_momentum_cells(const FluidState& fluid, const GrainState& grains) {
-  const Region& cells = fields_.of_grains.around;
+  const Region& cells = fields_.of_grains.dilated;
   deposit_.add_solid(layers(fluid), grains, cells);
   deposit_.decode(Deposits::kSolidX, cells, cells, fields_.solid_x);
   deposit_.decode(Deposits::kSolidZ, cells, cells, fields_.solid_z);
@@ -62,23 +65,23 @@ void LayeredExchange::pressure_gradient(const FluidState& fluid) {
   const Region& cells = fields_.of_fraction.cells;
   for (Field* component : {&in_cells.x, &in_cells.y, &in_cells.z}) {
     grid_.smoother.solve(*component, cells);
-    grid_.raise_to_kept(*component, cells);
+    grid_.renormalise(*component, cells);
   }
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, cells);
 }
 
-/// The same in two solves for three: without walls of the grains the smoothing commutes with
-/// differences along the floor.
+/// Smoothed pressure gradient in two solves instead of three: without walls of the grains the
+/// smoothing commutes with differences along the floor.
 void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
-  const auto& [cells, around] = fields_.of_fraction;
+  const auto& [cells, dilated] = fields_.of_fraction;
   CellVector& in_cells = fields_.pressure_in_cells;
   Field& p = fields_.smoothed_pressure;
   PressureForceInCell force{
       .grid = grid_.grid, .p = fluid.p, .rho_f = gather_.rho_f(), .drive = fluid.drive};
-  sum_vector("coupling: pressure to smooth", sums_, ExchangeSums::kPressureOnSolid, around,
+  sum_vector("coupling: pressure to smooth", sums_, ExchangeSums::kPressureOnSolid, dilated,
              PressureToSmooth{.force = force, .alpha_f = fluid.alpha_f, .p = p, .y = in_cells.y});
   for (Field* f : {&p, &in_cells.y}) grid_.smoother.solve(*f, cells);
-  grid_.boundary.fill_scalars(around, p);
+  grid_.boundary.fill_scalars(dilated, p);
   force.p = p;
   const Region& of_grains = fields_.of_grains.cells;
   for_each_cell("coupling: smoothed pressure force", of_grains,
@@ -86,11 +89,11 @@ void LayeredExchange::smoothed_pressure_gradient(const FluidState& fluid) {
   if (grid_.grid.ranks) grid_.fill_ghosts(in_cells, of_grains);
 }
 
-/// The solid takes of the stress what it has before the smoothing, so there is none beyond the
-/// cells of the grains.
+/// Force of the stress on the solid. The solid takes the part that it has before the smoothing, so
+/// there is none beyond the cells of the grains.
 void LayeredExchange::stress(const FluidState& fluid) {
-  const NearGrains& where = fields_.of_grains;
-  gather_.stress_and_convection(fluid, where.around);
+  const ActiveRegion& where = fields_.of_grains;
+  gather_.stress_and_convection(fluid, where.dilated);
   if (!gather_.forces().stress) return;
   const Field& alpha = fields_.unsmoothed(fluid);
   gather_.stress_on_solid(alpha, where, sums_);
@@ -109,10 +112,10 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                  .flow = gather_.flow()};
   Kokkos::parallel_for("coupling: flow at grains", items(grains.n),
                        LayeredFlow{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective,
-                                   crowded_, fields_.solid_x, fields_.solid_z});
+                                   oversubscribed_, fields_.solid_x, fields_.solid_z});
 }
 
-/// Exchange and conductances; adds up what the fluid loses [N s].
+/// Brings exchange and conductances to faces; adds up what the fluid loses [N s].
 void LayeredExchange::to_faces() {
   ExchangeOnFaces& on_faces = fields_.on_faces;
   sum_vector("coupling: layers to faces", sums_, ExchangeSums::kTakenFromFluid,

@@ -5,9 +5,9 @@
 
 namespace barchan {
 
-/// Grains get pressure gradient and stress the way that their volume goes to alpha_f, backwards. So
-/// they get what the solid fraction takes. Source and reason: docs/theory-coupling.md, "Layered
-/// exchange".
+/// Layered exchange. The forces of pressure gradient and stress reach the grains by the adjoint of
+/// the way in which their volume reaches alpha_f, so grains get what the solid fraction takes.
+/// Source and reason: docs/theory-coupling.md, "Layered exchange".
 class LayeredExchange final : public UnresolvedExchange {
  public:
   explicit LayeredExchange(const FlowAndGrains& of);
@@ -24,7 +24,8 @@ class LayeredExchange final : public UnresolvedExchange {
   void flow_at_grains(const FluidState& fluid, const GrainState& grains);
   void to_faces();
 
-  bool crowded_;  // cells so narrow that a momentum cell may get twice the grains that fit into it
+  bool oversubscribed_;  // cells so narrow that a momentum cell may get twice the grains that fit
+                         // into it
 };
 
 }  // namespace barchan

@@ -11,7 +11,7 @@ namespace barchan {
 
 namespace {
 
-/// Of what is exchanged. Rounding leaves 1e-16 to 1e-12.
+/// Largest mismatch of a closed exchange, relative to it. Rounding leaves 1e-16 to 1e-12.
 constexpr double kClosed = 1e-9;
 
 double relative(const Vec3& difference, const Vec3& reference) {
@@ -57,7 +57,8 @@ void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
   add(step);
 }
 
-/// What is not finite is told by the checks of the state, which know where.
+/// Checks that an exchange is closed. Values that are not finite are left to the checks of the
+/// state, which know where they are.
 void Ledger::expect_closed(const ExchangeLedger& step) {
   const auto expect = [](const char* what, double off, double of, const char* unit) {
     if (!(off > kClosed * of)) return;

@@ -13,7 +13,7 @@ namespace barchan {
 
 namespace {
 
-/// The grains of all ranks in the order of their places, the same on all.
+/// Grains of all ranks in the order of their places, the same on all.
 std::vector<FrozenGrain> grains_of_all_ranks(const GrainState& grains) {
   constexpr std::size_t width = 4;
   std::vector<std::int64_t> counts(static_cast<std::size_t>(rank_count(grains.ranks)), 0);
@@ -42,18 +42,18 @@ std::vector<FrozenGrain> grains_of_all_ranks(const GrainState& grains) {
   return found;
 }
 
-/// What the water does to each grain, and its weight.
+/// Takes the load of the fluid on each grain, and its weight.
 struct TakeLoads {
   Kokkos::View<const int*> load_of;
-  Kokkos::View<const Vec3*> force, torque;  // of all grains
+  Kokkos::View<const Vec3*> force, torque;  // loads of all grains
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   ExchangeOnGrains exchange;
-  Kokkos::View<Vec3*> steady_force;
+  Kokkos::View<Vec3*> explicit_force;
   KOKKOS_FUNCTION void operator()(int g) const {
     exchange.resolved_force(g) = force(load_of(g));
     exchange.resolved_torque(g) = torque(load_of(g));
-    steady_force(g) = exchange.resolved_force(g) + weight(grains(g));
+    explicit_force(g) = exchange.resolved_force(g) + weight(grains(g));
   }
 };
 
@@ -73,7 +73,7 @@ void ResolvedFlow::start(const GrainState& grains, FluidState& fluid) {
   place(grains);
 }
 
-/// A run that goes on has its grains only now.
+/// Places the grains; a run that goes on has them only now.
 void ResolvedFlow::gather(const FluidState&, GrainState& grains, Real) {
   if (!placed_) place(grains);
 }
@@ -92,7 +92,7 @@ void ResolvedFlow::place(const GrainState& grains) {
   force_on_host_ = mirror(force_), torque_on_host_ = mirror(torque_);
 }
 
-/// Which of the frozen grains each of this rank is; they stay.
+/// Finds the index of each grain of this rank among the frozen grains; it does not change.
 void ResolvedFlow::find_loads_of(const GrainState& grains) {
   const auto kin = host_copy(grains.kin);
   std::vector<int> load_of;
@@ -118,7 +118,7 @@ void ResolvedFlow::close(GrainState& grains, Real dt) {
                                  .weight = {.gravity = gravity_, .displaced = density_},
                                  .grains = grains.kin,
                                  .exchange = grains.exchange,
-                                 .steady_force = grains.fluid.steady_force});
+                                 .explicit_force = grains.fluid.explicit_force});
   ledger_.flow_on_solid = ledger_.flow_on_grains = dt * sum;
 }
 

@@ -1,4 +1,4 @@
-// Flow that is resolved around each grain: a reference for the schemes that are not.
+// Flow resolved around each grain: a reference for the unresolved schemes.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace barchan {
 
-/// coupling.scheme = "resolved": the flow goes round each grain as it does round a body, on cells
-/// far smaller than a grain. No fraction, no drag law: force and torque of each grain are those of
-/// the water on its surface. Grains are frozen: their faces are found once.
+/// Scheme "resolved": the flow goes round each grain as it does round a body, on cells far smaller
+/// than a grain. There is no fraction and no drag law: force and torque of each grain are those of
+/// the fluid on its surface. Grains are frozen: their faces are found once.
 class ResolvedFlow : public ExchangeScheme {
  public:
   ResolvedFlow(const CoupledCase& config, FluidSolver& solver, const Grid& grid);
@@ -17,7 +17,7 @@ class ResolvedFlow : public ExchangeScheme {
   void start(const GrainState& grains, FluidState& fluid) override;
   void gather(const FluidState& fluid, GrainState& grains, Real dt) override;
   void deposit(const GrainState&, FluidState&, Real) override {}
-  /// Force and torque of the last fluid step, and weight and buoyancy, to the grains.
+  /// Gives the grains force and torque of the last fluid step, with weight and buoyancy.
   void close(GrainState& grains, Real dt) override;
 
   const ExchangeOnFaces* on_faces() const override { return nullptr; }
@@ -31,11 +31,11 @@ class ResolvedFlow : public ExchangeScheme {
   Grid grid_;
   Bodies bodies_;
   Vec3 gravity_;
-  Real density_;  // of the liquid [kg/m^3]
+  Real density_;  // density of the liquid [kg/m^3]
   bool placed_ = false;
-  FrozenGrains frozen_;                 // of all ranks
-  Kokkos::View<int*> load_of_;          // of each grain of this rank, among all
-  Kokkos::View<Vec3*> force_, torque_;  // of all grains [N], [N m]
+  FrozenGrains frozen_;                 // grains of all ranks
+  Kokkos::View<int*> load_of_;          // index of each grain of this rank among all
+  Kokkos::View<Vec3*> force_, torque_;  // on all grains [N], [N m]
   Kokkos::View<Vec3*>::host_mirror_type force_on_host_, torque_on_host_;
   ExchangeLedger ledger_;
 };

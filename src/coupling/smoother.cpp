@@ -10,18 +10,18 @@ namespace barchan {
 namespace {
 
 constexpr std::size_t kSizesKept = 2;  // a dune may waver between two
-constexpr Real kWorthIt = 0.8;         // of the columns: with more of them take all
+constexpr Real kWorthIt = 0.8;         // part of the columns; if more are needed, all are solved
 
 Real square(Real a) { return a * a; }
 
-/// By how much a field decays from a cell to the next, in a direction along which alone it varies:
-/// the root below one of q^2 - (2 + h^2/L^2) q + 1 = 0.
+/// Decay of a field from a cell to the next, in a direction along which alone it varies: the root
+/// below one of q^2 - (2 + h^2/L^2) q + 1 = 0.
 Real decay_per_cell(Real spacing, Real length) {
   const Real half = 1 + square(spacing / length) / 2;
   return 1 / (half + std::sqrt(square(half) - 1));
 }
 
-/// The next number that has no prime factors but 2, 3 and 5, and is even.
+/// Next even number that has no prime factors but 2, 3 and 5.
 int good_for_fft(int n) {
   const auto fits = [](int size) {
     for (const int factor : {2, 3, 5})
@@ -33,7 +33,7 @@ int good_for_fft(int n) {
   return size;
 }
 
-/// Of x those columns, as if there were no others.
+/// Grid cut to nx columns, periodic in x.
 Grid with_columns(Grid grid, int nx) {
   grid.nx = grid.nx_all = nx;
   grid.i_begin = 0;
@@ -43,7 +43,7 @@ Grid with_columns(Grid grid, int nx) {
 
 bool is_cut_along_x(const Grid& grid) { return grid.ranks && grid.ranks->along_x().count > 1; }
 
-/// A stretch of x, then as many zeros as a good size takes; zero beyond the region.
+/// Copies a stretch of x, then as many zeros as a good size takes; zero beyond the region.
 struct TakeIn {
   RegionRef region;
   ConstFieldRef f;
@@ -112,7 +112,7 @@ const PoissonFft& Smoother::whole() const {
   return *whole_;
 }
 
-/// Whether one solve over all columns is the cheaper one, or the only one.
+/// Tells if one solve over all columns is the cheaper one, or the only one.
 bool Smoother::takes_all(const std::vector<ColumnMap::Interval>& stretches) const {
   int columns = 0;
   bool at_wall = false;

@@ -1,4 +1,4 @@
-// The smoothing of coupling fields, where the grains are.
+// Smoothing of coupling fields near the grains.
 #pragma once
 
 #include <list>
@@ -10,25 +10,25 @@
 
 namespace barchan {
 
-/// One implicit step of diffusion over a length L, (1 - L^2 lap) phi = f, of fields that vanish
-/// away from the grains. What is far from them has decayed, and is not computed: phi is cut off at
-/// reach() cells, where of a source less than kTolerance is left.
+/// Smoothing by one implicit step of diffusion over a length L, (1 - L^2 lap) phi = f, of fields
+/// that vanish away from the grains. Far from them phi has decayed, and is not computed: it is cut
+/// off at reach() cells, where less than kTolerance of a source is left.
 class Smoother {
  public:
   static constexpr Real kTolerance = 1e-12;
 
-  /// `whole`: the transforms of the grid; `even`: where it ends at walls of the grains. No length:
-  /// nothing is smoothed.
+  /// Makes a smoother. `whole`: the transforms of the grid; `even`: where it ends at walls of the
+  /// grains. With a length of 0 nothing is smoothed.
   Smoother(const Grid& grid, std::shared_ptr<const PlaneFft> whole, const EvenExtension& even,
            Real length);
 
-  /// Cells along x and z over which what is smoothed decays.
+  /// Number of cells along x and z over which a smoothed field decays.
   int reach() const { return reach_; }
-  /// The rows [0, top) over which what lies in the rows [0, from) decays.
+  /// Top of the rows [0, top) over which a field in the rows [0, from) decays.
   int top_above(int from) const;
 
-  /// f becomes phi in the cells of a region, in which it must be known; beyond, it counts as zero,
-  /// and afterwards holds no more than what has decayed. All ranks together.
+  /// Turns f into phi in the cells of a region, in which it must be known. Beyond, it counts as
+  /// zero, and afterwards holds no more than what has decayed. All ranks call it together.
   void solve(Field& f, const Region& region) const;
 
  private:
@@ -48,10 +48,10 @@ class Smoother {
   EvenExtension even_;
   Real length_;
   int reach_ = 0;
-  std::vector<Real> decay_;  // from a row to the next
+  std::vector<Real> decay_;  // decay from a row to the next
   std::shared_ptr<const PlaneFft> whole_fft_;
   mutable std::unique_ptr<const PoissonFft> whole_;  // made where it is needed
-  mutable std::list<Columns> columns_;               // of the last sizes, the latest first
+  mutable std::list<Columns> columns_;               // grids of the last sizes, the latest first
 };
 
 }  // namespace barchan

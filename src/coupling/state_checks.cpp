@@ -10,8 +10,8 @@
 
 #include "kernels/diagnostics/state_checks.hpp"
 #include "src/base/errors.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/communicator.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -27,7 +27,7 @@ WorstItem worst_cell(const Grid& grid, const Functor& functor) {
   return worst;
 }
 
-/// The message of the rank that has the worst value, on all ranks.
+/// Message of the rank that has the worst value, on all ranks.
 std::string of_the_worst(MPI_Comm ranks, Real mine, const std::string& message) {
   if (rank_count(ranks) == 1) return message;
   struct {
@@ -69,13 +69,13 @@ const char* name_of(const Plane& wall) {
   return wall.normal.x != 0 ? "a wall across x" : "a wall across z";
 }
 
-/// What a grain is deepest in, and how far its centre is from that surface [m].
+/// Wall or body that a grain is deepest in, and the distance of its centre from that surface [m].
 struct DeepestIn {
   std::string name;
   Real distance;
 };
 
-/// Of walls and bodies, which have these names.
+/// Finds the wall or body that x is deepest in; bodies have these names.
 DeepestIn find_deepest(const GrainSolver& solver, const std::vector<std::string>& bodies,
                        const Vec3& x) {
   const WallShapes& walls = solver.walls();
@@ -93,7 +93,7 @@ DeepestIn find_deepest(const GrainSolver& solver, const std::vector<std::string>
   return deepest;
 }
 
-/// What to tell of the worst grain or pair of this rank.
+/// Messages about the worst grain or pair of this rank.
 struct GrainProblems {
   const GrainState& grains;
   const GrainSolver& solver;

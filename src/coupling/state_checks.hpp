@@ -1,4 +1,4 @@
-// Notices after each fluid step when a run has gone wrong, and says where and why.
+// Checks after each fluid step that a run has not gone wrong, with place and cause if it has.
 #pragma once
 
 #include <mpi.h>
@@ -9,32 +9,32 @@
 #include "kernels/diagnostics/state_checks.hpp"
 #include "src/coupling/coupled_step.hpp"
 #include "src/coupling/coupling_case.hpp"
-#include "src/parallel/tally.hpp"
+#include "src/parallel/device_reductions.hpp"
 
 namespace barchan {
 
-/// Limits of a sound state beside grains.max_overlap. They are far from what a good run shows (a
+/// Limits of a sound state beside grains.max_overlap. They are far from the values of a good run (a
 /// CFL number of 0.5), and near enough to stop before results are ruined unseen.
-inline constexpr Real kMaxDisplacement = 0.5;  // of a grain in a grain step, in radii
-inline constexpr Real kMaxCourant = 1;         // of the flow
-inline constexpr Real kFractionSlack = 1e-9;   // of the fluid fraction around (0, 1]
+inline constexpr Real kMaxDisplacement = 0.5;  // displacement of a grain in a grain step, in radii
+inline constexpr Real kMaxCourant = 1;         // CFL number of the flow
+inline constexpr Real kFractionSlack = 1e-9;   // slack of the fluid fraction around (0, 1]
 
-/// All ranks call every member together.
+/// Checks of the state. All ranks call every member together.
 class StateChecks {
  public:
   StateChecks(const CoupledCase& config, MPI_Comm ranks) : config_(config), ranks_(ranks) {}
 
-  /// Looks at the flow and the grains after a step, in one reduction over ranks. Throws StateError
-  /// when a grain or the flow is not finite, grains overlap too much, go through a wall or too
-  /// far in a grain step, alpha_f leaves (0, 1], the CFL number is beyond stability, or the
-  /// pressure equation was not solved.
+  /// Checks the flow and the grains after a step, in one reduction over ranks. Throws StateError
+  /// when a grain or the flow is not finite, grains overlap too much, go through a wall or too far
+  /// in a grain step, alpha_f leaves (0, 1], the CFL number is beyond stability, or the pressure
+  /// equation was not solved.
   void check(const SystemState& state, const CoupledStep& step) const;
-  /// The same of a state that a run starts from. Throws InputError: it came from `source`.
+  /// Checks a state that a run starts from. Throws InputError: it came from `source`.
   void check_start(const SystemState& state, const CoupledStep& step,
                    const std::string& source) const;
 
  private:
-  /// What is worst, and where, on this rank.
+  /// Worst values on this rank, and their places.
   struct Worst {
     WorstItem pair{0, -1};
     WorstGrains grains;
@@ -48,7 +48,7 @@ class StateChecks {
 
   CoupledCase config_;
   MPI_Comm ranks_;
-  Tally worst_{"state checks: worst", kSlots};
+  DeviceReductions worst_{"state checks: worst", kSlots};
 };
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// What a run is made of.
+// State of a run.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// Either part may be missing.
+/// State of flow and grains; either part may be missing.
 struct SystemState {
   std::optional<FluidState> fluid;
   std::optional<GrainState> grains;

@@ -23,7 +23,7 @@ void UnresolvedExchange::begin_gather(const FluidState& fluid, const GrainState&
   grid_.marks.fetch();
   const ColumnMap of_grains = grid_.columns_of_grains();
   fields_.of_grains.set(of_grains);
-  // Around grains that were fed since the last deposit the fraction is still one.
+  // The fraction is still one around grains that were fed since the last deposit.
   fields_.of_fraction.set(
       ColumnMap::marked(grid_.grid, grid_.marks, CouplingGrid::kOfFraction).united(of_grains));
   gather_.undo_smoothing(fluid);
@@ -43,7 +43,7 @@ void UnresolvedExchange::end_deposit(Real dt) {
   fields_.give_back();
   ledger_ = sums_.ledger(ranks_of(grid_.grid), dt);
   ledger_.keeps_volume = deposit_.keeps_volume();
-  // One row has no faces inside: what goes upwards is carried by the walls.
+  // One row has no faces inside: the walls carry the vertical momentum.
   if (grid_.grid.ny == 1) ledger_.taken_from_fluid.y = ledger_.given_to_grains.y;
 }
 

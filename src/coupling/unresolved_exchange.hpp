@@ -1,4 +1,4 @@
-// Unresolved coupling, model A: what its schemes have in common.
+// Unresolved coupling, model A: the common part of its schemes.
 #pragma once
 
 #include "src/coupling/deposit.hpp"
@@ -17,7 +17,7 @@ struct FlowAndGrains {
 
 /// Exchange with grains smaller than the cells, or as large: a volume fraction and a drag law stand
 /// for the flow around each. A scheme says in gather() and deposit() where grains feel the flow and
-/// where the flow loses what they get; the steps of these that all share are here.
+/// where the flow loses what they get; the steps that all schemes share are here.
 class UnresolvedExchange : public ExchangeScheme {
  public:
   UnresolvedExchange(const UnresolvedExchange&) = delete;
@@ -31,7 +31,7 @@ class UnresolvedExchange : public ExchangeScheme {
 
   /// Sets the regions of the gather, and the fluid fraction before its smoothing.
   void begin_gather(const FluidState& fluid, const GrainState& grains);
-  /// Adds up what the grains give, on the device.
+  /// Adds up what the grains give, on the device; the deposit of the scheme follows.
   ExchangeOfGrain begin_deposit(const GrainState& grains, Real dt);
   void end_deposit(Real dt);
 

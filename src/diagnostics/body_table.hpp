@@ -1,4 +1,4 @@
-// bodies.csv: what water and grains do to each body.
+// Table bodies.csv: forces of fluid and grains on each body.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace barchan {
 
-/// One body, and the means over an interval of what acts on it.
+/// Mean load on one body over an interval.
 struct BodyRecord {
   double t = 0;                                     // [s]
-  std::int64_t body = 0;                            // in the order of the case
-  double force_x = 0, force_y = 0, force_z = 0;     // of the water [N]
+  std::int64_t body = 0;                            // number in the order of the case
+  double force_x = 0, force_y = 0, force_z = 0;     // force of the fluid [N]
   double torque_x = 0, torque_y = 0, torque_z = 0;  // [N m]
   double grain_force_x = 0, grain_force_y = 0, grain_force_z = 0;
   double grain_torque_x = 0, grain_torque_y = 0, grain_torque_z = 0;
-  std::int64_t n_contacts = 0;  // with grains, now
+  std::int64_t n_contacts = 0;  // contacts with grains now
 };
 
 inline constexpr std::array kBodyColumns = [] {

@@ -59,7 +59,7 @@ std::vector<int> DuneTracker::labels(GrainCloud grains) const {
   return labels;
 }
 
-/// Drops samples that a restart will measure again, and labels out of sight for too long.
+/// Drops samples that a restart will measure again, and labels that have been missing for too long.
 void DuneTracker::forget(double t) {
   for (Track& track : tracks_) {
     while (!track.samples.empty() && track.samples.back().t >= t) track.samples.pop_back();
@@ -70,7 +70,7 @@ void DuneTracker::forget(double t) {
   });
 }
 
-/// For each record the index of its track, -1 for a new dune: nearest pairs first.
+/// Index of the track of each record, -1 for a new dune: nearest pairs first.
 std::vector<int> DuneTracker::match(const std::vector<DuneRecord>& records) const {
   struct Pair {
     double distance;
@@ -104,8 +104,8 @@ void DuneTracker::extend(Track& track, double t, const DuneRecord& record) const
     x = last + domain_.nearest_x(record.cx - last);
   }
   track.samples.push_back({t, x});
-  // The sample before the last stays even when it is older than the window. The tolerance keeps
-  // the number of samples steady when the window is a multiple of the interval.
+  // Keep the sample before the last even when it is older than the window. The tolerance keeps the
+  // number of samples steady when the window is a multiple of the interval.
   const double oldest = t - criteria_.celerity_window * (1.0 + 1e-9);
   while (track.samples.size() > 2 && track.samples.front().t < oldest) track.samples.pop_front();
   track.missed = false;

@@ -21,17 +21,17 @@ class DuneTracker {
   explicit DuneTracker(const DuneDomain& domain, const DuneCriteria& criteria = {})
       : domain_(domain), criteria_(criteria) {}
 
-  /// One record per dune, in order of label. Times must not go back further than a restart does:
-  /// samples at or after t are forgotten. The first call fixes the initial number of grains; n_fed
-  /// have come in since the run began.
+  /// Measures the dunes at time t; returns one record per dune, in order of label. Times must not
+  /// go back further than a restart does: samples at or after t are forgotten. The first call fixes
+  /// the initial number of grains; n_fed have come in since the run began.
   std::vector<DuneRecord> update(double t, GrainCloud grains, std::int64_t n_fed = 0);
 
-  /// Of each grain the label that its dune would get in an update now, and has if that was the last
-  /// one; -1: in no dune.
+  /// Label of the dune of each grain, as an update now would give it and the last one did; -1: in
+  /// no dune.
   [[nodiscard]] std::vector<int> labels(GrainCloud grains) const;
 
-  /// The memory as plain numbers for restart files; set_state() restores it exactly and throws
-  /// std::runtime_error if the numbers are not from state().
+  /// Memory of the tracker as plain numbers for restart files; set_state() restores it exactly and
+  /// throws std::runtime_error if the numbers are not from state().
   [[nodiscard]] std::vector<double> state() const;
   void set_state(std::span<const double> numbers);
 
@@ -41,7 +41,7 @@ class DuneTracker {
   };
   struct Track {
     int label = 0;
-    bool missed = false;                   // not seen at the last time
+    bool missed = false;                   // dune not seen at the last time
     double x = 0.0, z = 0.0, reach = 0.0;  // last centroid; largest distance of the next
     std::deque<Sample> samples{};
   };

@@ -12,12 +12,12 @@
 
 namespace barchan {
 
-/// What the dunes are found from.
+/// Grain as the search for dunes needs it.
 struct GrainSample {
   Vec3 x;            ///< centre [m]
   double d = 0.0;    ///< diameter [m]
   double u_x = 0.0;  ///< streamwise velocity [m/s]
-  double heap = -1;  ///< number of the heap it came from; -1: of none
+  double heap = -1;  ///< number of the heap it came from; -1: from none
 };
 using GrainCloud = std::span<const GrainSample>;
 
@@ -38,7 +38,7 @@ struct DuneDomain {
   }
 };
 
-/// What counts as a dune. Lengths are in mean grain diameters, covers are the summed cross-sections
+/// Criteria for a dune. Lengths are in mean grain diameters, covers are the summed cross-sections
 /// of the grains of a bin over the area of the bin.
 struct DuneCriteria {
   double bin = 2.5;         ///< side of a bin (stretched so that bins fill the domain)
@@ -47,8 +47,8 @@ struct DuneCriteria {
   double rim_reach = 12.0;  ///< how far the rim goes out from a core; a thin foot fits in
   int min_grains = 100;     ///< smaller regions are not dunes
   double centreline_half_width = 3.0;  ///< of the strip in which length and crest are measured
-  double horn_height = 2.0;  ///< least of what counts as a horn by height: above streaks of grains
-  double celerity_window = 1.0;  ///< [s]
+  double horn_height = 2.0;            ///< least height of a horn: above streaks of grains
+  double celerity_window = 1.0;        ///< [s]
 };
 
 /// Map of the surface height h(x, z), and the regions of it that are dunes.
@@ -68,7 +68,7 @@ struct DuneCriteria {
 struct HeightMap {
   struct Bin {
     int ix = 0, iz = 0;    ///< position in the domain
-    int ux = 0, uz = 0;    ///< the same, unwrapped so that a region is in one piece
+    int ux = 0, uz = 0;    ///< position in the domain, unwrapped so that a region is in one piece
     double cover = 0.0;    ///< [-]
     double surface = 0.0;  ///< h [m]
     int region = -1;       ///< -1: not part of a dune
@@ -83,7 +83,7 @@ struct HeightMap {
   std::vector<int> bin_of_grain;
   int n_regions = 0;
 
-  /// The region that grain p lies in, -1: in none.
+  /// Region that grain p lies in, -1: in none.
   [[nodiscard]] int region_of(std::size_t p) const {
     return bin_of_grain[p] < 0 ? -1 : bins[bin_of_grain[p]].region;
   }

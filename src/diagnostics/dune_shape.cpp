@@ -16,7 +16,7 @@ double to_period(double x, double length, bool periodic) {
   return periodic ? x - std::floor(x / length) * length : x;
 }
 
-/// An interval that starts empty.
+/// Interval that starts empty.
 struct Extent {
   double low = kInfinity, high = -kInfinity;
   void include(double a, double b) {
@@ -26,20 +26,21 @@ struct Extent {
   [[nodiscard]] double size() const { return high - low; }
 };
 
-/// Of the grains of a region, or of the high ones among them.
+/// Outline of the grains of a region, or of the high ones among them.
 struct Outline {
   double left_tip = -kInfinity;   // most downstream edge beside the strip, z < Cz
-  double right_tip = -kInfinity;  // the same, z > Cz
-  std::map<int, Extent> strip;    // in x, of the grains on the centreline, by column of bins (ux)
+  double right_tip = -kInfinity;  // most downstream edge beside the strip, z > Cz
+  // extent in x of the grains on the centreline, by column of bins (ux)
+  std::map<int, Extent> strip;
 };
 
-/// What is collected about one region; coordinates are unwrapped.
+/// Sums and extents of one region; coordinates are unwrapped.
 struct Region {
   DuneRecord record;
   int n_bins = 0;
-  double crest_height = 0.0;  // on the centreline
+  double crest_height = 0.0;  // height on the centreline
   double crest_weight = 0.0;  // sum of weights behind crest_x
-  Extent x, z;                // of all grains
+  Extent x, z;                // extent of all grains
   Outline all, high;
 };
 
@@ -101,7 +102,7 @@ struct DuneMeasurement {
     return std::abs(z - region.record.cz) < half_width;
   }
 
-  /// Number, volume, centroid, extents.
+  /// Sums up number, volume, centroid and extents of each region.
   void sum_grains() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
       const double d = grains[p].d, volume = std::numbers::pi / 6.0 * d * d * d;
@@ -125,8 +126,8 @@ struct DuneMeasurement {
     }
   }
 
-  /// H over the region; crest_x on the centreline. The strip may miss every bin centre only when
-  /// the dune has no sand there, and crest_x then stays at Cx.
+  /// Finds H over the region, and crest_x on the centreline. The strip may miss every bin centre
+  /// only when the dune has no sand there, and crest_x then stays at Cx.
   void find_crests() {
     for_each_bin([&](std::size_t b, Region& region, double, double z) {
       surface[b] = map.smoothed_surface(map.bins[b]);
@@ -146,7 +147,8 @@ struct DuneMeasurement {
     }
   }
 
-  /// The strip along the centreline, and the most downstream edge on either side of it.
+  /// Collects the grains in the strip along the centreline, and the most downstream edge on either
+  /// side of it.
   void collect_outlines() {
     for_each_grain([&](std::size_t p, Region& region, double x, double z) {
       const int bin = map.bin_of_grain[p];
@@ -164,8 +166,8 @@ struct DuneMeasurement {
     });
   }
 
-  /// From toe to lee foot: the columns around the crest that hold sand without a gap. Of a strip
-  /// that is not empty.
+  /// Centreline from toe to lee foot: the columns around the crest that hold sand without a gap.
+  /// The strip must not be empty.
   [[nodiscard]] Extent centreline(const std::map<int, Extent>& strip, double crest_x) const {
     const double column = crest_x / map.bin_x;
     const auto from_crest = [&](const auto& entry) { return std::abs(entry.first + 0.5 - column); };

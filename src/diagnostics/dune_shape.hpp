@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// One line of dune.csv (dune_table.hpp).
+/// Shape of a dune at one time: a line of dune.csv (dune_table.hpp).
 struct DuneRecord {
   double t = 0;           // [s]
   std::int64_t dune = 0;  // label; 0 is the largest
@@ -19,11 +19,11 @@ struct DuneRecord {
   double volume = 0;                     // [m^3]
   double celerity = 0;                   // [m/s]
   std::int64_t n_lost = 0;               // grains that left the domain so far
-  double flux = 0;  // streamwise, of grain volume, mean over the footprint [m^2/s]
-  double horn_left_2d = 0, horn_right_2d = 0;  // of what is two grains high [m]
+  double flux = 0;  // streamwise flux of grain volume, mean over the footprint [m^2/s]
+  double horn_left_2d = 0, horn_right_2d = 0;  // length of what is two grains high [m]
 };
 
-/// The dunes of one time.
+/// Dunes of one time.
 struct Dunes {
   std::vector<DuneRecord> records;
   std::vector<int> of_grain;  // index into records; -1: in no dune

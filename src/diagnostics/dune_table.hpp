@@ -1,4 +1,4 @@
-// dune.csv: the dunes of a run as they go.
+// Table dune.csv: the dunes of a run over time.
 #pragma once
 
 #include <array>

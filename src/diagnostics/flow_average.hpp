@@ -15,16 +15,17 @@ class FlowAverage {
  public:
   explicit FlowAverage(const Grid& grid);
 
-  /// Ghosts of the flow must be valid.
+  /// Adds the flow at t to the sums. Its ghosts must be valid.
   void sample(const FluidState& fluid, double t);
 
-  /// u, v, w, p, alpha_f, nu_t and uu, vv, ww, uv, uw, vw, in this order. Nothing without samples.
+  /// Means u, v, w, p, alpha_f, nu_t and moments uu, vv, ww, uv, uw, vw, in this order; empty
+  /// without samples.
   std::vector<NamedField> means();
-  /// Replaces flow_average.h5; nothing without samples.
+  /// Replaces flow_average.h5; does nothing without samples.
   void write(const OutputFiles& output, double t, std::int64_t step);
 
   void save(CheckpointWriter& file) const;
-  /// A restart of a run that had no averages starts them anew.
+  /// Reads the sums of a restart file. If it has none, the averages start anew.
   void load(const CheckpointReader& file);
 
  private:

@@ -22,7 +22,7 @@ void FlowStatistics::sample(const FluidState& fluid) {
   const StressDivergence stress{grid_, fluid.u, fluid.nu_t, viscosity_};
   Kokkos::parallel_for("statistics: plane sums", Kokkos::TeamPolicy<>(grid_.ny + 1, Kokkos::AUTO),
                        AddPlaneMeans{grid_, fluid.u, fluid.p, fluid.nu_t, stress, sample_});
-  // Summed over ranks before it is added: a restart then goes on with the same bits.
+  // Sum over ranks before adding: a restart then goes on with the same bits.
   static_assert(sizeof(PlaneSums) == PlaneSums::n_quantities * sizeof(Real));
   const auto row = host_copy(sample_);
   const std::span<Real> numbers(row.data()->value, row.size() * PlaneSums::n_quantities);

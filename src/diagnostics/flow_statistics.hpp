@@ -12,13 +12,13 @@
 
 namespace barchan {
 
-/// One line of statistics.csv, at the centre of a row of cells; what lives on y-faces is the mean
-/// of the row's two. Stresses are kinematic [m^2/s^2]; a prime is the deviation from the plane's
-/// mean over all samples.
+/// Line of statistics.csv, at the centre of a row of cells; values on y-faces are means of the
+/// row's two. Stresses are kinematic [m^2/s^2]; a prime is the deviation from the plane's mean over
+/// all samples.
 struct StatisticsRecord {
   double y = 0, y_plus = 0, u = 0, u_plus = 0;  // [m], y u_star/nu, [m/s], u/u_star
   double uu = 0, vv = 0, ww = 0, uv = 0;        // resolved <u'u'>, <v'v'>, <w'w'>, <u'v'>
-  double viscous = 0, subgrid = 0, total = 0;   // nu dU/dy, subgrid, both less <u'v'>
+  double viscous = 0, subgrid = 0, total = 0;   // nu dU/dy, subgrid stress, both less <u'v'>
   double k = 0;                                 // (uu + vv + ww)/2
   double p = 0, nu_t = 0;                       // [Pa], [m^2/s]
   std::int64_t n_samples = 0;
@@ -46,29 +46,29 @@ inline constexpr std::array kStatisticsColumns = [] {
 inline constexpr CsvTable<StatisticsRecord> kStatisticsTable{"statistics.csv", kStatisticsColumns};
 
 struct FlowStatisticsTable {
-  double u_star = 0;  // of the mean shear at the floor [m/s]
+  double u_star = 0;  // from the mean shear at the floor [m/s]
   std::vector<StatisticsRecord> lines;
 };
 
 class FlowStatistics {
  public:
-  /// Ghosts of the flow must be valid when it is sampled.
+  /// Makes empty sums. Ghosts of the flow must be valid when it is sampled.
   FlowStatistics(const FluidConfig& config, const Grid& grid);
 
   void sample(const FluidState& fluid);
   FlowStatisticsTable table() const;
-  /// Writes statistics.csv, whole or not at all. Nothing without samples.
+  /// Writes statistics.csv, whole or not at all; does nothing without samples.
   void write(const std::filesystem::path& file) const;
 
   void save(CheckpointWriter& file) const;
-  /// A restart of a run that had no statistics starts them anew.
+  /// Reads the sums of a restart file. If it has none, the statistics start anew.
   void load(const CheckpointReader& file);
 
  private:
   Grid grid_;
   double viscosity_;
-  Kokkos::View<PlaneSums*> sample_;                   // of this rank
-  Kokkos::View<PlaneSums*, Kokkos::HostSpace> sums_;  // of all ranks and samples
+  Kokkos::View<PlaneSums*> sample_;                   // sums on this rank
+  Kokkos::View<PlaneSums*, Kokkos::HostSpace> sums_;  // sums over all ranks and samples
   std::int64_t n_samples_ = 0;
 };
 

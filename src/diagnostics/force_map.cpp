@@ -62,7 +62,7 @@ void ForceMap::save(CheckpointWriter& file) const {
 void ForceMap::load(const CheckpointReader& file) {
   if (!file.has("statistics/force_map")) return;
   const auto numbers = file.array<double>("statistics/force_map");
-  if (numbers.size() != 3 + 4 * bins_.size()) return;  // of other bins: begin anew
+  if (numbers.size() != 3 + 4 * bins_.size()) return;  // other bins: begin anew
   step_ = numbers[0], start_ = numbers[1], end_ = numbers[2];
   std::copy(numbers.begin() + 3, numbers.end(), reinterpret_cast<double*>(bins_.data()));
 }

@@ -11,10 +11,10 @@
 
 namespace barchan {
 
-/// Ensemble averages as in Fig. 13 of Lima et al. (2022): over all grains that are in a bin at the
-/// times of the samples, buried ones included. Bins are polar about the centroid of the largest
-/// dune at that time: radius in steps of 2.5 mean diameters up to 100, angle in steps of 10
-/// degrees, 0 downstream, 90 left (z < C_z), 270 right.
+/// Map of mean forces as in Fig. 13 of Lima et al. (2022): ensemble averages over all grains that
+/// are in a bin at the times of the samples, buried ones included. Bins are polar about the
+/// centroid of the largest dune at that time: radius in steps of 2.5 mean diameters up to 100,
+/// angle in steps of 10 degrees, 0 downstream, 90 left (z < C_z), 270 right.
 class ForceMap {
  public:
   static constexpr int n_radii = 40, n_angles = 36;
@@ -23,21 +23,22 @@ class ForceMap {
   explicit ForceMap(const DuneDomain& domain)
       : domain_(domain), bins_(std::size_t{n_radii} * n_angles) {}
 
-  /// force: resultant on each grain [N], rows as in the cloud. Nothing while there is no dune.
+  /// Adds one time. `force`: resultant on each grain [N], rows as in the cloud. Does nothing while
+  /// there is no dune.
   void sample(double t, GrainCloud grains, std::span<const Vec3> force);
 
   struct Bin {
     double n = 0;  // grain samples
-    Vec3 force;    // their sum [N]
+    Vec3 force;    // sum of the forces [N]
   };
-  /// By angle first, then by radius.
+  /// Bins, by angle first, then by radius.
   const std::vector<Bin>& bins() const { return bins_; }
   double radius_step() const { return step_; }  // [m]
 
-  /// Writes force_map.csv, whole or not at all. Nothing without samples.
+  /// Writes force_map.csv, whole or not at all; does nothing without samples.
   void write(const std::filesystem::path& file) const;
   void save(CheckpointWriter& file) const;
-  /// A restart of a run that had no map starts it anew.
+  /// Reads the sums of a restart file. If it has none, the map starts anew.
   void load(const CheckpointReader& file);
 
  private:

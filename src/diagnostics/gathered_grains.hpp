@@ -1,4 +1,4 @@
-// The grains of all ranks on rank 0, for what looks at all of them at once.
+// Gathering of the grains of all ranks on rank 0, for analyses that need all of them at once.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace barchan {
 
-/// On rank 0: how many numbers each rank has, and where these begin among all; on others nothing.
+/// Shares of the ranks in a gathered list: the number of entries of each rank, and the offset of
+/// its first; empty on ranks other than 0.
 struct RankShares {
   std::vector<int> counts, offsets{0};
   RankShares(MPI_Comm ranks, int n) : counts(static_cast<std::size_t>(rank_count(ranks))) {
@@ -19,8 +20,8 @@ struct RankShares {
   }
 };
 
-/// Rows of doubles of all ranks, one rank after the other; on ranks other than 0 nothing. All ranks
-/// together.
+/// Gathers rows of doubles of all ranks on rank 0, one rank after the other; empty on other ranks.
+/// All ranks call it together.
 template <class Row>
 std::vector<Row> on_rank_0(MPI_Comm ranks, const std::vector<Row>& mine) {
   if (rank_count(ranks) == 1) return mine;
@@ -33,8 +34,8 @@ std::vector<Row> on_rank_0(MPI_Comm ranks, const std::vector<Row>& mine) {
   return all;
 }
 
-/// The reverse: rank 0 has a number for each row of all ranks, in the same order; each rank gets
-/// those of its n rows. All ranks together.
+/// Returns to each rank the numbers of its n rows. Rank 0 has a number for each row of all ranks,
+/// in the order of on_rank_0(). All ranks call it together.
 inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all, int n) {
   if (rank_count(ranks) == 1) return all;
   const RankShares of(ranks, n);
@@ -44,7 +45,8 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
   return mine;
 }
 
-/// All grains as the dune analytics take them. All ranks together; empty on ranks other than 0.
+/// All grains as the dune analytics take them; empty on ranks other than 0. All ranks call it
+/// together.
 inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
   const auto kin = host_copy(grains.kin);
   const auto heap = host_copy(grains.heap);

@@ -1,4 +1,4 @@
-// heaps.csv: which heap the grains of each dune came from.
+// Table heaps.csv: the heaps that the grains of each dune came from.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-/// The grains of one heap in one dune.
+/// Grains of one heap in one dune.
 struct HeapShare {
   double t = 0;           // [s]
   std::int64_t dune = 0;  // label; -1: in none
@@ -30,11 +30,11 @@ inline constexpr std::array kHeapColumns = [] {
 }();
 inline constexpr CsvTable<HeapShare> kHeapTable{"heaps.csv", kHeapColumns};
 
-/// Whether any of the grains came from one of several heaps.
+/// Tells if any of the grains came from one of several heaps.
 bool are_of_heaps(GrainCloud grains);
 
-/// One for each dune and heap that have grains in common, in order of dune, then heap. `labels`:
-/// the dune of each grain, -1: none.
+/// Shares of heaps in dunes: one for each dune and heap that have grains in common, in order of
+/// dune, then heap. `labels`: the dune of each grain, -1: none.
 std::vector<HeapShare> heap_shares(double t, GrainCloud grains, std::span<const int> labels);
 
 }  // namespace barchan

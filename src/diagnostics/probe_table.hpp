@@ -1,4 +1,4 @@
-// probes.csv: the flow at the points of each probe.
+// Table probes.csv: the flow at the points of each probe.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace barchan {
 
-/// One point of a probe at one time.
+/// Flow at one point of a probe at one time.
 struct ProbeRecord {
   double t = 0;                               // [s]
-  std::int64_t probe = 0, point = 0;          // in the order of the case, along the line
+  std::int64_t probe = 0, point = 0;          // number in the order of the case; along the line
   double x = 0, y = 0, z = 0;                 // [m]
   double u = 0, v = 0, w = 0;                 // [m/s]
   double p = 0;                               // [Pa]

@@ -11,20 +11,20 @@
 
 namespace barchan {
 
-/// The points of a probe in their order [m].
+/// Points of a probe in their order [m].
 std::vector<Vec3> points_of(const ProbeConfig& probe);
 
 /// Throws InputError if a point lies in a body of the case.
 void check_probes(const SettledCase& the_case);
 
-/// All probes of a case. Its memory is made once.
+/// All probes of a case. Its memory is allocated once.
 class Probes {
  public:
   explicit Probes(const Config& config);
 
   std::size_t count() const { return probes_.size(); }
-  /// The flow at the points of probe n at t [s], on all ranks, which call this together. Valid
-  /// until the next call.
+  /// Flow at the points of probe n at t [s], on all ranks, which call this together. Valid until
+  /// the next call.
   std::span<const ProbeRecord> sample(std::size_t n, const FluidState& fluid, double t);
 
  private:

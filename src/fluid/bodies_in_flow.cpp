@@ -5,9 +5,9 @@
 #include "kernels/fluid/field_algebra.hpp"
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/fluid/body_faces.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -58,7 +58,7 @@ void BodiesInFlow::find_columns(const std::vector<BodyFace>& faces, int pressure
     marks.on_host(0, last) = std::max(marks.on_host(0, last), face.j + 1);
   }
   near_ = ColumnMap::marked(grid_, marks, 0);
-  near_ = near_.grown(1 + pressure_reach).in_blocks();
+  near_ = near_.dilated(1 + pressure_reach).padded_to_blocks();
   regions_.fraction.set(near_);
   regions_.exchange.set({});
 }
@@ -83,9 +83,10 @@ void BodiesInFlow::correct_fraction(FluidState& fluid) {
                        CopyInBodies{cells_.data(), fluid.alpha_f, fluid.alpha_f_previous});
 }
 
-void BodiesInFlow::add_solid_inside(const Field& alpha, const Tally& tally, int slot) const {
+void BodiesInFlow::add_solid_inside(const Field& alpha, const DeviceReductions& reductions,
+                                    int slot) const {
   Kokkos::parallel_reduce("bodies: solid inside", items(n_cells()),
-                          SolidInBodies{grid_, cells_.data(), alpha}, tally.into(slot));
+                          SolidInBodies{grid_, cells_.data(), alpha}, reductions.into(slot));
 }
 
 void BodiesInFlow::limit_eddies(Field& nu_t) {
@@ -111,14 +112,14 @@ void BodiesInFlow::after_drive_across(const FlowStep& step) {
       ForcingAcross{faces_.data(), step.u_star.z, step.fluid.drive.z * step.dt, step.dt});
 }
 
-void BodiesInFlow::constrain_pressure(Field& f, const Tally& numbers) {
+void BodiesInFlow::constrain_pressure(Field& f, const DeviceReductions& numbers) {
   close(f);
   sum_each_cell("bodies: mean of the fluid", numbers, kMeanOfFluid, owned_cells(grid_),
                 HeightSum{grid_, f});
   numbers.combine(ranks_of(grid_), kMeanOfFluid, 1, MPI_SUM);
   Kokkos::parallel_for("bodies: mean of the fluid", items(1),
                        FindMeanOfFluid{numbers.data() + kMeanOfFluid, height_of_fluid_});
-  for_each_cell("bodies: mean of the fluid", grid_, Subtract{f, numbers.late(kMeanOfFluid)});
+  for_each_cell("bodies: mean of the fluid", grid_, Subtract{f, numbers.scalar(kMeanOfFluid)});
   close(f);
 }
 
@@ -153,7 +154,7 @@ void BodiesInFlow::measure(const FlowStep& step) {
   step.numbers.combine(ranks_of(grid_), kOfTerms, static_cast<int>(numbers()), MPI_SUM);
 }
 
-void BodiesInFlow::report(const Tally& numbers) {
+void BodiesInFlow::report(const DeviceReductions& numbers) {
   for (int body = 0; body < count(); ++body) {
     const auto load = numbers.get<ForceAndTorque>(number_of(body));
     loads_[static_cast<std::size_t>(body)] = {load.force, load.torque};

@@ -29,7 +29,7 @@ class BodiesInFlow : public FlowTerm {
   /// Zero in closed cells.
   void close(Field& f) const;
   /// Volume of solid that alpha leaves for closed cells [m^3].
-  void add_solid_inside(const Field& alpha, const Tally& tally, int slot) const;
+  void add_solid_inside(const Field& alpha, const DeviceReductions& reductions, int slot) const;
 
   const FlowRegions* regions() const override { return &regions_; }
   /// Old fraction becomes the new one in closed cells: what stands there is not in the flow.
@@ -41,9 +41,9 @@ class BodiesInFlow : public FlowTerm {
   void after_drive_across(const FlowStep& step) override;
   /// Takes the mean over the fluid away, and sets closed cells to zero. When grains leave, the sum
   /// of the source is not zero, and a periodic box has no pressure for that.
-  void constrain_pressure(Field& f, const Tally& numbers) override;
+  void constrain_pressure(Field& f, const DeviceReductions& numbers) override;
   void measure(const FlowStep& step) override;
-  void report(const Tally& numbers) override;
+  void report(const DeviceReductions& numbers) override;
   bool stop(FaceVector& u) override;
 
   /// Count of numbers, from kOfTerms on.

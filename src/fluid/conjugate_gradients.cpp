@@ -39,7 +39,7 @@ void ConjugateGradients::precondition() {
 
 /// A few numbers from others, on the device.
 template <class Functor>
-void ConjugateGradients::launch_once(const char* label, const Functor& functor) const {
+void ConjugateGradients::launch_scalar_kernel(const char* label, const Functor& functor) const {
   Kokkos::parallel_for(label, items(1), functor);
 }
 
@@ -55,9 +55,10 @@ void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
   sum_vector("pressure: clear water", numbers_, kNormOfB, owned_cells(grid_),
              ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
   numbers_.combine(ranks, kNormOfB, 2, MPI_SUM);
-  launch_once("pressure: mean of b", FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
+  launch_scalar_kernel("pressure: mean of b",
+                       FindMeanOfB{numbers_.data(), grid_.height_of_all_columns()});
   poisson_.solve(b, p);
-  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.late(kMeanOfB)});
+  for_each_cell("pressure: mean", *near_, Subtract{e_, numbers_.scalar(kMeanOfB)});
   fill_ghosts_near(p);
   const auto mean_of_p = [&](int slot) {
     sum_each_cell("pressure: mean", numbers_, slot, *near_, HeightSum{grid_, p});
@@ -70,7 +71,8 @@ void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
   }
   sum_each_cell("pressure: residual", numbers_, kRR, *near_, Residual{grid_, c, p, e_, r_});
   numbers_.combine(ranks, kSumOfP, 3, MPI_SUM);
-  launch_once("pressure: mean of p", FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
+  launch_scalar_kernel("pressure: mean of p",
+                       FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
 }
 
 /// d from z; before, p goes along the last one.
@@ -80,12 +82,12 @@ void ConjugateGradients::find_direction(Field& p, int n) {
     return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
                          HeightSum{grid_, d_});
   }
-  const LateReal a = numbers_.late(kA), surplus = numbers_.late(kSurplus);
-  launch_once("pressure: beta", FindBeta{numbers_.data()});
+  const DeviceScalar a = numbers_.scalar(kA), surplus = numbers_.scalar(kSurplus);
+  launch_scalar_kernel("pressure: beta", FindBeta{numbers_.data()});
   sum_each_cell(
       "pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
       NextDirection{
-          grid_, {d_, p, a, surplus}, z_, numbers_.late(kBeta), numbers_.late(kGoesOn), d_});
+          grid_, {d_, p, a, surplus}, z_, numbers_.scalar(kBeta), numbers_.scalar(kGoesOn), d_});
 }
 
 PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near, Field& b,
@@ -95,7 +97,7 @@ PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near
   if (relaxes_) local_.update(c, near, z_);
   start(c, b, p);
   local_.set_workspace(b);  // which is no longer needed
-  launch_once("pressure: end", FindEnd{numbers_.data(), config_.pressure_tolerance});
+  launch_scalar_kernel("pressure: end", FindEnd{numbers_.data(), config_.pressure_tolerance});
   const int most = config_.max_iterations - 1;
   const int ahead = std::min({directions_before_, ahead_, most});
   for (int n = 1; n <= ahead; ++n) iterate(c, p, n);
@@ -105,9 +107,9 @@ PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near
     numbers_.fetch();
   }
   directions_before_ = static_cast<int>(numbers_.get(kDirections));
-  const LateReal surplus = numbers_.late(kSurplus);
+  const DeviceScalar surplus = numbers_.scalar(kSurplus);
   if (directions_before_ > 0) {
-    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.late(kA), surplus});
+    for_each_cell("pressure: advance", grid_, AdvancePressure{d_, p, numbers_.scalar(kA), surplus});
   } else {
     for_each_cell("pressure: remove mean", grid_, Subtract{p, surplus});
   }
@@ -129,11 +131,12 @@ void ConjugateGradients::iterate(const FaceVector& c, Field& p, int n) {
   sum_each_cell("pressure: operator", numbers_, kCurvature, *near_,
                 ApplyOperator{grid_, c, d_, e_});
   numbers_.combine(ranks, kCurvature, 2, MPI_SUM);
-  launch_once("pressure: step", FindStep{numbers_.data(), grid_.height_of_all_columns(), n == 1});
+  launch_scalar_kernel("pressure: step",
+                       FindStep{numbers_.data(), grid_.height_of_all_columns(), n == 1});
   sum_each_cell("pressure: advance", numbers_, kRR, *near_,
-                AdvanceResidual{grid_, e_, r_, numbers_.late(kA), numbers_.late(kGoesOn)});
+                AdvanceResidual{grid_, e_, r_, numbers_.scalar(kA), numbers_.scalar(kGoesOn)});
   numbers_.combine(ranks, kRR, 1, MPI_SUM);
-  launch_once("pressure: whether done", FindWhetherDone{numbers_.data()});
+  launch_scalar_kernel("pressure: whether done", FindWhetherDone{numbers_.data()});
 }
 
 PressureReport ConjugateGradients::solve_clear(const Field& b, Field& p) {

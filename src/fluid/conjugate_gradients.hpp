@@ -3,7 +3,7 @@
 
 #include "src/fluid/local_correction.hpp"
 #include "src/fluid/pressure_solver.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
@@ -29,7 +29,7 @@ class ConjugateGradients : public PressureSolver {
   void iterate(const FaceVector& c, Field& p, int n);
   void find_direction(Field& p, int n);
   template <class Functor>
-  void launch_once(const char* label, const Functor& functor) const;
+  void launch_scalar_kernel(const char* label, const Functor& functor) const;
   void precondition();
   void fill_ghosts_near(Field& f) const;
 
@@ -42,7 +42,7 @@ class ConjugateGradients : public PressureSolver {
   LocalCorrection local_;
   const Region* near_ = nullptr;  // of this solve
   int directions_before_ = 0;     // of the last solve
-  Tally numbers_;                 // GradientNumber
+  DeviceReductions numbers_;      // GradientNumber
   Field r_;                       // residual, zero between solves and beyond near_
   Field z_, d_, e_;               // M^-1 r; direction; b, then A d
 };

@@ -8,8 +8,8 @@ namespace barchan {
 /// Where the flow meets grains.
 struct FlowRegions {
   explicit FlowRegions(const Grid& grid) : exchange(grid), fraction(grid) {}
-  Region exchange;      // elsewhere nothing is exchanged
-  NearGrains fraction;  // elsewhere the fraction is one, before and after the step
+  Region exchange;        // elsewhere nothing is exchanged
+  ActiveRegion fraction;  // elsewhere the fraction is one, before and after the step
 };
 
 /// On faces. Of the impulse wall faces and ghosts are not read.

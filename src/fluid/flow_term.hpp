@@ -3,7 +3,7 @@
 
 #include "src/fluid/exchange_on_faces.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/parallel/tally.hpp"
+#include "src/parallel/device_reductions.hpp"
 
 namespace barchan {
 
@@ -25,7 +25,7 @@ struct FlowStep {
   FaceVector& u_star;    // predicted velocity [m/s]
   FaceVector& mobility;  // c of the pressure equation, near grains and bodies
   Field& spare;          // cell field with room for any values until the pressure is solved
-  const Tally& numbers;
+  const DeviceReductions& numbers;
   Real dt;
 };
 
@@ -47,11 +47,11 @@ class FlowTerm {
   /// Acts on u*_z, to which the drive across has just been added.
   virtual void after_drive_across(const FlowStep&) {}
   /// Projects the source of the pressure, and the pressure, onto what this term allows.
-  virtual void constrain_pressure(Field&, const Tally&) {}
+  virtual void constrain_pressure(Field&, const DeviceReductions&) {}
   /// Adds up numbers of the new velocity and pressure.
   virtual void measure(const FlowStep&) {}
   /// Reads numbers that the host has fetched.
-  virtual void report(const Tally&) {}
+  virtual void report(const DeviceReductions&) {}
 
   /// Stops the flow of a start where there can be none. Returns whether there was any, on all
   /// ranks.

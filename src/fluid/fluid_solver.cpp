@@ -2,8 +2,8 @@
 
 #include "kernels/fluid/field_algebra.hpp"
 #include "kernels/fluid/wale.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/poison.hpp"
-#include "src/parallel/tally_cells.hpp"
 
 namespace barchan {
 
@@ -46,7 +46,7 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
 void FluidSolver::add_bodies(const Solids& solids) {
   bodies_ =
       std::make_unique<BodiesInFlow>(solids, grid_, boundary_.halo(), config_, pressure_->reach());
-  numbers_ = Tally("fluid: numbers", kOfTerms + bodies_->numbers());
+  numbers_ = DeviceReductions("fluid: numbers", kOfTerms + bodies_->numbers());
 }
 
 void FluidSolver::set_solids(const Solids& solids) {

@@ -128,7 +128,7 @@ class FluidSolver {
   std::vector<FlowTerm*> terms_;
   FlowRegions everywhere_, nowhere_;
   const FlowRegions* regions_ = &nowhere_;  // of this step
-  Tally numbers_;                           // FlowNumber
+  DeviceReductions numbers_;                // FlowNumber
   DrivenFlow flow_;                         // its rate is that with the drive after apply_drive()
   FluidStepReport report_;
 };

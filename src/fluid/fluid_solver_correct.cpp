@@ -4,7 +4,7 @@
 #include "kernels/fluid/field_algebra.hpp"
 #include "src/base/stopwatch.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
@@ -28,7 +28,7 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   FaceVector& u_star = workspace_.u_star;
   std::swap(fluid.p, fluid.p_previous);
   const Real last = fluid.has_history ? 2 : 1, before = fluid.has_history ? -1 : 0;
-  for_each_cell("fluid: extrapolate pressure", regions_->fraction.around,
+  for_each_cell("fluid: extrapolate pressure", regions_->fraction.dilated,
                 Axpby{last, fluid.p_previous, before, fluid.p});
   boundary_.halo().fill(u_star.x, u_star.z);
   for_each_cell("fluid: pressure source", grid_,

@@ -1,6 +1,6 @@
 // The predictor of the fluid step, and the drive.
 #include "src/fluid/fluid_solver.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 
 namespace barchan {
 
@@ -17,7 +17,7 @@ AdamsBashforth weights(const FluidState& fluid, Real dt) {
 
 /// alpha u of the old time level near grains and bodies, with ghosts.
 void FluidSolver::update_mass_flux(const FluidState& fluid) {
-  const Region& around = regions_->fraction.around;
+  const Region& around = regions_->fraction.dilated;
   // Walls are closed in every step: the workspace was lent.
   for_each_cell("fluid: nothing through the walls",
                 CellRange{-1, grid_.nx + 1, 0, 1, -1, grid_.nz + 1},
@@ -29,7 +29,7 @@ void FluidSolver::update_mass_flux(const FluidState& fluid) {
 
 /// c near grains and bodies, and how much a force along x and z adds to the flow.
 void FluidSolver::update_mobility(const FluidState& fluid) {
-  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.around,
+  sum_vector("fluid: mobility", numbers_, kMobility, regions_->fraction.dilated,
              UpdateMobility{grid_, fluid.alpha_f, mobility_});
 }
 
@@ -61,7 +61,7 @@ void FluidSolver::predict(FluidState& fluid, Real dt) {
                 ByRegion{regions_->exchange.ref(), with_exchange, by_region(near, in_clear_fluid)});
   update_mobility(fluid);
   for (FlowTerm* term : terms_) term->after_predict(step(fluid, dt));
-  if (fraction_varies_ && regions_->fraction.around.has_ghosts())
+  if (fraction_varies_ && regions_->fraction.dilated.has_ghosts())
     boundary_.fill_periodic(mobility_);
 }
 

@@ -1,4 +1,4 @@
-// What a feed of grains remembers from one fluid step to the next (src/grains/grain_feed.hpp).
+// State of a feed of grains from one fluid step to the next (src/grains/grain_feed.hpp).
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace barchan {
 
-/// What a grain has before it has a place: radius [m], mass [kg], index of its kind.
+/// Grain without a place: radius [m], mass [kg], index of its kind.
 struct GrainBody {
   Real r = 0, m = 0, kind = 0;
   auto operator<=>(const GrainBody&) const = default;
 };
 
-/// The same on all ranks.
+/// State of a feed, the same on all ranks.
 struct FeedState {
   std::int64_t n_fed = 0;          // grains that have come in
-  std::int64_t next_id = 0;        // of the next one; 0: none has been given yet
+  std::int64_t next_id = 0;        // id of the next grain; 0: none has been given yet
   std::int64_t n_tries = 0;        // places that were tried, for the random numbers
   std::int64_t n_steps = 0;        // fluid steps since t = 0
   Real due = 0;                    // grains that a given rate makes by now,
-  std::int64_t n_asked = 0;        // and those of them that wait or are in
-  std::vector<GrainBody> bodies;   // of the grains at the start, in ascending order
+  std::int64_t n_asked = 0;        // grains asked for so far: they wait or are in
+  std::vector<GrainBody> bodies;   // bodies of the grains at the start, in ascending order
   std::vector<GrainBody> waiting;  // grains that have no place yet, in their order
 };
 

@@ -10,7 +10,7 @@ namespace barchan {
 
 using Entries = Kokkos::View<int*>;
 
-/// Fills sent_entry_ and counts_.
+/// Chooses the grains to send: fills sent_entry_ and counts_.
 void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
                          const GrainOwners& owners) {
   const auto kin = grains.kin;
@@ -40,7 +40,7 @@ void GhostGrains::choose(const GrainState& grains, const SearchColumns& columns,
   counts_ = exchange_counts(grains.ranks, std::move(copies.to));
 }
 
-/// What was received, into the entries after the owned ones, in the order of the columns.
+/// Unpacks received ghosts into the entries after the owned ones, in the order of the columns.
 void GhostGrains::unpack(GrainState& grains, const SearchColumns& columns) {
   const int n = grains.n, n_ghosts = count();
   grains.n_ghosts = n_ghosts;

@@ -1,4 +1,4 @@
-// Copies of the grains of other ranks beside this one's columns.
+// Ghosts: copies of the grains of other ranks beside this one's columns.
 #pragma once
 
 #include "kernels/grains/search_columns.hpp"
@@ -7,27 +7,29 @@
 
 namespace barchan {
 
-/// Ghosts stand in the entries after the owned grains, in the order of their columns and heights;
-/// which ones there are changes with the neighbour list, where they are in every grain step.
+/// Ghosts of a rank, in the entries after the owned grains, in the order of their columns and
+/// heights. The choice of ghosts changes with the neighbour list, their positions in every grain
+/// step.
 class GhostGrains {
  public:
   /// Copies every grain beside another rank's columns to that rank; the arrays that ghosts have are
-  /// given room for them behind the grains.n owned entries. All ranks together.
+  /// given room for them behind the grains.n owned entries. All ranks call it together.
   void find(GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
-  /// Position, velocity and spin of the ghosts as their owners have them now. All ranks together.
+  /// Updates position, velocity and spin of the ghosts from their owners. All ranks call it
+  /// together.
   void update(const Kokkos::View<GrainKinematics*>& kin);
 
   int count() const { return counts_.n_from(); }
   const ExchangeCounts& counts() const { return counts_; }
 
-  // Public only because nvcc takes no device lambda from a private function.
+  // Parts of find(); public only because nvcc takes no device lambda from a private function.
   void choose(const GrainState& grains, const SearchColumns& columns, const GrainOwners& owners);
   void unpack(GrainState& grains, const SearchColumns& columns);
 
  private:
   ExchangeCounts counts_;
   Kokkos::View<int*> sent_entry_;  // in the order of the ranks they are sent to
-  Kokkos::View<int*> entry_;       // of each ghost, in the order they are received
+  Kokkos::View<int*> entry_;       // entry of each ghost, in the order they are received
   EntryExchange exchange_{"ghosts"};
 };
 

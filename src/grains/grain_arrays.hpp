@@ -1,4 +1,5 @@
-// The table of all arrays that a grain has, for what allocates, sorts, moves, copies or saves them.
+// Table of all arrays that a grain has, for code that allocates, sorts, moves, copies or saves
+// them.
 #pragma once
 
 #include "src/grains/grain_state.hpp"
@@ -38,7 +39,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
   add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites | kDepositReads);
   add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
-  add(f.steady_force,     "steady_force",     "N",    always,     kGatherWrites);
+  add(f.explicit_force,   "explicit_force",   "N",    always,     kGatherWrites);
   add(f.added_mass,       "added_mass",       "kg",   with_fluid, kGatherWrites);
   add(f.u_start,          "u_start",          "m/s",  with_fluid);
   add(e.pressure_force,   "pressure_force",   "N",    with_flow,  kGatherWrites);
@@ -53,7 +54,7 @@ void for_each_grain_array(State& s, const Action& action) {
   for (auto& x : s.extra) add(x.values, x.name.c_str(), x.unit.c_str(), always, x.uses);
 }
 
-/// The same for the arrays that the state has and that are put to one of these uses.
+/// Calls action(GrainArray, array) for each allocated array with one of these uses.
 template <class State, class Action>
 void for_each_grain_array(State& s, unsigned uses, const Action& action) {
   for_each_grain_array(s, [&](const GrainArray& about, auto& array) {
@@ -61,14 +62,14 @@ void for_each_grain_array(State& s, unsigned uses, const Action& action) {
   });
 }
 
-/// What of a grain is packed together for a use, or all of it.
+/// Layout of the values of a grain that are packed together for these uses.
 inline PackLayout layout_of(const GrainState& s, unsigned uses = kAnyUse) {
   PackLayout layout;
   for_each_grain_array(s, uses, [&](const auto&, const auto& array) { layout.add(array); });
   return layout;
 }
 
-/// Room for n entries of one array, an eighth more where it grows; what it holds stays.
+/// Makes room for n entries of one array, an eighth more where it grows; its content stays.
 template <class View>
 void reserve_entries(View& array, int n) {
   const auto entries = static_cast<std::size_t>(n);

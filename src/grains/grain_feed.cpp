@@ -18,12 +18,12 @@ namespace barchan {
 
 namespace {
 
-/// Places that are tried in a fluid step, one for each grain that waits.
+/// Number of places that are tried in a fluid step, one for each grain that waits.
 constexpr int kPlaces = 64;
-/// What random numbers are for.
+/// Purposes of random numbers.
 enum Purpose : std::uint8_t { kBody, kAcross };
 
-/// Rows of Reals of all ranks, one rank after the other, on each of them.
+/// Gathers rows of Reals of all ranks on each of them, one rank after the other.
 template <class Row>
 std::vector<Row> of_all_ranks(MPI_Comm ranks, const std::vector<Row>& mine) {
   const auto me = static_cast<std::ptrdiff_t>(rank_of(ranks));
@@ -39,7 +39,7 @@ std::vector<Row> of_all_ranks(MPI_Comm ranks, const std::vector<Row>& mine) {
   return all;
 }
 
-/// The bodies to choose from, and the first number that no grain has.
+/// Takes the bodies to choose from, and the first number that no grain has.
 void look_at_start(GrainState& grains) {
   const auto kin = host_copy(grains.kin);
   const auto kind = host_copy(grains.kind);
@@ -51,8 +51,8 @@ void look_at_start(GrainState& grains) {
   std::ranges::sort(grains.feed.bodies);
 }
 
-/// Those that are due and were not asked for; the sum of many parts of a grain may miss a whole one
-/// by its last digits.
+/// Number of grains that are due and were not asked for. The sum of many parts of a grain may miss
+/// a whole one by its last digits.
 std::int64_t n_later(const FeedState& feed) {
   return static_cast<std::int64_t>(feed.due * (1 + 1e-12)) - feed.n_asked;
 }
@@ -65,7 +65,7 @@ GrainFeed::GrainFeed(const GrainsCase& config)
       dt_(config.fluid_step),
       lz_(config.size[2]),
       walls_z_(config.grains.boundary_z == GrainBoundaryZ::wall),
-      from_seam_(config.grains.boundary_x == GrainBoundaryX::follow),
+      from_window_edge_(config.grains.boundary_x == GrainBoundaryX::follow),
       places_("feed: places", kPlaces),
       taken_("feed: taken places", kPlaces),
       n_leaving_("feed: grains that leave") {}
@@ -82,7 +82,7 @@ void GrainFeed::advance(GrainState& grains, NeighborList& list) {
   if (!feed.waiting.empty()) come_in(grains, list);
 }
 
-/// What is about to leave waits to come back, in the order of the numbers.
+/// Adds the grains that are about to leave to those that wait, in the order of their numbers.
 void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
   const CountLeaving who = list.leaving(grains);
   int n = 0;
@@ -100,8 +100,8 @@ void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
   for (const LeavingGrain& g : all) grains.feed.waiting.push_back({g.r, g.m, g.kind});
 }
 
-/// At a given rate: as many as are due, with bodies of grains at the start. Of the later ones it is
-/// enough to know how many.
+/// Asks for as many grains as are due at a given rate, with bodies of grains at the start. Of those
+/// far back in the queue only the number is kept.
 void GrainFeed::ask_for_grains(FeedState& feed) const {
   feed.due += config_.rate * dt_;
   if (feed.bodies.empty())
@@ -114,7 +114,7 @@ void GrainFeed::ask_for_grains(FeedState& feed) const {
   }
 }
 
-/// A place for each of the first grains that wait.
+/// Chooses a place for each of the first grains that wait.
 std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const PeriodicBox& box) const {
   FeedState& feed = grains.feed;
   std::vector<FeedPlace> places;
@@ -128,7 +128,8 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
       to = std::clamp(to, body.r, last);
     }
     const auto count = static_cast<std::uint64_t>(feed.n_tries++);
-    const Real inlet = from_seam_ && std::isfinite(grains.seam_x) ? grains.seam_x : 0;
+    const Real inlet =
+        from_window_edge_ && std::isfinite(grains.window_edge) ? grains.window_edge : 0;
     const Real x = inlet + config_.x + body.r;
     const Real z = from + (to - from) * uniform_number(config_.seed, kAcross, count);
     places.push_back({.x = box.wrap({x, config_.height + body.r, z}), .r = body.r});
@@ -136,7 +137,7 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
   return places;
 }
 
-/// For each place by how many ranks' grains it is taken.
+/// Number of ranks whose grains take each place.
 std::vector<std::int64_t> GrainFeed::taken(const GrainState& grains,
                                            const std::vector<FeedPlace>& places,
                                            const PeriodicBox& box) const {
@@ -156,7 +157,7 @@ std::vector<std::int64_t> GrainFeed::taken(const GrainState& grains,
   return all;
 }
 
-/// Those whose place is free come in.
+/// Brings in the grains whose places are free.
 void GrainFeed::come_in(GrainState& grains, NeighborList& list) const {
   FeedState& feed = grains.feed;
   const std::vector<FeedPlace> places = places_to_try(grains, list.box());

@@ -1,4 +1,4 @@
-// Grains that come in: [grains.feed].
+// Feed of grains: [grains.feed].
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace barchan {
 
-/// At the end of a fluid step grains come in at rest, at a given rate or as many as leave. Each is
+/// Feed of grains at rest at the end of a fluid step, at a given rate or as many as leave. Each is
 /// put at random across the stream where it overlaps no other and no body, or waits for the next
-/// step. Nothing depends on the number of ranks. All ranks together.
+/// step. Nothing depends on the number of ranks. All ranks call it together.
 class GrainFeed {
  public:
-  /// The case must have [grains.feed].
+  /// Makes a feed. The case must have [grains.feed].
   explicit GrainFeed(const GrainsCase& config);
 
-  /// At the end of a fluid step: grains leave, then others come in.
+  /// Ends a fluid step: grains leave, then others come in.
   void advance(GrainState& grains, NeighborList& list);
 
  private:
@@ -30,17 +30,17 @@ class GrainFeed {
 
   FeedConfig config_;
   Bodies bodies_;
-  Real dt_ = 0;             // of a fluid step [s]
-  Real lz_ = 0;             // [m]
-  bool walls_z_ = false;    // of the grains
-  bool from_seam_ = false;  // x counts from the seam of a window that follows its dune
+  Real dt_ = 0;                    // fluid step [s]
+  Real lz_ = 0;                    // [m]
+  bool walls_z_ = false;           // the grains have walls in z
+  bool from_window_edge_ = false;  // x counts from the edge of a window that follows its dune
   Kokkos::View<FeedPlace*> places_;
   Kokkos::View<int*> taken_;
   Kokkos::View<LeavingGrain*> leaving_;
   Kokkos::View<int> n_leaving_;
 };
 
-/// Grains that should have come in by now and have no place yet.
+/// Number of grains that should have come in by now and have no place yet.
 std::int64_t n_waiting(const FeedState& feed);
 
 }  // namespace barchan

@@ -34,8 +34,8 @@ LawTables filled(const GrainConfig& config, const GrainKinds& kinds, const Fill&
   return tables;
 }
 
-/// Restitution and friction of two materials that nothing is said of; elastic constants are those
-/// of each side.
+/// Mixes restitution and friction of two materials where a case gives none; elastic constants are
+/// those of each side.
 Material mixed(const Material& a, const Material& b) {
   Material m;
   for (auto Material::*member :

@@ -14,7 +14,7 @@ namespace barchan {
 /// Materials of the kinds of grains, at most kMaxKinds. A case has one; GrainState::kind says which
 /// each grain is of.
 struct GrainKinds {
-  std::vector<Material> material;  // of each: elastic constants, and its contacts with its own kind
+  std::vector<Material> material;  // of each kind: elastic constants, and contacts within the kind
   std::map<std::pair<int, int>, Material> unlike;  // restitution, friction of (a, b), a < b
 
   int count() const { return static_cast<int>(material.size()); }
@@ -26,23 +26,23 @@ struct GrainKinds {
   }
 };
 
-/// Those of a case. What [[grains.pair]] leaves out of a contact of unlike kinds is the geometric
-/// mean of both, as in LAMMPS (pair_style granular).
+/// Kinds of a case. Values that [[grains.pair]] does not give for a contact of unlike kinds are the
+/// geometric mean of both, as in LAMMPS (pair_style granular).
 GrainKinds kinds_of(const GrainConfig& config);
-/// Their densities [kg/m^3].
+/// Densities of the kinds of a case [kg/m^3].
 std::vector<Real> densities_of(const GrainConfig& config);
 
-/// One table of the case's contact model.
+/// Table of laws for several kinds, with one contact model.
 template <class Stiffness>
 using LawTableOfMany = LawTable<Stiffness, true>;
 using LawTables = ContactModels::VariantOf<LawTableOfMany>;
 
 /// Laws of the contacts of all kinds with each other.
 LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds);
-/// And with the walls, under law_entry(kind, 0).
+/// Laws of the contacts of all kinds with the walls, under law_entry(kind, 0).
 LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds);
 
-/// The first entry alone.
+/// Table with the first entry alone.
 template <class Stiffness>
 LawTable<Stiffness, false> only_law(const LawTable<Stiffness, true>& table) {
   return {.stiffness = {table.stiffness[0]}, .friction = {table.friction[0]}};

@@ -12,7 +12,7 @@ namespace {
 
 using Entries = Kokkos::View<int*>;
 
-/// Calls action(array) for what a history has of each contact.
+/// Calls action(array) for each array of a contact history.
 template <class History, class Action>
 void for_each_contact_array(History& history, const Action& action) {
   const auto if_there = [&action](auto& array) {
@@ -41,7 +41,7 @@ Entries new_ranks(const GrainState& grains, const SearchColumns& columns,
   return rank;
 }
 
-/// Where its contacts go with each grain.
+/// Destination of each contact: that of its grain.
 Entries ranks_of_contacts(const Entries& rank_of_grain, const Entries& first, int n,
                           int n_contacts) {
   const auto rank = uninitialized<Entries>("migration: ranks of contacts", n_contacts);
@@ -52,7 +52,7 @@ Entries ranks_of_contacts(const Entries& rank_of_grain, const Entries& first, in
   return rank;
 }
 
-/// Numbers of contacts of n grains, which travel with them, and back.
+/// Numbers of contacts of n grains, which travel with them, from the offsets.
 using Numbers = Kokkos::View<std::int64_t*>;
 Numbers contacts_of_grains(const Entries& first, int n) {
   const auto n_contacts = uninitialized<Numbers>("migration: contacts of grains", n);
@@ -70,7 +70,7 @@ Entries first_contacts(const Numbers& n_contacts, int n) {
   return first;
 }
 
-/// The entries that stay of an array, and room for n.
+/// Keeps the entries `stay` of an array, and makes room for n.
 template <class View>
 void keep_entries(View& array, const Entries& stay, int n) {
   const View kept(array.label(), static_cast<std::size_t>(std::max(n, 1)));

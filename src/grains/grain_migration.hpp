@@ -1,4 +1,4 @@
-// Grains that have come into columns of another rank go there, with all they remember.
+// Migration: grains that have come into columns of another rank go there, with their history.
 #pragma once
 
 #include "kernels/grains/neighbor_search.hpp"
@@ -11,12 +11,12 @@ namespace barchan {
 /// Grains that stay keep their order; those that come follow in the order of their senders.
 class GrainMigration {
  public:
-  /// `history` holds contacts under both of their grains; afterwards those of the new entries.
-  /// `room`: as many as there are grains, overwritten. All ranks together.
+  /// Migrates grains. `history` holds contacts under both of their grains; afterwards those of the
+  /// new entries. `room`: as many as there are grains, overwritten. All ranks call it together.
   void operator()(GrainState& grains, ContactHistory& history, const SearchColumns& columns,
                   const GrainOwners& owners, const Kokkos::View<Vec4*>& room);
 
-  /// Grains that have left this rank for another so far.
+  /// Number of grains that have left this rank for another so far.
   std::int64_t n_sent() const { return n_sent_; }
 
  private:

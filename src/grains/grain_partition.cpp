@@ -37,7 +37,7 @@ class WorkAlongCurve {
       sum_.push_back(sum_.back() + static_cast<std::int64_t>(grain & 0xffffffffu));
   }
   std::int64_t total() const { return sum_.back(); }
-  /// Of the codes before this one.
+  /// Work at the codes before this one.
   std::int64_t before(std::uint32_t code) const {
     const auto at = std::lower_bound(grain_.begin(), grain_.end(), std::uint64_t{code} << 32);
     return sum_[static_cast<std::size_t>(at - grain_.begin())];
@@ -45,11 +45,12 @@ class WorkAlongCurve {
 
  private:
   std::vector<std::uint64_t> grain_;
-  std::vector<std::int64_t> sum_{0};  // of the grains before
+  std::vector<std::int64_t> sum_{0};  // work of the grains before
 };
 
-/// Where equal pieces of the work of all ranks begin, found together by bisection. Integers: the
-/// same for any number of threads, and for any share of the grains among the ranks before.
+/// Finds together, by bisection, where equal pieces of the work of all ranks begin. It works with
+/// integers: the result is the same for any number of threads, and for any share of the grains
+/// among the ranks before.
 std::vector<std::int64_t> equal_pieces(MPI_Comm ranks, const WorkAlongCurve& work,
                                        std::int64_t total, int count) {
   const auto n = static_cast<std::size_t>(count);
@@ -93,7 +94,7 @@ void GrainPartition::balance(const GrainState& grains, const SearchColumns& colu
   const bool again = has_cut_;
   const WorkAlongCurve work(work_at_places(grains, columns, contacts));
   restore(equal_pieces(ranks_, work, total, count_), at_cut_);
-  std::vector<std::int64_t> piece;  // what each rank will have, from here
+  std::vector<std::int64_t> piece;  // work that each rank will have, from here
   for (int r = 0; r < count_; ++r) {
     const std::int64_t end = r + 1 < count_ ? work.before(on_host_(r + 1)) : work.total();
     piece.push_back(end - work.before(on_host_(r)));

@@ -1,4 +1,4 @@
-// Which rank has which grains: pieces of the Morton curve through the x-z columns.
+// Partition of the grains among ranks: pieces of the Morton curve through the x-z columns.
 #pragma once
 
 #include <mpi.h>
@@ -11,32 +11,33 @@
 
 namespace barchan {
 
-/// How the work is shared: that of the busiest rank over the mean.
+/// Largest imbalance without a new cut: work of the busiest rank over the mean.
 inline constexpr Real kWorstImbalance = 1.03;
 
-/// Cuts the curve into pieces of equal work, a piece for each rank.
+/// Partition of the curve into pieces of equal work, one for each rank.
 class GrainPartition {
  public:
   explicit GrainPartition(MPI_Comm ranks);
 
-  /// Cuts anew if the work is shared worse than kWorstImbalance, and than twice the imbalance that
-  /// was left at the last cut (columns are not cut). A grain counts one, and one half for each side
-  /// of a contact, which `contacts` holds under its grains (starts); moving a grain takes about as
-  /// long as a contact. All ranks together.
+  /// Cuts anew if the imbalance is above kWorstImbalance, and above twice that which was left at
+  /// the last cut (columns are not cut). A grain counts one, and one half for each side of a
+  /// contact, which `contacts` holds under its grains (starts); moving a grain takes about as long
+  /// as a contact. All ranks call it together.
   void balance(const GrainState& grains, const SearchColumns& columns,
                const Kokkos::View<const int*>& contacts);
 
-  /// Of a restart file: offsets() and imbalance_at_cut() of the ranks that wrote it.
+  /// Restores the partition of a restart file: offsets() and imbalance_at_cut() of the ranks that
+  /// wrote it.
   void restore(const std::vector<std::int64_t>& starts, Real imbalance_at_cut);
   std::vector<std::int64_t> offsets() const;
 
   GrainOwners owners() const { return {me_, start_}; }
   /// Place where this rank's columns begin.
   std::uint32_t origin() const { return on_host_(me_); }
-  /// Work of the busiest rank over the mean at the last balance(), before its cut and after it.
+  /// Imbalance at the last balance(), before its cut and after it.
   Real imbalance_before() const { return before_; }
   Real imbalance() const { return now_; }
-  /// What the last cut left: the next one waits for more.
+  /// Imbalance that the last cut left: the next one waits for more.
   Real imbalance_at_cut() const { return at_cut_; }
 
  private:

@@ -12,23 +12,24 @@ namespace barchan {
 
 namespace {
 
-/// Columns are as wide as two grains reach whose skins are so much wider than at rest; faster
-/// grains are looked for in the second ring.
+/// Ratio of the widest skin that counts as narrow to that at rest. Columns are as wide as the reach
+/// of two grains with such skins; faster grains are looked for in the second ring.
 constexpr Real kNarrowSkin = 3;
-/// Where a domain is too narrow for two rings: the largest skin over the largest diameter. With
-/// wider ones rebuilds are rarer, but columns are as much wider, and hold more grains.
+/// Largest skin over the largest diameter where a domain is too narrow for two rings. With wider
+/// ones rebuilds are rarer, but columns are as much wider, and hold more grains.
 constexpr Real kMaxSkin = 0.4;
 
 }  // namespace
 
 GrainSkins::GrainSkins(const GrainsCase& config, Real r_max, Real reach)
     : least_(config.grains.skin / 2), column_width_(2 * (r_max + kNarrowSkin * least_) + reach) {
-  Real narrowest = std::numeric_limits<Real>::infinity();  // of the periodic directions
+  // width of the narrowest periodic direction
+  Real narrowest = std::numeric_limits<Real>::infinity();
   if (is_periodic_x(config.grains)) narrowest = config.size[0];
   if (config.grains.boundary_z == GrainBoundaryZ::periodic)
     narrowest = std::min(narrowest, config.size[2]);
   narrowest *= 1 - 1e-9;  // whatever way columns are rounded
-  // No column may be met twice.
+  // The walk must not meet a column twice.
   if (narrowest >= 5 * column_width_) {
     largest_ = column_width_ - r_max - reach / 2;
   } else {

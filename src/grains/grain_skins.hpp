@@ -1,4 +1,4 @@
-// How wide the skin of each grain is in the neighbour list.
+// Width of each grain's skin in the neighbour list.
 #pragma once
 
 #include "src/grains/grain_state.hpp"
@@ -6,23 +6,24 @@
 
 namespace barchan {
 
-/// Skins follow the speed: a list expires for all grains at about the same time, though a few
+/// Skins that follow the speed: a list expires for all grains at about the same time, though a few
 /// move a hundred times as fast as the rest.
 class GrainSkins {
  public:
-  /// `reach`: of the contact law between two surfaces [m].
+  /// Sets the bounds. `reach`: of the contact law between two surfaces [m].
   GrainSkins(const GrainsCase& config, Real r_max, Real reach = 0);
 
-  /// Of a grain at rest, half of grains.skin; and of any grain [m].
+  /// Skin of a grain at rest, half of grains.skin; the second, the largest of any grain [m].
   Real least() const { return least_; }
   Real largest() const { return largest_; }
-  /// Columns of the neighbour search: how many rings of them hold the partners of a grain, and how
-  /// wide they must be [m].
+  /// Number of rings of columns that hold the partners of a grain in the neighbour search; the
+  /// second, the width that columns must have [m].
   int rings() const { return rings_; }
   Real column_width() const { return column_width_; }
-  /// Sets those of a new list, from where the grains are now (x_reference). All ranks together.
+  /// Sets the skins of a new list, from the present positions (x_reference). All ranks call it
+  /// together.
   void set(const GrainState& grains) const;
-  /// False if any is not within these bounds. All ranks together.
+  /// Tells if all skins are within these bounds. All ranks call it together.
   bool suit(const GrainState& grains) const;
 
  private:

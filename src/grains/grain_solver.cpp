@@ -22,7 +22,7 @@ RollingModels::Variant make_rolling(const GrainConfig& grains, const GrainKinds&
   return RollingModels::make(grains.rolling_model, grains.rolling_theta_m);
 }
 
-/// Of any contact of that effective radius [m].
+/// Largest reach of any law at that effective radius [m].
 Real largest_reach(const LawTables& tables, Real r_eff) {
   Real largest = 0;
   const auto look = [&](const auto& table) {
@@ -95,7 +95,7 @@ void GrainSolver::add_walls(const GrainsCase& config, Real r_max) {
   const auto& size = config.size;
   if (config.grains.floor == GrainFloor::glued) {
     walls_.glued = glued_floor(config.grains.floor_diameter / 2, size[0], size[2]);
-    // Their planes are found where a grain is: WallShapes::at.
+    // A glued floor has no fixed planes: WallShapes::at finds them for each grain.
     for (int colour = 0; colour < GluedFloor::kColours; ++colour) add({0, 1, 0}, 0, colour);
     add({0, -1, 0}, -size[1], 0);
   } else {
@@ -105,14 +105,14 @@ void GrainSolver::add_walls(const GrainsCase& config, Real r_max) {
   if (config.grains.boundary_z == GrainBoundaryZ::wall) add_opposite({0, 0, 1}, size[2]);
 }
 
-/// Before the grain steps: first half kick and drift.
+/// Starts the grain steps: first half kick and drift.
 void GrainSolver::kick_and_drift(const GrainState& grains, int n, Real dt) {
   if (excess_.extent_int(0) <= n) {
     excess_ = Kokkos::View<Real*>("excess over the skin", static_cast<std::size_t>(n) + 1);
     host_excess_ = mirror(excess_);
     kernels_.drop_graph();
   }
-  // The first drift does not keep account.
+  // Let every chunk find its active pairs in the first grain step.
   Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), grains.list.expired, 1);
   Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),
                           KickAndDrift{.motion = motion(grains, dt, 0),
@@ -181,8 +181,8 @@ void GrainSolver::rebuild(GrainState& grains, int s) {
   on_bodies_.find(grains, list_.rebuilds());
 }
 
-/// Over ranks, before each grain step: ghosts to where their grains are, or a new list as soon as a
-/// grain of any rank has moved too far for it.
+/// Updates the ghosts before a grain step, or rebuilds the list as soon as a grain of any rank has
+/// moved too far for it.
 void GrainSolver::update_ghosts(GrainState& grains, int s) {
   Real excess = 0;
   Kokkos::deep_copy(excess, Kokkos::subview(excess_, s));
@@ -210,8 +210,8 @@ bool GrainSolver::prepare_graph(const GrainState& grains, int n, Real dt) {
   return true;
 }
 
-/// On one rank, from grain step s: as many as are launched ahead, or all that are in the graph.
-/// Returns the first one that the list no longer covered, after a new list for it.
+/// Launches grain steps on one rank, from grain step s: as many as are launched ahead, or all that
+/// are in the graph. Returns the first one that the list no longer covered, after a rebuild for it.
 int GrainSolver::launch_ahead(GrainState& grains, int s, int n, Real dt) {
   int end = std::min(s + ahead_, n);
   if (s == 0 && prepare_graph(grains, n, dt)) {

@@ -1,4 +1,4 @@
-// The grains' equations of motion over the grain steps of one fluid step.
+// Solver of the grains' equations of motion over the grain steps of one fluid step.
 #pragma once
 
 #include <variant>
@@ -11,35 +11,36 @@
 
 namespace barchan {
 
-/// What the contacts look like now.
+/// Numbers about the contacts now.
 struct ContactSummary {
-  std::int64_t n_contacts = 0;  // grain-grain
+  std::int64_t n_contacts = 0;  // contacts between grains
   Real max_overlap = 0;         // overlap over the mean diameter of the pair [-]
 };
 
 /// A wall with its history among the others. Throws std::length_error beyond kMaxWalls.
 void add_wall(WallShapes& walls, const Plane& plane, int history);
 
-/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. Among the ranks
-/// that share the grains every member is called together, and what is counted is that of all.
+/// Discrete-element method: Verlet list, contact laws chosen once, velocity Verlet. All ranks that
+/// share the grains call every member together, and counts are those of all of them.
 class GrainSolver {
  public:
   /// Sets up laws, walls and their history. Then call start() or, for entries read from a restart,
   /// list().restore().
   GrainSolver(const GrainsCase& config, GrainState& grains);
-  /// Of kinds that are not those of the case. GrainState::kind holds them where they are several.
+  /// Sets up laws of other kinds than the case's (for tests). GrainState::kind holds them where
+  /// they are several.
   GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds);
   /// Builds the first list.
   void start(GrainState& grains) { list_.rebuild(grains, true); }
 
-  /// n grain steps of dt [s] with the fluid side of `grains` held fixed. Equals n calls of one
-  /// grain step, bit for bit.
+  /// Advances the grains by n grain steps of dt [s] with the fluid side of `grains` held fixed.
+  /// Equals n calls of one grain step, bit for bit.
   void advance(GrainState& grains, int n, Real dt);
   /// Drops the grains that have passed the outlet (counted in n_left of their rank).
   void remove_left(GrainState& grains) { list_.drop_left(grains); }
-  /// Contacts and largest overlap from the last grain step.
+  /// Number and largest overlap of the contacts in the last grain step.
   ContactSummary contacts(const GrainState& grains) const;
-  /// Longest grain step for which they are stable [s]; infinite without contacts or friction.
+  /// Longest grain step for which contacts are stable [s]; infinite without contacts or friction.
   Real stable_step(const GrainState& grains) const;
   /// Normal and tangential contact force of each grain in the last grain step [N]; throws
   /// std::logic_error without output.grain_forces.
@@ -50,19 +51,19 @@ class GrainSolver {
   const PeriodicBox& box() const { return list_.box(); }
   const WallShapes& walls() const { return walls_; }
   const Bodies& bodies() const { return on_bodies_.bodies(); }
-  /// What the grains of all ranks did to each body in the last call of advance(). All ranks
+  /// Load of the grains of all ranks on each body in the last call of advance(). All ranks call it
   /// together.
   std::vector<GrainsOnBody> body_loads() const { return on_bodies_.loads(ranks_); }
-  /// Grain steps that are launched before the host waits and looks whether the list still holds;
-  /// the results do not depend on it.
+  /// Sets the number of grain steps that are launched before the host waits and looks whether the
+  /// list still holds; the results do not depend on it.
   void set_sub_steps_ahead(int n) { ahead_ = n; }
-  /// Whether a device takes all grain steps of a fluid step in one launch where that pays; the
-  /// results do not depend on it.
+  /// Lets a device take all grain steps of a fluid step in one launch where that pays; the results
+  /// do not depend on it.
   void set_graphs(bool on) { makes_graphs_ = on && !kOnHost; }
 
  private:
   using DeviceMemory = Kokkos::DefaultExecutionSpace::memory_space;
-  /// Reduces into the element of a grain step, without a wait.
+  /// Reduction into the element of a grain step, without a wait.
   Kokkos::Max<Real, DeviceMemory> max_excess(int step) const {
     return Kokkos::Max<Real, DeviceMemory>(Kokkos::View<Real, DeviceMemory>(excess_.data() + step));
   }
@@ -97,13 +98,14 @@ class GrainSolver {
     Real dt = 0;
     bool operator==(const GraphOf&) const = default;
   } graph_of_;
-  std::int64_t rebuilds_before_ = -1;  // as the last fluid step began
+  std::int64_t rebuilds_before_ = -1;  // rebuilds when the last fluid step began
   // Largest squared displacement beyond the skin of a grain as a grain step begins [m^2].
   Kokkos::View<Real*> excess_;
   Kokkos::View<Real*>::host_mirror_type host_excess_;
 };
 
-/// Calls launch(laws of pairs, laws of walls) with the tables of this case: of one kind, one law.
+/// Calls launch(laws of pairs, laws of walls) with the tables of this case; a case of one kind has
+/// a single law.
 template <class Launch>
 void GrainSolver::with_laws(const Launch& launch) const {
   std::visit(

@@ -1,4 +1,4 @@
-// What the grain solver tells about the contacts of the last grain step.
+// Reports of the grain solver about the contacts of the last grain step.
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -11,7 +11,8 @@
 
 namespace barchan {
 
-/// Of a grain as deep in a body as it is wide, which no run lets happen [N].
+/// Upper bound of a contact force on a body [N]: overlap of one diameter, which no run lets happen.
+/// Scales the fixed-point sums.
 Real GrainSolver::strongest_on_body(Real r_max) const {
   Real strongest = 0;
   with_laws([&](const auto&, const auto& of_walls) {

@@ -14,7 +14,7 @@ namespace barchan {
 
 namespace {
 
-/// Allocates the arrays that are there on this occasion.
+/// Allocates the arrays that exist on this occasion.
 void allocate(GrainState& s, Allocated when) {
   for_each_grain_array(s, [&](const GrainArray& about, auto& array) {
     using View = std::remove_reference_t<decltype(array)>;
@@ -25,7 +25,7 @@ void allocate(GrainState& s, Allocated when) {
   });
 }
 
-/// Reorders the n first entries of an array with entries no wider than a Vec4.
+/// Reorders the first n entries of an array with entries no wider than a Vec4.
 template <class Entries>
 void take_entries(const Entries& entries, const Kokkos::View<int*>& entry, int n,
                   const Kokkos::View<Vec4*>& room) {

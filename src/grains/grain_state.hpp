@@ -1,4 +1,4 @@
-// Everything the grains remember from one grain step to the next.
+// State of the grains from one grain step to the next.
 #pragma once
 
 #include <mpi.h>
@@ -18,7 +18,7 @@
 
 namespace barchan {
 
-/// When an array of a grain is allocated.
+/// Condition under which an array of a grain is allocated.
 enum class Allocated {
   always,
   with_fluid,
@@ -29,15 +29,15 @@ enum class Allocated {
   by_solver
 };
 
-/// What is done with an array of a grain, besides that it is sorted with its grain and goes with it
-/// to another rank.
+/// Uses of an array of a grain. Every array is also sorted with its grain and goes with it to
+/// another rank.
 enum GrainUse : unsigned {
   kRestart = 1,          // in restart files
   kRestartWithFlow = 2,  // in restart files of runs that compute the flow
   kGhosts = 4,           // copied to the ghosts when these are found
-  kGatherReads = 8,      // goes to the fluid ranks before the gather,
-  kGatherWrites = 16,    // and comes back from it
-  kDepositReads = 32,    // goes to the fluid ranks before the deposit
+  kGatherReads = 8,      // sent to the fluid ranks before the gather,
+  kGatherWrites = 16,    // and brought back after it
+  kDepositReads = 32,    // sent to the fluid ranks before the deposit
   kFluidSide = kGatherReads | kGatherWrites | kDepositReads,
 };
 
@@ -45,23 +45,23 @@ enum GrainUse : unsigned {
 struct GrainArray {
   std::string_view name, unit;
   Allocated allocated;
-  unsigned uses;  // of GrainUse
+  unsigned uses;  // uses, as in GrainUse
 };
-/// A number of each grain beside those that the model needs.
+/// Number of each grain beside those that the model needs.
 struct ExtraGrainArray {
   std::string name, unit;
   unsigned uses;
   Kokkos::View<Real*> values;
 };
 
-/// One force or torque on every grain, in the order of the grains.
+/// Force or torque on every grain, in the order of the grains.
 struct NamedForce {
   std::string name;  // "force_drag", "force_contact_normal", ...
   Kokkos::View<const Vec3*> values;
   std::string unit = "N";
 };
 
-/// Of a grain in GrainState::heap that came from none: it was fed.
+/// Value in GrainState::heap of a grain that came from no heap: it was fed.
 inline constexpr std::uint8_t kNoHeap = 255;
 
 /// Grains [0, n) of this rank. Entries are in spatial order, which a list rebuild changes; `id`
@@ -69,63 +69,65 @@ inline constexpr std::uint8_t kNoHeap = 255;
 /// ghosts, copies of grains of other ranks.
 struct GrainState {
   int n = 0, n_ghosts = 0;
-  MPI_Comm ranks = MPI_COMM_SELF;                        // that share the grains
-  Kokkos::View<GrainKinematics*> kin;                    // position, velocity, spin, radius, mass
-  Kokkos::View<std::int64_t*> id;                        // never reused
-  Kokkos::View<std::uint8_t*> kind;                      // of the material; empty: all the same
-  std::vector<std::string> kind_names;                   // by index, or empty
-  Kokkos::View<std::uint8_t*> heap;                      // that it came from; empty: not several
-  std::vector<std::string> heap_names;                   // by index, or empty
-  Kokkos::View<Vec3*> contact_force, contact_torque;     // at the current positions [N], [N m]
-  Kokkos::View<Vec3*> x_reference;                       // positions at the last list rebuild [m]
-  FluidOnGrains fluid;                                   // constant over one fluid step
-  ExchangeOnGrains exchange;                             // kept for the deposit
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;    // (n, history), see Walls [m]
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;  // the same, rolling torque [N m]; or empty
+  MPI_Comm ranks = MPI_COMM_SELF;                      // ranks that share the grains
+  Kokkos::View<GrainKinematics*> kin;                  // position, velocity, spin, radius, mass
+  Kokkos::View<std::int64_t*> id;                      // never reused
+  Kokkos::View<std::uint8_t*> kind;                    // index of the material; empty: one kind
+  std::vector<std::string> kind_names;                 // by index, or empty
+  Kokkos::View<std::uint8_t*> heap;                    // heap of origin; empty: one heap
+  std::vector<std::string> heap_names;                 // by index, or empty
+  Kokkos::View<Vec3*> contact_force, contact_torque;   // at the current positions [N], [N m]
+  Kokkos::View<Vec3*> x_reference;                     // positions at the last list rebuild [m]
+  FluidOnGrains fluid;                                 // constant over one fluid step
+  ExchangeOnGrains exchange;                           // kept for the deposit
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_xi_t;  // (n, history), see Walls [m]
+  // rolling torque (n, history) [N m]; or empty
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> wall_torque;
   Kokkos::View<std::uint8_t*> wall_touching;             // bit per wall
   Kokkos::View<Vec3**, Kokkos::LayoutLeft> body_xi_t;    // (n, body) [m]; or empty
-  Kokkos::View<Vec3**, Kokkos::LayoutLeft> body_torque;  // the same, rolling torque [N m]; or empty
+  Kokkos::View<Vec3**, Kokkos::LayoutLeft> body_torque;  // rolling torque (n, body) [N m]; or empty
   Kokkos::View<std::uint8_t*> body_touching;             // bit per body; or empty
   std::vector<ExtraGrainArray> extra;                    // see add_extra()
   PairList list;                                         // neighbours and their contact history
   Real r_max = 0, r_min = 0;                             // [m], of the initial grains of all ranks
-  Real sauter_diameter = 0;                              // sum d^3 / sum d^2 of the same [m]
-  std::int64_t n_initial = 0;                            // grains at t = 0, of all ranks
-  std::int64_t last_id = 0;                              // the largest before any were fed
-  std::int64_t n_left = 0;                               // left through the outlet, on this rank
-  FeedState feed;                                        // grains that come in
-  // Of a window that follows its dune, where its ends meet [m]; not a number: not placed yet.
-  Real seam_x = Kokkos::Experimental::quiet_NaN_v<Real>;
+  Real sauter_diameter = 0;    // sum d^3 / sum d^2 of the initial grains [m]
+  std::int64_t n_initial = 0;  // grains at t = 0, of all ranks
+  std::int64_t last_id = 0;    // largest id before any were fed
+  std::int64_t n_left = 0;     // left through the outlet, on this rank
+  FeedState feed;              // grains that come in
+  // Place where the ends of a window that follows its dune meet [m]; not a number: not placed yet.
+  Real window_edge = Kokkos::Experimental::quiet_NaN_v<Real>;
 };
 
-/// The largest number that a grain has or had.
+/// Largest number that a grain has or had.
 inline std::int64_t last_id(const GrainState& grains) {
   return std::max(grains.last_id, grains.feed.next_id - 1);
 }
 
-/// Entries for n grains of this rank, to be filled.
+/// Makes entries for n grains of this rank, to be filled.
 GrainState make_grain_entries(int n, MPI_Comm ranks);
-/// Grains without contact history and fluid, of these densities by kind [kg/m^3]. Each rank takes
-/// an equal share of the entries; the first neighbour list then gives them to the ranks that own
-/// their columns.
+/// Makes grains without contact history and fluid, of these densities by kind [kg/m^3]. Each rank
+/// takes an equal share of the entries; the first neighbour list then gives them to the ranks that
+/// own their columns.
 GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> density,
                             MPI_Comm ranks = MPI_COMM_SELF);
-/// The same of one density for all.
+/// Makes grains of one density.
 GrainState make_grain_state(const InitialGrains& initial, Real density,
                             MPI_Comm ranks = MPI_COMM_SELF);
-/// The heap that each grain came from, the first until it is filled in.
+/// Adds the heap that each grain came from, the first until it is filled in.
 void add_heaps(GrainState& grains, const std::vector<std::string>& names);
-/// Arrays of a fluid around the grains; those of the exchange with a flow that is computed.
+/// Adds the arrays of a fluid around the grains; the second function, those of the exchange with a
+/// computed flow.
 void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
-/// Arrays of forces of a flow that is resolved around the grains.
+/// Adds the arrays of forces of a flow that is resolved around the grains.
 void add_resolved_forces(GrainState& grains);
-/// An array of one number for each grain, zero at first; `uses` as in GrainUse.
+/// Adds an array of one number for each grain, zero at first; `uses` as in GrainUse.
 Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
                               unsigned uses);
 
-/// Room for n entries in the arrays that have one of the uses, an eighth more where it grows; what
-/// they hold stays.
+/// Makes room for n entries in the arrays that have one of the uses, an eighth more where it grows;
+/// their content stays.
 inline constexpr unsigned kAnyUse = ~0u;
 void reserve_entries(GrainState& grains, int n, unsigned uses = kAnyUse);
 

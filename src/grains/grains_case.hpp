@@ -1,4 +1,4 @@
-// What a case says of its grains.
+// Keys of a case about its grains.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct Material {
 struct SizeClass {
   double diameter = 0;  // [m]
   std::int64_t count = 0;
-  int kind = 0;  // entry of [[grains.kind]] that they are of
+  int kind = 0;  // its entry of [[grains.kind]]
   bool operator==(const SizeClass&) const = default;
 };
 
@@ -66,9 +66,9 @@ struct FeedConfig {
   FeedAmount amount = FeedAmount::given;  // or as many as have left
   double rate = 0;                        // [1/s], of amount = "given", then required
   double start = 0;                       // [s]
-  double x = 0;                           // [m] where they come in
+  double x = 0;                           // place where they come in [m]
   std::array<double, 2> across{};         // z from, z to [m]; both 0: over the whole width
-  double height = 0;                      // [m] of the lowest of them above the floor
+  double height = 0;                      // height of the lowest of them above the floor [m]
   std::uint64_t seed = 1;
   bool operator==(const FeedConfig&) const = default;
 };
@@ -91,35 +91,37 @@ struct GrainConfig {
   double floor_diameter = 0;  // [m] of the spheres of a glued floor, which needs it
   std::array<double, 3> gravity{0, -9.81, 0};  // [m/s^2]
   double skin = 4e-5;                          // [m], Verlet skin; in a case 0.2 d by default
-  double max_overlap = 0.1;  // over a pair's mean diameter, a grain's in a wall; more stops the run
+  // overlap over a pair's mean diameter, or over a grain's in a wall; more stops the run
+  double max_overlap = 0.1;
   std::optional<AmbientConfig> ambient = {};
-  std::vector<KindConfig> kinds = {};  // none: all grains are of one kind
+  std::vector<KindConfig> kinds = {};  // empty: all grains are of one kind
   std::vector<PairConfig> pairs = {};
   std::optional<FeedConfig> feed = {};
   bool operator==(const GrainConfig&) const = default;
 };
 
-/// coupling.forces; by default those of the paper.
+/// Switches of coupling.forces; by default those of the paper.
 struct ForceSwitches {
   bool drag = true, pressure_gradient = true, stress = true, added_mass = true, buoyancy = true;
   bool lift = false, torque = false, wall_drag = false, mixture_viscosity = false;
   bool operator==(const ForceSwitches&) const = default;
 };
 
-/// What grains are computed from, settled once.
+/// Input of the grain solver, settled once.
 struct GrainsCase {
   GrainConfig grains;
-  std::array<double, 3> size{};  // of the domain [m]
-  double half_seam_strip = 0;    // of a window that follows its dune [m]
-  double fluid_step = 0;         // [s]
-  bool keeps_forces = false;     // of each pair, for output
+  std::array<double, 3> size{};  // size of the domain [m]
+  // half the width of the strip around the edge of a window that follows its dune [m]
+  double half_edge_strip = 0;
+  double fluid_step = 0;      // [s]
+  bool keeps_forces = false;  // keeps the force of each pair, for output
   Bodies bodies;
   std::vector<std::string> body_names;
 };
 
-/// True if grains leave along x: at the ends, or at the seam of a window that follows its dune.
+/// Tells if grains leave along x: at the ends, or at the edge of a window that follows its dune.
 bool grains_leave(const GrainConfig& grains);
-/// True if grains that go beyond one end in x come in at the other.
+/// Tells if grains that go beyond one end in x come in at the other.
 bool is_periodic_x(const GrainConfig& grains);
 
 }  // namespace barchan

@@ -30,7 +30,8 @@ GrainsOnBodies::GrainsOnBodies(const GrainsCase& config, GrainState& grains, boo
 void GrainsOnBodies::begin(const GrainState& grains, int n, Real strongest) {
   if (!any()) return;
   n_steps_ = n;
-  // A power of two, so large that the sum of as many pairs as there are grains fits into 2^62.
+  // Unit of the sums: a power of two, so large that the sum of as many pairs as there are grains
+  // fits into 2^62.
   const Real pairs = 4 * static_cast<Real>(grains.n_initial + grains.feed.n_fed + 1);
   const Real unit = std::exp2(std::ceil(std::log2(n * strongest * pairs)) - 62);
   per_force_ = 1 / unit;
@@ -54,7 +55,7 @@ void GrainsOnBodies::find(const GrainState& grains, std::int64_t rebuilds) {
                                       .x_reference = grains.x_reference,
                                       .touching = grains.body_touching,
                                       .near = marks_});
-  // Most often there is room; else once more.
+  // The list mostly has room; if not, make it larger and search once more.
   for (int tries = 0; tries < 2; ++tries) {
     near_.n = 0;
     Kokkos::parallel_scan("grains: list near bodies", items(grains.n),

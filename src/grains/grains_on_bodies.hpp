@@ -1,4 +1,4 @@
-// The bodies among the grains: which grains are near them, and what grains do to them.
+// Bodies among the grains: the grains near them, and the forces between them.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace barchan {
 
-/// What all grains do to a body: load as a mean over the grain steps of the last fluid step, taken
-/// at the position that each of them ends with; contacts at the end of the last one.
+/// Load of all grains on a body: the mean over the grain steps of the last fluid step, with
+/// positions at the end of each; and the contacts at the end of the last one.
 struct GrainsOnBody {
   BodyLoad load;
   std::int64_t contacts = 0;
 };
 
-/// Lists the pairs of grains and bodies near each other after each rebuild of the neighbour list.
+/// Contacts of grains with bodies. It lists the pairs near each other after each rebuild of the
+/// neighbour list.
 class GrainsOnBodies {
  public:
   /// Allocates the history of contacts if the case has bodies.
@@ -32,13 +33,13 @@ class GrainsOnBodies {
   /// Sum of each grain's contacts with bodies; empty without bodies.
   const Kokkos::View<ContactSum*>& sums() const { return sums_; }
 
-  /// A fluid step of n grain steps begins: nothing has pushed the bodies yet. No pair of a grain
+  /// Begins a fluid step of n grain steps: nothing has pushed the bodies yet. No pair of a grain
   /// and a body pushes harder than `strongest` [N].
   void begin(const GrainState& grains, int n, Real strongest);
-  /// Pairs of the list of this number of rebuilds, if they are not there yet.
+  /// Finds the pairs for the list of this number of rebuilds, if that is not done yet.
   void find(const GrainState& grains, std::int64_t rebuilds);
-  /// Over all ranks, the same bits on each and for any number of them as far as the forces on the
-  /// grains are. All ranks together.
+  /// Loads over all ranks, with the same bits on each, and for any number of ranks if the forces on
+  /// the grains are the same. All ranks call it together.
   std::vector<GrainsOnBody> loads(MPI_Comm ranks) const;
 
  private:
@@ -46,7 +47,7 @@ class GrainsOnBodies {
 
   Bodies bodies_;
   Real law_reach_ = 0;
-  Real farthest_ = 0;  // farther from a foot no contact is [m]
+  Real farthest_ = 0;  // largest distance of a contact from a foot [m]
   NearBodies near_;
   std::int64_t found_at_ = -1;  // rebuilds of the neighbour list
   int n_steps_ = 0;

@@ -9,18 +9,18 @@
 
 namespace barchan {
 
-/// Grains in the order of the file; all vectors have the same length.
+/// Grains in the order of the file; all vectors have the same length, or are empty.
 struct InitialGrains {
   std::vector<std::int64_t> id;
   std::vector<double> diameter;  // [m]
   std::vector<Vec3> x;           // centre [m]
   std::vector<Vec3> u;           // velocity [m/s]
   std::vector<Vec3> omega;       // angular velocity [rad/s]
-  // Of several kinds, or heaps, the index of each grain's; else empty.
+  // Index of each grain's kind and heap, if there are several; else empty.
   std::vector<std::uint8_t> kind = {}, heap = {};
-  std::vector<std::string> kind_names = {};  // of a file that has kinds
+  std::vector<std::string> kind_names = {};  // from a file that has kinds
   std::vector<std::string> heap_names = {};  // may be empty: a table has none
-  std::int64_t last_id = 0;                  // the largest of these and of grains that have left
+  std::int64_t last_id = 0;  // largest id of these grains and of those that have left
 
   std::size_t size() const { return id.size(); }
   int kind_of(std::size_t g) const { return kind.empty() ? 0 : kind[g]; }

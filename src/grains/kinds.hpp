@@ -9,17 +9,17 @@
 
 namespace barchan {
 
-/// The kinds of a case; of a case without [[grains.kind]] that of [grains], without a name.
+/// Kinds of a case. A case without [[grains.kind]] has one, that of [grains], without a name.
 std::vector<KindConfig> all_kinds(const GrainConfig& grains);
 
 /// Sizes of the grains to pour: those of all kinds, each with its kind.
 std::vector<SizeClass> poured_sizes(const GrainConfig& grains);
 
-/// Entry of a kind among all_kinds, by its name; -1: there is none.
+/// Index of a kind in all_kinds, by its name; -1: there is none.
 int kind_of_name(const GrainConfig& grains, std::string_view name);
 
-/// What is wrong with grains that come with kinds of these names, in words that follow "must";
-/// empty if the case has them all.
+/// Fault of grains that come with kinds of these names, in words that follow "must"; empty if the
+/// case has them all.
 std::string unknown_kinds(const GrainConfig& grains, const std::vector<std::string>& names);
 std::vector<std::string> names_of_kinds(const GrainConfig& grains);
 

@@ -1,4 +1,4 @@
-// Memory of a neighbour list, which serves again from rebuild to rebuild.
+// Memory of a neighbour list, reused from rebuild to rebuild.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// n entries, or a few, and a sixteenth more.
+/// Size of an array for n entries: a sixteenth more, and at least a few.
 inline int with_slack(int n) { return n + n / 16 + 64; }
 
 template <class View>
@@ -17,21 +17,21 @@ View uninitialized(const char* label, int n) {
               static_cast<std::size_t>(n));
 }
 
-/// Room for n entries, kept between rebuilds; grows by more than asked.
+/// Makes room for n entries, kept between rebuilds; grows by more than asked.
 template <class View>
 void reserve(View& view, const char* label, int n) {
   if (view.extent_int(0) < std::max(n, 1)) view = uninitialized<View>(label, with_slack(n));
 }
 
-/// The memory of a view that is no longer needed, as n entries of another one: must be large
-/// enough.
+/// Reuses the memory of a view that is no longer needed for n entries of another one. It must be
+/// large enough.
 template <class View, class Before>
 View used_as(const Before& memory, int n) {
   return View(reinterpret_cast<typename View::value_type*>(memory.data()),
               static_cast<std::size_t>(n));
 }
 
-/// Scratch memory if there is enough, else as reserve() does.
+/// Takes scratch memory if there is enough, else reserves memory.
 template <class T>
 void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* label, int n) {
   const auto taken = scratch.take<T>(static_cast<std::size_t>(with_slack(n)));

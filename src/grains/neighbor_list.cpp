@@ -37,7 +37,7 @@ NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks,
     : skins_(config, r_max, reach),
       lx_(config.size[0]),
       leaves_x_(grains_leave(config.grains)),
-      half_strip_(config.half_seam_strip) {
+      half_strip_(config.half_edge_strip) {
   const Real lz = config.size[2];
   columns_.periodic_x = is_periodic_x(config.grains);
   columns_.periodic_z = config.grains.boundary_z == GrainBoundaryZ::periodic;
@@ -64,7 +64,7 @@ void NeighborList::take_memory(const GrainState& grains) {
   take_scratch(scratch_, occupied_.of_grain, "column of grain", n);
 }
 
-/// Those that came from other ranks, and ghosts, may need more.
+/// Makes room for n entries: grains from other ranks, and ghosts, may need more than before.
 void NeighborList::reserve_memory(int n) {
   reserve(grain_memory_, "room of a rebuild", n);
   reserve(key_memory_, "keys of a rebuild", 2 * n);
@@ -97,7 +97,7 @@ void NeighborList::wrap(const GrainState& grains) const {
       ranks_ == nullptr);
 }
 
-/// New grains get entries in it, without contacts.
+/// Collects the contact history. New grains get entries in it, without contacts.
 void NeighborList::collect_history(const GrainState& grains) {
   const PairList& list = grains.list;
   const int n = grains.n + static_cast<int>(new_.size());
@@ -120,7 +120,7 @@ void NeighborList::collect_history(const GrainState& grains) {
   has_history_ = true;
 }
 
-/// Grains to the ranks that own their columns, after new cuts where the work asks for them.
+/// Sends grains to the ranks that own their columns, after new cuts where the work asks for them.
 void NeighborList::redistribute(GrainState& grains) {
   if (!has_history_) history_.first = Kokkos::View<int*>("contact history: first", grains.n + 1);
   ranks_->partition.balance(grains, columns_, history_.first);
@@ -259,7 +259,7 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
   Kokkos::fence("end of a list rebuild: its kernels count as its own");
 }
 
-/// The end of a rebuild: from here on the list holds.
+/// Ends a rebuild: finds ghosts and pairs; from here on the list holds.
 void NeighborList::find_ghosts_and_pairs(GrainState& grains) {
   if (ranks_) ranks_->ghosts.find(grains, columns_, ranks_->partition.owners());
   search(grains);

@@ -1,4 +1,4 @@
-// When to rebuild the Verlet list, and how.
+// Verlet list: when to rebuild it, and how.
 #pragma once
 
 #include <memory>
@@ -17,59 +17,59 @@
 
 namespace barchan {
 
-/// A grain that comes in: its number, body, and centre [m].
+/// Grain that comes in: its number, body, and centre [m].
 struct NewGrain {
   std::int64_t id = 0;
   GrainBody body;
   Vec3 x;
 };
 
-/// Half Verlet list with a skin around each grain (SetSkins): valid until a grain has moved its
+/// Half Verlet list with a skin around each grain (SetSkins), valid until a grain has moved its
 /// skin from where it was at the last rebuild. A rebuild sorts the grains in space, keeps the
-/// contact history and, when asked, drops grains that leave. Throws StateError naming the
-/// grain if a position is not finite.
-///
-/// Over ranks a rebuild also sends grains to the rank that owns their columns, and the list holds
-/// the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate it,
-/// with the same bits: which grain is the first depends on the places of the two columns alone.
+/// contact history and, when asked, drops grains that leave. Throws StateError naming the grain if
+/// a position is not finite.
+/// With several ranks a rebuild also sends grains to the rank that owns their columns, and the list
+/// holds the pairs of owned grains with each other and with ghosts. Both ranks of a pair evaluate
+/// it, with the same bits: which grain is the first depends on the places of the two columns alone.
 class NeighborList {
  public:
-  /// `reach`: of the contact law between two surfaces [m].
+  /// Makes an empty list. `reach`: of the contact law between two surfaces [m].
   NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF,
                Real reach = 0);
 
   /// Sorts, searches, carries the history over. `drop` removes grains that leave.
   void rebuild(GrainState& grains, bool drop);
-  /// Such a rebuild if there are any.
+  /// Rebuilds the list without the grains that leave, if there are any.
   void drop_left(GrainState& grains);
-  /// A rebuild with new grains: at rest, without contacts. Of all ranks the first one takes them.
+  /// Rebuilds the list with new grains: at rest, without contacts. The first of all ranks takes
+  /// them.
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
-  /// Who leaves now.
+  /// Condition for the grains that leave now.
   CountLeaving leaving(const GrainState& grains) const {
-    return {grains.kin, lx_, half_strip_, grains.seam_x};
+    return {grains.kin, lx_, half_strip_, grains.window_edge};
   }
-  /// Searches again from x_reference in the present order: the list of the last rebuild, with its
-  /// contact history. Where it had another skin (grains.skin changed): a new list. All ranks
-  /// together, on as many as there were.
+  /// Searches again from x_reference in the present order: gives the list of the last rebuild, with
+  /// its contact history. If the skin has changed (grains.skin), it is a new list. All ranks call
+  /// it together, as many as there were.
   void restore(GrainState& grains);
-  /// The contacts that the next rebuild or restore carries over, as a restart file has them, under
-  /// entries of `grains` as they are now.
+  /// Sets the contacts that the next rebuild or restore carries over, as a restart file has them,
+  /// under the present entries of `grains`.
   void set_history(const ContactHistory& history) { history_ = history, has_history_ = true; }
-  /// Brings the ghosts to where their owners have moved them. All ranks together.
+  /// Brings the ghosts to where their owners have moved them. All ranks call it together.
   void update_ghosts(const GrainState& grains) const {
     if (ranks_) ranks_->ghosts.update(grains.kin);
   }
-  /// None where one rank has all grains.
+  /// Partition of the grains; nullptr where one rank has all of them.
   GrainPartition* partition() const { return ranks_ ? &ranks_->partition : nullptr; }
   const GhostGrains* ghosts() const { return ranks_ ? &ranks_->ghosts : nullptr; }
   std::int64_t n_migrated() const { return ranks_ ? ranks_->migrate.n_sent() : 0; }
-  /// The way of a grain at rest for which pairs that may touch are looked for [m].
+  /// Distance that a grain at rest may go until active pairs are looked for again [m].
   Real min_slack() const { return skins_.least() / 100; }
   std::int64_t rebuilds() const { return rebuilds_; }
   /// Wall time of all rebuilds so far.
   double seconds() const { return seconds_; }
-  /// Memory that nobody else uses during a call of rebuild or restore: those take it, as far as it
-  /// goes, for what they need only until they return.
+  /// Gives memory that nobody else uses during a call of rebuild or restore. They use it, as far as
+  /// it goes, for arrays that they need only until they return.
   void use_scratch(ScratchMemory memory) { scratch_ = std::move(memory); }
   bool with_rolling = false;  // keep a rolling torque per pair
   bool with_laws = false;     // kinds of grains: each pair has its law
@@ -104,19 +104,20 @@ class NeighborList {
   GrainSkins skins_;
   Real lx_ = 0;
   bool leaves_x_ = false;      // grains leave along x,
-  Real half_strip_ = 0;        // in a strip of this half width [m]; 0: at both ends
-  std::vector<NewGrain> new_;  // of the rebuild that goes on
+  Real half_strip_ = 0;        // half the strip around the edge [m]; 0: they leave at both ends
+  std::vector<NewGrain> new_;  // new grains of the present rebuild
   std::int64_t rebuilds_ = 0;
   double seconds_ = 0;
   OccupiedColumns occupied_;
   std::unique_ptr<Ranks> ranks_;
   ContactHistory history_;
   bool has_history_ = false;
-  Kokkos::View<int*> entry_;  // entry of each grain in history_; before, the next free slot there
-  // Memory that serves again: of each grain for reordering, then for its noted partners; for sort
-  // keys, then windows, then the next free entry of incoming pairs.
+  // entry of each grain in history_; before that, the next free slot there
+  Kokkos::View<int*> entry_;
+  // Reused memory: of each grain for reordering, then for its noted partners; for sort keys, then
+  // windows, then the next free entry of incoming pairs.
   Kokkos::View<Vec4*> grain_memory_;
-  Kokkos::View<std::uint64_t*> key_memory_;  // two for each
+  Kokkos::View<std::uint64_t*> key_memory_;  // two for each grain
   ScratchMemory scratch_;
 };
 

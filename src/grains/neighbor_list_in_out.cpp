@@ -8,7 +8,7 @@
 
 namespace barchan {
 
-/// Entries for the new grains behind all others.
+/// Makes entries for the new grains behind all others.
 void NeighborList::append_new(GrainState& grains) {
   const int begin = grains.n, n = static_cast<int>(new_.size());
   const std::pair<int, int> entries(begin, begin + n);

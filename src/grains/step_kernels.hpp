@@ -1,4 +1,4 @@
-// The kernels of grain steps, launched one by one or all together.
+// Launch of the kernels of grain steps, one by one or all together.
 #pragma once
 
 #include <Kokkos_Graph.hpp>
@@ -11,12 +11,12 @@ namespace barchan {
 
 /// Takes kernels one after another: launches them, or makes them the nodes of a graph, which a
 /// device takes in one launch and goes through faster. The graph can be launched again as long as
-/// all that the kernels were made with stays where it is. On a host there is nothing to gain.
+/// the data of its kernels stay where they are. On a host there is nothing to gain.
 class StepKernels {
   using Space = Kokkos::DefaultExecutionSpace;
 
  public:
-  /// From here on kernels go into a new graph, until launch().
+  /// Puts the kernels that follow into a new graph, until end_graph().
   void begin_graph() {
     graph_.emplace();
     last_.emplace(graph_->root_node());
@@ -27,7 +27,7 @@ class StepKernels {
   }
   void drop_graph() { graph_.reset(); }
   bool has_graph() const { return graph_.has_value(); }
-  /// Launches the graph. For Kokkos' tools it is one kernel.
+  /// Launches the graph. Kokkos' tools see it as one kernel.
   void launch_graph(const char* label) const {
     const Space space;
     std::uint64_t id = 0;
@@ -47,7 +47,7 @@ class StepKernels {
     }
     Kokkos::parallel_for(label, items(n), functor);
   }
-  /// Into a number on the device.
+  /// Reduces into a number on the device.
   template <class Functor, class Result>
   void reduce(const char* label, int n, const Functor& functor, Result result) {
     if constexpr (!kOnHost) {

@@ -35,7 +35,7 @@ double surface_within(const CraterConfig& crater, const InitialGrains& grains) {
   return tops.empty() ? 0 : sum / static_cast<double>(tops.size());
 }
 
-/// Keeps those entries of an array that may be empty.
+/// Keeps the marked entries of an array that may be empty.
 template <class T>
 void keep(const std::vector<bool>& kept, std::vector<T>& values) {
   std::size_t n = 0;

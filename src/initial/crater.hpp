@@ -9,7 +9,7 @@ namespace barchan {
 
 struct CraterConfig;
 
-/// Takes away the grains of each hollow: those whose centre lies within its rim and above the
+/// Removes the grains of each hollow: those whose centre lies within its rim and above the
 /// paraboloid y = s - depth (1 - r^2 / radius^2), a volume of pi radius^2 depth / 2 below a level
 /// surface. s is the mean height of the surface within the rim [m]. The others keep their numbers.
 /// Throws InputError where there are no grains, or none so deep.

@@ -43,7 +43,7 @@ std::vector<std::uint8_t> as_heaps(const std::vector<std::int64_t>& numbers,
   return heaps;
 }
 
-/// The same demands as on the rows of a table, for a file that somebody else may have made.
+/// Checks grains of a file that somebody else may have made, as the rows of a table are.
 void check_grains(const InitialGrains& grains, const std::filesystem::path& file) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -71,7 +71,7 @@ std::uint8_t as_kind(std::int64_t kind, const std::filesystem::path& file) {
                                        file.string(), kind, kMaxKinds - 1));
 }
 
-/// Grains beyond a side that is periodic in the case that wrote them: here it may be none.
+/// Wraps grains beyond a side that is periodic in the case that wrote them; here it may be none.
 void wrap_as_written(InitialGrains& grains, const Provenance& origin,
                      const std::filesystem::path& file) {
   if (origin.config.empty()) return;

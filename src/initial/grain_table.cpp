@@ -39,16 +39,16 @@ constexpr std::array<OtherTitle, 9> kOtherTitles{{{"d", "diameter"},
                                                   {"omega_y", "wy"},
                                                   {"omega_z", "wz"}}};
 
-/// A column of the file: which one it is, and what its numbers are multiplied by.
+/// Column of the file: its place among the known ones, and the factor of its numbers.
 struct TitledColumn {
-  std::size_t column = kColumns.size();  // as now: of none of them
+  std::size_t column = kColumns.size();  // none of them so far
   double factor = 1;
 };
 
-/// What a run has computed of a grain, not what it starts with.
+/// Tells if a column is a result of a run, not a starting value of a grain.
 bool is_result(std::string_view title) { return title == "dune" || title.starts_with("force_"); }
 
-/// Of a title among those of its header: other titles stand for a column that has none of its own.
+/// Column of a title in its header. Other titles stand for a column that has none of its own.
 std::optional<TitledColumn> column_of(std::string_view title,
                                       const std::vector<std::string_view>& header) {
   if (is_result(title)) return TitledColumn{};
@@ -99,7 +99,7 @@ class CsvReader {
                                          fmt::format(what, std::forward<Args>(args)...)));
   }
 
-  /// The next line that holds something; false at the end.
+  /// Reads the next line that holds something; false at the end.
   bool next_line() {
     while (!rest_.empty()) {
       ++line_number_;
@@ -110,7 +110,7 @@ class CsvReader {
     return false;
   }
 
-  /// Before lines are looked for: there may be none.
+  /// Checks the text before lines are looked for: there may be none.
   void check_text() {
     const std::string_view start = rest_.substr(0, 4096);
     if (start.starts_with("\x89HDF")) fail("it is an HDF5 file; give its name the ending .h5");
@@ -128,7 +128,7 @@ class CsvReader {
     }
   }
 
-  /// What else the values may be separated by; empty if it is commas.
+  /// Separator that the values have instead of commas; empty if it is commas.
   std::string other_separator() const {
     for (const auto& [mark, name] :
          {std::pair{';', "semicolons"}, {'\t', "tabs"}, {' ', "spaces"}}) {
@@ -147,7 +147,8 @@ class CsvReader {
     }
   }
 
-  /// True if it stood in a comment, as numpy writes it: the line read last is a row.
+  /// Reads the header. True if it stood in a comment, as numpy writes it: the line read last is
+  /// then a row.
   bool read_header() {
     constexpr const char* needed =
         "columns are id,diameter,x,y,z and optionally vx,vy,vz,wx,wy,wz,kind,heap";
@@ -185,7 +186,7 @@ class CsvReader {
            std::ranges::count(order_, column, &TitledColumn::column) > 0;
   }
 
-  /// The column that a title in capitals, with its unit or misspelt was meant for.
+  /// Column that a title in capitals, with its unit or misspelt was meant for.
   static std::string suggestion(std::string_view title) {
     const std::vector<std::string> names(kColumns.begin(), kColumns.end());
     const auto word = trimmed(title.substr(0, title.find_first_of(" [(/")));
@@ -228,7 +229,7 @@ class CsvReader {
     if (heap) grains_.heap.push_back(static_cast<std::uint8_t>(*heap));  // -1: kNoHeap
   }
 
-  /// Names of kinds count in the order in which they appear.
+  /// Adds the kind of a grain. Kinds are numbered in the order in which they appear.
   void add_kind(std::string_view name) {
     if (name.empty()) fail("kind is empty: it must be a name of [[grains.kind]]");
     auto& names = grains_.kind_names;
@@ -239,7 +240,7 @@ class CsvReader {
     grains_.kind.push_back(static_cast<std::uint8_t>(at));
   }
 
-  /// An id; numpy writes 1.000000000000000000e+00.
+  /// Number of an id; numpy writes 1.000000000000000000e+00.
   std::int64_t whole_number(std::string_view field) const {
     double value = 0;
     const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -271,11 +272,11 @@ class CsvReader {
     return value;
   }
 
-  std::string_view rest_, name_, line_, comment_;  // the last one
+  std::string_view rest_, name_, line_, comment_;  // the last line and comment
   std::size_t line_number_ = 0;
-  std::vector<std::string_view> fields_;                   // of the line
-  std::vector<TitledColumn> order_;                        // of each field of a row
-  std::unordered_map<std::int64_t, std::size_t> line_of_;  // of each id
+  std::vector<std::string_view> fields_;                   // fields of the line
+  std::vector<TitledColumn> order_;                        // column of each field of a row
+  std::unordered_map<std::int64_t, std::size_t> line_of_;  // line of each id
   InitialGrains grains_;
 };
 

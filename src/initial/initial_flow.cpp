@@ -25,20 +25,20 @@ constexpr double kPerturbationRms = 0.1;  // over the bulk velocity
 constexpr int kNVortexModes = 6;
 constexpr int kNWaveModes = 32;
 
-/// One Fourier mode of a vector potential: strength * cos(kx x + a) * cos(kz z + b) per component.
+/// Fourier mode of a vector potential: strength * cos(kx x + a) * cos(kz z + b) per component.
 struct Mode {
   int mx = 0, mz = 0;
   std::array<double, 3> strength{}, phase_x{}, phase_z{};
 };
 
-/// Where the walls are and how far the perturbation reaches from them.
+/// Walls, and the distance that the perturbation reaches from them.
 struct Profile {
   double height = 0;  // [m]
   double delta = 0;   // [m], 0 without walls
   bool bottom = true, top = false;
 
-  /// Zero on both boundaries, where the potential must be constant, with its peak 0.2 delta from a
-  /// wall.
+  /// Amplitude of the potential: zero on both boundaries, where it must be constant, with its peak
+  /// 0.2 delta from a wall.
   double envelope(double y) const {
     const double edges = std::sin(pi * std::clamp(y / height, 0.0, 1.0));
     if (delta == 0) return edges;
@@ -55,13 +55,13 @@ struct Profile {
 
 std::vector<Mode> draw_modes(const Grid& grid, const Profile& profile, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
-  // Drawn by hand: the standard distributions differ between libraries.
+  // Random numbers are drawn by hand: the standard distributions differ between libraries.
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
   const auto whole = [&](int low, int high) {
     return low + std::min(static_cast<int>(uniform() * (high - low + 1)), high - low);
   };
   const double scale = profile.delta > 0 ? profile.delta : profile.height;
-  // Shortest waves: a delta along the flow and half of that across, but four cells.
+  // Shortest waves: a delta along the flow and half of that across, but at least four cells.
   const auto most = [](double length, double wave, int cells) {
     return std::max(1, std::min(static_cast<int>(length / wave), cells / 4));
   };
@@ -111,7 +111,7 @@ HostArray potential(std::size_t c, const Grid& grid, const HostGrid& rows, const
   return psi;
 }
 
-/// The discrete curl of the potential at faces; its discrete divergence vanishes to round-off.
+/// Discrete curl of the potential at faces; its discrete divergence vanishes to round-off.
 struct Curl {
   HostGrid grid;
   HostArray x, y, z;
@@ -133,7 +133,7 @@ double reichardt_profile(double y_plus) {
   return std::log(1 + 0.41 * y_plus) / 0.41 + 7.8 * buffer;
 }
 
-/// The mean flow at t = 0.
+/// Mean flow at t = 0.
 struct MeanFlow {
   PlaneVelocity bulk;                                                  // [m/s]
   double speed = 0;                                                    // |bulk| [m/s]
@@ -149,7 +149,7 @@ MeanFlow mean_flow(const FluidCase& flow, const FluidNumbers& numbers) {
   return {bulk, speed, friction_velocity(speed, numbers.delta, flow.fluid.kinematic_viscosity)};
 }
 
-/// With x and z exchanged.
+/// Grid with x and z exchanged.
 template <class AnyGrid>
 AnyGrid turned(AnyGrid grid) {
   std::swap(grid.nx, grid.nz);
@@ -204,7 +204,7 @@ void set_flow(TurbulentFlow, const SettledCase& the_case, FluidState& fluid) {
                         .delta = numbers.delta,
                         .bottom = setup.bottom == WallFlow::no_slip,
                         .top = setup.top == WallFlow::no_slip};
-  // The perturbations are made along x. Of a flow across, x and z are exchanged.
+  // Perturbations are made along x. For a flow across, x and z are exchanged.
   const bool across = start.across();
   const Grid drawn = across ? turned(grid) : grid;
   const HostGrid rows = drawn.on_host();

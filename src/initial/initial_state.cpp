@@ -30,8 +30,8 @@ namespace barchan {
 
 namespace {
 
-/// The case that computed a flow. A flow in another domain is refused: it would be taken for one in
-/// this. Of a file that is not ours nothing is known: its arrays must speak for themselves.
+/// Case that computed a flow. A flow in another domain is refused: it would be taken for one in
+/// this. A file that is not ours says nothing about its case: its arrays must speak for themselves.
 Config case_of_flow(const Config& config, const CheckpointReader& file) {
   const std::string resolved = file.provenance().config;
   if (resolved.empty()) return config;
@@ -46,7 +46,7 @@ bool same_mesh(const FluidCase& a, const FluidCase& b) {
   return a.fluid.cells == b.fluid.cells && a.row_faces == b.row_faces;
 }
 
-/// Of the same mesh with the same bits, of another one interpolated.
+/// Copies a flow on the same mesh bit for bit; interpolates one on another mesh.
 void read_flow(const SettledCase& the_case, const CheckpointReader& file, FluidState& fluid) {
   const FluidCase other = case_of_flow(the_case.config, file);
   if (same_mesh(the_case.fluid(), other)) return load_flow(file, fluid);
@@ -62,7 +62,7 @@ FluidState initial_fluid(const SettledCase& the_case, const std::filesystem::pat
     const CheckpointReader flow(file, pencils ? pencils->all() : MPI_COMM_SELF);
     read_flow(the_case, flow, fluid);
     fluid.time = 0;
-    // The precursor's fluid step may be another one, and grains now push the water aside.
+    // The precursor's fluid step may be another one, and grains now push the fluid aside.
     fluid.has_history = false;
     return fluid;
   }
@@ -72,7 +72,7 @@ FluidState initial_fluid(const SettledCase& the_case, const std::filesystem::pat
   return fluid;
 }
 
-/// The smallest and the largest grain of each kind.
+/// Sizes of the smallest and the largest grain of each kind.
 std::vector<SizeClass> extreme_sizes(const InitialGrains& grains) {
   std::map<int, std::pair<double, double>> of_kind;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -128,7 +128,7 @@ void check_apart(const InitialGrains& grains, const PeriodicBox& box, const std:
 
 namespace {
 
-/// Tables of the Python package have the numbers of the kinds.
+/// Kind with this number: tables of the Python package have the numbers of the kinds.
 std::string name_of_number(const std::string& name, const GrainConfig& config) {
   const std::vector<std::string> names = names_of_kinds(config);
   const bool digit = name.size() == 1 && name.front() >= '0' && name.front() <= '9';
@@ -145,14 +145,15 @@ void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::str
   if (const std::string problem = unknown_kinds(config, theirs); !problem.empty())
     throw InputError(fmt::format("{}: it must {}", source, problem));
   const std::size_t n_kinds = names_of_kinds(config).size();
-  std::vector<int> ours;  // of each of theirs; without names these are in the case's order
+  // index of each of their kinds here; without names these are in the case's order
+  std::vector<int> ours;
   for (const std::string& name : theirs) ours.push_back(kind_of_name(config, name));
   for (std::uint8_t& kind : grains.kind) {
     if (kind >= (theirs.empty() ? n_kinds : ours.size()))
       throw InputError(fmt::format("{}: it holds grains of more kinds than it names", source));
     if (!theirs.empty()) kind = static_cast<std::uint8_t>(ours[kind]);
   }
-  if (n_kinds == 1) grains.kind.clear();  // as of grains that are poured
+  if (n_kinds == 1) grains.kind.clear();  // as with grains that are poured
 }
 
 void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,

@@ -13,7 +13,7 @@
 namespace barchan {
 namespace {
 
-/// A grain, or its image beyond the upper side of a periodic direction, with the slab across x that
+/// Grain, or its image beyond the upper side of a periodic direction, with the slab across x that
 /// its centre lies in; slabs are one largest diameter wide.
 struct InSlab {
   std::int64_t slab;
@@ -25,7 +25,7 @@ struct InSlab {
 struct Deepest {
   double overlap = 0;  // over the mean diameter
   std::size_t a = 0, b = 0;
-  std::size_t count = 0;  // of pairs beyond the limit
+  std::size_t count = 0;  // number of pairs beyond the limit
 };
 
 class Search {
@@ -41,7 +41,7 @@ class Search {
     std::ranges::sort(order_, {}, key);
   }
 
-  /// All pairs of one slab and the next that are near each other in z.
+  /// Deepest overlap of all pairs of one slab and the next that are near each other in z.
   Deepest deepest(double most) const {
     Deepest found;
     for (auto at = order_.begin(); at != order_.end(); ++at) {
@@ -86,7 +86,7 @@ class Search {
   std::vector<InSlab> order_;
 };
 
-/// True if a grain overlaps a body wherever along z the feed puts it.
+/// Tells if a grain overlaps a body wherever along z the feed puts it.
 bool in_bodies_everywhere(const FeedConfig& feed, double lz, double r, const Bodies& bodies) {
   auto [from, to] = feed.across;
   if (from == to) to = from + lz;

@@ -30,12 +30,12 @@ void shuffle(std::vector<Item>& items, std::mt19937_64& generator) {
   }
 }
 
-/// Where grains are poured: a cone over its foot, a ridge across the channel, a bed over the floor.
+/// Shape of a heap: a cone over its foot, a ridge across the channel, a bed over the floor.
 struct Heap {
   HeapShape shape;
-  Vec3 centre;            // of the foot [m]
-  double half_x, half_z;  // of the foot [m]: both the radius of a cone
-  Bodies bodies;          // where nothing is poured
+  Vec3 centre;            // centre of the foot [m]
+  double half_x, half_z;  // half sizes of the foot [m]: both the radius of a cone
+  Bodies bodies;          // bodies in which nothing is poured
 
   Heap(const HeapConfig& heap, const std::array<double, 3>& domain, const Bodies& solids,
        double ground)
@@ -49,8 +49,8 @@ struct Heap {
     if (shape == HeapShape::bed) half_x = domain[0] / 2, centre.x = half_x;
   }
 
-  /// Of the smallest heap of this shape through x, seen from the centre [m]; negative outside the
-  /// foot.
+  /// Height of the smallest heap of this shape through x, seen from the centre [m]; negative
+  /// outside the foot.
   double height_through(const Vec3& x, double spacing) const {
     if (shape == HeapShape::cone) return below_slope(std::hypot(x.x, x.z), x.y);
     if (std::abs(x.z) + spacing / 2 > half_z) return -1;
@@ -58,19 +58,19 @@ struct Heap {
     return std::abs(x.x) + spacing / 2 <= half_x ? x.y : -1;
   }
 
-  /// Of a grain of this diameter, x as above.
+  /// Tells if a grain of this diameter at x, seen from the centre, overlaps a body.
   bool in_body(const Vec3& x, double diameter) const {
     return bodies.n > 0 && bodies.nearest(centre + x).surface.distance < diameter / 2;
   }
 
-  /// Half the width of the heap of height `top` at the height y [m], of the foot for a bed.
+  /// Half the width of the heap of height `top` at the height y [m]; for a bed, that of the foot.
   double half_x_at(double y, double top) const {
     return shape == HeapShape::bed ? half_x : half_x * std::max(0.0, 1 - y / top);
   }
   double half_z_at(double y, double top) const {
     return shape == HeapShape::cone ? half_x_at(y, top) : half_z;
   }
-  /// About the number of sites of the heap of height `top`.
+  /// Approximate number of sites of the heap of height `top`.
   double count_below(double top, double spacing) const {
     const double foot =
         shape == HeapShape::cone ? std::numbers::pi * half_x * half_x : 4 * half_x * half_z;
@@ -83,10 +83,11 @@ struct Heap {
 
 struct Site {
   Vec3 x;         // relative to the centre of the foot [m]
-  double height;  // of the smallest heap through it [m]
+  double height;  // height of the smallest heap through it [m]
 };
 
-/// Where grains may stand: a close packing, stretched along the floor for a thin bed or ridge.
+/// Lattice of possible places of grains: a close packing, stretched along the floor for a thin bed
+/// or ridge.
 struct Lattice {
   double spacing;
   double stretch_x = 1, stretch_z = 1;
@@ -95,7 +96,7 @@ struct Lattice {
   double z() const { return stretch_z * (spacing * std::sqrt(3.0) / 2); }
 };
 
-/// Columns of a lattice on either side of the middle of a foot, and then some.
+/// Number of columns of a lattice on either side of the middle of a foot, and a few more.
 int columns(double half, double apart) { return static_cast<int>(half / apart) + 2; }
 
 /// Sites of the lattice that lie in the heap of height `top`.
@@ -118,7 +119,7 @@ std::vector<Site> sites_below(double top, const Heap& heap, const Lattice& latti
 }
 
 /// Sites for n grains that are few for their foot: from its middle outward over a cone or a ridge,
-/// anywhere on the floor of a bed, in each case some more than n and not all that there are.
+/// anywhere on the floor of a bed. In each case there are some more than n, and not all sites.
 std::vector<Site> sites_of_thin(std::size_t n, const Heap& heap, double spacing, double highest) {
   constexpr double kMore = 16;  // sites for a grain
   const double wanted = kMore * static_cast<double>(n);
@@ -129,7 +130,7 @@ std::vector<Site> sites_of_thin(std::size_t n, const Heap& heap, double spacing,
   if (heap.shape != HeapShape::cone) lattice.stretch_z = across / rows;
   if (bed) lattice.stretch_x = std::max(1.0, along * rows / wanted);
   std::vector<Site> sites;
-  double reach = 2 * spacing;  // of the lowest layer, from the middle
+  double reach = 2 * spacing;  // reach of the lowest layer from the middle
   for (double top = 0; sites.size() < n && top <= highest; reach *= 1.4) {
     const bool sloped = !bed && reach < 0.9 * heap.half_x;
     top = sloped ? spacing / 2 / (1 - reach / heap.half_x) : std::max(spacing, 1.5 * top);
@@ -138,7 +139,7 @@ std::vector<Site> sites_of_thin(std::size_t n, const Heap& heap, double spacing,
   return sites;
 }
 
-/// A size and kind for each grain, in random order.
+/// Sizes and kinds, one for each grain, in random order.
 std::vector<SizeClass> shuffled(const std::vector<SizeClass>& sizes, std::mt19937_64& generator) {
   std::vector<SizeClass> grains;
   for (const SizeClass& size : sizes)
@@ -160,7 +161,7 @@ std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::
     for (double top = first; sites.size() < n && top <= highest; top *= 1.5)
       sites = sites_below(top, heap, {spacing});
   }
-  if (heap.shape != HeapShape::cone) shuffle(sites, generator);  // its last layer: gaps anywhere
+  if (heap.shape != HeapShape::cone) shuffle(sites, generator);  // the last layer has gaps anywhere
   std::stable_sort(sites.begin(), sites.end(),
                    [](const Site& a, const Site& b) { return a.height < b.height; });
   const bool fits = sites.size() >= n &&
@@ -193,7 +194,8 @@ void add_heap(const HeapConfig& config, const Heap& heap, const std::array<doubl
 
 /// Moves the grains from entry `begin` on together.
 void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, InitialGrains& grains) {
-  // As dense as a heap, 0.64 of the volume. Displaced so far, a third of the 12 neighbours touch.
+  // Density of the packing: 0.64 of the volume, as in a heap. Displaced so far, a third of the 12
+  // neighbours touch.
   constexpr double lattice = 1.05, displacement = 0.1;
   const double d = mean_diameter(config.sizes), closer = lattice * d / poured_spacing(config.sizes);
   std::mt19937_64 generator(config.seed);

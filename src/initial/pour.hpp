@@ -11,8 +11,8 @@ namespace barchan {
 struct Bodies;
 struct HeapConfig;
 
-/// Heaps of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %,
-/// holding the grains of their sizes, of all kinds, in random order: no overlap, no order that
+/// Pours heaps of hexagonal close packed sites 1 % wider than the largest grain, jittered by 0.2 %.
+/// They hold the grains of their sizes, of all kinds, in random order: no overlap, no order that
 /// survives the collapse. Sites fill a cone or a ridge from its axis outward and upward, or a bed
 /// from the floor up, so the number of grains decides the height. Each heap stands on the beds
 /// before it. Sites that reach into a body stay empty. Grains are numbered heap by heap, and know
@@ -23,9 +23,9 @@ InitialGrains pour_grains(const std::vector<HeapConfig>& heaps, const std::array
 InitialGrains pour_grains(const std::vector<HeapConfig>& heaps,
                           const std::array<double, 3>& domain);
 
-/// The same heaps moved together to about what they settle to, for measurements of time: a grain
-/// touches about four others, as in a heap at rest. Overlaps are up to half a diameter. Each grain
-/// is moved out of the body that it is deepest in.
+/// Packs the same heaps to about the density to which they settle, for measurements of time: a
+/// grain touches about four others, as in a heap at rest. Overlaps are up to half a diameter. Each
+/// grain is moved out of the body that it is deepest in.
 InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,
                             const std::array<double, 3>& domain, const Bodies& bodies);
 InitialGrains packed_grains(const std::vector<HeapConfig>& heaps,

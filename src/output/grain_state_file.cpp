@@ -218,7 +218,7 @@ void save_grains(CheckpointWriter& file, const GrainState& s, const NeighborList
   file.scalar("grains/last_id", last_id(s));
   file.scalar("grains/n_left", sum_over(s.ranks, s.n_left));
   save_feed(file, s.feed);
-  if (std::isfinite(s.seam_x)) file.scalar("grains/seam_x", s.seam_x);
+  if (std::isfinite(s.window_edge)) file.scalar("grains/seam_x", s.window_edge);
 }
 
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
@@ -231,7 +231,7 @@ GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks) {
   s.n_initial = file.integer("grains/n_initial");
   s.n_left = rank_of(ranks) == 0 ? file.integer("grains/n_left") : 0;
   s.feed = load_feed(file);
-  if (file.has("grains/seam_x")) s.seam_x = file.real("grains/seam_x");
+  if (file.has("grains/seam_x")) s.window_edge = file.real("grains/seam_x");
   if (!(s.r_min > 0 && s.r_min <= s.r_max && std::isfinite(s.r_max) && s.sauter_diameter > 0))
     file.fail("the radii of its grains make no sense");
   return s;

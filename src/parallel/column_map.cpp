@@ -17,7 +17,7 @@ struct MarkNotOne {
   ConstFieldRef field;
   int nx, ny;
   int first, stride, last;   // mark of this rank's first column, from plane to plane, of the height
-  Kokkos::View<int*> marks;  // of all ranks
+  Kokkos::View<int*> marks;  // marks of all ranks
 
   KOKKOS_FUNCTION void operator()(int item) const {
     int top = 0;
@@ -91,7 +91,7 @@ ColumnMap ColumnMap::united(const ColumnMap& other) const {
   return both;
 }
 
-ColumnMap ColumnMap::in_blocks(int width) const {
+ColumnMap ColumnMap::padded_to_blocks(int width) const {
   ColumnMap blocks = *this;
   for (int k = 0; k < nz_; ++k) {
     for (int begin = 0; begin < nx_; begin += width) {
@@ -103,7 +103,7 @@ ColumnMap ColumnMap::in_blocks(int width) const {
   return blocks;
 }
 
-ColumnMap ColumnMap::grown(int by) const {
+ColumnMap ColumnMap::dilated(int by) const {
   if (is_empty()) return *this;
   ColumnMap wide = *this, all = *this;
   for (int k = 0; k < nz_; ++k) {

@@ -1,4 +1,4 @@
-// Which columns of cells are near grains.
+// Columns of cells near grains.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace barchan {
 
-/// Marks of columns of all ranks, made by kernels: a row of them for each purpose. The last mark of
-/// a row says how many rows of cells the columns reach up, the others (i + nx_all k) are zero or
-/// not.
+/// Marks of columns of all ranks, made by kernels: a row of marks for each purpose. The last mark
+/// of a row is the number of rows of cells that the columns reach up. The others, at i + nx_all k,
+/// are zero or not.
 struct ColumnMarks {
   Kokkos::View<int**, Kokkos::LayoutRight> on_device;
   Kokkos::View<int**, Kokkos::LayoutRight>::host_mirror_type on_host;
@@ -21,28 +21,28 @@ struct ColumnMarks {
       : on_device(label, rows, grid.nx_all * grid.nz_all + 1), on_host(mirror(on_device)) {}
 
   void set_zero() const { Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), on_device, 0); }
-  /// The columns of this rank where a field is not one, up to its highest such cell.
+  /// Marks the columns of this rank where a field is not one, up to its highest such cell.
   void mark_not_one(int row, const Grid& grid, const Field& field) const;
-  /// For kernels.
+  /// Row of marks, for kernels.
   Kokkos::View<int*> row(int row) const { return Kokkos::subview(on_device, row, Kokkos::ALL); }
-  /// Brings them to the host, which has them after a fence.
+  /// Copies the marks to the host, which has them after a fence.
   void copy_to_host() const {
     Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), on_host, on_device);
   }
-  /// The same, and waits.
+  /// Copies the marks to the host, and waits.
   void fetch() const { Kokkos::deep_copy(on_host, on_device); }
 };
 
-/// Some x-z columns of the cells of all ranks, up to one height: the same on every rank. Small, and
-/// made on the host. x and z are periodic.
+/// Set of x-z columns of the cells of all ranks, up to one height: the same on every rank. It is
+/// small, and made on the host. x and z are periodic.
 class ColumnMap {
  public:
-  /// None yet.
+  /// Makes an empty set.
   ColumnMap() = default;
   explicit ColumnMap(const Grid& grid);
 
   static ColumnMap everything(const Grid& grid);
-  /// Those that are marked, as they were fetched. All ranks together.
+  /// Set of the marked columns, as they were fetched. All ranks call it together.
   static ColumnMap marked(const Grid& grid, const ColumnMarks& marks, int row);
 
   int top() const { return top_; }
@@ -50,18 +50,18 @@ class ColumnMap {
   bool is_empty() const { return top_ == 0; }
   bool has(int i, int k) const { return on_[index(i, k)] != 0; }
 
-  /// With so many columns and rows more on all sides.
-  ColumnMap grown(int by) const;
+  /// Set with so many columns and rows more on all sides.
+  ColumnMap dilated(int by) const;
   ColumnMap united(const ColumnMap& other) const;
-  /// With all of each block of so many columns along x that has one: loops over them then fill
-  /// whole vectors, and a rest takes as long as many of these.
-  ColumnMap in_blocks(int width = 8) const;
+  /// Set with all columns of each block of `width` along x that has one of them: loops over blocks
+  /// then fill whole vectors, and a rest would take as long as many of these.
+  ColumnMap padded_to_blocks(int width = 8) const;
 
   struct Interval {
     int first, last;
   };
-  /// The stretches of x that have columns, each with `apart` columns or more to the next, across
-  /// the periodic end, too: there `last` is beyond nx_all.
+  /// Stretches of x that have columns, each `apart` columns or more from the next, across the
+  /// periodic end, too: there `last` is beyond nx_all.
   std::vector<Interval> stretches_of_x(int apart) const;
 
  private:
@@ -71,7 +71,7 @@ class ColumnMap {
   }
   void unite_ranks(const Grid& grid);
 
-  int nx_ = 0, ny_ = 0, nz_ = 0;  // of all ranks
+  int nx_ = 0, ny_ = 0, nz_ = 0;  // columns and rows of all ranks
   int top_ = 0;                   // rows
   std::vector<std::uint8_t> on_;  // (nx_, nz_)
 };

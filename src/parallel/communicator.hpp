@@ -1,4 +1,4 @@
-// Size and rank that also answer before MPI_Init: a program without MPI is one rank.
+// Size and rank of a communicator, also before MPI_Init: a program without MPI is one rank.
 #pragma once
 
 #include <mpi.h>
@@ -33,7 +33,8 @@ inline void synchronise(MPI_Comm communicator) {
   if (mpi_runs()) MPI_Barrier(communicator);
 }
 
-/// False if some rank has not come here after this time: it is elsewhere, and the program must end.
+/// Waits for all ranks; false if one has not come here after this time: it is elsewhere, and the
+/// program must end.
 inline bool all_come(MPI_Comm communicator, std::chrono::milliseconds patience) {
   if (!mpi_runs()) return true;
   constexpr std::chrono::milliseconds pause{1};
@@ -47,7 +48,7 @@ inline bool all_come(MPI_Comm communicator, std::chrono::milliseconds patience) 
   return here != 0;
 }
 
-/// What rank 0 says, on all ranks: for questions to the clock or the disk that they might answer
+/// Answer of rank 0, on all ranks: for questions to the clock or the disk that they might answer
 /// differently.
 inline bool broadcast(bool answer, MPI_Comm communicator) {
   int said = answer ? 1 : 0;
@@ -64,7 +65,7 @@ inline std::vector<double> broadcast(std::vector<double> numbers, MPI_Comm commu
   return numbers;
 }
 
-/// True on all ranks if it is true on any.
+/// Tells if the answer is yes on any rank, the same on all.
 inline bool any_rank(bool answer, MPI_Comm communicator) {
   int said = answer ? 1 : 0;
   if (mpi_runs()) MPI_Allreduce(MPI_IN_PLACE, &said, 1, MPI_INT, MPI_MAX, communicator);

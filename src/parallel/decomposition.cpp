@@ -9,10 +9,10 @@ namespace barchan {
 
 namespace {
 
-/// What a shape costs in a flow step, in numbers that pass through memory per row of cells: two
-/// transposes for a cut in x (3 numbers a cell there and back), one for a cut in z (2), each read
-/// or written six times on its way; some 40 fields whose halos are exchanged; and what a message
-/// costs however short it is, about 400 numbers a row.
+/// Cost of a shape in a flow step, in numbers that pass through memory per row of cells. It has
+/// three parts. Transposes: two for a cut in x (3 numbers a cell there and back), one for a cut in
+/// z (2), each read or written six times on its way. Halos of some 40 fields. Messages: about 400
+/// numbers a row, however short they are.
 double cost_of(const BlockPartition& x, const BlockPartition& z) {
   const double cells = double(x.n) * z.n / (double(x.parts) * z.parts);
   const auto transposes = [cells](int parts, int numbers, int times) {
@@ -25,7 +25,7 @@ double cost_of(const BlockPartition& x, const BlockPartition& z) {
          40 * (halo(x.parts, z) + halo(z.parts, x));
 }
 
-/// Ranks along x, or 0 if `count` of them do not fit.
+/// Number of ranks along x, or 0 if `count` of them do not fit.
 int best_count_along_x(int count, int nx, int nz) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();

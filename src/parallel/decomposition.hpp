@@ -1,4 +1,4 @@
-// Which rank owns which pencil of the grid.
+// Decomposition of the grid into pencils, one for each rank.
 #pragma once
 
 #include <mpi.h>
@@ -9,7 +9,7 @@
 
 namespace barchan {
 
-/// The ranks side by side along one periodic direction.
+/// Ranks side by side along one periodic direction.
 struct RankAxis {
   MPI_Comm communicator = MPI_COMM_NULL;
   int count = 1, position = 0;
@@ -17,21 +17,20 @@ struct RankAxis {
   int upper() const { return (position + 1) % count; }
 };
 
-/// nx x nz columns of cells, cut into pencils of full height, a rank each. The shape is the one
-/// with the fewest cells along cuts, so results on a number of ranks do not depend on anything
-/// else.
+/// Decomposition of nx x nz columns of cells into pencils of full height, one for each rank. Its
+/// shape is the cheapest one, so results on a number of ranks do not depend on anything else.
 class Decomposition {
  public:
-  /// Fewest cells across a pencil along a direction that is cut.
+  /// Smallest number of cells across a pencil along a direction that is cut.
   static constexpr int kThinnest = 2;
-  /// True if so many cells can be cut into so many parts.
+  /// Tells if so many cells can be cut into so many parts.
   static bool is_thick_enough(int cells, int parts) {
     return parts == 1 || cells / parts >= kThinnest;
   }
 
-  /// Among all ranks of `all`, which call this together. Throws std::runtime_error if there are too
-  /// many of them for pencils of kThinnest cells; it says how many there may be. `along_x`: so many
-  /// ranks along x, a divisor of their number; 0: as many as cost least.
+  /// Divides the grid among all ranks of `all`, which call this together. Throws std::runtime_error
+  /// if there are too many of them for pencils of kThinnest cells; it says how many there may be.
+  /// `along_x`: so many ranks along x, a divisor of their number; 0: as many as cost least.
   Decomposition(MPI_Comm all, int nx, int nz, int along_x = 0);
   ~Decomposition();
   Decomposition(const Decomposition&) = delete;
@@ -39,7 +38,7 @@ class Decomposition {
 
   const BlockPartition& x() const { return x_; }
   const BlockPartition& z() const { return z_; }
-  /// The ranks that share this one's z, and its x.
+  /// Ranks with the same z as this one, then those with the same x.
   const RankAxis& along_x() const { return along_x_; }
   const RankAxis& along_z() const { return along_z_; }
   MPI_Comm all() const { return all_; }
@@ -50,7 +49,7 @@ class Decomposition {
   MPI_Comm all_ = MPI_COMM_NULL;
 };
 
-/// The ranks that share a grid; this one alone where it has all of it.
+/// Ranks that share a grid; this one alone where it has all of it.
 inline MPI_Comm ranks_of(const Grid& grid) {
   return grid.ranks ? grid.ranks->all() : MPI_COMM_SELF;
 }

@@ -19,7 +19,7 @@ namespace {
 
 MessageCounts sent_so_far;
 
-/// True where MPI takes addresses of the default memory space: always on a CPU, on a device if the
+/// Tells if MPI takes addresses of the default memory space: always on a CPU, on a device if the
 /// MPI library says so. Otherwise messages pass through the host.
 bool mpi_reaches_device() {
   if (kOnHost) return true;

@@ -1,4 +1,4 @@
-// The part of the grid that this rank owns.
+// Grid: the part that this rank owns.
 #pragma once
 
 #include "kernels/fluid/grid.hpp"
@@ -8,14 +8,14 @@ namespace barchan {
 
 class Decomposition;
 
-/// The grid with the heights on the host.
+/// Grid with the heights on the host.
 using HostGrid = BasicGrid<Kokkos::View<Real*, Kokkos::HostSpace>>;
 
-/// The grid with its memory.
+/// Grid with its memory.
 struct Grid : BasicGrid<Kokkos::View<Real*>> {
-  const Decomposition* ranks = nullptr;  // outlives the grid; none: one rank owns everything
+  const Decomposition* ranks = nullptr;  // outlives the grid; nullptr: one rank owns everything
 
-  /// All x-z columns times the height of the domain [m].
+  /// Sum of the heights of all x-z columns [m].
   Real height_of_all_columns() const { return ly * nx_all * nz_all; }
   HostGrid on_host() const {
     return {*this, host_copy(y_face_), host_copy(y_centre_), host_copy(row_at_)};

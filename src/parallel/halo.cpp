@@ -8,11 +8,11 @@ namespace barchan {
 
 namespace {
 
-/// Two planes of one shape, towards the rank before and the one after.
+/// Two planes of one shape, for the rank before and the one after.
 template <class T>
 using Planes = std::array<T*, 2>;
 
-/// Planes at the sides of a pencil to the neighbours, and theirs into the planes `to`.
+/// Sends planes at the sides of a pencil to the neighbours, and receives theirs in the planes `to`.
 template <BoxCopy take, class T>
 void exchange_planes(const HaloBuffers& buffers, const BoxShape& plane, const Planes<T>& from,
                      const Planes<T>& to) {
@@ -20,7 +20,8 @@ void exchange_planes(const HaloBuffers& buffers, const BoxShape& plane, const Pl
   const std::size_t n = plane.size();
   const auto halves = [n](const MessageBuffer& b) { return Planes<Real>{b.data(), b.data() + n}; };
   copy_boxes<BoxCopy::pack>("halo: pack", plane, from, halves(send));
-  // Both neighbours may be the same rank: what is sent forth first is received from before first.
+  // Order of the blocks where both neighbours are the same rank: the block sent to the one after is
+  // received from the one before.
   const MessageBlock before{line.lower(), 0, n}, after{line.upper(), n, n};
   exchange(line.communicator, send, std::array{after, before}, receive, std::array{before, after});
   copy_boxes<take>(take == BoxCopy::add ? "halo: add" : "halo: unpack", plane, to, halves(receive));
@@ -32,7 +33,7 @@ HaloBuffers buffers_for(const RankAxis& line, int n) {
   return {line, {"halo: send", room}, {"halo: receive", room}};
 }
 
-/// Of an uncut grid, up to three fields at once.
+/// Fills the ghosts of an uncut grid, up to three fields at once.
 void fill_uncut(const Grid& grid, std::span<const FieldWithWalls> fields) {
   for (; !fields.empty(); fields = fields.subspan(std::min<std::size_t>(fields.size(), 3))) {
     FillGhosts fill{.nx = grid.nx, .ny = grid.ny, .nz = grid.nz, .field = {}};
@@ -106,7 +107,7 @@ void Halo::scatter_add(const CellSums& sums) const {
   const std::ptrdiff_t stride_y = nx + 2, stride_z = stride_y * ny;
   const auto stride_q = static_cast<std::ptrdiff_t>(sums.stride(1));
   const auto at = [&](int i, int k) { return sums.data() + i + 1 + stride_z * (k + 1); };
-  if (x_.is_cut()) {  // the corners go on along z
+  if (x_.is_cut()) {  // the corners are passed on along z
     const BoxShape plane{.n = {nz + 2, ny, n_sums}, .stride = {stride_z, stride_y, stride_q}};
     exchange_planes<BoxCopy::add>(x_, plane, Planes<Sum>{at(-1, -1), at(nx, -1)},
                                   Planes<Sum>{at(0, -1), at(nx - 1, -1)});

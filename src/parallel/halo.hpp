@@ -12,36 +12,36 @@
 
 namespace barchan {
 
-/// Messages to and from the two neighbours along a direction, that for the rank before first.
+/// Messages to and from the two neighbours along a direction; that for the rank before comes first.
 struct HaloBuffers {
   RankAxis line;
   MessageBuffer send, receive;  // empty where the direction is not cut
   bool is_cut() const { return line.count > 1; }
 };
 
-/// Fills the ghosts of grid fields from the cells that own them: of this rank, across the periodic
-/// sides, or of the ranks around it; and adds ghosts to their owners.
+/// Fills the ghosts of grid fields from the cells that own them: on this rank, across the periodic
+/// sides, or on the ranks around it. Also adds ghosts to their owners.
 class Halo {
  public:
-  /// (cells with ghosts in x and z, quantities), cell (i, j, k) at i + 1 + (nx + 2) (j + ny (k +
-  /// 1)).
+  /// Sums on (cells with ghosts in x and z, quantities), cell (i, j, k) at i + 1 + (nx + 2) (j + ny
+  /// (k + 1)).
   using CellSums = Kokkos::View<std::int64_t**, Kokkos::LayoutLeft>;
 
-  /// `n_sums`: quantities for scatter_add(); 0 where it is not used.
+  /// Makes a halo. `n_sums`: quantities for scatter_add(); 0 where it is not used.
   explicit Halo(const Grid& grid, int n_sums = 0);
 
   /// Makes all ghosts of some fields valid, behind the walls by their rules, corners included.
-  /// Where no direction is cut one launch fills three fields. All ranks together.
+  /// Where no direction is cut one launch fills three fields. All ranks call it together.
   void fill_with_walls(std::span<const FieldWithWalls> fields) const;
-  /// Those in x and z alone; the rows behind the walls are taken as they are.
+  /// Makes the ghosts in x and z valid; the rows behind the walls are taken as they are.
   template <std::same_as<Field>... Fields>
   void fill(Fields&... f) const {
     fill_with_walls(std::array{FieldWithWalls{.f = f, .ny = grid_.ny, .walls = {}}...});
   }
 
-  /// The adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies
-  /// of, first along x, then along z. Integers, so the order does not matter. Nothing happens where
-  /// the grid is not cut. All ranks together.
+  /// Adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies of,
+  /// first along x, then along z. They are integers, so the order does not matter. Does nothing
+  /// where the grid is not cut. All ranks call it together.
   void scatter_add(const CellSums& sums) const;
 
  private:

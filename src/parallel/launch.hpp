@@ -20,22 +20,22 @@ CellRange owned_cells(const BasicGrid<Rows>& grid) {
   return {0, grid.nx, 0, grid.ny, 0, grid.nz};
 }
 
-/// Work items 0..n-1. "Light" makes a device take the functor as the kernel's argument. Kokkos
-/// would copy one of more than 512 bytes through a buffer in constant memory, and wait at every
-/// launch until the last kernel that used the buffer is done.
+/// Range of work items 0..n-1. "Light" makes a device take the functor as the kernel's argument.
+/// Kokkos would copy one of more than 512 bytes through a buffer in constant memory, and wait at
+/// every launch until the last kernel that used the buffer is done.
 using Items = Kokkos::RangePolicy<Kokkos::DefaultExecutionSpace, Kokkos::IndexType<int>,
                                   Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 inline Items items(int n) { return Items(0, n); }
 
-/// Some of the cells of a range: those of whole columns, up to its rows.
+/// Part of the cells of a range: whole columns, up to its rows.
 struct RegionRef {
   /// Columns [begin, end) of a plane.
   struct Run {
     int begin, end;
   };
   CellRange range;
-  const std::uint8_t* active = nullptr;  // (i, k)
-  // On a host, runs of all planes; those of k from first_run[k] on.
+  const std::uint8_t* active = nullptr;  // (i, k): column is in the region
+  // Runs of all planes, on a host alone; the runs of plane k begin at first_run[k].
   const Run* runs = nullptr;
   const int* first_run = nullptr;
 
@@ -47,14 +47,15 @@ struct RegionRef {
   }
 };
 
-/// A functor for the cells of a region alone.
+/// Functor for the cells of a region alone.
 template <class Inside>
 struct Within {
   RegionRef region;
   Inside inside;
 };
 
-/// One functor for the cells of a region, another for all others; either may be of this kind again.
+/// Pair of functors: one for the cells of a region, another for all others. Either may be a
+/// ByRegion again.
 template <class Inside, class Outside>
 struct ByRegion {
   RegionRef region;
@@ -73,24 +74,25 @@ inline Items policy(const CellRange& r) {
 struct CellsOfRow {
   int i0, i1, j, k;
 };
-/// The cells of a work item: a row on the host, a single cell on a device.
+/// Cells of a work item: a row on the host, a single cell on a device.
 KOKKOS_FORCEINLINE_FUNCTION CellsOfRow cells_of_item(const CellRange& r, int item) {
   const int length = kOnHost ? 1 : r.i1 - r.i0;
   const int rows_y = r.j1 - r.j0, row = item / length, i0 = r.i0 + item % length;
   return {i0, kOnHost ? r.i1 : i0 + 1, r.j0 + row % rows_y, r.k0 + row / rows_y};
 }
 
-/// A functor within a work item. On the host a local copy: its members stay in registers.
+/// Functor within a work item. On the host it is a local copy: its members stay in registers.
 template <class Functor>
 using Body = std::conditional_t<kOnHost, const Functor, const Functor&>;
 
-/// action(functor, first, last) for the cells [first, last) of a row that take it.
+/// Calls action(functor, first, last) for the cells [first, last) of a row that take it.
 template <class Functor, class Action>
 KOKKOS_FORCEINLINE_FUNCTION void each_part(const Functor& functor, const CellsOfRow& at,
                                            const Action& action) {
   action(functor, at.i0, at.i1);
 }
-/// action(is inside, stretch) for stretches of a row: those in a region, those between them.
+/// Calls action(is inside, stretch) for stretches of a row: those in a region, and those between
+/// them.
 template <class Action>
 KOKKOS_FORCEINLINE_FUNCTION void each_stretch(const RegionRef& region, const CellsOfRow& at,
                                               const Action& action) {
@@ -144,7 +146,7 @@ struct Loop {
 
 }  // namespace launch_detail
 
-/// functor(i, j, k) for every index of the range.
+/// Calls functor(i, j, k) for every index of the range.
 template <class Functor>
 void for_each_cell(const char* label, const CellRange& range, const Functor& functor) {
   Kokkos::parallel_for(label, launch_detail::policy(range),

@@ -1,4 +1,4 @@
-// Arrays of the device, for the host, and the other way.
+// Copies of a device's arrays on the host, and the other way.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace barchan {
 
-/// An array for the host of a view's shape; where the host reaches the view, the view itself. In a
-/// rehearsal always one of its own, so that a missing copy shows.
+/// Array for the host of a view's shape; where the host reaches the view, the view itself. In a
+/// rehearsal it is always a separate array, so that a missing copy shows.
 template <class View>
 auto mirror(const View& view) {
   if constexpr (kRehearsal)
@@ -19,7 +19,7 @@ auto mirror(const View& view) {
     return Kokkos::create_mirror_view(view);
 }
 
-/// With the view's numbers.
+/// Array for the host with the view's numbers.
 template <class View>
 auto host_copy(const View& view) {
   const auto host = mirror(view);
@@ -27,7 +27,7 @@ auto host_copy(const View& view) {
   return host;
 }
 
-/// A copy on the device, with room for `least` entries.
+/// Copy on the device, with room for `least` entries.
 template <class T>
 Kokkos::View<T*> to_device(const std::string& label, const std::vector<T>& values,
                            std::size_t least = 0) {

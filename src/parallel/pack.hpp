@@ -1,4 +1,5 @@
-// Into messages and out of them, bit for bit: entries of arrays, and boxes of strided arrays.
+// Packing into messages and out of them, bit for bit: entries of arrays, and boxes of strided
+// arrays.
 #pragma once
 
 #include <array>
@@ -14,21 +15,22 @@
 
 namespace barchan {
 
-/// Which arrays of an entry are packed together: those of some arrays, one after the other. A
-/// message consists of numbers of eight bytes.
+/// Layout of a packed entry: the values of some arrays, one after the other. A message consists of
+/// numbers of eight bytes.
 struct PackLayout {
-  // All arrays of a grain fit, as a test of CoupledOverRanks shows; more would not fit a kernel's
-  // arguments. However many columns an array has, it is one.
+  // Largest number of arrays. All arrays of a grain fit, as a test of CoupledOverRanks shows; more
+  // would not fit a kernel's arguments. However many columns an array has, it counts as one.
   static constexpr int kMax = 28;
   struct Array {
     char* data;
     std::int32_t column_stride;  // from column to column [numbers of eight bytes]
     std::int16_t stride;         // from entry to entry [bytes]
-    std::int8_t numbers;  // of an entry and column; 0: a single byte, a number in the message
+    // numbers of an entry and column; 0: a single byte, a number in the message
+    std::int8_t numbers;
     std::int8_t columns;
 
     KOKKOS_FUNCTION int width() const { return columns * (numbers > 0 ? numbers : 1); }
-    /// The address of an entry in a column.
+    /// Address of an entry in a column.
     KOKKOS_FUNCTION char* address(std::ptrdiff_t entry, int column) const {
       return data + entry * stride +
              static_cast<std::ptrdiff_t>(sizeof(Real)) * column_stride * column;
@@ -37,8 +39,8 @@ struct PackLayout {
   Array array[kMax];
   int n = 0, width = 0;  // arrays; numbers of an entry
 
-  /// Entries of `bytes` bytes (one, or a multiple of eight) at data and every `stride` bytes on; in
-  /// each of some columns. Throws std::length_error beyond kMax.
+  /// Adds an array with entries of `bytes` bytes (one, or a multiple of eight) at data and every
+  /// `stride` bytes on, in each of some columns. Throws std::length_error beyond kMax.
   void add(void* data, std::size_t stride, std::size_t bytes, std::size_t columns = 1,
            std::size_t column_stride = 0) {
     if (n == kMax) throw std::length_error("PackLayout: too many arrays");
@@ -58,13 +60,13 @@ struct PackLayout {
     add(columns.data(), sizeof(T), sizeof(T), columns.extent(1),
         columns.stride(1) * (sizeof(T) / sizeof(Real)));
   }
-  /// One member of each entry.
+  /// Adds one member of each entry.
   template <class T, class Member>
   void add(const Kokkos::View<T*>& entries, Member T::*member) {
     add(&(entries.data()->*member), sizeof(T), sizeof(Member));
   }
 
-  /// Where in a packed entry the part of an array begins.
+  /// Offset of an array's part in a packed entry.
   int offset_of(const void* data) const {
     int offset = 0;
     for (int a = 0; a < n && array[a].data != data; ++a) offset += array[a].width();
@@ -75,7 +77,7 @@ struct PackLayout {
 /// Packs entries one after the other.
 struct PackEntries {
   PackLayout layout;
-  Kokkos::View<const int*> entry;  // that are packed; none: 0, 1, ...
+  Kokkos::View<const int*> entry;  // entries to pack; empty: 0, 1, ...
   Real* message;
 
   KOKKOS_FUNCTION void operator()(int p) const {
@@ -92,13 +94,13 @@ struct PackEntries {
     }
   }
 };
-/// Unpacks them to other entries.
+/// Unpacks entries, in the order of a list or one after the other.
 struct UnpackEntries {
   PackLayout layout;
-  Kokkos::View<const int*> entry;  // that are filled; none: first_entry and those after it
+  Kokkos::View<const int*> entry;  // entries to fill; empty: first_entry and those after it
   int first_entry;
   const Real* message;
-  int width;  // of a packed entry, which may hold more than the layout
+  int width;  // numbers of a packed entry, which may hold more than the layout
 
   KOKKOS_FUNCTION void unpack(int p, std::ptrdiff_t r) const {
     const Real* from = message + std::ptrdiff_t{width} * p;
@@ -118,18 +120,18 @@ struct UnpackEntries {
   }
 };
 
-/// Rows packed, exchanged and unpacked, in buffers that serve again.
+/// Exchange of packed rows, in buffers that serve again.
 class EntryExchange {
  public:
-  /// `name` heads the labels of kernels and memory.
+  /// Makes an exchange. `name` heads the labels of kernels and memory.
   explicit EntryExchange(const std::string& name)
       : pack_(name + ": pack"),
         unpack_(name + ": unpack"),
         send_(name + ": send", 0),
         receive_(name + ": receive", 0) {}
 
-  /// Packs the entries for rank 0 first (none given: 0, 1, ...) and exchanges them. All ranks
-  /// together.
+  /// Packs the entries, those for rank 0 first (empty list: 0, 1, ...), and exchanges them. All
+  /// ranks call it together.
   void exchange(const ExchangeCounts& counts, const PackLayout& layout,
                 const Kokkos::View<const int*>& entry = {}) {
     send_.reserve(static_cast<std::size_t>(counts.n_to()) * static_cast<std::size_t>(layout.width));
@@ -140,7 +142,7 @@ class EntryExchange {
     barchan::exchange(counts.ranks, send_, consecutive_blocks(counts.to, width_), receive_,
                       consecutive_blocks(counts.from, width_));
   }
-  /// What was received, into the entries of a list, or into `first_entry` and those after it.
+  /// Unpacks received entries into those of a list, or into `first_entry` and those after it.
   void unpack(const PackLayout& layout, const Kokkos::View<const int*>& entry,
               int first_entry = 0) const {
     Kokkos::parallel_for(unpack_, items(n_received_), unpacking(layout, entry, first_entry));
@@ -149,7 +151,7 @@ class EntryExchange {
                           int first_entry) const {
     return {layout, entry, first_entry, receive_.data(), width_};
   }
-  /// (entries) of width() numbers.
+  /// Received numbers: (entries) of width() numbers.
   const Real* received() const { return receive_.data(); }
   int width() const { return width_; }
 
@@ -171,7 +173,8 @@ struct BoxShape {
 };
 enum class BoxCopy { pack, unpack, add };
 
-/// `count` boxes of one shape, each to or from its message; the first direction is packed fastest.
+/// Copies `count` boxes of one shape, each to or from its message; the first direction is packed
+/// fastest.
 template <BoxCopy copy, class T, int count, int width>
 struct CopyBoxes {
   std::ptrdiff_t stride_0, stride_1, stride_2;

@@ -12,7 +12,7 @@
 
 namespace barchan {
 
-/// Over ranks, the same bits on all of them. A T is a Real or a std::int64_t.
+/// Sums over ranks, with the same bits on all of them. T is a Real or a std::int64_t.
 template <class T>
 void sum_over(MPI_Comm ranks, std::vector<T>& numbers) {
   all_reduce(ranks, std::span<T>(numbers), MPI_SUM);
@@ -32,7 +32,7 @@ inline Real max_over(MPI_Comm ranks, Real number) {
 
 namespace launch_detail {
 
-/// The sum of a functor's values, or the largest of them.
+/// Reduction to the sum of a functor's values, or to the largest of them.
 template <bool largest, class Functor>
 struct Reduction {
   Functor functor;
@@ -48,7 +48,7 @@ struct Reduction {
       for (int i = begin; i < end; ++i) {
         const Real value = body(i, j, k);
         if constexpr (largest) part_max = value > part_max ? value : part_max;
-        part_sum += value;  // a maximum forgets what is not a number, a sum does not
+        part_sum += value;  // a maximum forgets a value that is not a number, a sum does not
       }
       row_max = part_max, row_sum += part_sum;
     });
@@ -65,7 +65,7 @@ using Sum = Reduction<false, Functor>;
 template <class Functor>
 using Largest = Reduction<true, Functor>;
 
-/// The sum of a functor's vectors.
+/// Reduction to the sum of a functor's vectors.
 template <class Functor>
 struct VectorSum {
   Functor functor;
@@ -88,7 +88,7 @@ struct VectorSum {
   }
 };
 
-/// The largest of a functor's values and the sums of two others.
+/// Reduction to the largest of a functor's values and the sums of two others.
 template <class Functor>
 struct MaxAndSum {
   Functor functor;

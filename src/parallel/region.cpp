@@ -8,7 +8,7 @@ namespace barchan {
 
 namespace {
 
-/// In a plane of nx columns every second one may be a run.
+/// Largest number of runs: in a plane of nx columns every second one may be a run.
 std::size_t most_runs(const Grid& grid) {
   return static_cast<std::size_t>(grid.nx / 2 + 1) * static_cast<std::size_t>(grid.nz);
 }
@@ -44,7 +44,7 @@ void Region::set(const ColumnMap& columns) {
     }
   }
   first_run_(static_cast<std::size_t>(nz)) = n_runs;
-  // Ordered with the kernels, without a wait: the step waits before this is written again.
+  // Copy in order with the kernels, without a wait: the step waits before this is written again.
   Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), active_, active_on_host_);
   range_ =
       first < last ? CellRange{0, nx, 0, columns.top(), first, last} : CellRange{0, nx, 0, 0, 0, 0};

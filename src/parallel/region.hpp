@@ -1,4 +1,5 @@
-// The cells of this rank near grains: kernels run in them, or in them and elsewhere in other ways.
+// Region: the cells of this rank near grains. Kernels run in it, or in it and elsewhere in
+// different ways.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +9,24 @@
 
 namespace barchan {
 
-/// Of columns of cells the part of this rank.
+/// This rank's part of a ColumnMap.
 class Region {
  public:
-  /// All cells.
+  /// Region of all cells.
   explicit Region(const Grid& grid);
 
   void set(const ColumnMap& columns);
-  /// Those that it was made of.
+  /// Columns that the region was made of.
   const ColumnMap& columns() const { return columns_; }
 
-  /// For kernels.
+  /// Region for kernels.
   RegionRef ref() const { return {range_, active_.data(), runs_.data(), first_run_.data()}; }
-  /// All rows and planes that have cells, whole.
+  /// Range of all rows and planes that have cells, whole.
   const CellRange& range() const { return range_; }
-  /// Its columns.
+  /// Columns of the range: its lowest row.
   CellRange floor() const { return {range_.i0, range_.i1, 0, 1, range_.k0, range_.k1}; }
-  /// Whether ghosts in x and z are copies of its cells, or may be. The same on all ranks.
+  /// Tells if ghosts in x and z are, or may be, copies of cells in the region. The same on all
+  /// ranks.
   bool has_ghosts() const { return has_ghosts_; }
 
  private:
@@ -39,22 +41,22 @@ class Region {
   bool has_ghosts_ = true;
 };
 
-/// Cells near grains, and with one more on all sides.
-struct NearGrains {
-  explicit NearGrains(const Grid& grid) : cells(grid), around(grid) {}
+/// Cells near grains, and the same with one more on all sides.
+struct ActiveRegion {
+  explicit ActiveRegion(const Grid& grid) : cells(grid), dilated(grid) {}
   void set(const ColumnMap& columns) {
     cells.set(columns);
-    around.set(columns.grown(1));
+    dilated.set(columns.dilated(1));
   }
-  Region cells, around;
+  Region cells, dilated;
 };
 
-/// functor(i, j, k) for the cells of a region.
+/// Calls functor(i, j, k) for the cells of a region.
 template <class Functor>
 void for_each_cell(const char* label, const Region& region, const Functor& functor) {
   for_each_cell(label, region.range(), Within<Functor>{region.ref(), functor});
 }
-/// For its columns (i, 0, k).
+/// Calls functor(i, 0, k) for the columns of a region.
 template <class Functor>
 void for_each_column(const char* label, const Region& region, const Functor& functor) {
   for_each_cell(label, region.floor(), Within<Functor>{region.ref(), functor});

@@ -7,7 +7,8 @@
 
 namespace barchan {
 
-/// Keys in ascending order, and values with their keys. Values of equal keys come in any order.
+/// Sorts keys in ascending order, and values with their keys. Values of equal keys come in any
+/// order.
 template <class Keys, class Values>
 void sort_by_key(const Keys& keys, const Values& values) {
   if constexpr (kRehearsal) {  // Kokkos would sort on the host without a kernel

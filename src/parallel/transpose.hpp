@@ -1,4 +1,5 @@
-// Data that ranks side by side hold in shares of one axis, exchanged into shares of another.
+// Transposes: data that ranks side by side hold in shares of one axis, exchanged into shares of
+// another.
 #pragma once
 
 #include <array>
@@ -9,22 +10,22 @@
 
 namespace barchan {
 
-/// An array of three axes: element (i, j, k) at i s0 + j s1 + k s2, of `width` numbers each.
+/// Array of three axes: element (i, j, k) at i s0 + j s1 + k s2, of `width` numbers each.
 struct StridedArray {
   Real* data = nullptr;
   std::array<std::ptrdiff_t, 3> stride{};
 };
 
-/// "Cut" arrays have a share of the axis `shared` and all of the axis `split` on each rank of a
-/// line, "joined" ones all of `shared` and a share of `split`. Elements are real (width 1) or
-/// complex (2).
+/// Transpose between two arrays. "Cut" arrays have a share of the axis `shared` and all of the axis
+/// `split` on each rank of a line, "joined" ones all of `shared` and a share of `split`. Elements
+/// are real (width 1) or complex (2).
 class Transpose {
  public:
-  /// `whole`: extents with both axes whole.
+  /// Plans the transpose. `whole`: extents with both axes whole.
   Transpose(const RankAxis& line, std::array<int, 3> whole, std::size_t shared, std::size_t split,
             int width);
 
-  /// With one rank in the line both arrays are the same, and nobody has to move anything.
+  /// Tells if the line has one rank: both arrays are then the same, and nothing has to move.
   bool is_trivial() const { return line_.count == 1; }
   std::array<int, 3> cut_extents() const { return cut_; }
   std::array<int, 3> joined_extents() const { return joined_; }
@@ -36,7 +37,7 @@ class Transpose {
   }
 
  private:
-  /// An array in blocks along one axis: what the ranks of the line have of it on the other side.
+  /// Side of the transpose: an array in blocks along one axis, one for each rank of the line.
   struct Side {
     std::array<int, 3> extents{};
     std::size_t axis = 0;

@@ -7,7 +7,7 @@ namespace barchan {
 namespace {
 
 constexpr const char* kName = "since_row_of_bodies";
-constexpr std::size_t kNumbers = 6;  // of a load
+constexpr std::size_t kNumbers = 6;  // numbers of a load
 
 void add_to(BodyLoad& sum, const BodyLoad& load) {
   sum.force += load.force;

@@ -16,9 +16,9 @@ class BodySums {
   explicit BodySums(std::size_t n_bodies) : water_(n_bodies), grains_(n_bodies) {}
 
   bool any() const { return !water_.empty(); }
-  /// The loads of the last step.
+  /// Adds the loads of the last step.
   void add(const CoupledStep& step);
-  /// A line for each body with the means since the last call; `contacts` are those of now.
+  /// Records of each body, with the means since the last call; `contacts` are the present ones.
   std::vector<BodyRecord> take(double t, const CoupledStep& step);
 
   void save(CheckpointWriter& file) const;

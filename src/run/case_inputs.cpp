@@ -24,7 +24,7 @@ std::vector<CaseInput> inputs_of(const Case& the_case) {
 nlohmann::json recorded_inputs(const fs::path& folder) {
   std::ifstream in(folder / kInputsFile);
   if (!in) return {};
-  return nlohmann::json::parse(in, nullptr, false);  // of a damaged file "discarded": like no input
+  return nlohmann::json::parse(in, nullptr, false);  // damaged: "discarded", like no input
 }
 
 std::optional<fs::path> changed_input(const nlohmann::json& recorded, const Case& the_case) {

@@ -1,5 +1,5 @@
-// What the results of a case came from besides its own keys: the content of the files it starts
-// from, and of the cases. It tells old results from those that a run would give now.
+// Inputs of a case besides its own keys: the content of the files and of the cases that it starts
+// from. They tell old results from those that a run would give now.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace barchan {
 
-/// The name of the file of a run folder that holds it, as JSON.
+/// Name of the file of a run folder with its inputs, as JSON.
 inline constexpr const char* kInputsFile = "config.inputs.json";
 
-/// A file that a case starts from; `start`: the case in it, if it is one.
+/// File that a case starts from; `start`: the case in it, if it is one.
 struct CaseInput {
   const char* key;  // "initial.grains"
   std::filesystem::path file;
@@ -23,13 +23,13 @@ struct CaseInput {
 };
 std::vector<CaseInput> inputs_of(const Case& the_case);
 
-/// What a run folder says that its results came from: of each input that is a file its length and
-/// CRC-32, of each that is a case its resolved text, as "config", and its own inputs. Null if it
-/// says nothing, as of a case without inputs, or of earlier versions.
+/// Inputs that a run folder names for its results: for each file its length and CRC-32, for each
+/// case its resolved text, as "config", and its own inputs. Null if it names none, as with a case
+/// without inputs, or one of earlier versions.
 nlohmann::json recorded_inputs(const std::filesystem::path& folder);
 
-/// The first input, of the case or of those that it starts from, whose content is not as recorded;
-/// none where nothing is recorded.
+/// First input, of the case or of those that it starts from, whose content is not as recorded;
+/// empty where nothing is recorded.
 std::optional<std::filesystem::path> changed_input(const nlohmann::json& recorded,
                                                    const Case& the_case);
 

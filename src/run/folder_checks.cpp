@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The nearest folder on the way up that is there.
+/// Nearest folder on the way up that exists.
 fs::path existing_part(const fs::path& folder) {
   fs::path at = fs::absolute(folder).lexically_normal();
   for (;; at = at.parent_path()) {
@@ -35,7 +35,7 @@ fs::path existing_part(const fs::path& folder) {
 }
 
 bool same_folder(const fs::path& a, const fs::path& b) {
-  // What is not there yet is compared by name, which must not depend on where we are.
+  // Folders that do not exist yet are compared by name, which must not depend on where we are.
   return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 

@@ -1,4 +1,4 @@
-// history.csv: what a run is like as it goes.
+// Table history.csv: the state of a run over time.
 #pragma once
 
 #include <array>
@@ -7,14 +7,14 @@
 
 namespace barchan {
 
-/// One line. A new column is a member here and a line in kHistoryColumns; docs/files.md has
-/// the meanings (a test compares).
+/// Line of history.csv. A new column is a member here and a line in kHistoryColumns; docs/files.md
+/// has the meanings (a test compares).
 struct HistoryRecord {
   double t = 0;  // [s]
   std::int64_t step = 0;
   double u_star = 0;                                          // from the wall shear [m/s]
   double bulk_velocity = 0;                                   // [m/s]
-  double pressure_gradient = 0;                               // driving [Pa/m]
+  double pressure_gradient = 0;                               // driving pressure gradient [Pa/m]
   double fluid_kinetic_energy = 0, grain_kinetic_energy = 0;  // [J]
   double cfl = 0;
   double continuity_residual = 0;  // largest of the interval [1/s]
@@ -22,7 +22,7 @@ struct HistoryRecord {
   std::int64_t n_grains = 0, n_contacts = 0;
   double max_overlap = 0;             // over the mean diameter of the pair
   double grain_flux = 0;              // solid volume per width and time along x [m^2/s]
-  double stress_on_grains = 0;        // of the flow along x, mean of the interval [Pa]
+  double stress_on_grains = 0;        // stress of the flow along x, mean of the interval [Pa]
   std::int64_t n_fed = 0;             // grains that have come in
   double grain_step_over_stable = 0;  // grain step over the longest for which contacts are stable
   double bulk_velocity_z = 0, wanted_velocity_x = 0, wanted_velocity_z = 0;  // [m/s]

@@ -25,7 +25,7 @@ double kinetic_energy(const GrainState& grains) {
   return sum_over(grains.ranks, energy);
 }
 
-/// Sum of V_p u along x or z [m^4/s].
+/// Volume flow of the grains: sum of V_p u along x or z [m^4/s].
 double volume_flow(const GrainState& grains, bool along_x) {
   double flow = 0;
   Kokkos::parallel_reduce("history: flow of the grains", grains.n,
@@ -65,7 +65,7 @@ void ResultsWriter::write_due() {
   if (run_.state.grains && clock.due(run_.config.output.dune_interval)) {
     const PhaseTimer timer(accounts_.phases, "analytics");
     for (const DuneRecord& dune : diagnostics_.find_dunes()) append_record(folder_, dune);
-    diagnostics_.place_seam(*run_.state.grains);
+    diagnostics_.place_window_edge(*run_.state.grains);
     for (const HeapShare& share : diagnostics_.heap_shares()) append_record(folder_, share);
   }
   if (diagnostics_.sample_due()) {
@@ -83,8 +83,8 @@ void ResultsWriter::write_due() {
   if (history) write_summary("running", "");
 }
 
-/// Returns the grain step over the longest for which contacts are stable. Keeps the largest ratio,
-/// and warns of the first one above what the limit is uncertain by.
+/// Grain step over the longest for which contacts are stable. Keeps the largest ratio, and warns of
+/// the first one that exceeds one by more than the limit is uncertain.
 double ResultsWriter::check_grain_step() {
   if (run_.config.grains->frozen) return 0;
   const double stable = run_.coupled_step.grain_solver()->stable_step(*run_.state.grains);
@@ -185,7 +185,7 @@ void ResultsWriter::write_frames() {
   }
 }
 
-/// By simulated time, or by the wall clock of rank 0.
+/// Tells if a restart file is due, by simulated time or by the wall clock of rank 0.
 bool ResultsWriter::restart_due() const {
   const RestartConfig& restart = run_.config.restart;
   if (run_.clock.due(restart.interval)) return true;

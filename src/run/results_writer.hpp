@@ -1,4 +1,4 @@
-// What a run writes, and when.
+// Output of a run: what is written, and when.
 #pragma once
 
 #include "src/base/errors.hpp"
@@ -9,8 +9,8 @@
 
 namespace barchan {
 
-/// Tables, frames, restart files and summary of a run that it refers to. All ranks call every
-/// member together. Members throw std::runtime_error with a sentence for the user.
+/// Writer of tables, frames, restart files and summary of a run that it refers to. All ranks call
+/// every member together. Members throw std::runtime_error with a sentence for the user.
 class ResultsWriter {
  public:
   /// Makes the folder ready: removes the results of an earlier run, or those later than the
@@ -18,14 +18,14 @@ class ResultsWriter {
   ResultsWriter(const std::filesystem::path& folder, RunState& run, RunDiagnostics& diagnostics,
                 RunAccounts& accounts);
 
-  /// Everything whose interval ends with the present step.
+  /// Writes everything whose interval ends with the present step.
   void write_due();
-  /// A restart file, and the means over time up to it.
+  /// Writes a restart file, and the means over time up to it.
   void write_restart();
-  /// run.json, and when the status changes ro-crate-metadata.json.
+  /// Writes run.json, and when the status changes ro-crate-metadata.json.
   void write_summary(const std::string& status, const std::string& message);
-  /// Files to look at what went wrong in. Returns the message for the user with their names: that
-  /// they cannot be written must not hide why the run failed.
+  /// Writes files that show what went wrong. Returns the message for the user with their names: a
+  /// failure to write them must not hide why the run failed.
   std::string write_failure(const StateError& problem) const;
 
  private:
@@ -42,8 +42,8 @@ class ResultsWriter {
   std::filesystem::path folder_;
   OutputFiles output_;
   WallClock::time_point last_restart_ = WallClock::now();
-  int rows_unfed_ = 0;  // of history.csv, one after the other
-  CrateAction action_;  // of rank 0
+  int rows_unfed_ = 0;  // successive rows of history.csv in which a feed found no place
+  CrateAction action_;  // action of rank 0
 };
 
 }  // namespace barchan

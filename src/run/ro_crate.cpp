@@ -36,7 +36,7 @@ const char* format_of(const fs::path& name) {
   return "text/plain";
 }
 
-/// The files of the run, by name.
+/// Files of the run, by name.
 Json files_in(const fs::path& folder) {
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -66,7 +66,7 @@ Json described(const CrateAction& run) {
   return action;
 }
 
-/// What a file says of the actions before the one with this start. Others may have written it.
+/// Actions that a file lists before the one with this start. Others may have written it.
 Json actions_before(const fs::path& file, const std::string& start) {
   std::ifstream in(file);
   const Json crate = Json::parse(in, nullptr, false);

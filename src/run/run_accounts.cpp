@@ -38,7 +38,7 @@ Phases phases_per_step(const RunState& run, const Phases& others) {
   return all;
 }
 
-/// Per fluid step, of this rank; the imbalance is that of all.
+/// Communication per fluid step, of this rank; the imbalance is that of all.
 std::map<std::string, double> communication(const RunState& run, const MessageCounts& start) {
   const MessageCounts& now = message_counts();
   const auto since = [&](auto all, auto before, double unit = 1) {

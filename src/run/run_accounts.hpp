@@ -1,4 +1,4 @@
-// What a run counts and times for history.csv, the progress line and run.json.
+// Counts and times of a run for history.csv, the progress line and run.json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,7 @@ namespace barchan {
 struct FluidStepSums {
   std::int64_t steps = 0, iterations = 0, max_iterations = 0;
   double continuity_residual = 0, courant = 0;  // largest [1/s], [-]
-  Vec3 impulse_on_grains;                       // of the flow [N s]
+  Vec3 impulse_on_grains;                       // impulse of the flow [N s]
 
   void add(const FluidStepReport& report, double fluid_step, const Vec3& impulse);
   double mean_iterations() const {
@@ -22,7 +22,7 @@ struct FluidStepSums {
   }
 };
 
-/// What is wrong with a feed for whose grains there has been no place; empty: nothing.
+/// Warning about a feed whose grains have found no place; empty: nothing is wrong.
 std::string unfed_grains(const RunState& run);
 
 /// Sums, extremes and rates for history.csv, the progress line and run.json.
@@ -30,20 +30,21 @@ struct RunAccounts {
   FluidStepSums interval, all;        // since the last row of history.csv; since begin()
   BodySums bodies{0};                 // since the last lines of bodies.csv
   double max_overlap = 0;             // over the mean diameter of the pair
-  double grain_step_over_stable = 0;  // largest
+  double grain_step_over_stable = 0;  // largest ratio
   std::int64_t grain_steps = 0;
   Phases phases;  // wall time, besides those of the coupled step
   WallClock::time_point start = WallClock::now();
   MessageCounts messages_at_start;
 
-  /// Wall time and messages count from now on.
+  /// Begins to count wall time and messages.
   void begin();
-  /// The interval in restart files; those of earlier versions have none.
+  /// Saves and loads the interval in restart files; those of earlier versions have none.
   void save(CheckpointWriter& file) const;
   void load(const CheckpointReader& file);
   Progress progress(const RunState& run, const std::optional<DuneRecord>& largest_dune) const;
-  /// run.json. `status`: "running", "done", "stopped" or "failed"; `message`: why it stopped or
-  /// failed. Wall seconds of phases are per fluid step, what is communicated is of this rank.
+  /// Content of run.json. `status`: "running", "done", "stopped" or "failed"; `message`: why it
+  /// stopped or failed. Wall seconds of phases are per fluid step; numbers of messages are of this
+  /// rank.
   nlohmann::ordered_json summary(const RunState& run, const std::string& status,
                                  const std::string& message) const;
 };

@@ -1,4 +1,4 @@
-// Where a run is in time.
+// Time of a run in fluid steps.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ struct RunClock {
 
   double time() const { return static_cast<double>(step) * fluid_step; }  // [s]
   std::int64_t steps_done() const { return step - start; }
-  /// True at the start of a case and at the first step at or after each multiple of `interval` [s],
-  /// or at every step if that is shorter; never if it is 0.
+  /// Tells if output is due: at the start of a case and at the first step at or after each multiple
+  /// of `interval` [s], or at every step if that is shorter; never if it is 0.
   bool due(double interval) const {
     if (!(interval > 0)) return false;
     if (step == 0) return true;

@@ -55,13 +55,13 @@ std::vector<int> RunDiagnostics::dune_labels() const {
   return from_rank_0(run_.ranks, labels, grains.n);
 }
 
-void RunDiagnostics::place_seam(GrainState& grains) const {
+void RunDiagnostics::place_window_edge(GrainState& grains) const {
   if (run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
   const double lx = run_.config.size[0];
-  std::vector<double> seam;
-  if (largest_dune_) seam = {std::fmod(largest_dune_->cx + lx / 2, lx)};
-  seam = broadcast(seam, run_.ranks);
-  if (!seam.empty()) grains.seam_x = seam.front();
+  std::vector<double> edge;
+  if (largest_dune_) edge = {std::fmod(largest_dune_->cx + lx / 2, lx)};
+  edge = broadcast(edge, run_.ranks);
+  if (!edge.empty()) grains.window_edge = edge.front();
 }
 
 bool RunDiagnostics::sample_due() const {

@@ -1,4 +1,4 @@
-// What a run measures as it goes.
+// Measurements during a run.
 #pragma once
 
 #include "src/diagnostics/dune_analytics.hpp"
@@ -12,33 +12,32 @@
 
 namespace barchan {
 
-/// The dunes, and means of the flow and of the forces over time. All ranks call every member
-/// together.
+/// Dunes, and means of the flow and of the forces over time. All ranks call every member together.
 class RunDiagnostics {
  public:
   explicit RunDiagnostics(const RunState& run);
 
-  /// The dunes now, in order of label, on rank 0; nothing on others.
+  /// Dunes now, in order of label, on rank 0; empty on others.
   std::vector<DuneRecord> find_dunes();
-  /// Which heaps the grains of the dunes last found came from, on rank 0; nothing on others.
+  /// Heaps that the grains of the dunes last found came from, on rank 0; empty on others.
   const std::vector<HeapShare>& heap_shares() const { return heap_shares_; }
-  /// Of each grain of this rank the label of its dune, as in dune.csv if find_dunes() was called at
+  /// Label of the dune of each grain of this rank, as in dune.csv if find_dunes() was called at
   /// this step; -1: in none.
   std::vector<int> dune_labels() const;
-  /// The largest of the dunes last found.
+  /// Largest of the dunes last found.
   const std::optional<DuneRecord>& largest_dune() const { return largest_dune_; }
 
-  /// In a window that follows its dune, puts the seam half a box away from the largest of them;
-  /// without one it stays where it is.
-  void place_seam(GrainState& grains) const;
+  /// Puts the edge of a window that follows its dune half a box away from the largest dune; without
+  /// a dune it stays where it is.
+  void place_window_edge(GrainState& grains) const;
 
-  /// From statistics.start on, every statistics.interval.
+  /// Tells if a sample is due: from statistics.start on, every statistics.interval.
   bool sample_due() const;
-  /// Adds the state of now to the means.
+  /// Adds the present state to the means.
   void sample();
-  /// The probes of the case; nothing without any.
+  /// Probes of the case; nullptr without any.
   Probes* probes() { return probes_ ? &*probes_ : nullptr; }
-  /// statistics.csv, flow_average.h5 and force_map.csv.
+  /// Writes statistics.csv, flow_average.h5 and force_map.csv.
   void write(const std::filesystem::path& folder, const OutputFiles& output);
 
   void save(CheckpointWriter& file) const;

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file of a run folder, and what it holds.
+/// File of a run folder, and its meaning.
 struct ResultFile {
   const char *name, *meaning;
 };
@@ -58,7 +58,7 @@ constexpr ResultFile kResultFiles[] = {
     {"failure_fields.h5", "flow of the faulty state that stopped the run"},
     {"failure_fields.xdmf", "description of failure_fields.h5 for ParaView"}};
 
-/// Tables that not every run has.
+/// Cuts a table that not every run has, if it exists.
 template <class Record>
 void cut_if_there(const fs::path& folder, const CsvTable<Record>& table, double t) {
   if (fs::exists(folder / table.file)) cut_table(folder / table.file, table.header(), t);
@@ -129,7 +129,7 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
     }
     if (!restart_time || status_in(folder / "run.json").empty())
       write_summary(folder, {{"status", "running"}, {"message", ""}});
-    // Of a run that failed, a restart removes what it left to look at.
+    // A restart of a run that failed removes the files that show why.
     for (const auto& entry : fs::directory_iterator(folder)) {
       const fs::path name = entry.path().filename();
       const bool goes = !restart_time || name.string().starts_with("failure_");

@@ -19,10 +19,10 @@ namespace barchan {
 
 namespace {
 
-/// What changed since the restart file was written. Refuses a file that does not fit the case.
+/// Keys that changed since the restart file was written. Refuses a file that does not fit the case.
 std::vector<std::string> changes_since(const CheckpointReader& file, const Config& config) {
   const std::string resolved = file.provenance().config;
-  if (resolved.empty()) return {};  // not ours: its arrays must speak for themselves
+  if (resolved.empty()) return {};  // a foreign file: its arrays must speak for themselves
   const Config written = config_as_written(resolved, file.path());
   const auto conflicts = restart_conflicts(config, written);
   if (conflicts.empty()) return changed_keys(config, written);
@@ -32,7 +32,7 @@ std::vector<std::string> changes_since(const CheckpointReader& file, const Confi
                   file.path().string(), fmt::join(conflicts, "\n  ")));
 }
 
-/// The state a run starts from; a restart brings its own number of grains.
+/// State that a run starts from; a restart brings its own number of grains.
 SystemState first_state(const SettledCase& the_case, const CheckpointReader* restart,
                         const InitialFiles& files, MPI_Comm ranks, const Decomposition* pencils) {
   if (restart == nullptr) return make_initial_state(the_case, files, ranks, pencils);
@@ -92,7 +92,7 @@ void RunState::go_on_from(const CheckpointReader& file) {
   }
 }
 
-/// The feed may be new since the file was written.
+/// Checks the feed, which may be new since the file was written.
 void RunState::check_feed(const std::filesystem::path& file) const {
   const GrainState& grains = *state.grains;
   check_free_ids(config, last_id(grains), file.string());

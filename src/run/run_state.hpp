@@ -1,4 +1,4 @@
-// A run in memory: the case, its state, what advances it, how far it has come, and its accounts.
+// Run in memory: the case, its state, the steps that advance it, its clock, and its accounts.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,7 @@
 namespace barchan {
 
 struct RunState {
-  /// Starts a new run, or goes on from a restart file; see Simulation. All ranks together.
+  /// Starts a new run, or goes on from a restart file; see Simulation. All ranks call it together.
   RunState(const SettledCase& the_case, const CheckpointReader* restart, const InitialFiles& files);
   /// Starts from a state that was made for it, with the same `pencils`.
   RunState(const SettledCase& the_case, std::unique_ptr<const Decomposition> pencils,
@@ -22,7 +22,7 @@ struct RunState {
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
-  /// One fluid step.
+  /// Advances the state by one fluid step.
   void advance();
 
   MPI_Comm ranks = MPI_COMM_WORLD;
@@ -30,12 +30,12 @@ struct RunState {
   const Config& config = the_case.config;
   Provenance provenance;
   RunClock clock;
-  std::unique_ptr<const Decomposition> pencils;  // none: one rank has all of the grid
-  std::vector<std::string> changed_config;       // keys, since the restart file was written
+  std::unique_ptr<const Decomposition> pencils;  // nullptr: one rank has all of the grid
+  std::vector<std::string> changed_config;       // keys changed since the restart file was written
   SystemState state;
   CoupledStep coupled_step;
-  std::int64_t n_grains = 0;           // inside, of all ranks
-  std::optional<double> restart_time;  // [s]; none: a new run
+  std::int64_t n_grains = 0;           // inside the domain, on all ranks
+  std::optional<double> restart_time;  // [s]; empty: a new run
 
  private:
   void go_on_from(const CheckpointReader& file);

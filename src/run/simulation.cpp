@@ -15,7 +15,7 @@ namespace barchan {
 
 namespace {
 
-/// Where the state of a start comes from, for messages.
+/// Source of a start state, for messages.
 std::string source_of(const Config& config, const RunOptions& options, const InitialFiles& files) {
   if (options.restart) return options.restart->string();
   return config.grains ? source_of_grains(config, files.grains) : "initial.fluid";
@@ -43,25 +43,25 @@ Simulation::Simulation(const SettledCase& the_case, const RunOptions& options,
   if (!options.restart) follow_first_dune(source);
 }
 
-/// The first place of the seam, if the window follows its dune. Refuses a start without a dune, or
-/// with grains at the seam.
+/// Places the edge first, if the window follows its dune. Refuses a start without a dune, or with
+/// grains at the edge.
 void Simulation::follow_first_dune(const std::string& source) {
   if (!run_.config.grains || run_.config.grains->boundary_x != GrainBoundaryX::follow) return;
   GrainState& grains = *run_.state.grains;
   diagnostics_.find_dunes();
-  diagnostics_.place_seam(grains);
-  const double seam = grains.seam_x, half = half_seam_strip(run_.config);
-  if (!std::isfinite(seam))
+  diagnostics_.place_window_edge(grains);
+  const double edge = grains.window_edge, half = half_edge_strip(run_.config);
+  if (!std::isfinite(edge))
     throw InputError(source + ": holds no dune that grains.boundary_x = \"follow\" could follow");
   int n_cut = 0;
-  Kokkos::parallel_reduce("grains: at the seam", grains.n,
+  Kokkos::parallel_reduce("grains: at the edge", grains.n,
                           run_.coupled_step.neighbor_list()->leaving(grains), n_cut);
   const std::int64_t n = sum_over(run_.ranks, n_cut);
   if (n == 0) return;
   throw InputError(fmt::format(
       "{}: {} grains lie within {:.4g} m of x = {:.4g} m, half a box from the largest dune, where "
       "grains leave with grains.boundary_x = \"follow\": take a longer domain.size",
-      source, n, half, seam));
+      source, n, half, edge));
 }
 
 void Simulation::open_folder() {
@@ -91,7 +91,7 @@ Outcome Simulation::run() {
 }
 
 Outcome Simulation::loop() {
-  std::string stopped;  // why, if it was
+  std::string stopped;  // reason, if it was stopped
   while (run_.clock.step < run_.clock.end && stopped.empty()) {
     one_step();
     stopped = reason_to_stop();
@@ -123,7 +123,8 @@ void Simulation::one_step() {
               run_.coupled_step.impulse_on_grains());
 }
 
-/// Empty to go on. Clocks and signals may differ between ranks; all get the same answer.
+/// Reason to stop; empty to go on. Clocks and signals may differ between ranks; all get the same
+/// answer.
 std::string Simulation::reason_to_stop() const {
   const double limit = run_.config.time.wall_clock_limit;
   const bool out_of_time =
@@ -133,7 +134,7 @@ std::string Simulation::reason_to_stop() const {
   return requested ? "stopped on request" : "";
 }
 
-/// In run.json, if the disk that may be the problem lets us.
+/// Writes the failure to run.json, if the disk, which may be the problem, lets us.
 void Simulation::say_failed(const std::string& message) {
   progress_.finish();
   try {

@@ -1,4 +1,4 @@
-// One run: the time loop, from the first step to an outcome.
+// Simulation of a case: the time loop, from the first step to an outcome.
 #pragma once
 
 #include "src/coupling/state_checks.hpp"
@@ -7,31 +7,31 @@
 namespace barchan {
 
 struct RunOptions {
-  std::filesystem::path folder;                  // of the run
+  std::filesystem::path folder;                  // folder of the run
   std::optional<std::filesystem::path> restart;  // restart file to go on from
 };
 
-/// How a run ended.
+/// Outcome of a run.
 enum class Outcome { done, stopped };
 
 /// Owns the state and the run folder. Members throw std::runtime_error with a sentence for the
 /// user; the summary then says "failed". All ranks call them together.
 class Simulation {
  public:
-  /// Reads and checks all that the run starts from, and writes nothing: whatever it throws is about
+  /// Reads and checks all that the run starts from, and writes nothing: every exception is about
   /// input (as_input).
   Simulation(const SettledCase& the_case, const RunOptions& options, const InitialFiles& files);
 
   /// Makes the folder ready: see ResultsWriter.
   void open_folder();
 
-  /// To the end of the configured time, or until a signal or the wall-clock limit.
+  /// Runs to the end of the configured time, or until a signal or the wall-clock limit.
   Outcome run();
 
-  /// The last restart file written, or the one the run went on from; if any.
+  /// Last restart file written, or the one the run went on from; if any.
   std::optional<std::filesystem::path> last_restart() const;
   const SystemState& state() const { return run_.state; }
-  /// What the run began from, as in Provenance.
+  /// Inputs that the run began from, as in Provenance.
   const std::string& inputs() const { return run_.provenance.inputs; }
 
  private:

@@ -20,20 +20,21 @@ namespace barchan {
 namespace {
 
 constexpr auto kLookInterval = std::chrono::milliseconds(250);
-// More than this between two looks [s]: the process was stopped (Ctrl-Z, a suspended job), and the
-// rest of it is no waiting.
+// Longest time between two looks [s]: after a longer one the process was stopped (Ctrl-Z, a
+// suspended job), and the rest of it counts as no waiting.
 constexpr double kLongestLook = 1;
-// Rank k speaks k times this later [s]: the lowest waiting rank ends the others before they speak.
+// Delay of rank k's message, over k [s]: the lowest waiting rank ends the others before they speak.
 constexpr double kRankDelay = 2;
-// The others hear of that by SIGTERM, and have this long until they are killed [s].
+// Time that the other ranks have after SIGTERM until they are killed [s].
 constexpr double kGracePeriod = 60;
 constexpr auto kTimeToAbort = std::chrono::seconds(5);
 
-std::mutex mutex;  // of the next
-LongWait now;      // of this rank: a heartbeat sets its seconds back, the watchdog counts them
+std::mutex mutex;  // guards `now`
+LongWait now;      // wait of this rank: a heartbeat sets its seconds back, the watchdog counts them
 
-/// MPI is not promised calls from two threads at once (that would cost every message), so this one
-/// may get stuck like the main thread. mpirun also ends all ranks when one leaves by itself.
+/// Ends all ranks. MPI is not promised calls from two threads at once (that would cost every
+/// message), so this one may get stuck like the main thread. mpirun also ends all ranks when one
+/// leaves by itself.
 [[noreturn]] void end_all(MPI_Comm communicator) {
   std::thread([] {
     std::this_thread::sleep_for(kTimeToAbort);
@@ -43,7 +44,7 @@ LongWait now;      // of this rank: a heartbeat sets its seconds back, the watch
   std::_Exit(1);
 }
 
-/// Counts the seconds without a heartbeat, of those in which this process ran.
+/// Counts the seconds without a heartbeat during which this process ran.
 void watch(const std::stop_token& stop, int patience, MPI_Comm communicator) {
   std::unique_lock lock(mutex);
   std::condition_variable_any stopped;
@@ -55,7 +56,7 @@ void watch(const std::stop_token& stop, int patience, MPI_Comm communicator) {
     now.seconds += std::min(seconds_since(last_look), kLongestLook);
     last_look = WallClock::now();
   }
-  // At once and whole; the locks of the streams may be what the main thread is stuck in.
+  // Write at once and whole: the main thread may be stuck in the locks of the streams.
   const std::string line = to_text(now);
   lock.unlock();
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -1,4 +1,4 @@
-// An end for runs whose ranks wait for one that will never come.
+// Watchdog: an end for runs whose ranks wait for one that will never come.
 #pragma once
 
 #include <mpi.h>
@@ -10,18 +10,18 @@
 
 namespace barchan {
 
-/// What a rank that waited too long says about itself.
+/// Report of a rank that waited too long.
 struct LongWait {
   int rank = 0;
   std::string host;
   double seconds = 0;              // without a heartbeat
   std::string doing = "starting";  // since then
-  std::int64_t step = 0;           // fluid step of that, 0: none yet
-  double time = 0;                 // simulated, at its beginning [s]
+  std::int64_t step = 0;           // fluid step at that time, 0: none yet
+  double time = 0;                 // simulated time at the beginning of the step [s]
   std::string restart;             // the last good restart file, empty: none
 };
 
-/// One line for the user, with its end.
+/// Line for the user, with its end.
 std::string to_text(const LongWait& wait);
 
 /// A rank that hangs, or dies unseen by MPI (a stuck disk, a lost network, a deadlock), leaves the
@@ -30,14 +30,15 @@ std::string to_text(const LongWait& wait);
 /// ranks with exit code 1. One rank, or no patience: nothing is started.
 class Watchdog {
  public:
-  /// `patience` in seconds of wall time, longer than anything between two heartbeats; 0: for ever.
+  /// Starts the watchdog. `patience` in seconds of wall time, longer than anything between two
+  /// heartbeats; 0: for ever.
   Watchdog(int patience, MPI_Comm communicator);
 
-  /// The main thread goes on: `doing` completes "while". Cheap enough for every fluid step. `step`,
-  /// `time` [s]: see LongWait. As with signals, there is one pulse a program.
+  /// Tells that the main thread goes on: `doing` completes "while". Cheap enough for every fluid
+  /// step. `step`, `time` [s]: see LongWait. As with signals, there is one pulse a program.
   static void heartbeat(const char* doing, std::int64_t step = 0, double time = 0);
 
-  /// From now on the user is referred to this restart file; empty: to none.
+  /// Refers the user to this restart file from now on; empty: to none.
   static void last_good_restart(const std::filesystem::path& file);
 
  private:

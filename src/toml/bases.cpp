@@ -1,4 +1,4 @@
-// Cases that are based on others: [case] base, and what is left out of them.
+// Cases that are based on others: [case] base, and the keys that they leave out.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace barchan {
 namespace fs = std::filesystem;
 namespace {
 
-/// The entries of `from` in place of those in `into`; tables are merged, lists are not.
+/// Puts the entries of `from` in place of those in `into`; tables are merged, lists are not.
 void overlay(NodeTable& into, const NodeTable& from) {
   for (const auto& [name, node] : from) {
     Node& old = into.try_emplace(name, node).first->second;
@@ -37,7 +37,7 @@ bool erase(Node& tree, std::string name) {
   return table != nullptr && table->erase(name) > 0;
 }
 
-/// The entries of a list, or the one value.
+/// Entries of a list, or the one value.
 std::vector<Node> entries_of(const Node* node) {
   if (node == nullptr) return {};
   const auto* list = std::get_if<NodeArray>(&node->value);
@@ -51,7 +51,8 @@ constexpr const char* kWithout = "case.without";
 
 void ConfigReader::inherit() { tree_ = with_bases(std::move(tree_), file_, {}); }
 
-/// A tree, as it stands in `file`, over those of its bases. `chain`: the files that lead to it.
+/// Lays a tree, as it stands in `file`, over those of its bases. `chain`: the files that lead to
+/// it.
 Node ConfigReader::with_bases(Node own, const fs::path& file, std::vector<fs::path> chain) {
   chain.push_back(fs::weakly_canonical(file));
   Node all{NodeTable{}, own.where};
@@ -70,7 +71,7 @@ Node ConfigReader::with_bases(Node own, const fs::path& file, std::vector<fs::pa
   return all;
 }
 
-/// Adds one that `file` is based on.
+/// Adds a base of `file`.
 void ConfigReader::add_base(Node& all, const Node& name, const fs::path& file,
                             const std::vector<fs::path>& chain) {
   const auto refuse = [&](const std::string& why) { report_at(&name, nullptr, kBase, why); };
@@ -94,7 +95,7 @@ void ConfigReader::add_base(Node& all, const Node& name, const fs::path& file,
   overlay(*all.table(), *base.table());
 }
 
-/// Takes a key or a section out of what the bases have.
+/// Removes a key or a section from the values of the bases.
 void ConfigReader::leave_out(Node& all, const Node& name) {
   const auto* text = std::get_if<std::string>(&name.value);
   if (text == nullptr)
@@ -103,7 +104,7 @@ void ConfigReader::leave_out(Node& all, const Node& name) {
   if (!sets_it) report_at(&name, nullptr, kWithout, "must be a section or a key that the base has");
 }
 
-/// Where a value was set: 1 in a base, 2 in the file, 3 by an assignment; 0: nowhere.
+/// Layer in which a value was set: 1 in a base, 2 in the file, 3 by an assignment; 0: nowhere.
 int ConfigReader::layer_of(const Node* node) const {
   if (node == nullptr) return 0;
   return node->where.line == 0 ? 3 : node->where.file == file_.string() ? 2 : 1;

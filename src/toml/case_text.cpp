@@ -9,7 +9,8 @@ namespace barchan {
 namespace fs = std::filesystem;
 
 std::optional<std::string> case_text(const fs::path& file, std::vector<Problem>& problems) {
-  // Far longer than any case, far shorter than results that are given for one by mistake.
+  // Longest text of a case [bytes]: far more than any case has, far less than results that are
+  // given for one by mistake.
   constexpr std::uintmax_t longest = 10'000'000;
   std::string why = not_a_file(file);
   if (why.empty() && fs::file_size(file) > longest) {

@@ -1,4 +1,4 @@
-// The text of a case file.
+// Text of a case file.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace barchan {
 
-/// Nothing, and a problem, if the file cannot be read or is far too long for a case.
+/// Text of a file; empty, with a problem added, if it cannot be read or is far too long for a case.
 std::optional<std::string> case_text(const std::filesystem::path& file,
                                      std::vector<Problem>& problems);
 

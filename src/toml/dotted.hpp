@@ -15,7 +15,7 @@ inline std::string join(std::string_view section, std::string_view name) {
   return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
 }
 
-/// The section of a dotted key and its name there.
+/// Section of a dotted key, and its name there.
 inline std::pair<std::string, std::string> split(const std::string& dotted) {
   const std::size_t dot = dotted.rfind('.');
   if (dot == std::string::npos) return {"", dotted};

@@ -1,4 +1,4 @@
-// What a check of a case found, and how checks say it.
+// Findings of the checks of a case.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 
 namespace barchan {
 
-/// Dotted `keys` the finding rests on, the one to point at first; `message` follows
-/// "[section] key = value: ".
+/// Finding about the dotted `keys`, the one to point at first; `message` follows "[section] key =
+/// value: ".
 struct Finding {
   enum class Severity { error, warning } severity;
   std::vector<std::string> keys;

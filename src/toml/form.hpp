@@ -1,4 +1,4 @@
-// What a value of a key looks like, for programs; Key::type says it in words.
+// Form of a value of a key, for programs; Key::type says it in words.
 #pragma once
 
 #include <string_view>
@@ -11,11 +11,12 @@
 namespace barchan {
 
 struct Form {
-  /// any_of: one of the parts; list: any number of the only part; tuple: one of each part.
+  /// Kinds of forms. any_of: one of the parts; list: any number of the only part; tuple: one of
+  /// each part.
   enum class Of { choice, truth, integer, natural, positive, number, text, any_of, list, tuple };
   Of of = Of::text;
-  std::size_t count = 0;                     // of an array; 0: a single value
-  std::vector<std::string_view> names = {};  // to choose from
+  std::size_t count = 0;                     // length of an array; 0: a single value
+  std::vector<std::string_view> names = {};  // words to choose from
   std::vector<Form> parts = {};
 };
 

@@ -1,4 +1,4 @@
-// How lines of the table of keys are written down.
+// Builder for the table of keys.
 #pragma once
 
 #include <string_view>
@@ -16,7 +16,7 @@ inline Section& add(Sections& all, const char* name, const char* meaning) {
   return all.emplace_back(Section{.name = name, .meaning = meaning});
 }
 
-/// What `parent` points to, or holds; nullptr if that is absent.
+/// Object that `parent` points to, or holds; nullptr if it is absent.
 template <class T>
 auto* value_of(T* parent) {
   if constexpr (requires { parent->has_value(); }) {
@@ -26,7 +26,7 @@ auto* value_of(T* parent) {
   }
 }
 
-/// The struct with the members, of a Config; in a section that may be written many times, of its
+/// Struct with the members, in a Config; for a section that may be written many times, that of its
 /// nth entry.
 template <class Get, class C>
 auto* parent_of(const Get& get, C& config, std::size_t entry) {
@@ -37,9 +37,9 @@ auto* parent_of(const Get& get, C& config, std::size_t entry) {
   }
 }
 
-/// Adds keys to a section, one a call. `Get`: from a Config to a pointer to the struct with the
-/// members, nullptr where that is absent, or to the std::optional of it: then the section is there
-/// when the file has it.
+/// Builder of a section: adds keys, one a call. `Get`: from a Config to a pointer to the struct
+/// with the members, nullptr where that is absent, or to the std::optional of it: then the section
+/// is there when the file has it.
 template <class Get>
 class Keys {
  public:
@@ -96,8 +96,9 @@ class Keys {
   Get get_;
 };
 
-/// Keys of a section that may be written many times, [[name]]: members of the entries of a list.
-/// `list`: from a Config to a pointer to the std::vector of them, nullptr where that is absent.
+/// Builder of a section that may be written many times, [[name]]: keys are members of the entries
+/// of a list. `list`: from a Config to a pointer to the std::vector of them, nullptr where that is
+/// absent.
 template <class List>
 auto repeated_keys(Section& section, List list) {
   section.append = [list](Config& c) {

@@ -10,14 +10,14 @@
 namespace barchan {
 namespace {
 
-/// Type, choices or range, as in "number, above 0 and at most 1".
+/// Domain of a key: type, choices or range, as in "number, above 0 and at most 1".
 std::string domain_of(const Key& key) {
   const std::string range = key.range.text();
   if (range.empty()) return key.type;
   return fmt::format("{}, {}{}", key.type, range, key.type == "text" ? " bytes" : "");
 }
 
-/// The same for a table, with the unit: "number, 0 to 1 [m]".
+/// Domain of a key in a table, with the unit: "number, 0 to 1 [m]".
 std::string domain_in_table(const Key& key) {
   const Range& range = key.range;
   const bool both = range.min > -Range::infinite && range.max < Range::infinite &&
@@ -27,7 +27,7 @@ std::string domain_in_table(const Key& key) {
   return key.unit.empty() ? text : fmt::format("{} [{}]", text, key.unit);
 }
 
-/// "required", "none", "as in `[grains]`" or the value in backticks.
+/// Default in words: "required", "none", "as in `[grains]`" or the value in backticks.
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
   if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
@@ -65,7 +65,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return lines + '\n';
 }
 
-/// Two paragraphs beside the name: meaning, then what may stand there.
+/// Entry of a key: two paragraphs beside the name, its meaning and its domain.
 std::string entry(const Section& section, const Key& key, const Config& defaults,
                   std::size_t width) {
   const std::size_t indent = width + 4;

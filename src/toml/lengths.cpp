@@ -34,7 +34,7 @@ std::optional<WrittenLength> parse(std::string_view text) {
   return known ? std::optional(length) : std::nullopt;
 }
 
-/// [m]; as one would write it: 0.2 mm is 2e-4, and 3 d of 0.2 mm are 6e-4, to the last digit.
+/// Length [m] as one would write it: 0.2 mm is 2e-4, and 3 d of 0.2 mm are 6e-4, to the last digit.
 double metres_of(const WrittenLength& length, double diameter) {
   const bool in_diameters = length.unit == kDiameters;
   const double unit =

@@ -5,13 +5,13 @@
 
 namespace barchan {
 
-/// A number of so many significant decimal digits.
+/// Number rounded to so many significant decimal digits.
 double rounded(double x, int digits);
 
-/// True if a value, or one in its list, is a text in mean grain diameters.
+/// Tells if a value, or one in its list, is a text in mean grain diameters.
 bool is_in_diameters(const Node& value);
 
-/// Makes numbers of metres of the texts in a value. `diameter`: the d of the case [m].
+/// Turns the texts in a value into numbers of metres. `diameter`: the d of the case [m].
 Mismatch make_metres(Node& value, double diameter = 0);
 
 }  // namespace barchan

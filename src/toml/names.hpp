@@ -7,7 +7,8 @@
 
 namespace barchan {
 
-/// One cell of a table, also of one that a spreadsheet opens, where it must be no formula.
+/// Checks a name: one cell of a table, also of one that a spreadsheet opens, where it must be no
+/// formula.
 void check_name(const std::string& name, const KeyNames& keys, Findings& found);
 
 }  // namespace barchan

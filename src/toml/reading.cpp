@@ -14,7 +14,7 @@
 namespace barchan {
 namespace {
 
-/// A key of one of several sections, "initial.heap.2.radius", as that of all of them.
+/// Key of one of several sections, "initial.heap.2.radius", without the number.
 std::string without_numbers(std::string_view dotted) {
   std::string key;
   while (!dotted.empty()) {
@@ -26,7 +26,7 @@ std::string without_numbers(std::string_view dotted) {
   return key;
 }
 
-/// A key as TOML needs it written, and a terminal can show it.
+/// Key as TOML needs it written, and a terminal can show it.
 std::string shown_key(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return c >= 0x80 || std::isalnum(c) != 0 || c == '_' || c == '-' || c == ' ';
@@ -34,8 +34,8 @@ std::string shown_key(std::string_view key) {
   return printable(bare ? std::string(key) : toml_text(key), 60);
 }
 
-/// "[section] key = value: message", without the value when `node` is nullptr; "[key]: message" of
-/// a section.
+/// Message "[section] key = value: message", without the value when `node` is nullptr; "[key]:
+/// message" of a section.
 std::string sentence(const std::string& section, const std::string& name, bool is_section,
                      const Node* node, const std::string& message) {
   if (is_section) return fmt::format("[{}]: {}", shown_key(name), message);
@@ -49,7 +49,7 @@ ConfigReader::ConfigReader(std::string_view text, const std::filesystem::path& f
                            const Sections& table)
     : table_(table), file_(file), tree_(parse_toml(text, file.string(), problems_)) {}
 
-/// What may stand in a section ("": the file): its keys and the sections in it.
+/// Names that may stand in a section ("": the file): its keys and the sections in it.
 std::vector<std::string> ConfigReader::names_in(const std::string& path) const {
   std::vector<std::string> names;
   for (const Section& section : table_) {
@@ -103,7 +103,7 @@ void ConfigReader::read(const Section& section, Config& config) {
   if (is_table) read_keys(section, *node, config, 0);
 }
 
-/// A section that may be written many times.
+/// Reads a section that may be written many times.
 void ConfigReader::read_list(const Section& section, const Node& node, Config& config) {
   const auto* list = std::get_if<NodeArray>(&node.value);
   if (list == nullptr || !std::ranges::all_of(*list, [](const Node& n) { return n.table(); })) {
@@ -199,7 +199,7 @@ void ConfigReader::report_at(const Node* node, const Node* around, const std::st
   add_problem(where, dotted, whole, node, message);
 }
 
-/// What was assigned on the command line names its key already.
+/// The location of a command-line assignment already names its key.
 Problem ConfigReader::problem(const Location& where, const std::string& dotted, bool is_section,
                               const Node* node, const std::string& message) const {
   const auto [section, name] = split(dotted);

@@ -1,4 +1,4 @@
-// From TOML text to a Config by the table of keys, with all complaints about single keys.
+// Reading of TOML text into a Config by the table of keys, with all complaints about single keys.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace barchan {
 
 struct Key;
 
-/// One file that is read, and what is wrong with it.
+/// Reader of one file, with the problems found in it.
 class ConfigReader {
  public:
   /// Parses `text`, which stands in `file`.
@@ -32,27 +32,27 @@ class ConfigReader {
   /// contact_model need not delete the elastic constants. Layers: bases, the file, assignments.
   void drop_switched_off();
 
-  /// Reads into a case of defaults; what cannot be read keeps its default and is a problem.
+  /// Reads into a case of defaults; a value that cannot be read keeps its default and is a problem.
   /// Lengths in diameters, and values that are "auto", are still to be settled.
   void read(Config& config);
-  /// Sets the lengths that are given in diameters, or by default are. `diameter`: the d of the
-  /// case [m]; 0: not known, which is a problem where a length is given. `tell`: as such.
+  /// Sets lengths that are in diameters, as given or by default. `diameter`: the d of the case [m];
+  /// 0: not known, which is a problem where a length is given. `tell`: reports it.
   void settle_lengths(Config& config, double diameter, bool tell);
-  /// True if the program is to choose the value of a key.
+  /// Tells if the program is to choose the value of a key.
   bool is_automatic(const std::string& dotted) const;
 
-  /// A complaint about a dotted key or a section, at the line where it was written, else that of
-  /// its section, else the file as a whole: "[section] key = value: message".
+  /// Reports a problem with a dotted key or a section, at the line where it was written, else that
+  /// of its section, else the file as a whole: "[section] key = value: message".
   void report_conflict(const std::string& dotted, const std::string& message);
-  /// The same; the key is bad from then on.
+  /// Reports a conflict, after which the key is bad.
   void report_error(const std::string& dotted, const std::string& message);
-  /// True if `dotted`, or the section it is in, could not be read as meant: nothing is to be
+  /// Tells if `dotted`, or the section it is in, could not be read as meant: nothing is to be
   /// concluded from its value.
   bool is_bad(const std::string& dotted) const;
-  /// True if any key that there is could not be read as meant.
+  /// Tells if any key of the file could not be read as meant.
   bool has_bad_keys() const { return !bad_.empty(); }
 
-  /// The folder that a path which is the value of a key starts from.
+  /// Folder that a path which is the value of a key starts from.
   std::filesystem::path folder_of(const std::string& dotted) const;
 
   const Node& tree() const { return tree_; }

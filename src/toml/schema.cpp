@@ -20,7 +20,7 @@ Json array_of(const Json& element, std::size_t count) {
   return {{"type", "array"}, {"items", element}, {"minItems", count}, {"maxItems", count}};
 }
 
-/// A number in its range, or a length with its unit.
+/// Schema of a number in its range, or of a length with its unit.
 Json number_in(const Key& key, Form::Of of) {
   const bool whole = of != Form::Of::number;
   const Range& range = key.range;
@@ -87,7 +87,7 @@ Json schema_of(const Section& section, const Key& key, const Config& defaults) {
   return value;
 }
 
-/// The sections directly within one ("": the file).
+/// Sections directly within one ("": the file).
 std::vector<const Section*> inner_of(const std::string& outer, const Sections& table) {
   std::vector<const Section*> inner;
   for (const Section& section : table) {
@@ -129,7 +129,7 @@ Json object_of(const Section& section, const Sections& table, const Config& defa
   return object;
 }
 
-/// What a section must have, unless the case takes over another one.
+/// Requirements of a section, unless the case takes over another one.
 Json required_in(const Section& section, const Sections& table) {
   Json names = required_keys(section), parts = Json::object();
   for (const Section* inner : inner_of(section.name, table)) {

@@ -1,4 +1,4 @@
-// The table of keys for editors and other programs that read JSON Schema.
+// Table of keys as JSON Schema, for editors and other programs.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace barchan {
 
 /// JSON Schema, draft 4, of a case: the keys of each section with type, range, choices, default and
-/// meaning. What several keys must be together it cannot say: `check` does.
+/// meaning. It cannot say how keys must fit together: `check` does.
 std::string case_schema(const Sections& table = sections());
 
 }  // namespace barchan

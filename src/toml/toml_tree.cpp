@@ -1,4 +1,4 @@
-// The only file that includes toml++: it is heavy to compile.
+// Parser of TOML: the only file that includes toml++, which is heavy to compile.
 #include "src/toml/toml_tree.hpp"
 
 #include <algorithm>
@@ -48,10 +48,10 @@ Node convert(const toml::node& from, const Location& where) {
   return to;
 }
 
-constexpr int kMaxParts = 16;  // of a dotted key; ours have four
+constexpr int kMaxParts = 16;  // parts of a dotted key; ours have four
 
-/// What is left of `text` after the string or comment that it begins with, by the grammar of TOML
-/// 1.0; all of it, if it begins with none.
+/// Rest of `text` after the string or comment that it begins with, by the grammar of TOML 1.0; all
+/// of it, if it begins with none.
 std::string_view after_string(std::string_view text) {
   const char quote = text.front();
   if (quote != '#' && quote != '"' && quote != '\'') return text;
@@ -72,8 +72,8 @@ std::string_view after_string(std::string_view text) {
   return text.substr(last);
 }
 
-/// What keeps `text`, which stands in `name`, from the parser: bytes that are no text, or names
-/// nested so deep that they could only exhaust the stack.
+/// Problem that keeps `text`, which stands in `name`, from the parser: bytes that are no text, or
+/// names nested so deep that they could only exhaust the stack.
 std::optional<Problem> unfit(std::string_view text, const std::string& name) {
   const auto problem_at = [&](std::string_view rest, const char* what) {
     const auto before = text.substr(0, text.size() - rest.size());
@@ -84,7 +84,7 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
     return problem_at(text.substr(nul),
                       "it holds a NUL byte: it is not text, or text of another encoding; save it "
                       "as UTF-8");
-  int points = 0;  // in a row, that join parts of a key
+  int points = 0;  // points in a row that join parts of a key
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view behind = after_string(rest);
     if (behind.size() < rest.size()) {
@@ -100,7 +100,7 @@ std::optional<Problem> unfit(std::string_view text, const std::string& name) {
   return {};
 }
 
-/// What the parser says, with the two most frequent causes named.
+/// Message of the parser, with the two most frequent causes named.
 std::string in_plain_words(std::string_view said) {
   if (said.find("control characters other than TAB") != said.npos)
     return "the quotation mark that ends a text is missing on this line";
@@ -108,7 +108,7 @@ std::string in_plain_words(std::string_view said) {
   return fmt::format("{}{}", said, cause);
 }
 
-/// The value part of an assignment: TOML if it is, else a string of its characters.
+/// Value of an assignment: TOML if it is, else a string of its characters.
 Node parse_value(std::string_view text, const Location& where) {
   const bool one_line = text.find('\n') == text.npos && !unfit(text, {});
   try {
@@ -120,7 +120,7 @@ Node parse_value(std::string_view text, const Location& where) {
   return {std::string(text), where};
 }
 
-/// The entry of a table of that name, or of a list of that number; nullptr if there is none.
+/// Entry of a table by its name, or of a list by its number; nullptr if there is none.
 template <class AnyNode>  // const or not
 AnyNode* entry(AnyNode& of, std::string_view name) {
   if (auto* entries = of.table()) {
@@ -136,7 +136,7 @@ AnyNode* entry(AnyNode& of, std::string_view name) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Why `at`, the value of the key `above`, has no part `name`.
+/// Reason why `at`, the value of the key `above`, has no part `name`.
 std::string no_part(const Node& at, std::string_view above, std::string_view name) {
   if (const auto* list = std::get_if<NodeArray>(&at.value)) {
     return fmt::format("\"{}\" has no entry {}: its entries have the numbers 1 to {}", above, name,

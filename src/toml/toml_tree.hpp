@@ -1,5 +1,5 @@
-// A TOML document as a small tree that remembers where each value was written. Not the tree of
-// toml++: nvcc cannot compile that, and here it is one file that must.
+// TOML document as a small tree that remembers where each value was written. It is not the tree of
+// toml++, which nvcc cannot compile and only one file includes.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace barchan {
 
-/// Where a value was written: a line of a file (line 0: the file as a whole), or "--set key".
+/// Location of a value: a line of a file (line 0: the file as a whole), or "--set key".
 struct Location {
   std::string file;
   int line = 0;
 };
 
-/// A text without the blanks before and after it.
+/// Text without the blanks before and after it.
 std::string_view without_blanks(std::string_view text);
 
-/// "file.toml:14", or the file alone when there is no line.
+/// Location in words: "file.toml:14", or the file alone when there is no line.
 std::string to_string(const Location& where);
 
 struct Node;
@@ -36,15 +36,15 @@ struct Node {
 
   const NodeTable* table() const { return std::get_if<NodeTable>(&value); }
   NodeTable* table() { return std::get_if<NodeTable>(&value); }
-  /// The value of a dotted key, "grains.wall", in this table; nullptr if there is none. Entries of
+  /// Value of a dotted key, "grains.wall", in this table; nullptr if there is none. Entries of
   /// arrays are counted from 1: "initial.heap.2.radius".
   const Node* find(std::string_view dotted) const;
-  /// The entry of a table, made where there is none, or of an array, nullptr where there is none. A
+  /// Entry of a table, made where there is none, or of an array, nullptr where there is none. A
   /// text gives way to a table.
   Node* part(std::string_view name, const Location& made_at);
 };
 
-/// Something is wrong with what was typed, at `where`.
+/// Problem with the input of a user, at `where`.
 struct Problem {
   Location where;
   std::string text;
@@ -54,7 +54,7 @@ struct Problem {
 /// added and an empty table returned.
 Node parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems);
 
-/// What stands for the file in the location of an assignment: "--set a.b".
+/// Name of an assignment in locations: "--set a.b".
 std::string assigned_name(std::string_view dotted);
 
 /// Applies "a.b=value" (as after --set) to the tree, creating tables on the way; "a.2.b=value" in

@@ -30,7 +30,8 @@ void ConfigReader::find_unknown(const std::string& section, const Node& node,
   }
 }
 
-/// " (did you mean ...?)" for keys that are there, named from within `section`; they were not read.
+/// Hint " (did you mean ...?)" for keys that are there, named from within `section`; they were not
+/// read.
 std::string ConfigReader::hint(const std::string& section, std::string_view keys) {
   const std::vector<std::string> here = names_in(section);
   std::string text;
@@ -57,7 +58,7 @@ std::string ConfigReader::suggestion(const std::string& section, const std::stri
   }
   const std::string close = nearest(name, names_in(section));
   if (!close.empty()) {
-    bad_.insert(join(section, close));  // what it stands for was not read
+    bad_.insert(join(section, close));  // its meaning was not read
     return did_you_mean(close);
   }
   if (table) return {};

@@ -18,7 +18,7 @@ Mismatch take(const Node& node, T& value, const char* expected) {
 
 constexpr std::size_t kLongestShown = 60;  // bytes of a value
 
-/// A value as one would write it in a file; of a long list as much as is shown.
+/// Prints a value as one would write it in a file; a long list is cut.
 struct Printer {
   std::string operator()(const NodeTable& table) const {
     std::vector<std::string> entries;
@@ -104,7 +104,7 @@ std::string toml_text(std::string_view text) {
 
 std::string toml_text(double value) {
   std::string text = fmt::format("{}", value);
-  // Only digits and a sign: an integer to TOML. (inf and nan stay as they are.)
+  // Text of only digits and a sign would be an integer in TOML. (inf and nan stay as they are.)
   if (text.find_first_not_of("-0123456789") == text.npos) text += ".0";
   return text;
 }

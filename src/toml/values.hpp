@@ -1,4 +1,4 @@
-// The values that a key can have: read from TOML, checked against their range, written as TOML.
+// Values of keys: read from TOML, checked against their range, written as TOML.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace barchan {
 
-/// A value that is one of a few words: an enumerator, or a type of a list.
+/// Value that is one of a few words: an enumerator, or a type of a list.
 template <class T>
 concept HasWords = std::is_enum_v<T> || requires {
   T::Of::words;
@@ -44,12 +44,12 @@ constexpr std::string_view word_of(T value) {
   }
 }
 
-/// What the program says of a type of its own: a type in words, `type()`, and for programs,
-/// `form()` (form.hpp); beside it convert, toml_text and check of that type.
+/// Description of a type of the program's own: in words, `type()`, and for programs, `form()`
+/// (form.hpp). Beside it stand convert, toml_text and check of that type.
 template <class T>
 struct ValueKind;
 
-/// The meaning of a key, and of each alternative that it names.
+/// Meaning of a key, and of each alternative that it names.
 template <class T>
 std::string meaning_of(std::string meaning) {
   if constexpr (requires { T::Of::named; }) {
@@ -59,8 +59,9 @@ std::string meaning_of(std::string meaning) {
   return meaning;
 }
 
-/// What a number may be: each of an array, each diameter of size classes; of a text the bytes. Wide
-/// on purpose: what is merely unusual is the user's business, but powers of it must be numbers.
+/// Range of a number: of each in an array, of each diameter of size classes, of the bytes of a
+/// text. It is wide on purpose: what is merely unusual is the user's business, but powers of it
+/// must be numbers.
 struct Range {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   double min = -infinite, max = infinite;
@@ -68,7 +69,7 @@ struct Range {
 
   constexpr Range at_most(double bound) const { return {min, bound, above_min, false}; }
   constexpr Range below(double bound) const { return {min, bound, above_min, true}; }
-  /// "above 0 and at most 1"; empty if there are no bounds.
+  /// Range in words: "above 0 and at most 1"; empty if there are no bounds.
   std::string text() const;
 };
 constexpr Range above(double bound) { return {.min = bound, .above_min = true}; }
@@ -77,7 +78,7 @@ constexpr Range at_most(double bound) { return {.max = bound}; }
 constexpr Range between(double min, double max) { return {min, max}; }
 constexpr Range any{};
 
-/// What is given for a T: of an optional, its value.
+/// Type that is given for a T: for an optional, that of its value.
 template <class T>
 T plain(const T&);
 template <class T>
@@ -85,15 +86,15 @@ T plain(const std::optional<T>&);
 template <class T>
 using Plain = decltype(plain(std::declval<T>()));
 
-/// What a value must be and is not, "a number"; nothing if all is well.
+/// Mismatch: what a value must be and is not, "a number"; empty if all is well.
 using Mismatch = std::optional<std::string>;
 
-/// From TOML; after a mismatch the value is of no use.
+/// Converts a value from TOML; after a mismatch it is of no use.
 Mismatch convert(const Node& node, double& value);
 Mismatch convert(const Node& node, bool& value);
 Mismatch convert(const Node& node, std::string& value);
 Mismatch convert(const Node& node, std::filesystem::path& value);
-/// The index of the name that the node holds.
+/// Finds the index of the name that the node holds.
 Mismatch convert_name(const Node& node, std::span<const std::string_view> names, std::size_t& at);
 
 template <class T>
@@ -134,11 +135,11 @@ Mismatch convert(const Node& node, std::array<T, N>& value) {
   return {};
 }
 
-/// As TOML: a string quoted and escaped.
+/// String in TOML, quoted and escaped.
 std::string toml_text(std::string_view text);
-/// The shortest text that reads back as the same number, always a TOML float ("2.0", "1e-06").
+/// Shortest text in TOML that reads back as the same number, always a float ("2.0", "1e-06").
 std::string toml_text(double value);
-/// As one would write it in a file, cut after 60 characters.
+/// Text of a value as one would write it in a file, cut after 60 characters.
 std::string toml_text(const Node& node);
 
 template <class T>
@@ -156,7 +157,7 @@ std::string toml_text(const std::array<T, N>& values) {
   return "[" + text + "]";
 }
 
-/// The same; nothing for a value that is not given.
+/// Text of a value in TOML; empty if it is not given.
 template <class T>
 std::optional<std::string> optional_text(const T& value) {
   if constexpr (requires { value.has_value(); }) {
@@ -168,7 +169,7 @@ std::optional<std::string> optional_text(const T& value) {
   }
 }
 
-/// Within its range?
+/// Checks a value against its range.
 Mismatch check(double value, const Range& range);
 Mismatch check(const std::string& value, const Range& range);
 
@@ -184,7 +185,7 @@ Mismatch check(const T& value, const Range& range) {
   return {};  // a choice, forces; a path: load.cpp looks whether the file is there
 }
 
-/// What one writes for it, in words: "number", "array of 3 numbers", or the choices.
+/// Type in words: "number", "array of 3 numbers", or the choices.
 template <class T>
 std::string type_text() {
   if constexpr (requires { ValueKind<T>::type(); }) {

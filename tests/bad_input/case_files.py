@@ -95,7 +95,7 @@ CONTRADICTIONS = [
     Entry("a window that follows what is not measured", FOLLOW + " ;; [output] dune_interval = 0",
           "@boundary_x | output.dune_interval above 0"),
     Entry("a window of no flow", FOLLOW, "@boundary_x | without a [fluid]", base=DRY),
-    Entry("a seam in a bed", FOLLOW + ' ;; [initial.grains.pour] shape = "bed" ;; -[initial.grains.pour] centre ;; '
+    Entry("an edge of a window in a bed", FOLLOW + ' ;; [initial.grains.pour] shape = "bed" ;; -[initial.grains.pour] centre ;; '
           "-[initial.grains.pour] radius ;; [grains] sizes = [[2e-4, 3000]]",
           "initial.grains.pour | grains lie within 0.0012 m | take a longer domain.size"),
     Entry("a window around a few grains", FOLLOW + " ;; " + SIZES + "[[2e-4, 20]]", "initial.grains.pour | holds no dune"),
@@ -104,7 +104,7 @@ CONTRADICTIONS = [
           '@amount | must be "given" where no grain leaves'),
     Entry("a feed behind the box", "[grains.feed] rate = 10 ;; [grains.feed] x = 0.0119",
           "@x = | room for the largest grain"),
-    Entry("a feed at the seam", FOLLOW + " ;; [grains.feed] rate = 10", "@[grains.feed] | must be at least a cell, 0.0012 m"),
+    Entry("a feed at the edge of the window", FOLLOW + " ;; [grains.feed] rate = 10", "@[grains.feed] | must be at least a cell, 0.0012 m"),
     Entry("a feed across nothing", "[grains.feed] rate = 10 ;; [grains.feed] across = [3e-3, 2e-3]", "@across | from below to"),
     Entry("a feed in a window", FOLLOW + " ;; [grains.feed] rate = 1e4 ;; [grains.feed] x = 2e-3 ;; " + SHORT, code=0),
     Entry("frames after the end", "[output] grains_interval = 0.011", "warning | grains_interval is longer than the run", **GOOD),

@@ -76,7 +76,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Input input = split(fuzz::as_text({data, size}));
   fuzz::accepts<ConfigError>(
       [&] { use(load_config_text(input.text, folder / "case.toml", input.overrides)); });
-  // As the text that a restart file carries, which may be anything.
+  // Text that a restart file carries: it may be anything.
   fuzz::accepts([&] {
     const Config written = config_as_written(input.text, folder / "restart.h5");
     restart_conflicts(Config{}, written);

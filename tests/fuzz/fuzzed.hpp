@@ -1,4 +1,5 @@
-// What the fuzz targets share: what a reader of foreign input may do with bytes it does not like.
+// Common part of the fuzz targets: what a reader of foreign input may do with bytes it does not
+// like.
 #pragma once
 
 #include <array>
@@ -70,7 +71,7 @@ class Tape {
     return first;
   }
 
-  /// Of n choices.
+  /// Picks one of n choices.
   std::size_t pick(std::size_t n) { return byte() % n; }
   template <class T, std::size_t N>
   T one_of(const std::array<T, N>& values) {
@@ -101,7 +102,7 @@ class Tape {
   Bytes rest_;
 };
 
-/// What a run relies on in grains that a reader has accepted.
+/// Checks that grains a reader has accepted are such as a run relies on.
 inline void demand_sound(const InitialGrains& grains) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -173,7 +173,8 @@ class Editor {
       H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, zero.data(), nullptr, one.data(), nullptr);
     }
     const Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
-    // Not what the tape could make so large that the file is as large, nor what may lead to itself.
+    // Skip arrays that the tape could make so large that the file is as large, and those that may
+    // lead to themselves.
     const Handle list(H5Dget_create_plist(array), H5Pclose), of_type(H5Dget_type(array), H5Tclose);
     if (H5Pget_layout(list.get()) == H5D_VIRTUAL) return;
     std::array<hsize_t, H5S_MAX_RANK> piece{};

@@ -1,4 +1,4 @@
-// Without libFuzzer: gives a target every file named, and every file in the folders named.
+// Replay without libFuzzer: gives a target every file named, and every file in the folders named.
 // --random SECONDS [SEED] after them goes on with bytes by chance, for targets that make sense of
 // any.
 #include <algorithm>
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   const auto option = std::find(words.begin(), words.end(), "--random");
   const auto files = files_of({words.begin(), option});
   for (const auto& file : files) {
-    // At once: the last one named is the one that fails.
+    // Print at once: the last file named is the one that fails.
     std::cout << file.string() << '\n' << std::flush;
     give(barchan::read_text(file));
   }

@@ -55,7 +55,7 @@ void memory_again() {
   }
 }
 
-/// Nothing to report, but another number in another order: kernel_order.py must see it.
+/// Error that no check reports, but another number in another order: kernel_order.py must see it.
 void depends_on_order() {
   const Numbers a("numbers", n);
   Kokkos::parallel_for(

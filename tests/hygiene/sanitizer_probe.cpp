@@ -17,7 +17,7 @@ namespace {
 constexpr int n = 20000;
 using Numbers = Kokkos::View<long*>;
 
-/// What a loop leaves behind is read by the next one, by other threads, and by the main thread.
+/// Results of a loop are read by the next one, by other threads, and by the main thread.
 void ordered_loops() {
   const Numbers a("a", n), b("b", n), sum("sum", 1);
   for (int repeat = 0; repeat < 20; ++repeat) {
@@ -75,7 +75,7 @@ void race_in_reduce() {
   Kokkos::parallel_reduce("race", n, add, total);
 }
 
-/// Between the barriers of a scan, whose fences must not order more than they do.
+/// Race between the barriers of a scan, whose fences must not order more than they do.
 void race_in_scan() {
   const Numbers count("count", 1);
   const auto add = KOKKOS_LAMBDA(int i, long& s, bool last) {
@@ -86,7 +86,7 @@ void race_in_scan() {
   Kokkos::parallel_scan("race", n, add, total);
 }
 
-/// As a watchdog would that looked at plain numbers.
+/// Race of a watchdog that looks at plain numbers.
 void race_with_a_thread() {
   long beats = 0;
   std::thread other([&beats] { beats += 1; });

@@ -1,4 +1,4 @@
-// The same with the library: a case is read and its numbers are printed.
+// Program with the library: a case is read and its numbers are printed.
 #include <barchan/src/case/derived.hpp>
 #include <barchan/src/case/load.hpp>
 #include <cstdio>

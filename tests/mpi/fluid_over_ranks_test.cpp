@@ -1,5 +1,5 @@
-// How the cells are shared among the ranks, and the flow on pencils against the same flow on one
-// rank, in all shapes that the ranks can be put in.
+// Division of the cells among the ranks, and the flow on pencils against the same flow on one rank,
+// in all shapes that the ranks can be put in.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -153,7 +153,7 @@ TEST(LocalCorrectionOverRanks, AsOnOneRank) {
   }
 }
 
-/// Both flows: a sheared start with noise, walls, WALE.
+/// Flow on one rank and flow on pencils: a sheared start with noise, walls, WALE.
 struct TwoFlows {
   SharedGrid grid;
   Config config = test::flow_config(kCells, kSize, 1e-3);
@@ -278,7 +278,7 @@ TEST(FluidOverRanks, FlowAroundBodiesAsOnOneRank) {
     there.fill_ghosts(flows.there);
     here.flow_around_bodies(flows.here);
     there.flow_around_bodies(flows.there);
-    // Of a pressure that is solved for to 1e-12.
+    // Tolerance for a pressure that is solved for to 1e-12.
     EXPECT_LT(flows.grid.difference(flows.there.u.x, flows.here.u.x), 1e-9);
     for (int step = 0; step < 5; ++step) {
       const FluidStepReport report = here.advance(flows.here, nullptr, 1e-3);

@@ -123,7 +123,7 @@ std::int64_t wrong_walls(const GrainState& s, bool write) {
   return sum_over(MPI_COMM_WORLD, wrong);
 }
 
-/// As many histories as walls can have.
+/// Histories: as many as walls can have.
 TEST(GrainArrays, HistoriesOfAllWallsMigrate) {
   GrainState grains = make_grain_state(Marked::still_along_y(), 2500, MPI_COMM_WORLD);
   grains.wall_xi_t = decltype(grains.wall_xi_t)("wall xi_t", grains.kin.extent(0), 5);

@@ -20,7 +20,7 @@ using test::SharedGrains;
 
 int n_ranks() { return rank_count(MPI_COMM_WORLD); }
 
-/// For one line of what was measured, however many ranks there are.
+/// True on one rank: for a single line of output, however many ranks there are.
 bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
 
 Config box(std::array<double, 3> size) {
@@ -90,7 +90,7 @@ TEST(GrainsOverRanks, OneGrainStepAsOnOneRank) {
   s.advance(200, 1e-6);  // into contact, the history of which is then there
   s.advance(1, 1e-6);
   const auto off = s.off();
-  // Not the same bits: a grain's contacts are added in the order of its rank's rows.
+  // Bits may differ: a grain's contacts are added in the order of its rank's rows.
   for (const double difference : off) EXPECT_LT(difference, 1e-13);
   const ContactSummary a = s.whole.solver.contacts(s.whole.state),
                        b = s.shared.solver.contacts(s.shared.state);
@@ -140,7 +140,8 @@ TEST(GrainsOverRanks, TenThousandMigrationsLoseNothing) {
                 static_cast<long long>(contacts));
 }
 
-/// Beyond 1e-9 they differ no more than one rank from itself after all were moved by a bit.
+/// Differences beyond 1e-9 are no larger than those of one rank from itself after all were moved by
+/// a bit.
 TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
   Config c = box({0.004, 0.004, 0.005});
   c.grains->boundary_x = GrainBoundaryX::exit;
@@ -165,7 +166,7 @@ TEST(GrainsOverRanks, TheExitDropsWhatItDropsOnOneRank) {
                 chaos[1]);
 }
 
-/// The same grains come in at the same places, and those that left with the same sizes.
+/// The feed brings the same grains in at the same places, and those that left with the same sizes.
 TEST(GrainsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
   for (const FeedAmount amount : {FeedAmount::given, FeedAmount::as_lost}) {
     Config c = box({0.004, 0.004, 0.005});

@@ -1,4 +1,4 @@
-// What a rank sends in a step, counted and as the scaling model has it (perf/scaling_counts.py,
+// Messages of a rank in a step, counted and as the scaling model has them (perf/scaling_counts.py,
 // docs/dev/scaling.md).
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ MessageCounts fill(const Grid& grid, int ny) {
 }
 MessageCounts fill(const Grid& grid) { return fill(grid, grid.ny); }
 
-/// To the other ranks of a line their part of `split` of all `n_here` and `others` here.
+/// Messages to the other ranks of a line: their part of `split` of all `n_here` and `others` here.
 MessageCounts shares(int place, int n_here, const BlockPartition& split, int others, int width) {
   MessageCounts sum;
   for (int p = 0; p < split.parts; ++p) {
@@ -115,17 +115,19 @@ MessageCounts scatter_add(const Grid& grid) {
                       6 * grid.ny * (2 * cut_x * (grid.nz + 2) + 2 * cut_z * grid.nx));
 }
 
-/// Which columns have grains, or less fluid: a map and a height. Unsmoothed fraction; pressure, it
-/// and a component of its force smoothed, the force in cells; stress on faces, in cells; what the
-/// flow gets of each; convective acceleration. Columns again, the fraction of those that are new;
-/// fraction, smoothed; totals, fastest velocity; what the ledger books.
+/// Messages of the exchange. Columns that have grains, or less fluid: a map and a height.
+/// Unsmoothed fraction; pressure, it and a component of its force smoothed, the force in cells;
+/// stress on faces, in cells; what the flow gets of each; convective acceleration. Columns again,
+/// the fraction of those that are new; fraction, smoothed; totals, fastest velocity; what the
+/// ledger books.
 MessageCounts exchange(const Grid& grid) {
   return reductions(4) + (1 + (1 + 3) + (3 + 3) + 3) * fill(grid) + 2 * fft_solve(grid) +
          reductions(2) + fill(grid) + scatter_add(grid) + fill(grid) + fft_solve(grid) +
          reductions(1 + 1 + 1);
 }
 
-/// In cells narrower than 2.4 d: what of the grains belongs to the momentum cells, along x and z.
+/// Messages of cells narrower than 2.4 d: the solid that belongs to the momentum cells, along x and
+/// z.
 MessageCounts solid_of_momentum_cells(const Grid& grid) {
   return scatter_add(grid) + 2 * fill(grid);
 }
@@ -146,7 +148,7 @@ std::vector<int> grains_in_pencils(const SharedGrid& grid, const GrainState& gra
   }
   return n;
 }
-/// So many numbers to every other rank for each of its grains.
+/// Messages with so many numbers to every other rank for each of its grains.
 MessageCounts rows(const std::vector<int>& n, int width) {
   MessageCounts sum;
   for (int r = 0; r < n_ranks(); ++r) {

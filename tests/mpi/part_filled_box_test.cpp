@@ -19,7 +19,7 @@ namespace {
 
 bool is_first() { return rank_of(MPI_COMM_WORLD) == 0; }
 
-/// What is around the grains, by name.
+/// Surroundings of the grains, by name.
 struct Surroundings {
   const char* name;
   void (*set)(Config&);
@@ -82,7 +82,7 @@ Config config_of(const Case& at) {
   return c;
 }
 
-/// To the end of `config`; returns the last restart file.
+/// Runs to the end of `config`; returns the last restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
                           const std::optional<std::filesystem::path>& restart = {},
                           const InitialFiles& files = {}) {
@@ -165,7 +165,7 @@ Config frozen_config(const std::filesystem::path& table) {
   return c;
 }
 
-/// Of the flow at the end on each grain, by id, computed by this rank alone.
+/// Forces of the flow at the end on each grain, by id, computed by this rank alone.
 std::vector<Vec3> forces_on_one_rank(const Config& config, const std::filesystem::path& table) {
   SystemState state = make_initial_state(config, {.fluid = {}, .grains = table});
   CoupledStep step(config, state);
@@ -217,7 +217,7 @@ TEST(PartFilledBox, FlowIsResolvedAroundFrozenGrains) {
   test::expect_same_state(at_once, in_parts);
   expect_forces_in(folder.path() / "whole", forces_on_one_rank(whole, table));
   const auto json = nlohmann::json::parse(read_text(folder.path() / "whole/run.json"));
-  // In a flow of 0.24 m/s these forces act from the first step.
+  // These forces act from the first step in a flow of 0.24 m/s.
   const double impulse = json.at("ledger").at("impulse_of_flow_on_grains_x");
   std::printf("[ measured ] impulse on frozen grains: %.17g N s\n", impulse);
   EXPECT_GT(impulse, 1e-12);

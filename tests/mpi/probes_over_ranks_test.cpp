@@ -10,8 +10,8 @@
 namespace barchan {
 namespace {
 
-/// Not linear, so that a point read in the wrong cell shows; of the indices among all cells, so
-/// that nodes have the same bits on any number of ranks.
+/// Nonlinear flow, so that a point read in the wrong cell shows. It depends on the indices among
+/// all cells, so that nodes have the same bits on any number of ranks.
 FluidState flow_on(const Grid& grid) {
   FluidState fluid = make_fluid_state(grid);
   double phase = 0;
@@ -28,7 +28,7 @@ TEST(ProbesOverRanks, HaveTheBitsOfOneRank) {
   const std::array<double, 3> size{0.04, 0.02, 0.03};
   const test::SharedGrid grids({16, 6, 12}, size, 1e-3);
   Config config = test::flow_config({16, 6, 12}, size, 1e-3);
-  // On every cut there may be, and on the edges of the box.
+  // Probes on every cut there may be, and on the edges of the box.
   config.output.probes = {
       {.name = "along", .from = {{0, 0.004, 0.011}}, .to = {{0.04, 0.004, 0.011}}, .points = 33},
       {.name = "across", .from = {{0.013, 0, 0}}, .to = {{0.013, 0.02, 0.03}}, .points = 49},

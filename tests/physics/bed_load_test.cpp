@@ -1,4 +1,4 @@
-// Sediment transport over a flat bed of 5,000 grains under turbulent water, the case
+// Sediment transport over a flat bed of 5,000 grains under turbulent flow, the case
 // configs/validation/cfdem-bed.toml: its flux is Wong & Parker's, and none well below threshold.
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace test;
 constexpr int kGrains = 5000;
 constexpr double kDiameter = 2e-4, kSubmerged = 1500 * 9.81, kDensity = 1000;
 
-/// With the exchange that docs/validation.md has measured.
+/// Case of the bed, with the exchange that docs/validation.md has measured.
 Config bed_config() {
   Config c = load_config(BARCHAN_SOURCE_DIR "/configs/validation/cfdem-bed.toml");
   c.coupling.scheme = CouplingScheme::smoothed;
@@ -51,7 +51,7 @@ FluidState developed_flow(Config c, const InitialGrains& grains, double seconds)
   return flow;
 }
 
-/// What a stretch of time has seen.
+/// Sums over a stretch of time.
 struct Transport {
   double time = 0;           // [s]
   double flux = 0;           // solid volume per width and time [m^2/s]
@@ -74,8 +74,8 @@ class FlatBed : test::CoupledRun {
 
   void advance_over(double seconds) { advance(steps_in(seconds)); }
 
-  /// The next `seconds`. The stress on the bed is what the drive gives the water above it, less
-  /// what that water keeps.
+  /// Runs the next `seconds`. The stress on the bed is the drive of the fluid above it, less the
+  /// momentum that this fluid keeps.
   Transport measure(double seconds) {
     Transport seen;
     const double area = config.size[0] * config.size[2], dt = config.time.fluid_step;
@@ -106,7 +106,7 @@ class FlatBed : test::CoupledRun {
   int steps_in(double seconds) const {
     return static_cast<int>(std::lround(seconds / config.time.fluid_step));
   }
-  /// Of the water [N s/m2].
+  /// Momentum of the fluid per area [N s/m2].
   double momentum_per_area() {
     const double area = config.size[0] * config.size[2];
     return kDensity * bulk_velocity(*state.fluid) * (config.size[1] - solid_ / area);
@@ -145,7 +145,7 @@ TEST(BedLoadNightly, FluxIsWongAndParkersWithinAFactorOfThree) {
   EXPECT_LT(all.q_star(), all.wong_parker() * 3);
 }
 
-/// At half the threshold: no flux, and no grain drifts by more than a diameter a second. So slow a
+/// Half the threshold: no flux, and no grain drifts by more than a diameter a second. So slow a
 /// flow slowly loses its turbulence in this box, and its stress falls by a fifth in the second.
 TEST(BedLoadNightly, NothingMovesWellBelowTheThreshold) {
   Config c = bed_config();

@@ -1,4 +1,4 @@
-// A body among grains that are held, in a steady flow: what drives the water is on all of them.
+// A body among grains that are held, in a steady flow: grains, floor and body take the whole drive.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ InitialGrains bed_around(const BodyConfig& post) {
   return grains;
 }
 
-/// As the grains have it.
+/// Force of the flow on all grains, from their arrays.
 Vec3 on_grains(const test::CoupledRun& run) {
   Vec3 sum;
   for (const NamedForce& force : run.forces()) {
@@ -66,14 +66,14 @@ Vec3 on_floor(const test::CoupledRun& run) {
   return sum;
 }
 
-/// The same along x and along z.
+/// Compares a force with the drive along x and along z.
 void expect_all(const std::string& what, const Vec3& force, const Vec3& drive) {
   test::expect_relative(what + " over the drive along x", force.x / drive.x, 1, 1e-6);
   test::expect_relative(what + " over the drive along z", force.z / drive.z, 1, 1e-6);
 }
 
-// What grains take where the post is comes from the post. Layered, the grains get what the water
-// loses; the other schemes give them the flow at their centres.
+// Grains around the post take a force that comes from the post. With layers, grains get what the
+// fluid loses; the other schemes give them the flow at their centres.
 TEST(BodiesAmongGrains, ForceOnGrainsFloorAndPostIsTheDrive) {
   for (const CouplingScheme scheme :
        {CouplingScheme::layered, CouplingScheme::smoothed, CouplingScheme::centred}) {

@@ -33,7 +33,7 @@ BodyConfig step_over_everything(double height) {
   return body;
 }
 
-/// All of the water's momentum along an axis [kg m/s].
+/// Momentum of all fluid along an axis [kg m/s].
 Vec3 momentum(const FlowRun& run) {
   const auto u = to_host(run.fluid.u.x), v = to_host(run.fluid.u.y), w = to_host(run.fluid.u.z);
   const double rho = run.config.fluid->density, area = run.grid.dx * run.grid.dz;
@@ -45,7 +45,7 @@ Vec3 momentum(const FlowRun& run) {
   return sum;
 }
 
-/// On cells of this size [m].
+/// Runs until the flow is steady, on cells of this size [m].
 void run_until_steady(FlowRun& run, double cell) {
   const double nu = run.config.fluid->kinematic_viscosity;
   const double dt = 0.08 * cell * cell / nu;  // explicit diffusion allows 1/12
@@ -93,7 +93,7 @@ TEST(BodiesInFlow, OverABoxTheFlowIsPoiseuillesWhereverItsTopIs) {
   }
 }
 
-// The same along z, where the drive acts on the predicted velocity.
+// Poiseuille flow along z, where the drive acts on the predicted velocity.
 TEST(BodiesInFlow, AlsoAlongZ) {
   const double h = 0.02 / 8, floor = 3.2 * h, depth = 0.02 - floor;
   const FlowRun run = over_a_box(0.3, {0, 0.01}, 0);
@@ -134,7 +134,7 @@ TEST(BodiesInFlow, CouetteFlowIsExactOnStretchedRows) {
   }
 }
 
-/// In the middle of a square of this size, shifted by `shift` across its axis.
+/// Rod in the middle of a square of this size, shifted by `shift` across its axis.
 BodyConfig rod_along(Axis axis, double radius, double size, double shift) {
   const double across = size / 2 + shift;
   BodyConfig rod = body_of(BodyShape::of<shapes::Cylinder>(),
@@ -201,8 +201,8 @@ TEST(BodiesInFlow, AcrossASquareArrayOfCylindersItIsSanganiAndAcrivos) {
   }
 }
 
-/// On the floor, as the stencil of this velocity has it [N]. The eddy viscosity on the floor is
-/// zero.
+/// Force on the floor, as the stencil of this velocity has it [N]. The eddy viscosity on the floor
+/// is zero.
 Vec3 floor_stress(const FlowRun& run) {
   const auto u = to_host(run.fluid.u.x), w = to_host(run.fluid.u.z);
   const FluidConfig& fluid = *run.config.fluid;
@@ -237,8 +237,8 @@ TEST(BodiesInFlow, ASphereOnTheFloorHasONeillsDragAndTorque) {
   expect_below("torque about its lowest point: error", std::abs(-load.torque.z / torque - 1), 0.05);
 }
 
-// Two bodies, an oblique flow. What the water's momentum lacks of what drives it is on the bodies
-// and on the floor, to round-off.
+// Two bodies in an oblique flow: bodies and floor take the drive less the growth of the fluid's
+// momentum, to round-off.
 TEST(BodiesInFlow, MomentumThatTheWaterLosesIsOnBodiesAndFloor) {
   Config config = laminar({24, 12, 16}, {0.048, 0.024, 0.032}, 1e-5, kTolerance);
   config.fluid->first_cell_height = 0.0012;
@@ -274,7 +274,7 @@ TEST(BodiesInFlow, MomentumThatTheWaterLosesIsOnBodiesAndFloor) {
   expect_below("force on bodies against the momentum that is lost, relative", worst / least, 1e-10);
 }
 
-// On rows that grow, a face across y has the water from the middle of the row below to that above.
+// Rows grow: a face across y has the fluid from the middle of the row below to that above.
 TEST(BodiesInFlow, FacesHaveTheVolumeOfTheirMomentum) {
   Config config = laminar({4, 9, 5}, {0.04, 0.09, 0.05}, 1e-5);
   config.fluid->first_cell_height = 0.004;
@@ -364,8 +364,8 @@ TEST(BodiesInFlow, NothingFlowsInABodyAndAsMuchThroughEverySection) {
   check();
 }
 
-// A grain that leaves gives back its volume, which nothing can fill in a periodic box of water: the
-// sum of the pressure's source is not zero. What of it stands in closed cells no pressure answers.
+// A grain that leaves gives back its volume, which nothing can fill in a periodic box of fluid: the
+// sum of the pressure's source is not zero. No pressure answers the part in closed cells.
 TEST(BodiesInFlow, AStepInWhichAGrainLeavesHasAPressure) {
   Config config = laminar({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-5, kTolerance);
   config.fluid->mean_velocity = 0.28;

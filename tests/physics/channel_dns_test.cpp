@@ -1,5 +1,5 @@
-// Clear-water channels against DNS: the paper's Fig. 2 and Table I, about 45 minutes on one core;
-// on finer cells, 90 minutes; and at a lower Reynolds number without a model, 50 minutes.
+// Channels without grains against DNS: the paper's Fig. 2 and Table I, about 45 minutes on one
+// core; on finer cells, 90 minutes; and at a lower Reynolds number without a model, 50 minutes.
 #include "src/case/load.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"

@@ -54,13 +54,14 @@ void add(Real& worst, const std::string& claim, Real value, Real reference, Real
   worst = std::max(worst, std::abs(value - reference) / allowed);
 }
 
-/// What errors of the tangential velocity (et) and the spin make of the patch angle [degrees].
+/// Error of the patch angle [degrees] from errors of the tangential velocity (et) and the spin.
 Real patch_error(Real theta, Real et_error, Real spin_error) {
   const Real v_n = 0.98 * 3.9 * std::cos(theta);
   return std::atan((3.9 * std::sin(theta) * et_error + 2.5e-3 * spin_error) / v_n) / kDegree;
 }
 
-/// One angle against the columns of one material: `paper` and `law` are the first of its columns.
+/// Compares one angle with the columns of one material: `paper` and `law` are the first of its
+/// columns.
 void compare(const std::string& name, const Oblique& got, const std::vector<Real>& q,
              std::size_t paper, std::size_t law, Worst& worst) {
   const std::string claim = name + " at " + std::to_string(static_cast<int>(q[0])) + " degrees";

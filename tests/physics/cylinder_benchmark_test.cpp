@@ -17,10 +17,10 @@ using namespace test;
 constexpr double kDiameter = 0.1, kHeight = 0.41, kNu = 1e-3, kRho = 1;  // [m], [m^2/s], [kg/m^3]
 constexpr double kInlet = 0.1, kCentreX = kInlet + 0.2, kCentreY = 0.2, kLength = kInlet + 2.2;
 
-/// The channel is periodic and its bulk velocity U is held. The benchmark has a parabola two
-/// diameters before the cylinder, where without it the flow already knows of the cylinder. So after
-/// each step the water of the first diameter of the domain is given the parabola. `n` cells to a
-/// diameter.
+/// Channel of the benchmark, periodic, with its bulk velocity U held. The benchmark has a parabola
+/// two diameters before the cylinder, where without it the flow already knows of the cylinder. So
+/// after each step the fluid of the first diameter of the domain is given the parabola. `n` cells
+/// to a diameter.
 struct Benchmark {
   double bulk;
   FlowRun run;
@@ -69,8 +69,8 @@ struct Benchmark {
     const double unit = kRho * bulk * bulk * kDiameter / 2 * run.grid.lz;
     return {force.x / unit, force.y / unit};
   }
-  /// Of the pressure with its driving part, linear from the water to the surface, between the first
-  /// and the last point of the cylinder, over the density.
+  /// Difference of the pressure with its driving part, linear from the fluid to the surface,
+  /// between the first and the last point of the cylinder, over the density.
   double pressure_difference() const {
     const auto p = to_host(run.fluid.p);
     const double h = run.grid.dx;
@@ -78,7 +78,7 @@ struct Benchmark {
     const int j = static_cast<int>(std::floor(row));
     const auto at = [&](int i) { return p(i, j, 0) + (row - j) * (p(i, j + 1, 0) - p(i, j, 0)); };
     const auto on_surface = [&](double x, int side) {
-      // Two cells whose rows are both in the water.
+      // Two cells whose rows are both in the fluid.
       const int i = static_cast<int>(std::lround(x / h - 0.5)) + side;
       const double distance = std::abs((i + 0.5) * h - x) / h;
       return at(i) + distance * (at(i) - at(i + side));
@@ -87,7 +87,7 @@ struct Benchmark {
     return on_surface(kCentreX - a, -1) - on_surface(kCentreX + a, 1) +
            kRho * run.fluid.drive.x * kDiameter;
   }
-  /// From the back of the cylinder to where u changes its sign in its middle.
+  /// Length from the back of the cylinder to where u changes its sign in its middle.
   double recirculation() const {
     const auto u = to_host(run.fluid.u.x);
     const double h = run.grid.dx, row = kCentreY / h - 0.5;
@@ -133,7 +133,7 @@ struct Shedding {
   double drag = 0, lift = 0, strouhal = 0;  // largest, largest
 };
 
-/// Once the vortices are there: over the last ten or so periods.
+/// Vortex shedding once the vortices are there, over the last ten or so periods.
 Shedding shed_vortices(int n) {
   Benchmark flow(1, n);
   while (flow.run.fluid.time < 8) flow.advance();

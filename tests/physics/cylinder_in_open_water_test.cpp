@@ -45,7 +45,7 @@ double drag_of(const FlowRun& run) {  // the half cylinder has half of it
          (1000 * kSpeed * kSpeed * kDiameter / 2 * run.grid.lz);
 }
 
-/// From the back of the cylinder to where the water beside the plane of symmetry turns.
+/// Length from the back of the cylinder to where the flow beside the plane of symmetry turns.
 double length_of_eddies(const FlowRun& run) {
   const auto u = to_host(run.fluid.u.x);
   const double h = run.grid.dx;

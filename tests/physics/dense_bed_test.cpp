@@ -1,4 +1,4 @@
-// The exchange between a dense bed and its pore water is stable: what rests, rests.
+// The exchange between a dense bed and its pore fluid is stable: a bed at rest stays at rest.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numbers>
@@ -11,13 +11,13 @@
 namespace barchan {
 namespace {
 
-/// A dense bed and its pore water, per unit volume.
+/// Dense bed and its pore fluid, per unit volume.
 struct Mixture {
   double alpha, dt;
   double smoothing = 1;  // what smoothing and interpolation leave of a disturbance
   double period = 0;     // of the grains on a spring to the floor, as in a sheared bed; 0: none
-  double share = 1;      // water that the grains carry over the water that there is
-  bool squeezed = true;  // water leaves where grains go, alpha u + (1 - alpha) w = 0, which the
+  double share = 1;      // fluid that the grains carry over the fluid that there is
+  bool squeezed = true;  // fluid leaves where grains go, alpha u + (1 - alpha) w = 0, which the
                          // pressure enforces; otherwise both slip freely
 };
 
@@ -32,8 +32,8 @@ double growth(const Mixture& m) {
   Eigen::Matrix<double, 6, 6> step;
   for (int column = 0; column < 6; ++column) {
     Eigen::Matrix<double, 6, 1> s = Eigen::Matrix<double, 6, 1>::Unit(column);
-    // grains and water: velocities; change of the latter in the last step, impulse that it lost and
-    // that of the pressure on the grains; displacement of the grains
+    // Grains and fluid: velocities; change of the latter in the last step, impulse that it lost and
+    // that of the pressure on the grains; displacement of the grains.
     double &w = s(0), &u = s(1), &change = s(2), &impulse = s(3), &push = s(4), &x = s(5);
     const MotionCoefficients coefficients{.mass = c * rho_p,
                                           .inertia_moment = 1,
@@ -41,14 +41,14 @@ double growth(const Mixture& m) {
                                           .beta = 150 * c * c * mu_f / (m.alpha * d * d),
                                           .added_mass = kAddedMassCoefficient * c * rho_f};
     const double added_mass = coefficients.added_mass;
-    const double carried_on =
-        change * part_carried_on(per_share, added_mass, m.dt * coefficients.beta);
-    const double of_added_mass = added_mass * (change - carried_on);
+    const double inertial =
+        change * inertial_fraction(per_share, added_mass, m.dt * coefficients.beta);
+    const double of_added_mass = added_mass * (change - inertial);
     const double steady = (push + of_added_mass) / m.dt;
     const HalfKick kick(m.dt / n / 2, coefficients);
     GrainForces f;
     f.u_f = {u, 0, 0};
-    f.acceleration = {(carried_on + per_share * impulse) / m.dt, 0, 0};
+    f.acceleration = {(inertial + per_share * impulse) / m.dt, 0, 0};
     Vec3 velocity{w, 0, 0}, spin;
     impulse = 0;
     for (int k = 0; k < n; ++k) {
@@ -86,7 +86,7 @@ TEST(DenseBed, SmallDisturbancesDieOutAtEveryFractionAndStep) {
               worst = std::max(worst, growth({alpha, dt, smoothing, period, share, squeezed}));
             }
   test::expect_below("growth per step", worst, 1);
-  // Grains that take more water along than there is drive it on.
+  // Grains that take more fluid along than there is drive it on.
   EXPECT_GT(growth({.alpha = 0.35, .dt = 1e-3, .share = 2, .squeezed = false}), 1.2);
 }
 
@@ -136,8 +136,8 @@ TEST(DenseBed, ABedAtRestInStillWaterStaysAtRest) {
   test::expect_below("median speed, median of five packings [m/s]", speeds[2], 2e-4);
 }
 
-/// The bed is elastic in shear, and water flows over it. Pushed along the stream it swings; the
-/// exchange must not feed that.
+/// A bed elastic in shear under a flow. Pushed along the stream it swings; the exchange must not
+/// feed that.
 TEST(DenseBed, ASwingingBedComesToRest) {
   Config c = bed_config();
   c.fluid->pressure_gradient = 8;  // 0.04 Pa on the bed, a quarter of what moves it

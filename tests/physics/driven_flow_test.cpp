@@ -63,7 +63,7 @@ double over_a_bed(int i, int j, int k) {
   return 1 - 0.4 * (j < 4 ? 1 : 0) * std::abs(std::sin(0.7 * i + 0.3)) * std::cos(0.4 * k + 0.1);
 }
 
-// Over a bed the projection takes part of the flow rate, which the next step gives back.
+// A bed takes part of the flow rate in the projection, and the next step gives it back.
 TEST(DrivenFlow, FollowsAReversalATurnAndAnOscillation) {
   Config config = laminar({10, 8, 6}, {0.03, 0.02, 0.012}, 1e-5);
   const double time = 0.02, start = time / 5, ramp = 2 * start;
@@ -105,7 +105,7 @@ double error_of_swinging_flow(int rows) {
   };
   const int steps = 5 * rows * rows / 2;
   const double dt = period / steps;
-  // At the end of a step it has what is wanted at its start.
+  // The velocity at the end of a step is the target at its start.
   set_field(run.fluid.u.z, run.grid, [&](int, int j, int) { return -exact(j, -dt) / 2; });
   run.start([&](int, int j, int) { return exact(j, -dt); });
   double error = 0;
@@ -128,9 +128,8 @@ TEST(DrivenFlow, SwingsAsStokesLayerDoes) {
   expect_order("oscillating flow", coarse, fine, 2, 0.2);
 }
 
-/// A square box of turbulent water driven along x, or the same along z.
-/// Largest difference of a flow from `turned`, the same with x and z exchanged, and its largest
-/// velocity along z [m/s].
+/// Square box of turbulent flow driven along x, or along z. Returns the largest difference of a
+/// flow from `turned`, the same with x and z exchanged, and its largest velocity along z [m/s].
 std::pair<double, double> compare_turned(const FlowRun& along, const FlowRun& turned) {
   const auto u = to_host(along.fluid.u.x), v = to_host(along.fluid.u.y),
              w = to_host(along.fluid.u.z);

@@ -10,7 +10,7 @@
 namespace barchan {
 namespace {
 
-/// A mound of mixture in a sheared flow. Away from it water is clear: looked at near the mound
+/// A mound of mixture in a sheared flow, with clear fluid elsewhere. With kernels near the mound
 /// alone, the flow is the same, and nothing is read elsewhere.
 TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   Config config = test::flow_config({40, 12, 9}, {0.04, 0.012, 0.009}, 5e-4);
@@ -28,7 +28,7 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   Kokkos::deep_copy(marks.on_device, marks.on_host);
   const ColumnMap mound = ColumnMap::marked(near.grid, marks, 0);
   FlowRegions regions(near.grid);
-  regions.exchange.set(mound.grown(1)), regions.fraction.set(mound.grown(5));
+  regions.exchange.set(mound.dilated(1)), regions.fraction.set(mound.dilated(5));
   for (test::FlowRun* run : {&whole, &near}) {
     test::set_random(run->fluid.u.y, run->grid, 3);
     for_each_cell("test", run->grid, Axpby{0, run->fluid.u.y, 0.01, run->fluid.u.y});
@@ -44,16 +44,16 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
     exchange.stress_share = Field("test: share", grid);
     const auto inside = [&](double value, double around) {
       return [=, &mound](int i, int j, int k) {
-        return is_in_mound(i, j, k)                ? value
-               : mound.grown(1).has(i, k) && j < 4 ? around
-                                                   : elsewhere;
+        return is_in_mound(i, j, k)                  ? value
+               : mound.dilated(1).has(i, k) && j < 4 ? around
+                                                     : elsewhere;
       };
     };
     for (Field* f : {&exchange.impulse.x, &exchange.impulse.y, &exchange.impulse.z})
       test::set_field(*f, grid, inside(-0.4, 0));
     for (Field* f : {&exchange.conductance_x, &exchange.conductance_z})
       test::set_field(*f, grid, inside(50, 0));
-    const ColumnMap share_known = mound.grown(6);
+    const ColumnMap share_known = mound.dilated(6);
     test::set_everywhere(exchange.stress_share, grid, [&](int i, int j, int k) {
       const bool known = i >= 0 && i < 40 && share_known.has(i, (k + 9) % 9) && j < 9;
       return is_in_mound(i, j, k) ? 0.5 : known || elsewhere == 0 ? 1 : elsewhere;

@@ -29,7 +29,7 @@ TEST(FluidFlow, RampBringsTheBulkVelocityUp) {
   EXPECT_NEAR(bulk_velocity(run.fluid), 0.2, 1e-13);
 }
 
-/// For a flow with exchange.
+/// Case of a flow with exchange.
 Config coupled(Config config) {
   config.grains.emplace();
   return config;
@@ -51,8 +51,8 @@ TEST(FluidFlow, ExchangeIsTakenUpByAUniformMixture) {
   EXPECT_NEAR(test::to_host(run.fluid.u.x)(1, 2, 1), u + impulse / rho / alpha, 1e-14);
 }
 
-/// Rows of still water, one of which got an impulse, with a drag between them: the velocities solve
-/// (rho alpha dy + C) e = impulse dy, C the matrix of the drag, in the whole box alike.
+/// Rows of fluid at rest, one of which got an impulse, with a drag between them: the velocities
+/// solve (rho alpha dy + C) e = impulse dy, C the matrix of the drag, in the whole box alike.
 TEST(FluidFlow, InterlayerDragSharesAnImpulse) {
   Config config = coupled(test::flow_config({4, 6, 3}, {0.01, 0.02, 0.01}, 0));
   config.fluid->bottom = WallFlow::free_slip;
@@ -121,7 +121,7 @@ TEST(FluidFlow, MovingSolidFractionConservesMass) {
   }
 }
 
-// A block of grains that hinders the water.
+// A block of grains that hinders the flow.
 TEST(FluidFlow, AHinderedFlowConservesMassAndKeepsItsBulkVelocity) {
   Config config = coupled(test::flow_config({16, 8, 12}, {0.04, 0.025, 0.03}, 1e-3));
   config.fluid->mean_velocity = 0.28;

@@ -1,4 +1,4 @@
-// A bed of grains on a plate, free to move, is lifted by the water that comes through the plate.
+// A bed of grains on a plate, free to move, is lifted by the fluid that comes through the plate.
 #include "tests/support/lattice.hpp"
 #include "tests/support/packing.hpp"
 
@@ -40,10 +40,11 @@ struct Lattice {
   int columns;
 };
 
-/// Balls that rest on a plate at x = 0 under gravity along -x, z periodic. Without friction, so
-/// that the side walls carry no weight. Springs are linear: Hertz's give so much at low loads that
-/// water takes long to follow their rebound through the pores. Cells are several grains wide: where
-/// every pore has its own the water finds the loose ones, while Ergun's law is for mean fractions.
+/// Bed of balls that rest on a plate at x = 0 under gravity along -x, z periodic. It has no
+/// friction, so that the side walls carry no weight. Springs are linear: Hertz's give so much at
+/// low loads that the fluid takes long to follow their rebound through the pores. Cells are several
+/// grains wide: where every pore has its own the fluid finds the loose ones, while Ergun's law is
+/// for mean fractions.
 class FreeBed {
  public:
   explicit FreeBed(const Lattice& lattice)
@@ -113,7 +114,7 @@ class FreeBed {
   InitialGrains settled_;
 };
 
-/// What is measured under a steady flow: means over 10 ms, and the bed after them.
+/// Measurements under a steady flow: means over 10 ms, and the bed after them.
 struct Reading {
   double superficial = 0, drop = 0;  // [m/s], over the whole bed [Pa]
   double plate = 0;                  // what the plate still carries [Pa]
@@ -128,7 +129,7 @@ Reading read(const FreeBed& bed, double superficial, double time) {
   for (int n = 0; n < samples; ++n) {
     run.advance();
     const FluidState& f = *run.state.fluid;
-    // Above the bed the water is clear: its velocity is the superficial one.
+    // The fluid above the bed is clear: its velocity is the superficial one.
     out.superficial += test::mean_of_columns(f.u.x, f.grid, f.grid.nx - 2, f.grid.nx) / samples;
     out.drop += 1000 * f.drive.x * bed.length() / samples;
     for (const Vec3& force : test::HostGrains(*run.state.grains).wall_forces()) {
@@ -143,7 +144,8 @@ Reading read(const FreeBed& bed, double superficial, double time) {
 struct Readings {
   Reading packed, fluidised;
 
-  /// As in the laboratory: the onset is where the line of the packed bed meets the plateau.
+  /// Onset of fluidisation as in the laboratory: where the line of the packed bed meets the
+  /// plateau.
   double onset() const { return packed.superficial * fluidised.drop / packed.drop; }
 };
 
@@ -158,8 +160,8 @@ Readings read_both(const FreeBed& bed, double time) {
   return r;
 }
 
-/// A layer of grains stays on the plate, whose cells are half in clear water for the grains in
-/// them: the bed is as high as makes that one layer less than the tolerance.
+/// A layer of grains stays on the plate, because its cells are half in clear fluid. The bed is so
+/// high that one layer is less than the tolerance.
 TEST(FluidisedBed, NightlyLiftsOffAtErgunsVelocityAndThenCarriesItsWeight) {
   const FreeBed bed({.across = 6, .high = 115, .pitch = 1.05, .columns = 2});
   const Readings r = read_both(bed, 0.22);
@@ -167,7 +169,7 @@ TEST(FluidisedBed, NightlyLiftsOffAtErgunsVelocityAndThenCarriesItsWeight) {
                         bed.weight(), 0.01);
 }
 
-/// In a lower bed, with what the plate still carries.
+/// A lower bed, with the load that the plate still carries.
 TEST(FluidisedBed, ColumnLiftsOffAtErgunsVelocityAndWaterAndPlateCarryIt) {
   const FreeBed bed({.across = 4, .high = 60, .pitch = 1.03, .columns = 1});
   const Readings r = read_both(bed, 0.08);

@@ -39,7 +39,8 @@ Real e_eff(const Config& config) {
   return effective_youngs_modulus(e, e);
 }
 
-/// Between three spheres whose corners surround it: (0, 0), (a, 0) and (a/2, b), ten rows further.
+/// Pocket between three spheres whose corners surround it: (0, 0), (a, 0) and (a/2, b), ten rows
+/// further.
 Vec3 pocket(const GluedFloor& floor, Real y) {
   return {9.5 * floor.a, y, (10 + Real(1) / 3) * floor.b};
 }
@@ -99,7 +100,7 @@ TEST(GluedFloor, HoldsASphereOnThree) {
   }
 }
 
-// Without resistance to rolling a sphere leaves its pocket where its weight points beyond the two
+// A sphere without resistance to rolling leaves its pocket where its weight points beyond the two
 // spheres in front, at tan = (a / (2 sqrt 3)) / height: 19.47 degrees for equal spheres, whatever
 // the friction.
 TEST(GluedFloor, LetsASphereGoAtTheAngleOfTheSaddle) {
@@ -127,7 +128,7 @@ TEST(GluedFloor, LetsASphereGoAtTheAngleOfTheSaddle) {
   }
 }
 
-/// Of a sphere in flight [J].
+/// Energy of a sphere in flight [J].
 Real energy(const GrainKinematics& k) {
   return k.m * (dot(k.u, k.u) + 0.4 * k.r * k.r * dot(k.omega, k.omega)) / 2 + k.m * kG * k.x.y;
 }

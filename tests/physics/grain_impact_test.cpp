@@ -35,7 +35,7 @@ struct ImpactCase {
   Real m_eff() const { return sphere_volume(radius) * density / sides(); }
 };
 
-/// What one step of a contact shows.
+/// Overlap and force in one step of a contact.
 struct ImpactSample {
   Real overlap = 0, force = 0;  // [m], [N]
 };
@@ -57,7 +57,7 @@ GrainBench before_impact(const ImpactCase& c, Real gap) {
   return GrainBench(config, g);
 }
 
-/// One impact at a constant step; the surfaces meet after (1 + phase) steps of free flight.
+/// Runs one impact at a constant step; the surfaces meet after (1 + phase) steps of free flight.
 ImpactResult run_impact(const ImpactCase& c, Real dt, Real phase = 0.5) {
   GrainBench bench = before_impact(c, (1 + phase) * dt * c.v);
   const auto gap_of = [&c](const GrainKinematics& g) {  // of the surfaces

@@ -78,7 +78,7 @@ TEST(GrainMotion, SlidesUntilItRollsWithFiveSevenths) {
   }
 }
 
-/// What a sphere that rolls to rest shows.
+/// Stop of a sphere that rolls to rest.
 struct RollingStop {
   Real deceleration = 0, time = 0, distance = 0;  // until the first reversal
   Real swing = 0, period = 0;                     // of the rocking afterwards [m], [s]
@@ -117,8 +117,8 @@ RollingStop roll_to_rest(const OnFloor& floor, Real v0, Real dt, Real rocking_ti
   return r;
 }
 
-// Under a torque at its limit mu_r R F_n: a = (5/7) mu_r g, t = (7/5) v0/(mu_r g),
-// s = (7/10) v0^2/(mu_r g). Then the undamped spring rocks: it lets go of the angle it held.
+// Torque at its limit mu_r R F_n: a = (5/7) mu_r g, t = (7/5) v0/(mu_r g), s = (7/10) v0^2/(mu_r
+// g). Then the undamped spring rocks: it lets go of the angle it held.
 TEST(GrainMotion, RollsToRestUnderEpsd2) {
   const Real mu_r = 0.2, v0 = 1;
   Material material{.youngs_modulus = 2e5,

@@ -1,4 +1,5 @@
-// One grain on the paper's mesh: does it notice the cells, and is its momentum the fluid's loss?
+// One grain on the paper's mesh: the cells hardly matter to it, and its momentum is the fluid's
+// loss.
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/parallel/reduce.hpp"
 #include "tests/support/coupled_run.hpp"
@@ -76,7 +77,7 @@ TEST(GrainOnMesh, DragIsSteadyAcrossCellsInUniformFlow) {
 }
 
 TEST(GrainOnMesh, DragIsSteadyAcrossCellsInShear) {
-  // At the paper's wall shear, u*^2/nu = 256 1/s: 0.028 m/s at the centre of a resting grain.
+  // Wall shear of the paper, u*^2/nu = 256 1/s: 0.028 m/s at the centre of a resting grain.
   const double shear = 256;
   const auto drag = [&](const Vec3& x) { return drag_at(x, 0, shear); };
   const Vec3 low{2.5 * kDx, 1.1e-4, 2.5 * kDz}, high{2.5 * kDx, 1.5e-3, 2.5 * kDz};
@@ -161,10 +162,10 @@ FaceSums face_sums(const FluidState& f) {
                      KOKKOS_LAMBDA(int i, int j, int k) { return rate(i, j, k) * grid.dy(j); })};
 }
 
-/// Nothing but the weight brings momentum into a channel with one grain. Exactly balanced are the
-/// exchanged parts; pressure gradient and stress are shared, not exchanged (docs/theory-fluid.md),
-/// and the two shares, of the smoothed fraction and of the grain's centre, differ by a small part
-/// of the weight.
+/// Only the weight brings momentum into a channel with one grain. The exchanged parts balance
+/// exactly. Pressure gradient and stress are shared, not exchanged (docs/theory-fluid.md), and the
+/// two shares, of the smoothed fraction and of the grain's centre, differ by a small part of the
+/// weight.
 TEST(GrainOnMesh, MomentumIsConserved) {
   Config c = paper_mesh();
   c.grains->gravity = {9.81, 0, 0};

@@ -87,7 +87,7 @@ void add_cone_use(const HostGrains& h, const PeriodicBox& box, Real mu, ConeUse&
 
 /// Weight and a force along x that grows with height.
 void set_shear(const GrainState& s) {
-  const auto force = s.fluid.steady_force;
+  const auto force = s.fluid.explicit_force;
   const auto rows = s.kin;
   Kokkos::parallel_for(
       "test: shear", s.n, KOKKOS_LAMBDA(int p) {

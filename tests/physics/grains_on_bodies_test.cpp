@@ -83,7 +83,7 @@ void move_out(const GrainState& grains) {
       "test: move out", grains.n, KOKKOS_LAMBDA(int g) { kin(g).x.x = -1e-4; });
 }
 
-// What the last step with grains gave is not given again.
+// Loads of the last step with grains are not given again.
 TEST(GrainsOnBodies, NothingPushesABodyOnceAllGrainsHaveLeft) {
   Config config = with_bodies(material(0.5, 0.3), {all_shapes()[5]});
   config.grains->boundary_x = GrainBoundaryX::exit;
@@ -159,8 +159,8 @@ TEST(GrainsOnBodies, AGrainOnASlopeStaysOrSlides) {
   }
 }
 
-// From the top of a sphere or a lying cylinder a grain that slides without friction leaves where
-// cos = 2/3, one that rolls without slip where cos = 10/17, with the speed of its fall.
+// A grain leaves the top of a sphere or a lying cylinder where cos = 2/3 if it slides without
+// friction, and where cos = 10/17 if it rolls without slip, with the speed of its fall.
 TEST(GrainsOnBodies, AGrainLeavesABallWhereTheoryPutsIt) {
   for (const std::size_t which : {std::size_t{2}, std::size_t{3}}) {
     for (const bool rolls : {false, true}) {

@@ -89,10 +89,10 @@ Real translational_energy(const HostGrains& h) {
   return sum;
 }
 
-/// From rest without contact history, 2200 steps. The reference program (LIGGGHTS 3.8.0)
-/// counts 4.07 contacts per grain at the positions of the file; the number rises as the heap finds
-/// its tangential forces, to 4.18 within 300 steps. Its kinetic energy, of translation, is 1.8e-10
-/// J in the end.
+/// Runs 2200 steps from rest without contact history. The reference program (LIGGGHTS 3.8.0) counts
+/// 4.07 contacts per grain at the positions of the file; the number rises as the heap finds its
+/// tangential forces, to 4.18 within 300 steps. Its kinetic energy, of translation, is 1.8e-10 J in
+/// the end.
 void expect_settled(const std::string& name, Real shift) {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets it
   const char* file = std::getenv("BARCHAN_HEAP_CSV");

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// One grain that comes close to a body at random.
+/// Grain that comes close to a body at random.
 struct Hit {
   Config config;
   GrainBench bench;
@@ -24,7 +24,7 @@ struct Hit {
   Hit(const Config& c, const Vec3& x, const Vec3& u, const Vec3& omega, const Vec3& n)
       : config(c), bench(c, grain(x, u, omega)), normal(n) {}
 
-  /// Until it has left; false if it does not.
+  /// Runs until the grain has left; false if it does not.
   bool leaves(Real dt) {
     bool has_touched = false;
     for (int n = 0; n < 500; ++n) {
@@ -78,8 +78,8 @@ Vec3 direction(Uniform& uniform) {
   }
 }
 
-/// What a hit gives to the body against what it takes from the grain: over the impulse, and over it
-/// times 1 mm. The grain afterwards: its speed [m/s], by how much its turning changed [1/s].
+/// Balance of a hit. Errors: what the body gets less what the grain loses, over the impulse, and
+/// over it times 1 mm. The grain afterwards: its speed [m/s], and the change of its spin [1/s].
 struct Balance {
   Real impulse_error = 0, torque_error = 0, speed_after = 0, spun_up = 0;
 };

@@ -25,8 +25,8 @@ struct GrainInThinRows {
   GrainRows rows(Real y) const { return {grid, y, 1e-4}; }
 };
 
-// What rows exchange through a grain is D u, D = diag(w) - w w^T. The chain of conductances is at
-// least as stiff: no velocities for which it takes less. With two rows it is the same.
+// Rows exchange D u through a grain, D = diag(w) - w w^T. The chain of conductances is at least as
+// stiff: it takes less for no velocities. With two rows it is the same.
 TEST(InterlayerDrag, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   const GrainInThinRows thin;
   const int n = 80;
@@ -67,7 +67,8 @@ test::HostField noise(const GridRef& grid, double seed, double low, double high)
   });
 }
 
-// Each column on its own: (m + C)(u' - u) = m (u* - u), C the matrix of the interlayer drag.
+// Each column is solved on its own: (m + C)(u' - u) = m (u* - u), C the matrix of the interlayer
+// drag.
 TEST(InterlayerDrag, SolvesEachColumnOfFaces) {
   const test::HostGrid host = thick_rows();
   const GridRef grid = host.ref();

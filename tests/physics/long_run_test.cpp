@@ -106,7 +106,7 @@ void a_long_run(std::int64_t grain_steps) {
   EXPECT_GT(pairs.touching, 100u * static_cast<std::size_t>(looks)) << "a heap has contacts";
   test::expect_below("growth of memory after a tenth of the run", test::kSanitized ? 0 : growth,
                      0.01);
-  // Each step rounds its sums to some 1e-15 of what it exchanges, and adds them to sums that grow.
+  // Round-off of a step is some 1e-15 of what it exchanges, and is added to sums that grow.
   test::expect_below("ledger, over what was exchanged", ledger_error / given, 1e-13);
   test::expect_below("deposited volume over the grains' - 1", e.at("largest_volume_mismatch"),
                      1e-13);

@@ -89,7 +89,7 @@ TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {
     to.solver.fill_ghosts(to.fluid);
     EXPECT_NEAR(bulk_velocity(to.fluid), bulk_velocity(from.fluid), 1e-14);
     EXPECT_LT(divergence(to), 1e-11);
-    // Between nodes the smallest eddies lose something, the mean flow nothing.
+    // The smallest eddies lose something between nodes, the mean flow nothing.
     EXPECT_NEAR(to.solver.kinetic_energy(to.fluid) / from.solver.kinetic_energy(from.fluid), 1,
                 0.01);
   }

@@ -125,7 +125,7 @@ TEST(PackedBed, ShallowBedResistsAsErgunWhateverTheFractionIsSmoothedOver) {
   }
 }
 
-/// What the flow lifts a grain in the middle of the bed with, over its submerged weight.
+/// Lift of the flow on a grain in the middle of the bed, over its submerged weight.
 struct Lift {
   double superficial, share;
 };

@@ -7,8 +7,8 @@
 #include "kernels/fluid/field_algebra.hpp"
 #include "src/fluid/local_correction.hpp"
 #include "src/fluid/pressure_solver.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "src/parallel/reduce.hpp"
-#include "src/parallel/tally_cells.hpp"
 #include "tests/support/flow_fields.hpp"
 #include "tests/support/measured.hpp"
 
@@ -151,7 +151,8 @@ struct Mixture {
 
   void update_mobility() {
     boundary.fill(alpha, FieldKind::scalar);
-    sum_vector("test", Tally("test", 3), 0, owned_cells(grid), UpdateMobility{grid, alpha, c});
+    sum_vector("test", DeviceReductions("test", 3), 0, owned_cells(grid),
+               UpdateMobility{grid, alpha, c});
     boundary.fill_periodic(c);
   }
 };

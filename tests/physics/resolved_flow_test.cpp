@@ -46,7 +46,7 @@ Config layered_box(Real smoothing) {
   return c;
 }
 
-/// These five, or 20 of them, which have a period of 2 d.
+/// Run with the five grains, or with 20 of them in a period of 2 d.
 CoupledRun around_grains(const Config& c, int n) {
   InitialGrains grains;
   for (const Vec3& offset : {Vec3{}, Vec3{4e-4, 0, 0}, Vec3{0, 0, 4e-4}, Vec3{4e-4, 0, 4e-4}})
@@ -64,7 +64,7 @@ void set_sheared(CoupledRun& run) {
   run.fill_ghosts();
 }
 
-/// Of the water, by id.
+/// Loads of the fluid on the grains, by id.
 std::vector<BodyLoad> loads_on_grains(const CoupledRun& run) {
   constexpr std::array of_water{"force_flow",   "force_drag",       "force_pressure_gradient",
                                 "force_stress", "force_added_mass", "force_lift"};
@@ -102,7 +102,7 @@ TEST(ResolvedFlow, GoesRoundGrainsAsRoundBodies) {
   ASSERT_EQ(on_bodies.size(), on_grains.size());
   for (std::size_t n = 0; n < on_bodies.size(); ++n) {
     EXPECT_LT(norm(on_grains[n].force - on_bodies[n].force), 1e-6 * force);
-    // That on a body is about its lowest point.
+    // The torque on a body is about its lowest point.
     const Vec3 torque = on_bodies[n].torque - cross(Vec3{0, kR, 0}, on_bodies[n].force);
     EXPECT_LT(norm(on_grains[n].torque - torque), 1e-6 * force * kR);
   }
@@ -112,8 +112,8 @@ TEST(ResolvedFlow, GoesRoundGrainsAsRoundBodies) {
   EXPECT_LT(norm(ledger.flow_on_grains - grains.step.dt() * sum), 1e-12 * norm(sum));
 }
 
-/// Of the last grain, which is perched: part of the force along x on all, and of its own what
-/// torque over radius and lift are.
+/// Loads on the last grain, which is perched: its part of the force along x on all, and over that
+/// force its torque over radius and its lift.
 struct Perched {
   Real share = 0, lever = 0, lift = 0;
   explicit Perched(const std::vector<BodyLoad>& loads) {
@@ -125,7 +125,7 @@ struct Perched {
   }
 };
 
-// Of the flow resolved with 8 cells a diameter.
+// Results of the flow resolved with 8 cells a diameter.
 constexpr Real kShare = 0.857, kLever = 0.437, kLift = 0.0769;
 
 // A code made for this gives torque over force times radius of 0.42 in a period of 3 d, 0.44 in

@@ -1,4 +1,4 @@
-// One grain settles: terminal velocity and transient, in still water and two-way coupled.
+// One grain settles: terminal velocity and transient, in still fluid and two-way coupled.
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/drag_reference.hpp"
 #include "tests/support/measured.hpp"
@@ -87,7 +87,7 @@ void check(const std::string& what, const Outcome& got, double reference, double
   test::expect_below(what + ", sideways [m/s]", got.sideways, 1e-5);
 }
 
-/// Each of Table II's grains, or of ten Cate's spheres.
+/// Calls check_row for each of Table II's grains, or of ten Cate's spheres.
 template <class Check>
 void for_spheres(const std::string& table, const Check& check_row) {
   for (const auto& row : test::reference_table(table)) {
@@ -140,7 +140,7 @@ TEST(Settling, TenCatesSphereCoupled) {
   });
 }
 
-/// A point force in smaller cells drags its water along and falls faster; the excess must vanish as
+/// A point force in smaller cells drags its fluid along and falls faster; the excess must vanish as
 /// the cells grow. In Stokes flow it would be d/(3 h) or so; the grain of Table II leaves its wake.
 TEST(Settling, SelfInducedFlowVanishesWithCellSize) {
   const Sphere grain{.d = 2e-4};

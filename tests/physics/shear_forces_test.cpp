@@ -172,9 +172,9 @@ TEST(GrainOnFloor, HasNoLiftWithoutTheSwitch) {
                         alone, 0.01);
 }
 
-/// The same drag over its reference after half a second in which the grain slows the flow around
-/// it: Couette flow between the floor and a lid ten diameters above, cells of `cell` [m] and the
-/// paper's first row.
+/// Drag over its reference after half a second in which the grain slows the flow around it: Couette
+/// flow between the floor and a lid ten diameters above, cells of `cell` [m] and the paper's first
+/// row.
 double drag_in_own_wake(double cell, CouplingScheme scheme, double reference) {
   const double shear = 256, length = 6.4e-3, height = 2e-3;
   const int n = static_cast<int>(std::lround(length / cell));
@@ -228,7 +228,7 @@ double momentum_along_z(const CoupledRun& run) {
   return 1000 * fluid + grain.m * grain.u.z;
 }
 
-/// What the momentum of both along z changes by over 40 steps, over the impulse of the lift.
+/// Change of the momentum of both along z over 40 steps, over the impulse of the lift.
 double lost_along_z(const Config& c, double& impulse, double& of_grain) {
   InitialGrains grain;
   test::add_grain(grain, kDiameter, {2.1e-3, 1.8e-3, 1.3e-3}, {0.1, 0, 0});

@@ -1,4 +1,4 @@
-// Steady shear over a held bed: what each layer of grains and the water between them get.
+// Steady shear over a held bed: forces on each layer of grains, and the fluid between them.
 #include <fmt/format.h>
 
 #include <random>
@@ -16,13 +16,13 @@ constexpr double kBed = kLayers * kDiameter, kHeight = 1.8e-3;  // [m], the lid 
 constexpr double kWeight = 1500 * 9.81;                         // submerged, per volume [N/m^3]
 
 /// Force of the flow along x on each layer over its submerged weight, the lowest first; stress on
-/// the bed [Pa]; the slowest row of water [m/s].
+/// the bed [Pa]; the slowest row of fluid [m/s].
 struct Layers {
   std::array<double, kLayers> force{};
   double stress = 0, slowest = 0;
 };
 
-/// The same column in one dimension, on many rows: mu u'' = beta u, no slip at the floor, u = lid
+/// Reference column in one dimension, on many rows: mu u'' = beta u, no slip at the floor, u = lid
 /// at the top, solid fraction 0.6 up to kBed; drag of Ergun, Wen & Yu above alpha 0.8.
 Layers reference_column(double lid) {
   constexpr int n = 900;
@@ -133,9 +133,9 @@ void print(const std::string& what, const Layers& layers) {
   std::printf(", stress %.4f Pa, slowest row %.3g mm/s\n", layers.stress, 1e3 * layers.slowest);
 }
 
-/// No row of water between the grains ever flows against the flow above, no layer is pushed
+/// No row of fluid between the grains ever flows against the flow above, no layer is pushed
 /// upstream, and the top layer gets what a column on many rows gives it: on the rows of the shipped
-/// cases and finer ones, whatever the void fraction is smoothed over.
+/// cases and finer ones, for every smoothing of the void fraction.
 TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
   constexpr double lid = 0.26;
   const Layers column = reference_column(lid);
@@ -160,7 +160,7 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
 }
 
 /// A bed with a step: beside the flow over the lower half lie grains of the higher one. None is
-/// pushed upstream, and nowhere does water flow backwards, though it flows fast in the same row two
+/// pushed upstream, and nowhere does fluid flow backwards, though it flows fast in the same row two
 /// cells away.
 TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
   constexpr double lid = 0.26;
@@ -204,8 +204,8 @@ InitialGrains regular_bed() {
   return grains;
 }
 
-/// In 8 x 8 cells each grain joins the water of two momentum cells; in 6 x 6 more than twice as
-/// many grains belong to some momentum cells as lie there. However strong their drag, no water
+/// Each grain joins the fluid of two momentum cells in 8 x 8 cells; in 6 x 6 more than twice as
+/// many grains belong to some momentum cells as lie there. However strong their drag, no velocity
 /// overshoots: the flow becomes steady.
 TEST(ShearedBed, InCellsAsWideAsAGrainStrongDragIsStable) {
   constexpr double lid = 0.01;
@@ -238,7 +238,7 @@ TEST(ShearedBed, InCellsAsWideAsAGrainStrongDragIsStable) {
   }
 }
 
-/// In steady flow what drives the water ends in the grains and in the floor, nowhere else.
+/// The drive of a steady flow ends in the grains and in the floor, nowhere else.
 TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
   constexpr double gradient = 300;  // [Pa/m]
   for (const double smoothing : {0.0, 3e-4, 6e-4}) {

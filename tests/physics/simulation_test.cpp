@@ -90,7 +90,7 @@ TEST(Simulation, RestartOfAFlowAroundABodyContinuesBitwise) {
   }
 }
 
-/// In a window that follows its dune, with grains that leave, come in and wait.
+/// Case of a window that follows its dune, with grains that leave, come in and wait.
 Config fed_config() {
   Config config = coupled_config();
   config.fluid->mean_velocity = 0.5;
@@ -176,7 +176,7 @@ TEST(Simulation, ANumberIsNeverGivenTwice) {
   EXPECT_EQ(read_grains(last).last_id, 50 + fed);
 }
 
-TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsSeam) {
+TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsEdge) {
   const TemporaryFolder scratch;
   Config config = fed_config();
   config.initial.pour->shape = PourShape::bed;  // its grains lie everywhere

@@ -101,7 +101,7 @@ TEST(FluidVortex, ConvectionIsSecondOrderInThePeriodicPlane) {
 
 // --- The three-dimensional Taylor-Green vortex at Re = 1600: transition and decay of turbulence.
 
-/// One time of a run; volume means, V0 = L = 1.
+/// State of a run at one time; volume means, V0 = L = 1.
 struct Record {
   double t = 0, energy = 0, dissipation = 0;  // resolved and subgrid together
   double resolved = 0;                        // 2 nu S:S alone
@@ -224,7 +224,8 @@ Outcome compare(const std::vector<Record>& run) {
   return o;
 }
 
-/// At n cells; a peak within `tolerance` of the reference's, its time within 5 times that.
+/// Checks the decay on n cells: a peak within `tolerance` of the reference's, its time within 5
+/// times that.
 Outcome expect_decay(int n, double tolerance) {
   TaylorGreen flow(n);
   const std::vector<Record> run = flow.run(10, n / 16);
@@ -247,7 +248,7 @@ Outcome expect_decay(int n, double tolerance) {
   return o;
 }
 
-/// What 128 cells must reach (peak within 10 %, its time within 0.5) is asked twofold here: the
+/// Coarse meshes get twice the tolerances of 128 cells (peak within 10 %, its time within 0.5): the
 /// dissipative scales are not resolved on either mesh (a good part of the dissipation is subgrid),
 /// so errors need not yet fall by the full factor of four per halving of the cells.
 TEST(FluidTaylorGreen3d, CoarseMeshClosesTheBudgetAndFollowsTheDecay) { expect_decay(64, 0.2); }

@@ -103,7 +103,8 @@ struct Cells {
   }
 };
 
-/// Where the domain puts the volume of a cell outside of it: images along x and z, the mirror in y.
+/// Cell that takes the volume of a cell outside of the domain: images along x and z, the mirror in
+/// y.
 Index fold(const Index& c) {
   const auto wrap = [](int i) { return (i % kCells + kCells) % kCells; };
   const int j = c[1] < 0 ? -1 - c[1] : c[1] >= kCells ? 2 * kCells - 1 - c[1] : c[1];
@@ -159,8 +160,8 @@ TEST(VoidFractionOverlap, TheExactOverlapIsExact) {
   }
 }
 
-/// Only grains that a cell face cuts can be wrong, a share of d/h per direction: the error falls as
-/// d/h.
+/// Error of the fraction: only grains that a cell face cuts can be wrong, a share of d/h per
+/// direction, so it falls as d/h.
 TEST(VoidFractionOverlap, ErrorFallsAsDiameterOverCellSize) {
   const Cells cells;
   const auto places = random_places(2000, 2);
@@ -198,7 +199,7 @@ TEST(VoidFractionOverlap, BordersAndCornersChangeNothing) {
     EXPECT_LT(misplaced(cells.deposited(seam, r), moved), 1e-12);
     periodic += misplaced(cells.deposited(seam, r), exact(seam, r));
 
-    // At floor and lid: the shares behind the wall, mirrored.
+    // Floor and lid: the shares behind the wall, mirrored.
     for (const int side : {0, kCells}) {
       const Vec3 at_wall = Vec3{3, double(side), 3} + offset;
       Shares mirrored;

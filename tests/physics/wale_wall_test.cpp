@@ -49,7 +49,7 @@ TEST(WaleOnGrid, KnownFlowsOnStretchedCells) {
   check([=](double, double y, double z) { return Vec3{0, a * y, -a * z}; }, strain);
   check([=](double x, double y, double) { return Vec3{-a * y, a * x, 0}; }, rotation);
   check([=](double x, double, double z) { return Vec3{a * z, 0, -a * x}; }, rotation);
-  // The same strain with its axes at 45 degrees.
+  // Strain of equal size with its axes at 45 degrees.
   check([=](double x, double y, double) { return Vec3{a * y, a * x, 0}; }, strain);
   check([=](double, double y, double z) { return Vec3{0, a * z, a * y}; }, strain);
   check([=](double x, double, double z) { return Vec3{a * z, 0, a * x}; }, strain);

@@ -51,8 +51,9 @@ double measured_shift(int n, double shift) {
   return kWaveNumber * (depth - 1000 * kNu * kLid / now);
 }
 
-// By second order in k a it is (k a)^2 (Tuck & Kouzoubov, J. Fluid Mech. 300, 59, 1995), and, with
-// sixteen modes e^(-n k y) that meet no slip on the wave by least squares, 0.143656 for k a = 0.4.
+// Theory: to second order in k a the shift is (k a)^2 (Tuck & Kouzoubov, J. Fluid Mech. 300, 59,
+// 1995), and, with sixteen modes e^(-n k y) that meet no slip on the wave by least squares,
+// 0.143656 for k a = 0.4.
 TEST(WavyFloor, HoldsASlowShearAsAFlatOneAboveItsMean) {
   double worst[2] = {};
   for (const int fine : {0, 1}) {

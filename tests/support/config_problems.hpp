@@ -51,7 +51,7 @@ inline Lines problems(const std::string& text, const Lines& overrides = {}) {
   return lines_of([&] { load_config_text(text, "case.toml", overrides); });
 }
 
-/// What `problems` gives for a single one.
+/// Result of `problems` for a single one.
 inline Lines only(const std::string& line) { return {line, "1 problem; nothing was run."}; }
 
 /// Expects that a case is refused for one problem, told by `line`.

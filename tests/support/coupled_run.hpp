@@ -1,4 +1,4 @@
-// Grains placed one by one in a box of water, coupled or with the water held still.
+// Grains placed one by one in a box of fluid, coupled or with the fluid held still.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace barchan::test {
 
-/// Laminar water in a box with free-slip walls, periodic in x and z, for grains as well; no gravity
+/// Laminar flow in a box with free-slip walls, periodic in x and z, for grains as well; no gravity
 /// and no smoothing. Grain material soft enough for long steps; contacts are not the subject.
 inline Config water_box(std::array<int, 3> cells, std::array<double, 3> size) {
   Config c = flow_config(cells, size, 0);
@@ -31,7 +31,7 @@ inline Config water_box(std::array<int, 3> cells, std::array<double, 3> size) {
   return c;
 }
 
-/// The same box without a flow solver: grains in still, unbounded water.
+/// Box without a flow solver: grains in still, unbounded fluid.
 inline Config still_water(std::array<double, 3> size) {
   Config c = water_box({1, 1, 1}, size);
   c.fluid.reset();
@@ -39,7 +39,7 @@ inline Config still_water(std::array<double, 3> size) {
   return c;
 }
 
-/// A run that is stepped by hand; from grains alone the water is at rest.
+/// Run that is stepped by hand; with grains alone the fluid is at rest.
 struct CoupledRun {
   Config config;
   SystemState state;
@@ -54,9 +54,9 @@ struct CoupledRun {
     for (int s = 0; s < n; ++s) step.advance(state);
   }
   std::vector<test::GrainRow> rows() const { return test::rows_by_id(*state.grains); }
-  /// After the flow was set by hand.
+  /// Fills the ghosts after the flow was set by hand.
   void fill_ghosts() { step.fluid_solver()->fill_ghosts(*state.fluid); }
-  /// On the grains in the last step.
+  /// Forces on the grains in the last step.
   std::vector<NamedForce> forces() const {
     return grain_forces(state, *step.grain_solver(), step.dt());
   }
@@ -71,7 +71,7 @@ struct CoupledRun {
   }
 };
 
-/// Grains as they lie after `steps` in water that is not computed.
+/// Grains as they lie after `steps` in a fluid that is not computed.
 inline InitialGrains settled(Config c, const InitialGrains& loose, int steps) {
   c.fluid.reset();
   c.grains->ambient.emplace();

@@ -17,7 +17,7 @@ namespace barchan::test {
 struct HostField {
   Kokkos::View<Real***, Kokkos::LayoutLeft, Kokkos::HostSpace> values;
   Real operator()(int i, int j, int k) const { return values(i + 1, j + 1, k + 1); }
-  /// As kernels see a field, for those of their functions that a test calls on the host.
+  /// Field as kernels see it, for those of their functions that a test calls on the host.
   FieldRef ref() const {
     const int row = static_cast<int>(values.extent(0)),
               plane = row * static_cast<int>(values.extent(1));
@@ -58,10 +58,10 @@ void set_everywhere(const Field& f, const GridRef& grid, const Value& value) {
   Kokkos::deep_copy(f.storage, host_field(grid, value).values);
 }
 
-/// Where cell centres and faces are, on the host.
+/// Grid on the host: places of cell centres and faces.
 struct HostGrid : barchan::HostGrid {
   explicit HostGrid(const Grid& grid) : barchan::HostGrid(grid.on_host()) {}
-  /// As kernels see a grid, for those of their functions that a test calls on the host.
+  /// Grid as kernels see it, for those of their functions that a test calls on the host.
   GridRef ref() const {
     return {static_cast<const GridExtents&>(*this), y_face_.data(), y_centre_.data(),
             row_at_.data()};

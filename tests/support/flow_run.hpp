@@ -50,8 +50,8 @@ struct FlowRun {
   }
 };
 
-/// Without a model, and solved nearly to round-off; the floor holds the water, the top is a plane
-/// of symmetry.
+/// Case without a turbulence model, solved nearly to round-off; the floor holds the fluid, the top
+/// is a plane of symmetry.
 inline Config laminar(std::array<int, 3> cells, std::array<double, 3> size, double viscosity,
                       double tolerance = 1e-12) {
   Config config = flow_config(cells, size, 0);

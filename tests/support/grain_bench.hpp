@@ -1,5 +1,5 @@
-// One or a few grains through the real solver, watched grain step by grain step, and reference
-// tables.
+// Bench for one or a few grains in the real solver, watched grain step by grain step, with
+// reference tables.
 #pragma once
 
 #include "kernels/grains/contact_law.hpp"

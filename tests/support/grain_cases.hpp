@@ -68,7 +68,7 @@ inline std::vector<GrainRow> rows_by_id(const GrainState& s) {
 
 /// A constant force on every grain, g m, without fluid [m/s^2].
 inline void set_weight(const GrainState& s, const Vec3& g) {
-  const auto force = s.fluid.steady_force;
+  const auto force = s.fluid.explicit_force;
   const auto kin = s.kin;
   Kokkos::parallel_for(
       "test: weight", s.n, KOKKOS_LAMBDA(int p) { force(p) = kin(p).m * g; });

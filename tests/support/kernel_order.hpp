@@ -48,7 +48,7 @@ class Permutation {
 
 namespace Kokkos::Impl {
 
-/// More special than Kokkos' own, by the constraint.
+/// Specialisation that the constraint prefers to Kokkos' own.
 template <class Functor, class... Traits>
 requires std::is_void_v<typename RangePolicy<Traits...>::work_tag>
 class ParallelFor<Functor, RangePolicy<Traits...>, OpenMP> {

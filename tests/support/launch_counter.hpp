@@ -54,7 +54,7 @@ class LaunchCounter {
   LaunchCounter(const LaunchCounter&) = delete;
   LaunchCounter& operator=(const LaunchCounter&) = delete;
 
-  /// By label.
+  /// Launches by label.
   const std::map<std::string, int>& launches() const { return launches_; }
   const std::map<std::string, int>& waits() const { return waits_; }
   static int sum(const std::map<std::string, int>& counts) {

@@ -1,4 +1,4 @@
-// What a test measures, printed beside its reference and tolerance (docs/validation*.md), and
+// Measurements of a test, printed beside reference and tolerance (docs/validation*.md), and
 // checked.
 #pragma once
 

@@ -29,7 +29,7 @@ inline InitialGrains lattice_packing(int n, const std::array<double, 3>& size, R
   return grains;
 }
 
-/// Of translation and rotation [J].
+/// Kinetic energy of translation and rotation [J].
 inline Real kinetic_energy(const GrainKinematics& k) {
   return 0.5 * k.m * dot(k.u, k.u) + 0.5 * sphere_inertia(k.m, k.r) * dot(k.omega, k.omega);
 }
@@ -54,7 +54,7 @@ struct HostGrains {
       if (touching(p)) each(p);
     }
   }
-  /// What the walls do to each grain: its contact force without that of the pairs [N].
+  /// Force of the walls on each grain: its contact force without that of the pairs [N].
   std::vector<Vec3> wall_forces() const {
     std::vector<Vec3> sum(static_cast<std::size_t>(n));
     for (int g = 0; g < n; ++g) sum[static_cast<std::size_t>(g)] = contact_force(g);

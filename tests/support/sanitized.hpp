@@ -1,4 +1,4 @@
-// Whether a sanitizer is in this build: it takes time and memory that are not the program's.
+// Flag for a sanitizer in this build: it takes time and memory that are not the program's.
 #pragma once
 
 namespace barchan::test {

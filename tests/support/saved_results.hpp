@@ -1,5 +1,5 @@
-// Results of tests as tables for the figures of the validation pages, made when BARCHAN_RESULTS names
-// a folder:  BARCHAN_RESULTS=docs/validation ./barchan test -R ChungOoi
+// Results of tests as tables for the figures of the validation pages, made when BARCHAN_RESULTS
+// names a folder:  BARCHAN_RESULTS=docs/validation ./barchan test -R ChungOoi
 #pragma once
 
 #include <fmt/chrono.h>
@@ -20,7 +20,7 @@
 
 namespace barchan::test {
 
-/// One cell of a row: a number or a name.
+/// Cell of a row: a number or a name.
 struct Result {
   std::string column, text;
   template <class Number>
@@ -38,7 +38,7 @@ inline std::string processor_name() {
   return "unknown processor";
 }
 
-/// What made the table: the lines above its column names.
+/// Origin of a table: the lines above its column names.
 inline std::string result_origin() {
   const ::testing::TestInfo& info = *::testing::UnitTest::GetInstance()->current_test_info();
   const bool nightly = std::string(info.name()).find("Nightly") != std::string::npos;

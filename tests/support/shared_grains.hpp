@@ -1,4 +1,4 @@
-// The same grains on one rank alone and among all ranks, side by side.
+// Grains on one rank alone and among all ranks, side by side.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,7 @@ inline void move_by_the_last_bit(const GrainState& grains, int begin, int end) {
       KOKKOS_LAMBDA(int row) { kin(row).x.x *= 1 + 4e-16; });
 }
 
-/// The same case twice.
+/// One case twice: on one rank, and among all.
 struct SharedGrains {
   SharedGrains(const Config& c, const InitialGrains& grains)
       : whole(c, grains, MPI_COMM_SELF), shared(c, grains, MPI_COMM_WORLD) {}

@@ -1,4 +1,4 @@
-// The same problem on one rank alone and cut among all ranks, side by side.
+// Problem on one rank alone and cut among all ranks, side by side.
 #pragma once
 
 #include <algorithm>

@@ -30,7 +30,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// What a call throws, as text; empty if it throws nothing.
+/// Text of the exception that a call throws; empty if it throws nothing.
 template <class Call>
 std::string message_of(const Call& call) {
   try {

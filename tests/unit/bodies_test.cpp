@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<double, 3> kDomain{0.1, 0.04, 0.08};
 
-/// One body of each form.
+/// Bodies, one of each form.
 std::vector<BodyConfig> all_bodies() {
   using S = BodyShape;
   const std::array<double, 2> at{0.05, 0.04};
@@ -96,7 +96,7 @@ TEST(Bodies, ADistanceLeadsToTheSurface) {
   }
 }
 
-/// So no place on the surface is nearer than a distance says.
+/// Consequence: no place on the surface is nearer than a distance says.
 TEST(Bodies, NoDistanceGrowsFasterThanTheWay) {
   for (const BodyConfig& config : all_bodies()) {
     const Body body = body_of(config);
@@ -128,7 +128,7 @@ TEST(Bodies, TheNormalIsTheGradientOfTheDistance) {
     for (int n = 0; n < 2000; ++n) {
       const Vec3 x = samples.place();
       const ToSurface at = body.to_surface(x);
-      // Of hills only the surface has the gradient.
+      // Hills have the exact gradient on the surface alone.
       const bool hill = config.shape.is<shapes::Wave>() || config.shape.is<shapes::Dune>();
       const Vec3 place = hill ? x - at.distance * at.normal : x;
       if (hill && std::abs(body.distance(place)) > 1e-5) continue;
@@ -196,7 +196,7 @@ TEST(Bodies, HillsAreAsHighAsTheyShould) {
   EXPECT_NEAR(wave.distance({0.035, 0.002, 0.02}), 0.001, 1e-15);
 }
 
-/// What leaves the domain at a side comes in at the other one.
+/// Bodies that leave the domain at a side come in at the other one.
 TEST(Bodies, AreSeenThroughThePeriodicSides) {
   for (const BodyConfig& config : all_bodies()) {
     const Body body = body_of(config);

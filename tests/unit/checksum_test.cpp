@@ -103,7 +103,7 @@ class DamagedFrames : public testing::Test {
     return {H5Dget_offset(array.get()), H5Dget_storage_size(array.get())};
   }
 
-  /// What a start says after a bit was wrong; the bit is then put right again.
+  /// Message of a start after a bit was wrong; the bit is then put right again.
   std::string after_a_wrong_bit(std::size_t at, int bit) {
     flip(at, bit);
     const std::string said =

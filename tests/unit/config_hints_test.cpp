@@ -1,4 +1,4 @@
-// What a mistyped key, a word of another program or the name of a missing file was meant for.
+// Hints for a mistyped key, a word of another program or the name of a missing file.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What a case need not say: lengths in other words, steps that are chosen, keys of another case.
+// Parts that a case need not write out: lengths in other units, steps that are chosen, keys of
+// another case.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +31,7 @@ TEST(Lengths, MayBeInMeanDiameters) {
   const Config c = with({"coupling.smoothing_length=3 d", "grains.skin=\"0.2d\""});
   EXPECT_EQ(c.coupling.smoothing_length, 7.5e-4);
   EXPECT_EQ(c.grains->skin, 5e-5);
-  // What is written, and read again for a restart, is in metres.
+  // Lengths are in metres when written, and when read again for a restart.
   EXPECT_EQ(to_toml(c).find(" d\""), std::string::npos);
   EXPECT_EQ(config_as_written(to_toml(c), c.file), c);
   EXPECT_EQ(with({"coupling.smoothing_length=0 d"}).coupling.smoothing_length, 0);
@@ -96,7 +97,7 @@ TEST(Steps, FollowTheRules) {
   EXPECT_NEAR(in_interval, std::round(in_interval), 1e-9);
   EXPECT_GT(numbers.grains->fraction_min, 0.18);
   EXPECT_LE(numbers.grains->fraction_min, 0.2 * (1 + 1e-9));
-  // What is written says numbers: a run that goes on, or that others repeat, has the same.
+  // Steps are written as numbers: a run that goes on, or that others repeat, has the same.
   EXPECT_NE(to_toml(c).find(fmt::format("fluid_step = {}\n", c.time.fluid_step)),
             std::string::npos);
   EXPECT_EQ(load_config_text(to_toml(c), c.file), c);

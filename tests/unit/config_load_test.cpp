@@ -323,7 +323,5 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable_lines("a\n\x1B\n"), "a\n\\x1b\n");
 }
 
-// Of what a file says, an assignment may switch off a part; what it assigns itself must do
-// something.
 }  // namespace
 }  // namespace barchan

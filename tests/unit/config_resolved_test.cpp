@@ -1,4 +1,4 @@
-// What the table of keys promises of every key: it is read, written, compared and explained.
+// Promises of the table of keys for every key: it is read, written, compared and explained.
 #include "src/case/resolved.hpp"
 #include "src/toml/keys_page.hpp"
 
@@ -34,7 +34,7 @@ void for_each_key(const Test& test) {
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
       SCOPED_TRACE(key.dotted());
-      // Those are done with before a case is read.
+      // These two keys are used up before a case is read.
       if (key.dotted() != "case.base" && key.dotted() != "case.without") test(key);
     }
   }

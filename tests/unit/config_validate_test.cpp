@@ -31,7 +31,7 @@ TEST(ConfigValidate, TheCoupledCaseIsClean) {
   EXPECT_EQ(warnings(coupled_case()), Lines{});
 }
 
-/// Both steps the same: the grain step taken is a whole part of the fluid step.
+/// Sets both steps to the same value: the grain step taken is a whole part of the fluid step.
 Lines steps(const std::string& step, const Lines& others = {}) {
   Lines all{"time.grain_step=" + step, "time.fluid_step=" + step};
   all.insert(all.end(), others.begin(), others.end());
@@ -193,7 +193,7 @@ TEST(ConfigValidate, KeysThatCanDoNothingAreErrors) {
   };
   for (const auto& [text, assignments, words] : idle)
     EXPECT_TRUE(says(problems(text, assignments), words)) << assignments.back();
-  // What is as it would be without the key, as in a resolved case, and what has its effect.
+  // Keys at their defaults, as in a resolved case, and keys that have an effect.
   EXPECT_TRUE(
       problems(grains, {"solver.max_iterations=200", "output.fields_interval=0.5"}).empty());
   EXPECT_TRUE(

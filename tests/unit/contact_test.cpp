@@ -185,8 +185,7 @@ TEST(ContactForce, TangentialDisplacementLiesInTheTangentPlane) {
   EXPECT_NEAR(c.force.z / c.force.x, 3, 1e-14);
 }
 
-// Also where the contact slides another way than its spring points, and its dashpot is not along
-// it.
+// The contact also slides another way than its spring points, and its dashpot is not along it.
 TEST(ContactForce, SlidingFrictionIsAlongTheSpring) {
   ContactResult history;
   history.xi_t = {1e-6, 0, 0};

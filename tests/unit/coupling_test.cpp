@@ -29,7 +29,8 @@ GrainExchange exchange_of_first(const ExchangeOfGrain& of) {
   return host_copy(result)(0);
 }
 
-// What one grain gives the fluid: what it got of it in the grain steps, and what acts all along.
+// A grain gives the fluid the impulse that it got in the grain steps, and that of the steady
+// forces.
 TEST(Coupling, ExchangeOfAGrainIsItsImpulseAndTheSteadyPart) {
   const Real dt = 2.5e-4, beta = 3e-6;
   const Kokkos::View<GrainKinematics*> grains("test: grain", 1);
@@ -147,7 +148,7 @@ TEST(Coupling, WallsOfTheGrainsMirrorTheSolidFraction) {
   EXPECT_LT(beyond, 1e-11) << "through the seam of the flow";
 }
 
-/// Exchange with one grain and its images, each lifted by the water.
+/// Exchange with one grain and its images, each lifted by the flow.
 ExchangeOnFaces exchange_of(test::CoupledRun& run) {
   FluidSolver solver(run.config, run.state.fluid->grid);
   const auto scheme =
@@ -198,7 +199,7 @@ TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   });
 }
 
-/// What the drag law and the stress read in layers: the deposited fraction, at the walls, too.
+/// Drag law and stress read the deposited fraction in layers, at the walls, too.
 TEST(Coupling, TheSmoothingIsUndoneAtWallsOfTheGrains) {
   const auto fraction = [](double smoothing) {
     test::CoupledRun run = grain_in_a_corner(false, CouplingScheme::layered);
@@ -311,7 +312,7 @@ TEST(Coupling, BulkVelocityIsHeld) {
   EXPECT_NEAR(bulk_velocity(*c.state.fluid), 0.2, 2e-4);
 }
 
-/// Velocity along x of a lone grain without drag after two steps in water of a bulk velocity of
+/// Velocity along x of a lone grain without drag after two steps in a flow of a bulk velocity of
 /// 0.2 m/s, over that.
 double thrown(bool uniform_start) {
   Config c = test::water_box({8, 8, 8}, {4e-3, 4e-3, 4e-3});
@@ -330,7 +331,7 @@ double thrown(bool uniform_start) {
 /// (1 + C_m)/(rho_p/rho_f + C_m) of its velocity.
 TEST(Coupling, AUniformStartDoesNotThrowTheGrains) {
   EXPECT_NEAR(thrown(false), 1.5 / 3.0, 0.01);
-  EXPECT_NEAR(thrown(true), 0, 2e-3);  // the water still makes way for it
+  EXPECT_NEAR(thrown(true), 0, 2e-3);  // the fluid still makes way for it
   Config c = coupled_config();
   c.initial.fluid = "uniform";
   const Coupled dune(c);
@@ -351,7 +352,8 @@ TEST(Coupling, FrozenGrainsStayAndDragTheFlow) {
   EXPECT_LT(c.step.ledger().entries().at("largest_exchange_mismatch"), 1e-10);
 }
 
-/// Of each grain: contact forces to what the contacts gave, all parts and the weight to the total.
+/// Parts of the force on each grain: contact forces add up to what the contacts gave, all parts and
+/// the weight to the total.
 TEST(Coupling, PartsOfTheForceAddUp) {
   for (const CouplingScheme scheme : {CouplingScheme::smoothed, CouplingScheme::layered}) {
     Config config = coupled_config();

@@ -47,7 +47,7 @@ TEST(CsvTable, AColumnIsOneLine) {
   EXPECT_EQ(read_text(file), kWeather.header() + "\n" + kWeather.line({.t = 1}));
 }
 
-/// What follows the time of a restart goes, however short the steps are; what was rounded stays.
+/// Lines after the time of a restart go, however short the steps are; rounded times stay.
 TEST(CsvTable, IsCutToTheStep) {
   const TemporaryFolder folder;
   const auto file = folder / kWeather.file;

@@ -89,7 +89,7 @@ TEST(Derived, RowAtTheTopOfTheGrains) {
   // Rows of 0.2625 mm grow by 1.0705: the one from 3.2 to 3.7 mm is the tenth, 0.485 mm.
   const GrainNumbers n = *derive(paper_case(), table_2, 3.5e-3).grains;
   EXPECT_NEAR(n.top_ratio, 2.625e-4 * std::pow(1.0705, 9) / 1.9999875e-4, 0.01);
-  EXPECT_EQ(derive(paper_case(), table_2, 1.0).grains->top, 0);  // above the water
+  EXPECT_EQ(derive(paper_case(), table_2, 1.0).grains->top, 0);  // above the lid
 }
 
 TEST(Derived, PressureGradientGivesItsFrictionVelocityExactly) {

@@ -1,4 +1,4 @@
-// In-line dune analytics against shapes whose width, length, height and horns are known.
+// Dune analytics against shapes whose width, length, height and horns are known.
 #include "tests/support/built_dunes.hpp"
 
 namespace barchan {
@@ -41,7 +41,7 @@ TEST(DuneAnalytics, CrescentHornsReachTheTips) {
   EXPECT_NEAR(dune.horn_right, horn, bin);
   EXPECT_NEAR(dune.w, 20.0 * mm, bin);
   EXPECT_NEAR(dune.l, offset, bin);
-  // On the centreline the slopes meet at 0.3 (10 mm + x) = 0.6 (-2 mm - x).
+  // The slopes meet on the centreline at 0.3 (10 mm + x) = 0.6 (-2 mm - x).
   EXPECT_NEAR(dune.crest_x, 0.04 - 14.0 / 3.0 * mm, bin);
 }
 
@@ -89,7 +89,7 @@ TEST(DuneAnalytics, ACarpetAtTheFootDoesNotShortenHornsByHeight) {
 TEST(DuneAnalytics, LeftHornIsAtSmallerZ) {
   Grains grains = slab_with_arms(3.0 * mm, 9.0 * mm);
   const DuneRecord dune = only_dune(grains);
-  // On this lattice all of them are whole numbers of grains, from edge to edge.
+  // All of these lengths are whole numbers of grains on this lattice, from edge to edge.
   EXPECT_NEAR(dune.horn_left, 15 * d, 1e-9);
   EXPECT_NEAR(dune.horn_right, 45 * d, 1e-9);
   EXPECT_NEAR(dune.l, 25 * d, 1e-9);

@@ -1,4 +1,4 @@
-// What check knows of a case before it is run: its grains, its starts, and how long it will take.
+// Estimates of `check` before a case is run: its grains, its starts, and how long it will take.
 #include "src/app/estimate.hpp"
 
 #include <gtest/gtest.h>
@@ -42,9 +42,10 @@ TEST(Memory, GrowsWithCellsAndGrains) {
 
 TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {
   Config c = dune();
-  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.flow = 2, .pressure = 1, .iterations = 4}).flow, 3000);
+  EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.flow = 2, .pressure = 1, .iterations = 4}).flow,
+                   3000);
   EXPECT_DOUBLE_EQ(run_seconds({c, kSizes}, {.exchange = 3}).exchange, 3000);
-  // Of a flow that moves them: more than at rest, but not twice as much.
+  // A flow that moves the grains costs more than grains at rest, but not twice as much.
   const double moving = run_seconds({c, kSizes}, {.grain_step = 1}).grains;
   EXPECT_GT(moving, 50000);
   EXPECT_LT(moving, 100000);
@@ -65,7 +66,8 @@ TEST(Memory, GrainsThatComeInCount) {
   const PartSeconds parts{.exchange = 1, .grain_step = 1};
   Config unfed = c;
   unfed.grains->feed.reset();
-  const RunSeconds more = run_seconds({c, kSizes}, parts), less = run_seconds({unfed, kSizes}, parts);
+  const RunSeconds more = run_seconds({c, kSizes}, parts),
+                   less = run_seconds({unfed, kSizes}, parts);
   EXPECT_DOUBLE_EQ(more.exchange / less.exchange, 1.5) << "half of them on average";
   EXPECT_DOUBLE_EQ(more.grains / less.grains, 1.5);
   c.grains->feed->start = 0.25;
@@ -192,7 +194,7 @@ TEST(Estimate, IsNearWhatTheRunTakes) {
   EXPECT_LT(estimated, taken * 5);
 }
 
-// In its first steps this flow goes wrong over grains that are held.
+// This flow goes wrong in its first steps over grains that are held.
 TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
   const TemporaryFolder folder;
   const Case the_case = load_case(BARCHAN_SOURCE_DIR "/configs/validation/laminar-bed.toml");

@@ -1,4 +1,4 @@
-// What a grain finds of the flow around it: velocity, forces of pressure gradient and stress.
+// Flow at a grain: velocity, forces of pressure gradient and stress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Vec3 pressure_force(test::CoupledRun& run) {
   return (1 / sphere_volume(1e-4)) * test::force_on_first(run, "force_pressure_gradient");
 }
 
-// Between the floor and the first face above it the pressure force is that of this face.
+// The pressure force between the floor and the first face above it is that of this face.
 TEST(FlowAtGrains, PressureForceAtTheFloorIsThatOfTheFirstFace) {
   test::CoupledRun run = held_grain({1.7e-3, 3e-4, 2.2e-3});
   set(run.state.fluid->p, run, [](int, int j, int) { return 5.0 * j * j; });

@@ -63,7 +63,7 @@ TEST(FlowSchedule, AddsASineAndGoesOnFromIt) {
   expect_velocity(at(0), 0.1, 0);
   expect_velocity(at(0.5), 0.1 + 0.2 * std::numbers::sqrt2 / 2, -0.3 * std::numbers::sqrt2 / 2);
   expect_velocity(at(3), -0.1, 0.3);
-  // At 5 s the sine is at its peak: from there the ramp begins.
+  // The sine is at its peak at 5 s: from there the ramp begins.
   expect_velocity(at(5), 0.3, -0.3);
   expect_velocity(at(5.25), 0.3 + 0.2 / 8 + 0.1, -0.3 + 0.3 / 8);
   expect_velocity(at(8), 0.5, 0);

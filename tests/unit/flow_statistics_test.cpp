@@ -127,7 +127,7 @@ TEST(FlowAverage, MeansAndSecondMomentsOfASwingingFlow) {
   for (const auto& [name, value] : known) {
     EXPECT_NEAR(at(means, name, i, j, k), value, value > 1 ? 1e-13 : 1e-15) << name;
   }
-  // In the first row v' is half of what it is above: the floor stands still.
+  // v' is half as large in the first row as above: the floor stands still.
   EXPECT_NEAR(at(means, "uv", i, 0, k), -flow.a * flow.b / 4, 1e-15);
 }
 

@@ -13,7 +13,7 @@
 namespace barchan {
 namespace {
 
-// What is const can be read, not written.
+// Const fields can be read, not written.
 static_assert(std::is_convertible_v<Field&, FieldRef>);
 static_assert(std::is_convertible_v<const Field&, ConstFieldRef>);
 static_assert(!std::is_convertible_v<const Field&, FieldRef>);
@@ -186,7 +186,7 @@ TEST(FluidStencil, StressOfALinearFlowInAVaryingViscosity) {
   });
 }
 
-/// What the face of a direction ('x', 'y' or 'z') holds: mean times the face cell's height. The
+/// Content of the face of a direction ('x', 'y' or 'z'): mean times the face cell's height. The
 /// half cells at the walls belong to the lowest and highest face.
 struct FaceContent {
   Grid grid;

@@ -18,7 +18,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
-/// What a write meets: the process is killed before it, or within it; the disk is full from then
+/// Fault during a write: the process is killed before it, or within it; the disk is full from then
 /// on.
 enum class Fault { kill, kill_within, full_disk };
 Fault fault = Fault::kill;
@@ -190,7 +190,7 @@ std::vector<std::string> names_in(const Hdf5File& file, const std::string& group
   return names;
 }
 
-/// One more frame, behind so many.
+/// Test of one more frame, behind so many.
 class FrameFileOf : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Frames, FrameFileOf, testing::Values(10, 249, 250));
 INSTANTIATE_TEST_SUITE_P(NightlyFrames, FrameFileOf, testing::Values(1, 500, 2046, 2250, 5000));
@@ -251,7 +251,7 @@ TEST(FrameFile, AKillWhileFramesAreDroppedKeepsTheOthers) {
       });
 }
 
-/// As version 0.2.0 wrote it: frames in the old kind of table, which grows in place.
+/// Makes a file as version 0.2.0 wrote it: frames in the old kind of table, which grows in place.
 void make_old_file(const std::filesystem::path& path, int n) {
   using hdf5::Handle;
   Hdf5File(path, Hdf5File::Mode::create).close();  // starts the library

@@ -22,7 +22,7 @@ using test::CoupledRun;
 
 constexpr Real kSmall = 1.5e-4, kLarge = 2.5e-4;  // diameters [m]
 
-/// A box of still water with an outlet, 12 x 3 x 4 mm; grains sink.
+/// Box of still fluid with an outlet, 12 x 3 x 4 mm; grains sink.
 Config fed_case(FeedAmount amount, double rate) {
   Config c = test::still_water({0.012, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::exit;
@@ -114,7 +114,7 @@ TEST(GrainFeed, PutsThemWhereItIsTold) {
   EXPECT_GE(across.size(), 3u);
 }
 
-/// Where one grain lies still no second one comes in.
+/// A grain that lies still keeps its place free of a second one.
 TEST(GrainFeed, OthersWaitWhileThePlaceIsTaken) {
   Config c = fed_case(FeedAmount::given, 4000);
   c.grains->gravity = {0, 0, 0};
@@ -176,7 +176,7 @@ TEST(GrainFeed, AsManyComeBackAsLeave) {
   EXPECT_EQ(sizes, sizes_before);
 }
 
-/// Also that of a grain that has left.
+/// Numbers of grains that have left are not given again.
 TEST(GrainFeed, NumbersGoOnFromTheLastThatWasGiven) {
   Config c = fed_case(FeedAmount::given, 4000);
   InitialGrains few = some_grains(8);
@@ -203,7 +203,7 @@ TEST(GrainFeed, RefusesNumbersThatLeaveNoneFree) {
   EXPECT_EQ(said(unfed, most + 1), "");
 }
 
-/// As of a run that all grains had left before its feed began: the feed has no bodies to choose
+/// State of a run that all grains had left before its feed began: the feed has no bodies to choose
 /// from, and gives back what leaves.
 TEST(GrainFeed, AFeedWithoutBodiesComesBackFromItsRestartFile) {
   const TemporaryFolder folder;
@@ -287,32 +287,32 @@ TEST(GrainFeed, ANewGrainFallsLikeOneThatWasThereFromTheStart) {
   EXPECT_DOUBLE_EQ(a.u.y, b.u.y);
 }
 
-/// Grains within a cell of the seam leave, on both sides of it and across the ends of the box.
-TEST(FollowingWindow, GrainsLeaveAtTheSeamAlone) {
+/// Grains within a cell of the edge leave, on both sides of it and across the ends of the box.
+TEST(FollowingWindow, GrainsLeaveAtTheEdgeOfTheWindowAlone) {
   Config c = test::water_box({20, 4, 4}, {0.02, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::follow;
   InitialGrains grains;
   for (int g = 0; g < 40; ++g) test::add_grain(grains, 2e-4, {2.5e-4 + 5e-4 * g, 1e-3, 2e-3});
   CoupledRun run(c, grains);
   run.advance(2);
-  EXPECT_EQ(run.state.grains->n, 40) << "before the seam has a place";
-  run.state.grains->seam_x = 1.99e-2;
+  EXPECT_EQ(run.state.grains->n, 40) << "before the edge has a place";
+  run.state.grains->window_edge = 1.99e-2;
   run.advance(1);
-  // From 18.9 to 20 and from 0 to 0.9 mm, centres at 0.25, 0.75, ... 19.75.
+  // Strip from 18.9 to 20 and from 0 to 0.9 mm, centres at 0.25, 0.75, ... 19.75.
   const auto left = diameters(*run.state.grains);
   for (const int id : {1, 2, 39, 40}) EXPECT_FALSE(left.contains(id)) << id;
   for (const int id : {3, 37}) EXPECT_TRUE(left.contains(id)) << id;
   EXPECT_EQ(run.state.grains->n_left, 4);
 }
 
-/// A grain that goes beyond one end, far from the seam, comes in at the other.
+/// A grain that goes beyond one end, far from the edge, comes in at the other.
 TEST(FollowingWindow, IsPeriodicElsewhere) {
   Config c = test::water_box({20, 4, 4}, {0.02, 0.003, 0.004});
   c.grains->boundary_x = GrainBoundaryX::follow;
   InitialGrains grains;
   test::add_grain(grains, 2e-4, {1.99e-2, 1e-3, 2e-3}, {0.4, 0, 0});
   CoupledRun run(c, grains);
-  run.state.grains->seam_x = 1e-2;
+  run.state.grains->window_edge = 1e-2;
   run.advance(8);
   run.step.neighbor_list()->rebuild(*run.state.grains, false);
   ASSERT_EQ(run.state.grains->n, 1);

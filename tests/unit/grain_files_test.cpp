@@ -54,7 +54,7 @@ TEST(GrainFiles, ColumnsInAnyOrderWithVelocityAndSpin) {
   EXPECT_EQ(grains.omega[0].z, 9.0);
 }
 
-/// As run.grains().to_csv() writes it: titles in the order of the arrays in a frame.
+/// Table as run.grains().to_csv() writes it: titles in the order of the arrays in a frame.
 TEST(GrainFiles, TableOfThePythonPackage) {
   const auto grains = parse(
       "id,d,dune,force_total_x,force_total_y,force_total_z,kind,omega_x,omega_y,omega_z,u,v,w,x,y,"
@@ -200,7 +200,7 @@ TEST(GrainFiles, TheLastFrameOfAResult) {
   expect_two_grains(read_grains(folder / "grains.h5"));
 }
 
-/// Beyond a side that was periodic there; where it is an outlet the grain would be outside.
+/// Grains beyond a side that was periodic there; where it is an outlet here they would be outside.
 TEST(GrainFiles, PositionsAreWithinTheBoxThatWroteThem) {
   const TemporaryFolder folder;
   const Provenance origin{

@@ -58,7 +58,7 @@ struct Pairs {
     InitialGrains grains;
     std::vector<int> kind;
     std::int64_t id = 0;
-    // From the far end on: the list then changes their order.
+    // Place the grains from the far end on: the list then changes their order.
     for (std::size_t p = 0; p < kinds.size(); ++p) {
       const Real x = 90 * kRadius - 10 * kRadius * static_cast<Real>(p);
       for (const int side : {0, 1}) {

@@ -157,7 +157,7 @@ TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
   Kokkos::deep_copy(c.state.fluid.added_mass, added);
   Kokkos::deep_copy(c.state.fluid.inv_fluid_mass, 1 / share);
   Kokkos::deep_copy(c.state.fluid.acceleration, Vec3{0, a, 0});
-  Kokkos::deep_copy(c.state.fluid.steady_force, Vec3{0, -weight, 0});
+  Kokkos::deep_copy(c.state.fluid.explicit_force, Vec3{0, -weight, 0});
   Kokkos::deep_copy(c.state.fluid.u_f, Vec3{u_f, 0, 0});
   c.advance(2000, 2.5e-6);
   const Vec3 u = rows_by_id(c.state)[1].u, impulse = host_copy(c.state.fluid.impulse)(0);
@@ -173,7 +173,7 @@ TEST(GrainSolver, AGrainCarriesItsShareOfFluid) {
   EXPECT_LT(norm(momentum - expected), 1e-12 * norm(expected));
 }
 
-/// What a grain that cannot move takes from its share of fluid in a step: as one of infinite mass.
+/// A grain that cannot move brakes its share of fluid in a step as one of infinite mass.
 TEST(GrainSolver, HeldGrainsBrakeTheirShareOfFluid) {
   InitialGrains g;
   add_grain(g, 2e-4, {0.002, 0.005, 0.005});
@@ -229,7 +229,8 @@ AngularMomentum angular_momentum(const GrainBench& c) {
   return sum;
 }
 
-// Also of pairs whose grains two chunks share, which add up their forces in a way of their own.
+// Pairs whose grains two chunks share are among these; they add up their forces in a way of their
+// own.
 TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
   for (const RollingModel model : RollingModel::all()) {
     Config config = grain_config();
@@ -248,7 +249,7 @@ TEST(GrainSolver, ManyRollingGrainsKeepTheirAngularMomentum) {
   }
 }
 
-/// The same bits.
+/// Compares two motions bit for bit.
 void expect_same_motion(const GrainBench& one, const GrainBench& other) {
   EXPECT_EQ(one.solver.list().rebuilds(), other.solver.list().rebuilds());
   const auto a = rows_by_id(one.state), b = rows_by_id(other.state);

@@ -1,4 +1,4 @@
-// What grains start from, come in and are checked by, beside bodies at rest.
+// Grains beside bodies at rest: start, feed and checks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

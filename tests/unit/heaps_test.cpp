@@ -179,7 +179,7 @@ TEST(Heaps, ContradictionsAreErrors) {
       problems(replaced(heaps_case(kTwo), "sizes = [[0.2e-3, 100]]\n", "")).front(),
       "case.toml:5: [grains] sizes: must say which grains to pour: sizes = [[2e-4, 3000]] are "
       "3,000 of 0.2 mm");
-  // Through a periodic side they are near, else not.
+  // The two are near each other through a periodic side, else not.
   const std::string edges = replaced(replaced(kTwo, "[0.02,", "[0.006,"), "[0.04,", "[0.094,");
   EXPECT_EQ(problems(heaps_case(edges)), test::Lines{});
   EXPECT_FALSE(problems(heaps_case("boundary_x = \"periodic\"\n" + edges)).empty());

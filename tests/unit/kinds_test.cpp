@@ -306,7 +306,7 @@ TEST(Kinds, ACaseThatStartsFromAnotherHasItsKinds) {
           "\"heap.toml\"\n[grains]\n" +
               grains,
           folder / "case.toml");
-      // In this case zirconium is the first.
+      // Zirconium is the first kind in this case.
       EXPECT_EQ(the_case.sizes,
                 (std::vector<SizeClass>{{2e-4, 100, 1}, {3e-4, 50, 0}, {2e-4, 10, 0}}));
     });

@@ -1,4 +1,4 @@
-// How often a step launches a kernel, and how often the host waits for one: on a device each costs
+// Numbers of kernel launches and of waits of the host in a step: on a device each costs
 // microseconds, whatever the size of the case.
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ std::string listed(const std::map<std::string, int>& counts) {
   return text;
 }
 
-// Of a fluid step with 100 grain steps in the life of a neighbour list. A host does not take grain
-// steps ahead, and waits for each of them.
+// Fluid step with 100 grain steps in the life of a neighbour list. A host does not take grain steps
+// ahead, and waits for each of them.
 TEST(LaunchCounts, OfACoupledStepAreBounded) {
   Config config = test::coupled_config();
   config.time.grain_step = config.time.fluid_step / 100;

@@ -1,4 +1,4 @@
-// What a grain sees of the water in each row of cells that it lies in.
+// Flow that a grain sees in each row of cells that it lies in.
 #include "kernels/coupling/layered_exchange.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ struct Seen {
   Seen(const Seen&) = delete;
 };
 
-/// What a grain of 0.2 mm sees at a point of water whose cells (i, j, k) move with u(i, j, k) along
-/// x; along z it is -2 u. Rows grow from 0.26 mm upwards.
+/// Velocities that a grain of 0.2 mm sees in a fluid whose cells (i, j, k) move with u(i, j, k)
+/// along x and -2 u along z. Rows grow from 0.26 mm upwards.
 struct Water {
   test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4}))};
   GridRef grid = host.ref();
@@ -39,11 +39,11 @@ struct Water {
             PeriodicBox{.lx = 0, .lz = grid.lz}, ConstFaceRef{along_x, along_x, along_z}, grain,
             solid_per_fluid};
   }
-  /// In water whose rows j move with u(j).
+  /// Velocities in a fluid whose rows j move with u(j).
   Seen at(Real y, const std::function<Real(int)>& u) const {
     return at({0.004, y, 0.003}, 0, [&](int, int j, int) { return u(j); });
   }
-  /// Within row 4, above its middle.
+  /// Height within row 4, above its middle.
   Real off_centre() const { return grid.y_centre(4) + 5e-5; }
 };
 
@@ -68,7 +68,7 @@ TEST(LayeredExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
   EXPECT_EQ(w.at(w.off_centre(), [](int j) { return j == 4 ? 1 : 0; }).velocity.mean_x, 1);
 }
 
-// Nineteen of the 29 points lie at or above the centre; neither row sees the other one's water.
+// Nineteen of the 29 points lie at or above the centre; neither row sees the velocity of the other.
 TEST(LayeredExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const Water w;
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
@@ -90,7 +90,7 @@ TEST(LayeredExchange, AcrossTheFlowASlopeMakesNoExtremum) {
   EXPECT_EQ(step.velocity.mean_x, 1);
 }
 
-// Between an open and a dense momentum cell: alone a grain belongs to both, among others to its
+// A grain between an open and a dense momentum cell: alone it belongs to both, among others to its
 // own.
 TEST(LayeredExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
   const Water w;
@@ -107,16 +107,16 @@ TEST(LayeredExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
   EXPECT_NEAR(seen(0.52, 1), 0.5 - 0.02 * 9, 1e-12);  // the width between them is a ninth
 }
 
-// Two pieces of water that a grain joins come nearer to each other, and do not overshoot.
+// The velocities of two cells that a grain joins come nearer to each other, and do not overshoot.
 TEST(LayeredExchange, AGrainJoinsItsFacesNoHarderThanTheWaterStands) {
   for (const Real part : {0.0, 0.1, 0.46, 0.5, 0.97}) {
     const GrainFaces faces(LinearStencil{3, part}, 0.2);
     const Real both = faces.weight(0) * faces.weight(1);
-    EXPECT_EQ(faces.joined(0.9), 1) << part;
+    EXPECT_EQ(faces.limiter(0.9), 1) << part;
     for (const Real K : {0.0, 1.0, 4.0, 1e3, 1e9})
-      EXPECT_LE(both * faces.joined(K) * K, 0.25 + 1e-15) << part << ", K = " << K;
+      EXPECT_LE(both * faces.limiter(K) * K, 0.25 + 1e-15) << part << ", K = " << K;
   }
-  EXPECT_NEAR(GrainFaces(LinearStencil{3, 0.5}, 1).joined(8), 1.0 / 8, 1e-15);
+  EXPECT_NEAR(GrainFaces(LinearStencil{3, 0.5}, 1).limiter(8), 1.0 / 8, 1e-15);
 }
 
 }  // namespace

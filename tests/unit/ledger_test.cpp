@@ -1,4 +1,4 @@
-// What changes sides between grains and flow adds up, or the run ends.
+// Exchange between grains and flow adds up, or the run ends.
 #include "src/coupling/ledger.hpp"
 
 #include <gtest/gtest.h>

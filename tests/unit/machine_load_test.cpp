@@ -1,4 +1,4 @@
-// What other programs take of the processors is told apart from what we take.
+// Processor time of other programs is told apart from our own.
 #include "src/app/machine_load.hpp"
 
 #include <gtest/gtest.h>

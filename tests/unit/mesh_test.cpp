@@ -38,7 +38,7 @@ TEST(Mesh, UniformWhenTheFirstHeightIsNoneOrTheMean) {
 }
 
 TEST(Mesh, KeepsItsDigitsCloseToUniform) {
-  // For q = 1 + s, small s: first = (ly / n) (1 - (n - 1) s / 2).
+  // Expansion for q = 1 + s, small s: first = (ly / n) (1 - (n - 1) s / 2).
   const double s = 1e-8;
   EXPECT_NEAR(stretching_ratio({1.0, 10, 0.1 * (1 - 4.5 * s)}) - 1, s, 1e-12);
 }
@@ -55,7 +55,7 @@ TEST(Mesh, RowsAreEqualUpToTheUniformHeightAndGrowByOneRatioAbove) {
     const double ratio = (faces[j + 1] - faces[j]) / (faces[j] - faces[j - 1]);
     EXPECT_NEAR(ratio, j < 16 ? 1 : q, 1e-9) << "row " << j;
   }
-  // By hand: q + ... + q^36 = (25 - 16 * 0.13125) / 0.13125.
+  // Sum by hand: q + ... + q^36 = (25 - 16 * 0.13125) / 0.13125.
   double sum = 0;
   for (int n = 1; n <= 36; ++n) sum += std::pow(q, n);
   EXPECT_NEAR(sum, (0.025 - 16 * 1.3125e-4) / 1.3125e-4, 1e-9);

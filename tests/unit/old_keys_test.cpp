@@ -31,7 +31,7 @@ struct OldPair {
   const test::Scheme& today;
 };
 
-// What the program of before computed with each: by_row needs the points of "divided".
+// Scheme that earlier versions computed with for each pair: by_row needs the points of "divided".
 const OldPair kPairs[] = {{"by_row", "divided", test::kSchemes[0]},
                           {"by_row", "centre", test::kSchemes[2]},
                           {"by_row", "cfdem_faithful", test::kSchemes[5]},

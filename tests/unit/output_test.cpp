@@ -95,7 +95,7 @@ TEST(Output, FieldsXdmfPointsAtTheArrays) {
   EXPECT_EQ(count(text, "Precision=\"4\" Dimensions=\"3 4 5\">fields.h5:/frame_000001/p<"), 1);
   EXPECT_EQ(count(text, "Precision=\"8\" Dimensions=\"6\">fields.h5:/grid/x_face<"), 2);
   EXPECT_EQ(count(text, "<Time Value=\"0.25\"/>"), 1);
-  // In this order: x, y, z.
+  // The order is x, y, z.
   EXPECT_LT(text.find("x_face"), text.find("y_face"));
   EXPECT_LT(text.find("y_face"), text.find("z_face"));
 }
@@ -206,7 +206,7 @@ TEST(Output, TracksAreIdsAndPositions) {
   }
 }
 
-/// Between two rebuilds of the list a grain may be beyond a periodic side. In a file it is within,
+/// A grain may be beyond a periodic side between two rebuilds of the list. In a file it is within,
 /// also where single precision would round it to the end.
 TEST(Output, PositionsAreWithinThePeriod) {
   const TemporaryFolder folder;

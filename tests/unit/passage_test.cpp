@@ -1,4 +1,4 @@
-// Whether bodies leave the flow a way, and what a flow without one comes to.
+// Bodies that leave the flow no way, and the end of a run with such bodies.
 #include "src/fluid/passage.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(Passage, IsAskedOfADrivenFlowAlone) {
   EXPECT_THROW(check_passage(c), InputError);
 }
 
-// No check before the run: what a start from still water came to was 4e-15 of 0.2 m/s, and "done".
+// Run without a check before it: from still fluid it once came to 4e-15 of 0.2 m/s, and "done".
 TEST(Passage, WhereThereIsNoneTheRunEnds) {
   Config c = test::laminar({12, 6, 6}, {12e-3, kHeight, 6e-3}, 1e-6, 1e-6);
   c.bodies = {box(4, 1.5, 2, 3), box(4, 4.5, 2, 3)};

@@ -36,7 +36,7 @@ TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
   }
 }
 
-/// Without overlap, through the periodic sides neither.
+/// No grains overlap, also not through the periodic sides.
 TEST(Pour, ABedCoversTheFloorEvenly) {
   const std::array<double, 3> size{0.006, 0.01, 0.004};
   const InitialGrains g =
@@ -81,7 +81,8 @@ TEST(Pour, FewGrainsOfAWideFootTakeAsLittle) {
         x_low = std::min(x_low, x.x), x_high = std::max(x_high, x.x);
         z_low = std::min(z_low, x.z), z_high = std::max(z_high, x.z);
       }
-      // Of a bed and a ridge anywhere, of a cone a hexagonal patch around its axis.
+      // Grains of a bed and a ridge lie anywhere, those of a cone in a hexagonal patch around its
+      // axis.
       const bool bed = shape == HeapShape::bed, cone = shape == HeapShape::cone;
       const double spread = n == 10 ? 0.02 : 0.045;
       const double patch = std::sqrt(static_cast<double>(n) * std::sqrt(0.75) / std::numbers::pi);
@@ -112,8 +113,7 @@ TEST(Pour, RefusesAConeThatDoesNotFit) {
 
 // --- Grains of a file in the domain of a case.
 
-/// Where a grain of a file ends up in a domain of 0.1 x 0.02 x 0.05 m; throws as
-/// make_initial_state.
+/// Position of a grain of a file in a domain of 0.1 x 0.02 x 0.05 m; throws as make_initial_state.
 Vec3 placed(const Vec3& x, GrainBoundaryX sides) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "grains.csv";
@@ -177,7 +177,7 @@ TEST(InitialState, OverlapsThroughPeriodicSidesCountOnce) {
     EXPECT_EQ(crowd(100, length, deepest + 1e-9, true).first, "");
     EXPECT_FALSE(contains(crowd(100, length, deepest - 1e-9, true).first, "pairs"));
   }
-  // Through each side and each of the four edges.
+  // Overlaps through each side and each of the four edges.
   for (const Vec3& x : {Vec3{0, 1, 5}, Vec3{5, 1, 0}, Vec3{0, 1, 0}, Vec3{0, 1, 10}}) {
     InitialGrains grains;
     const Vec3 other{x.x == 0 ? 10.0 : x.x, 1, x.z == 0 ? 10.0 : x.z == 10 ? 0 : x.z};

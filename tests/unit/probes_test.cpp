@@ -44,7 +44,7 @@ double linear(std::size_t axis, double x, double y, double z) {
 TEST(Probes, AreExactInALinearFlow) {
   Flow flow(linear);
   const test::HostGrid h(flow.grid);
-  // Within cells, on faces, centres and edges of cells, beside the floor and the top.
+  // Points within cells, on faces, centres and edges of cells, beside the floor and the top.
   const double xs[] = {0.3 * h.dx, h.x_face(4), h.x(5), 0.01234, kLx - 0.7 * h.dx};
   const double ys[] = {1e-5, h.y_face(1), h.y(3), 0.0087, kLy - 1e-5};
   const double zs[] = {0.6 * h.dz, h.z_face(7), h.z(2), 0.0299};

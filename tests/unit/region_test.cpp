@@ -9,7 +9,7 @@
 
 #include "kernels/fluid/flow_sums.hpp"
 #include "src/coupling/smoother.hpp"
-#include "src/parallel/tally_cells.hpp"
+#include "src/parallel/cell_reductions.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -21,7 +21,7 @@ Grid grid_of(std::array<int, 3> n) {
   return test::stretched_grid(n, {n[0] * 1e-3, 0.01, n[2] * 1e-3}, 0.5 * 0.01 / n[1]);
 }
 
-/// Up to the rows [0, top).
+/// Map of these columns up to the rows [0, top).
 ColumnMap map_of(const Grid& grid, const std::vector<Column>& columns, int top) {
   const ColumnMarks marks("test: marks", grid, 1);
   for (const auto& [i, k] : columns) marks.on_host(0, i + grid.nx * k) = 1;
@@ -41,22 +41,22 @@ std::set<Column> columns_of(const Grid& grid, const ColumnMap& map) {
 
 TEST(ColumnMap, GrowsAcrossThePeriodicEnds) {
   const Grid grid = grid_of({9, 5, 7});
-  const ColumnMap map = map_of(grid, {{0, 6}, {4, 3}}, 4).grown(1);
+  const ColumnMap map = map_of(grid, {{0, 6}, {4, 3}}, 4).dilated(1);
   const std::set<Column> expected{{8, 5}, {0, 5}, {1, 5}, {8, 6}, {0, 6}, {1, 6},
                                   {8, 0}, {0, 0}, {1, 0}, {3, 2}, {4, 2}, {5, 2},
                                   {3, 3}, {4, 3}, {5, 3}, {3, 4}, {4, 4}, {5, 4}};
   EXPECT_EQ(columns_of(grid, map), expected);
   EXPECT_EQ(map.top(), 5);
-  EXPECT_EQ(map.grown(9).top(), 5);
-  EXPECT_EQ(columns_of(grid, map.grown(9)).size(), 63u);
-  EXPECT_TRUE(ColumnMap().grown(3).is_empty());
+  EXPECT_EQ(map.dilated(9).top(), 5);
+  EXPECT_EQ(columns_of(grid, map.dilated(9)).size(), 63u);
+  EXPECT_TRUE(ColumnMap().dilated(3).is_empty());
 }
 
 TEST(ColumnMap, BlocksAndUnions) {
   const Grid grid = grid_of({11, 5, 3});
   const ColumnMap map = map_of(grid, {{5, 0}, {9, 2}}, 2);
   const std::set<Column> blocks{{4, 0}, {5, 0}, {6, 0}, {7, 0}, {8, 2}, {9, 2}, {10, 2}};
-  EXPECT_EQ(columns_of(grid, map.in_blocks(4)), blocks);
+  EXPECT_EQ(columns_of(grid, map.padded_to_blocks(4)), blocks);
   const ColumnMap both = map.united(map_of(grid, {{1, 1}}, 3));
   EXPECT_EQ(columns_of(grid, both), (std::set<Column>{{5, 0}, {9, 2}, {1, 1}}));
   EXPECT_EQ(both.top(), 3);
@@ -107,15 +107,15 @@ struct Add {
 TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   const Grid grid = grid_of({13, 4, 5});
   const ColumnMap inner = map_of(grid, {{3, 1}, {4, 1}, {12, 1}, {0, 2}, {7, 2}}, 2);
-  const ColumnMap outer = inner.grown(1);
+  const ColumnMap outer = inner.dilated(1);
   Region in(grid), out(grid);
   in.set(inner), out.set(outer);
   Field f("f", grid);
-  const Tally tally("test", 2);
+  const DeviceReductions reductions("test", 2);
   const auto sum_over = [&](const auto& cells, const auto& functor) {
-    sum_each_cell("test", tally, 1, cells, functor);
-    tally.fetch();
-    return tally.get(1);
+    sum_each_cell("test", reductions, 1, cells, functor);
+    reductions.fetch();
+    return reductions.get(1);
   };
   const Real sum =
       sum_over(owned_cells(grid),
@@ -138,7 +138,7 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   EXPECT_FALSE(in.has_ghosts());
 }
 
-/// The same as over all columns, in the middle, across the periodic end, in two stretches.
+/// Solution as over all columns: in the middle, across the periodic end, in two stretches.
 TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
   const Grid grid = grid_of({90, 12, 10});
   const Real length = 4e-4;
@@ -149,7 +149,7 @@ TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
   for (const std::vector<Column>& grains :
        {std::vector<Column>{{44, 3}, {46, 7}}, {{1, 2}}, {{20, 0}, {62, 9}}}) {
     const ColumnMap held = map_of(grid, grains, 3);
-    ColumnMap columns = held.grown(smoother.reach());
+    ColumnMap columns = held.dilated(smoother.reach());
     columns.set_top(smoother.top_above(held.top()));
     Region region(grid);
     region.set(columns);

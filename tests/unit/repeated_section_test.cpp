@@ -72,7 +72,7 @@ TEST(RepeatedSection, EachMistakeIsToldWhereItIs) {
                           "case.toml:1: [size]: must be sections, [[size]] for each of them"}));
 }
 
-// Of 3,000 each was compared with all before it: 4,498,501 problems.
+// A comparison of each of 3,000 with all before it made 4,498,501 problems.
 TEST(RepeatedSection, TooManyAreOneProblem) {
   for (const std::string name : {"initial.heap", "body", "grains.kind", "grains.pair"}) {
     std::string text = test::grain_case();

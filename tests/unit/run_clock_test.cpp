@@ -1,4 +1,4 @@
-// When a run writes.
+// Times at which a run writes.
 #include "src/run/run_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ TEST(RunClock, IsDueAtEachMultipleOfTheInterval) {
   EXPECT_EQ(due_steps({.fluid_step = 3e-4}, 1e300, 3), Steps{0});
 }
 
-/// Of 1 ms in steps of 0.3 ms, or 0.45 ms, the k-th time is that of the first step at or after k
-/// intervals: 10 k / 3, or 3 k / 2, rounded up. It was 3 steps each time, 0.9 ms, or 2.
+/// Interval of 1 ms in steps of 0.3 ms, or 0.45 ms: the k-th time is that of the first step at or
+/// after k intervals: 10 k / 3, or 3 k / 2, rounded up. It was 3 steps each time, 0.9 ms, or 2.
 TEST(RunClock, KeepsToAnIntervalThatIsNoMultipleOfTheStep) {
   Steps thirds, halves;
   for (std::int64_t k = 0; 10 * k <= 3 * 100000; ++k) thirds.push_back((10 * k + 2) / 3);

@@ -1,5 +1,5 @@
-// Where results cannot go is told before anything is computed, and nothing that is needed is
-// removed; the tables, the summary and what a restart makes of them.
+// Run folders: where results cannot go is told before anything is computed, and nothing that is
+// needed is removed; the tables, the summary and what a restart makes of them.
 #include "src/run/run_folder.hpp"
 #include "src/run/folder_checks.hpp"
 

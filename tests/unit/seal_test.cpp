@@ -1,4 +1,4 @@
-// One wrong bit of a sealed file is found, wherever it is.
+// Seals: one wrong bit of a sealed file is found, wherever it is.
 #include "src/io/seal.hpp"
 
 #include <gtest/gtest.h>

@@ -42,7 +42,8 @@ TEST(Lift, BranchesOfMeiMeet) {
       .rho_f = 1000, .mu_f = 1e-3, .d_p = kD, .slip = 0.05, .vorticity = 50, .gap = 1};
   EXPECT_NEAR(saffman_mei(inside) / (1.615 * kD * kD * std::sqrt(50.0)),
               saffman_mei_factor(10, 0.1), 1e-9);
-  // Beyond the range of b the factor stays that at its end: no slip, no lift, and nothing infinite.
+  // The factor stays that at the end of the range of b beyond it: no slip, no lift, and nothing
+  // infinite.
   LocalShear s = linear_shear(1e-3, 10);
   s.vorticity = 1000;
   EXPECT_NEAR(saffman_mei(s) / (1.615 * kD * kD * std::sqrt(1000.0)), saffman_mei_factor(1e-3, 0.4),
@@ -82,7 +83,7 @@ TEST(Lift, GoesOverFromTheFloorToTheBulk) {
   EXPECT_NEAR(lift_coefficient(high) / saffman_mei(high), 1, 1e-12);
   EXPECT_NEAR(lift_coefficient(middle) / ((floor(middle, 0.75) + saffman_mei(middle)) / 2), 1,
               1e-12);
-  // Where they meet the two sources agree: in the shear of a sand grain within a third.
+  // The two sources agree where they meet: in the shear of a sand grain within a third.
   EXPECT_NEAR(floor(middle, 0.75) / saffman_mei(middle), 1, 0.33);
 }
 

@@ -27,7 +27,7 @@ Config two_sizes() {
   return config;
 }
 
-/// Where the small grain is about the line through the centres of the large ones.
+/// Position of the small grain about the line through the centres of the large ones.
 struct Place {
   Real angle, distance;
 };
@@ -35,11 +35,11 @@ struct Place {
 class Crease {
  public:
   Crease() : bench_(two_sizes(), grains()) {
-    const auto force = mirror(bench_.state.fluid.steady_force);
+    const auto force = mirror(bench_.state.fluid.explicit_force);
     const auto kin = bench_.kinematics();
     for (int g = 0; g < bench_.state.n; ++g)
       force(g) = kin(g).r < kLarge / 2 ? kin(g).m * Vec3{0, -kGravity, 0} : Vec3{};
-    Kokkos::deep_copy(bench_.state.fluid.steady_force, force);
+    Kokkos::deep_copy(bench_.state.fluid.explicit_force, force);
   }
   Place after(Real time, Real dt) {
     bench_.advance(static_cast<int>(std::lround(time / dt)), dt);

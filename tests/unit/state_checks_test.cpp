@@ -130,7 +130,7 @@ TEST(StateChecks, FluidFractionOutOfBounds) {
   }
 }
 
-/// The same water without grains, after a step from velocity u everywhere along x but `odd` in one
+/// Complaint about the flow alone, after a step from velocity u everywhere along x but `odd` in one
 /// face along z [m/s].
 std::string complaint_of_flow(Real u, Real odd) {
   Config c = box();

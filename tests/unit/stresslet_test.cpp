@@ -1,4 +1,4 @@
-// What a grain that moves with its fluid adds to the viscosity of the rows that it lies in.
+// Viscosity that a grain moving with its fluid adds to the rows that it lies in.
 #include "kernels/coupling/stresslet.hpp"
 
 #include <gtest/gtest.h>

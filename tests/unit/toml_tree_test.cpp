@@ -1,4 +1,5 @@
-// What reaches the parser of TOML, and what is kept from it: strings and comments by the grammar.
+// Texts that reach the parser of TOML, and those that are kept from it: strings and comments by the
+// grammar.
 #include "src/toml/toml_tree.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ TEST(TomlTree, NoStringHidesThePartsOfAKey) {
     EXPECT_EQ(line_of_parts("[" + first + kParts + "]\n"), 1) << first;
     EXPECT_EQ(line_of_parts("x = { " + first + kParts + " = 1 }\n"), 1) << first;
   }
-  // Behind strings of each kind, over many lines as well, and a comment.
+  // The same text behind strings of each kind, over many lines as well, and a comment.
   const char* before[] = {"a = \"\\\"\"",
                           "a = '\\'",
                           "a = \"\"\"\n\\\"\"\"\\\"\n\"\"\"",

@@ -81,7 +81,7 @@ TEST(UnlikeContacts, TheReboundIsThatOfThePair) {
   }
 }
 
-// Without a [[grains.pair]] it is the geometric mean, sqrt(0.9 0.5).
+// Restitution without a [[grains.pair]]: the geometric mean, sqrt(0.9 0.5).
 TEST(UnlikeContacts, TheReboundOfAMixedPairIsTheGeometricMean) {
   Config config = unlike_kinds();
   config.grains->pairs.clear();

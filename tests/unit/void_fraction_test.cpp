@@ -45,7 +45,7 @@ TEST(DepositStencil, EveryPointGoesToTheCellThatHoldsIt) {
   const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
   int n_short_cuts = 0;
   for (int n = 0; n < 300; ++n) {
-    // Also grains that stick out of the floor, the lid, the outlet and the sides.
+    // Grains may stick out of the floor, the lid, the outlet and the sides.
     const GrainKinematics g{.x = {0.0112 * uniform(), 0.004 * uniform(), 0.008 * uniform()},
                             .r = 1.25e-4,
                             .u = {},
@@ -82,7 +82,7 @@ TEST(DepositStencil, WallsMirrorPeriodicSidesWrapTheOutletHolds) {
   const GridRef grid = host.ref();
   const DepositStencil stencil = deposit_stencil_in(grid, PointModel::divided, false);
   EXPECT_EQ(stencil.cell_of({0.001, -1e-5, 0.001}, 0), stencil.cell_of({0.001, 1e-5, 0.001}, 0));
-  // As far below the lid as it was above, though that is another row.
+  // The point lies as far below the lid as it was above, though that is another row.
   const CellIndex below_lid = stencil.cell_of({0.001, 0.004 - 8e-4, 0.001}, 8);
   EXPECT_EQ(below_lid.j, 7);
   EXPECT_EQ(stencil.cell_of({0.001, 0.004 + 8e-4, 0.001}, 8), below_lid);

@@ -1,10 +1,10 @@
-// Sums and maxima over the cells of this rank into a Tally. As in reduce.hpp, but without a wait,
-// and not over ranks. `where`: a CellRange or a Region.
+// Sums and maxima over the cells of this rank into a DeviceReductions, as in reduce.hpp, but
+// without a wait, and not over ranks. `where`: a CellRange or a Region.
 #pragma once
 
+#include "src/parallel/device_reductions.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/parallel/region.hpp"
-#include "src/parallel/tally.hpp"
 
 namespace barchan {
 
@@ -32,33 +32,34 @@ void reduce(const char* label, const Work<Functor>& work, const Result& result) 
 
 }  // namespace launch_detail
 
-/// Sum of functor(i, j, k) into one number.
+/// Sums functor(i, j, k) into one number.
 template <class Where, class Functor>
-void sum_each_cell(const char* label, const Tally& tally, int slot, const Where& where,
-                   const Functor& functor) {
+void sum_each_cell(const char* label, const DeviceReductions& reductions, int slot,
+                   const Where& where, const Functor& functor) {
   launch_detail::reduce<launch_detail::Sum>(label, launch_detail::work(where, functor),
-                                            tally.into(slot));
+                                            reductions.into(slot));
 }
-/// Of vectors, into three.
+/// Sums the vectors functor(i, j, k) into three numbers.
 template <class Where, class Functor>
-void sum_vector(const char* label, const Tally& tally, int slot, const Where& where,
+void sum_vector(const char* label, const DeviceReductions& reductions, int slot, const Where& where,
                 const Functor& functor) {
   launch_detail::reduce<launch_detail::VectorSum>(label, launch_detail::work(where, functor),
-                                                  tally.into<Vec3>(slot));
+                                                  reductions.into<Vec3>(slot));
 }
-/// The largest, of values that are not negative; infinity if one is not a number.
+/// Finds the largest functor(i, j, k), for values that are not negative; infinity if one is not a
+/// number.
 template <class Where, class Functor>
-void max_each_cell(const char* label, const Tally& tally, int slot, const Where& where,
-                   const Functor& functor) {
+void max_each_cell(const char* label, const DeviceReductions& reductions, int slot,
+                   const Where& where, const Functor& functor) {
   launch_detail::reduce<launch_detail::Largest>(label, launch_detail::work(where, functor),
-                                                tally.largest_into(slot));
+                                                reductions.largest_into(slot));
 }
-/// Of functors that return LargestAndSums, into three numbers.
+/// Reduces functors that return LargestAndSums into three numbers.
 template <class Where, class Functor>
-void largest_and_sums(const char* label, const Tally& tally, int slot, const Where& where,
-                      const Functor& functor) {
+void largest_and_sums(const char* label, const DeviceReductions& reductions, int slot,
+                      const Where& where, const Functor& functor) {
   launch_detail::reduce<launch_detail::MaxAndSum>(label, launch_detail::work(where, functor),
-                                                  tally.into<LargestAndSums>(slot));
+                                                  reductions.into<LargestAndSums>(slot));
 }
 
 }  // namespace barchan

@@ -1,14 +1,14 @@
-#include "src/parallel/tally.hpp"
+#include "src/parallel/device_reductions.hpp"
 
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
 
 namespace barchan {
 
-Tally::Tally(const char* label, std::size_t n)
+DeviceReductions::DeviceReductions(const char* label, std::size_t n)
     : on_device_(label, n), on_host_(mirror(on_device_)) {}
 
-void Tally::combine(MPI_Comm ranks, int slot, int n, MPI_Op operation) const {
+void DeviceReductions::combine(MPI_Comm ranks, int slot, int n, MPI_Op operation) const {
   if (rank_count(ranks) == 1) return;
   const auto slots = std::pair(slot, slot + n);
   const auto here = Kokkos::subview(on_device_, slots);

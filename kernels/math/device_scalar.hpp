@@ -6,12 +6,13 @@
 
 namespace barchan {
 
-/// Its value where kernels run on the host, for it is there already; on a device the place where it
-/// will be.
-class LateReal {
+/// Number that an earlier kernel computes: its value where kernels run on the host, because it is
+/// there already; on a device a pointer to where it will be.
+class DeviceScalar {
  public:
-  LateReal(Real value) : value_(value) {}  // NOLINT(google-explicit-constructor): a number is one
-  explicit LateReal(const Real* at) {
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is one
+  DeviceScalar(Real value) : value_(value) {}
+  explicit DeviceScalar(const Real* at) {
     if constexpr (kOnHost) {
       value_ = *at;
     } else {
