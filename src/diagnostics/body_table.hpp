@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "src/bodies/body_load.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 

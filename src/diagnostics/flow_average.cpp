@@ -1,7 +1,7 @@
 #include "src/diagnostics/flow_average.hpp"
 
-#include "src/output/state_file.hpp"
 #include "src/parallel/launch.hpp"
+#include "src/restart/state_file.hpp"
 
 namespace barchan {
 

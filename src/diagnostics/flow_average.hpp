@@ -6,8 +6,8 @@
 
 #include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/output_files.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/output_files.hpp"
 
 namespace barchan {
 

@@ -7,8 +7,8 @@
 #include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/case/config.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 

@@ -7,7 +7,7 @@
 
 #include "kernels/math/vec3.hpp"
 #include "src/diagnostics/dune_shape.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/diagnostics/dune_map.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 

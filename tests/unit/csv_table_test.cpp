@@ -1,5 +1,5 @@
 // Tables whose columns are listed once.
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 #include <gtest/gtest.h>
 

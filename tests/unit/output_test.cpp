@@ -1,4 +1,4 @@
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/output/output_case.hpp"
+#include "src/results/output_case.hpp"
 
 namespace barchan {
 

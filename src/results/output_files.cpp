@@ -1,4 +1,4 @@
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include "kernels/diagnostics/frame_values.hpp"
 #include "src/base/words.hpp"
 #include "src/io/xdmf.hpp"
-#include "src/output/long_names.hpp"
 #include "src/parallel/mirror.hpp"
+#include "src/results/long_names.hpp"
 
 namespace barchan {
 

@@ -1,4 +1,4 @@
-#include "src/output/long_names.hpp"
+#include "src/results/long_names.hpp"
 
 #include <span>
 
