@@ -11,6 +11,9 @@
 
 namespace barchan {
 
+/// The arrays of flow_average.h5, in the order of FlowMoment.
+std::vector<Output> flow_moment_outputs();
+
 class FlowAverage {
  public:
   explicit FlowAverage(const Grid& grid);

@@ -54,13 +54,6 @@ struct ExtraGrainArray {
   Kokkos::View<Real*> values;
 };
 
-/// One force or torque on every grain, in the order of the grains.
-struct NamedForce {
-  std::string name;  // "force_drag", "force_contact_normal", ...
-  Kokkos::View<const Vec3*> values;
-  std::string unit = "N";
-};
-
 /// Of a grain in GrainState::heap that came from none: it was fed.
 inline constexpr std::uint8_t kNoHeap = 255;
 
