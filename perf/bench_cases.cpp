@@ -3,7 +3,7 @@
 #include "perf/cases.hpp"
 #include "perf/events.hpp"
 #include "perf/options.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

@@ -9,8 +9,8 @@
 #include "src/fluid/domain.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/initial_state.hpp"
-#include "src/output/grain_state_file.hpp"
-#include "src/output/state_file.hpp"
+#include "src/restart/grain_state_file.hpp"
+#include "src/restart/state_file.hpp"
 
 namespace barchan {
 

@@ -1,6 +1,8 @@
 // Values of a result frame: the flow brought to the cell centres, the grains taken apart.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/fluid/grid.hpp"
 #include "kernels/grains/grain.hpp"
 
@@ -22,52 +24,65 @@ struct AverageToFrame {
   }
 };
 
-/// Rows (n, 3) of a file.
+/// Rows (n, 1) or (n, 3) of a file.
 template <class T>
-using FrameVectors = Kokkos::View<T* [3], Kokkos::LayoutRight>;
+using FrameRows = Kokkos::View<T**, Kokkos::LayoutRight>;
 
+template <class T, class Number>
+KOKKOS_INLINE_FUNCTION void store(const FrameRows<T>& out, int p, const Number& number) {
+  out(p, 0) = static_cast<T>(number);
+}
 template <class T>
-KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3& v) {
+KOKKOS_INLINE_FUNCTION void store(const FrameRows<T>& out, int p, const Vec3& v) {
   out(p, 0) = static_cast<T>(v.x);
   out(p, 1) = static_cast<T>(v.y);
   out(p, 2) = static_cast<T>(v.z);
 }
 
-/// Stores the image of a position within the box, from 0 to below its extents also as a T.
-template <class T>
-KOKKOS_INLINE_FUNCTION void store(const FrameVectors<T>& out, int p, const Vec3& x,
-                                  const PeriodicBox& box) {
-  store(out, p, box.wrap(x));
-  if (box.lx > 0 && out(p, 0) >= box.lx) out(p, 0) = 0;
-  if (box.lz > 0 && out(p, 2) >= box.lz) out(p, 2) = 0;
-}
-
-/// Positions [m] of the grains.
-template <class T>
-struct FramePositions {
-  Kokkos::View<const GrainKinematics*> grains;
-  PeriodicBox box;
-  FrameVectors<T> x;
-  KOKKOS_FUNCTION void operator()(int p) const { store(x, p, grains(p).x, box); }
+/// Stores what `value(p)` gives for each grain p, a number or a vector. An array is a `value`, too.
+template <class T, class Value>
+struct StoreRows {
+  Value value;
+  FrameRows<T> out;
+  KOKKOS_FUNCTION void operator()(int p) const { store(out, p, value(p)); }
 };
 
-/// Diameter [m], velocity [m/s] and spin [rad/s] of each grain.
-struct FrameArrays {
+/// Position [m]: the image within the box, from 0 to below its extents also as a T.
+template <class T>
+struct PositionOf {
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<double*> d;
-  FrameVectors<float> u, omega;
-  KOKKOS_FUNCTION void operator()(int p) const {
-    const GrainKinematics grain = grains(p);
-    d(p) = 2.0 * grain.r;
-    store(u, p, grain.u);
-    store(omega, p, grain.omega);
+  PeriodicBox box;
+  KOKKOS_FUNCTION Vec3 operator()(int p) const {
+    Vec3 x = box.wrap(grains(p).x);
+    if (box.lx > 0 && static_cast<T>(x.x) >= box.lx) x.x = 0;
+    if (box.lz > 0 && static_cast<T>(x.z) >= box.lz) x.z = 0;
+    return x;
   }
 };
 
-struct SplitVectors {
-  Kokkos::View<const Vec3*> vectors;
-  FrameVectors<float> out;
-  KOKKOS_FUNCTION void operator()(int p) const { store(out, p, vectors(p)); }
+/// Diameter [m].
+struct DiameterOf {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION Real operator()(int p) const { return 2.0 * grains(p).r; }
+};
+
+/// Velocity [m/s].
+struct VelocityOf {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION Vec3 operator()(int p) const { return grains(p).u; }
+};
+
+/// Angular velocity [rad/s].
+struct SpinOf {
+  Kokkos::View<const GrainKinematics*> grains;
+  KOKKOS_FUNCTION Vec3 operator()(int p) const { return grains(p).omega; }
+};
+
+/// Number in a list, -1 for `none`.
+struct NumberInList {
+  Kokkos::View<const std::uint8_t*> number;
+  std::uint8_t none;
+  KOKKOS_FUNCTION int operator()(int p) const { return number(p) == none ? -1 : number(p); }
 };
 
 }  // namespace barchan

@@ -4,9 +4,9 @@
 
 #include <thread>
 
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/seal.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

@@ -14,13 +14,8 @@
 #include "src/case/derived.hpp"
 #include "src/case/heaps.hpp"
 #include "src/case/load.hpp"
-#include "src/diagnostics/body_table.hpp"
-#include "src/diagnostics/dune_table.hpp"
-#include "src/diagnostics/flow_statistics.hpp"
-#include "src/diagnostics/heap_shares.hpp"
-#include "src/diagnostics/probe_table.hpp"
 #include "src/initial/grain_table.hpp"
-#include "src/run/history_table.hpp"
+#include "src/run/tables.hpp"
 
 namespace barchan {
 namespace fs = std::filesystem;
@@ -46,15 +41,6 @@ Rows rows_of(const std::string& text) {
     rows.last = line;
   }
   return rows;
-}
-
-/// Removes the links from words for docs/files.md, [words](page).
-std::string without_links(std::string text) {
-  for (std::size_t open; (open = text.find("](")) != text.npos;) {
-    text.erase(open, text.find(')', open) - open + 1);
-    text.erase(text.rfind('[', open), 1);
-  }
-  return text;
 }
 
 std::string first_cell(const std::string& line) { return line.substr(0, line.find(',')); }
@@ -92,12 +78,10 @@ std::string describe_csv(const fs::path& path) {
   const Rows rows = rows_of(text);
   if (rows.header.empty())
     throw std::runtime_error(path.string() + " is empty: no header, no rows");
-  std::string told = describe_table(kHistoryTable, rows);
-  if (told.empty()) told = describe_table(kDuneTable, rows);
-  if (told.empty()) told = describe_table(kHeapTable, rows);
-  if (told.empty()) told = describe_table(kBodyTable, rows);
-  if (told.empty()) told = describe_table(kProbeTable, rows);
-  if (told.empty()) told = describe_table(kStatisticsTable, rows);
+  std::string told;
+  for_each_table([&](const auto& table) {
+    if (told.empty()) told = describe_table(table, rows);
+  });
   if (!told.empty()) return told;
   const std::string& h = rows.header;
   if (("," + h + ",").find(",diameter,") != h.npos) return describe_grains(text, path);

@@ -12,7 +12,8 @@
 #include "kernels/fluid/start_flows.hpp"
 #include "src/bodies/bodies_case.hpp"
 #include "src/coupling/coupling_case.hpp"
-#include "src/output/output_case.hpp"
+#include "src/restart/restart_case.hpp"
+#include "src/results/output_case.hpp"
 
 namespace barchan {
 

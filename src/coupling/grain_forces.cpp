@@ -1,5 +1,6 @@
 #include "src/coupling/grain_forces.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "kernels/coupling/force_output.hpp"
@@ -10,19 +11,19 @@ namespace barchan {
 namespace {
 
 Kokkos::View<Vec3*> grain_vector(const std::string& name, int n) {
-  return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(n));
+  return Kokkos::View<Vec3*>(name, static_cast<std::size_t>(std::max(n, 1)));
 }
 
 }  // namespace
 
-std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver& solver, Real dt) {
+GrainForces grain_forces(const SystemState& state, const GrainSolver& solver, Real dt) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
-  std::vector<NamedForce> forces;
+  GrainForces forces;
   const bool resolved = grains.exchange.resolved_force.size() > 0;
   if (resolved) {
-    forces.push_back({"force_flow", grains.exchange.resolved_force});
-    forces.push_back({"torque_flow", grains.exchange.resolved_torque, "N m"});
+    forces.flow = grains.exchange.resolved_force;
+    forces.torque = grains.exchange.resolved_torque;
   } else if (grains.fluid.has_fluid) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
     Kokkos::parallel_for("output: forces on grains", items(n),
@@ -32,25 +33,25 @@ std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver
                                           .dt = dt,
                                           .drag = drag,
                                           .added_mass = added});
-    forces.push_back({"force_drag", drag});
-    forces.push_back({"force_added_mass", added});
+    forces.drag = drag;
+    forces.added_mass = added;
   }
-  if (grains.exchange.lift.size() > 0) forces.push_back({"force_lift", grains.exchange.lift});
+  forces.lift = grains.exchange.lift;
   if (state.fluid && !resolved) {
-    forces.push_back({"force_pressure_gradient", grains.exchange.pressure_force});
-    forces.push_back({"force_stress", grains.exchange.stress_force});
+    forces.pressure_gradient = grains.exchange.pressure_force;
+    forces.stress = grains.exchange.stress_force;
   }
   if (grains.fluid.has_torque && !resolved) {
     const auto torque = grain_vector("torque of the flow", n);
     Kokkos::parallel_for("output: torques on grains", items(n),
                          TorqueOfFlow{grains.kin, grains.fluid, torque});
-    forces.push_back({"torque_flow", torque, "N m"});
+    forces.torque = torque;
   }
   const auto normal = grain_vector("contact normal", n), tangential = grain_vector("tangential", n);
   solver.split_contacts(grains, normal, tangential);
-  forces.push_back({"force_contact_normal", normal});
-  forces.push_back({"force_contact_tangential", tangential});
-  forces.push_back({"force_total", resultant_force(grains, dt)});
+  forces.contact_normal = normal;
+  forces.contact_tangential = tangential;
+  forces.total = resultant_force(grains, dt);
   return forces;
 }
 

@@ -1,18 +1,26 @@
 // Forces on the grains over the last fluid step, for output.
 #pragma once
 
-#include <vector>
-
 #include "src/coupling/system_state.hpp"
 #include "src/grains/grain_solver.hpp"
 
 namespace barchan {
 
-/// Forces by name [N], rows as in the state: drag, pressure gradient, stress, added mass, contact
-/// normal and tangential, and total, the resultant with weight and buoyancy. Torques of the flow [N
-/// m] where it has some. `solver` is the one that moved the grains, dt the length of the fluid step
+/// Forces [N] and the torque of the flow [N m] on every grain, in the order of the state. An empty
+/// array: the run has no such force; others have one entry at least, also on a rank without grains.
+struct GrainForces {
+  using OfGrains = Kokkos::View<const Vec3*>;
+  OfGrains flow = {};    // where it is resolved around the grains, else the next five
+  OfGrains torque = {};  // of the flow
+  OfGrains drag = {}, added_mass = {}, lift = {}, pressure_gradient = {}, stress = {};
+  OfGrains contact = {};  // normal and tangential together
+  OfGrains contact_normal = {}, contact_tangential = {};
+  OfGrains total = {};  // the resultant with weight and buoyancy
+};
+
+/// Forces of the last step, without `contact`. `solver` is the one that moved the grains, dt the length of the fluid step
 /// [s].
-std::vector<NamedForce> grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
+GrainForces grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
 
 /// Resultant force on each grain [N].
 Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt);

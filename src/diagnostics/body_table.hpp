@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "src/bodies/body_load.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -24,7 +24,7 @@ inline constexpr std::array kBodyColumns = [] {
   using B = BodyRecord;
   return std::to_array<Column<B>>({
       {"t", "s", &B::t, "end of the interval", 10},
-      {"body", "-", &B::body, "number in the case, from 0"},
+      {"body", "-", &B::body, "number of the body in the case, from 0"},
       {"force_x", "N", &B::force_x, "force of the water along x"},
       {"force_y", "N", &B::force_y, "force of the water upwards"},
       {"force_z", "N", &B::force_z, "force of the water along z"},
@@ -37,7 +37,7 @@ inline constexpr std::array kBodyColumns = [] {
       {"grain_torque_x", "N m", &B::grain_torque_x, "torque of the grains about x"},
       {"grain_torque_y", "N m", &B::grain_torque_y, "torque of the grains about y"},
       {"grain_torque_z", "N m", &B::grain_torque_z, "torque of the grains about z"},
-      {"n_contacts", "-", &B::n_contacts, "grains that touch it at `t`"},
+      {"n_contacts", "-", &B::n_contacts, "grains that touch the body at `t`"},
   });
 }();
 inline constexpr CsvTable<BodyRecord> kBodyTable{"bodies.csv", kBodyColumns};

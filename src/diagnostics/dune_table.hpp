@@ -4,7 +4,7 @@
 #include <array>
 
 #include "src/diagnostics/dune_shape.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -12,7 +12,7 @@ inline constexpr std::array kDuneColumns = [] {
   using D = DuneRecord;
   return std::to_array<Column<D>>({
       {"t", "s", &D::t, "time", 10},
-      {"dune", "-", &D::dune, "label; 0: the largest at the first time"},
+      {"dune", "-", &D::dune, "label of the dune; 0: the largest at the first time"},
       {"n_grains", "-", &D::n_grains, "grains of the dune"},
       {"W", "m", &D::w, "width"},
       {"L", "m", &D::l, "length along the centreline"},
@@ -23,11 +23,12 @@ inline constexpr std::array kDuneColumns = [] {
       {"horn_left", "m", &D::horn_left, "length of the horn at z < Cz"},
       {"horn_right", "m", &D::horn_right, "length of the horn at z > Cz"},
       {"crest_x", "m", &D::crest_x, "crest on the centreline"},
-      {"volume", "m3", &D::volume, "sum of pi d^3/6"},
+      {"volume", "m3", &D::volume, "solid volume, sum of pi d^3/6"},
       {"celerity", "m/s", &D::celerity,
-       "slope of Cx over the last second; `nan` at a dune's first time"},
+       "celerity, slope of Cx over the last second; `nan` at a dune's first time"},
       {"n_lost", "-", &D::n_lost, "grains that have left the domain so far"},
-      {"flux", "m2/s", &D::flux, "sum(V_p u_x) of its grains over the area of its bins"},
+      {"flux", "m2/s", &D::flux,
+       "volume flux of its grains, sum(V_p u_x) over the area of its bins"},
       {"horn_left_2d", "m", &D::horn_left_2d, "as `horn_left`, of sand two grains high or more"},
       {"horn_right_2d", "m", &D::horn_right_2d, "as `horn_right`, of sand two grains high or more"},
   });

@@ -1,19 +1,23 @@
 #include "src/diagnostics/flow_average.hpp"
 
-#include "src/output/state_file.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
 #include "src/parallel/launch.hpp"
+#include "src/restart/state_file.hpp"
+#include "src/results/flow_outputs.hpp"
 
 namespace barchan {
 
 namespace {
 
-struct Quantity {
-  const char *name, *units;
-};
-constexpr Quantity kQuantities[n_flow_moments] = {
-    {"u", "m/s"},      {"v", "m/s"},      {"w", "m/s"},      {"p", "Pa"},
-    {"alpha_f", "1"},  {"nu_t", "m^2/s"}, {"uu", "m^2/s^2"}, {"vv", "m^2/s^2"},
-    {"ww", "m^2/s^2"}, {"uv", "m^2/s^2"}, {"uw", "m^2/s^2"}, {"vw", "m^2/s^2"}};
+/// The moments in their order, of which the first six are the means of fields.h5.
+const std::vector<Output>& moments() {
+  static const std::vector<Output> all = flow_moment_outputs();
+  return all;
+}
 
 template <std::size_t n>
 void make(std::array<Field, n>& fields, const Grid& grid) {
@@ -21,6 +25,16 @@ void make(std::array<Field, n>& fields, const Grid& grid) {
 }
 
 }  // namespace
+
+std::vector<Output> flow_moment_outputs() {
+  const std::vector<Output> fields = flow_outputs();
+  std::vector<Output> all;
+  for (const char* name : {"u", "v", "w", "p", "alpha_f", "nu_t"})
+    all.push_back(*std::ranges::find(fields, name, &Output::name));
+  for (const std::string pair : {"uu", "vv", "ww", "uv", "uw", "vw"})
+    all.push_back({pair, "m^2/s^2", fmt::format("mean of {}'{}'", pair[0], pair[1])});
+  return all;
+}
 
 FlowAverage::FlowAverage(const Grid& grid) : grid_(grid) {
   make(sum_, grid);
@@ -62,9 +76,7 @@ std::vector<NamedField> FlowAverage::means() {
                           .first_v = first_[1],
                           .first_w = first_[2],
                           .per_sample = 1 / static_cast<double>(n_samples_)});
-  for (std::size_t q = 0; q < std::size(kQuantities); ++q) {
-    named.push_back({kQuantities[q].name, kQuantities[q].units, &result_[q]});
-  }
+  for (std::size_t q = 0; q < result_.size(); ++q) named.push_back({moments()[q], &result_[q]});
   return named;
 }
 
@@ -78,7 +90,7 @@ void FlowAverage::write(const OutputFiles& output, double t, std::int64_t step) 
 template <class F>
 void FlowAverage::for_each_saved(const F& f) const {
   const auto each = [&](const std::string& prefix, const auto& fields) {
-    for (std::size_t q = 0; q < fields.size(); ++q) f(prefix + kQuantities[q].name, fields[q]);
+    for (std::size_t q = 0; q < fields.size(); ++q) f(prefix + moments()[q].name, fields[q]);
   };
   each("statistics/sum_", sum_);
   each("statistics/first_", first_);

@@ -6,10 +6,13 @@
 
 #include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/output_files.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/output_files.hpp"
 
 namespace barchan {
+
+/// The arrays of flow_average.h5, in the order of FlowMoment.
+std::vector<Output> flow_moment_outputs();
 
 class FlowAverage {
  public:

@@ -7,8 +7,8 @@
 #include "kernels/diagnostics/flow_statistics.hpp"
 #include "src/case/config.hpp"
 #include "src/fluid/fluid_state.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -26,18 +26,20 @@ struct StatisticsRecord {
 inline constexpr std::array kStatisticsColumns = [] {
   using S = StatisticsRecord;
   return std::to_array<Column<S>>({
-      {"y", "m", &S::y, "height"},
-      {"y_plus", "-", &S::y_plus, "y u_star/nu with u_star of the mean stress at the floor", 6},
+      {"y", "m", &S::y, "height of the cell layer"},
+      {"y_plus", "-", &S::y_plus,
+       "height in wall units, y u_star/nu with u_star of the mean stress at the floor", 6},
       {"U", "m/s", &S::u, "mean velocity along x"},
       {"U_plus", "-", &S::u_plus, "U over u_star", 6},
-      {"uu", "m2/s2", &S::uu, "resolved <u'u'>"},
-      {"vv", "m2/s2", &S::vv, "resolved <v'v'>"},
-      {"ww", "m2/s2", &S::ww, "resolved <w'w'>"},
-      {"uv", "m2/s2", &S::uv, "resolved <u'v'>, as the scheme transports it"},
-      {"k", "m2/s2", &S::k, "(uu + vv + ww)/2"},
-      {"viscous_stress", "m2/s2", &S::viscous, "nu dU/dy"},
-      {"subgrid_stress", "m2/s2", &S::subgrid, "the subgrid part"},
-      {"total_stress", "m2/s2", &S::total, "both minus <u'v'>; linear in y in a steady flow"},
+      {"uu", "m2/s2", &S::uu, "resolved stress <u'u'>"},
+      {"vv", "m2/s2", &S::vv, "resolved stress <v'v'>"},
+      {"ww", "m2/s2", &S::ww, "resolved stress <w'w'>"},
+      {"uv", "m2/s2", &S::uv, "resolved stress <u'v'>, as the scheme transports it"},
+      {"k", "m2/s2", &S::k, "resolved kinetic energy, (uu + vv + ww)/2"},
+      {"viscous_stress", "m2/s2", &S::viscous, "viscous stress, nu dU/dy"},
+      {"subgrid_stress", "m2/s2", &S::subgrid, "stress of the subgrid model"},
+      {"total_stress", "m2/s2", &S::total,
+       "viscous and subgrid stress minus <u'v'>; linear in y in a steady flow"},
       {"p", "Pa", &S::p, "mean pressure without its driving part"},
       {"nu_t", "m2/s", &S::nu_t, "mean eddy viscosity"},
       {"n_samples", "-", &S::n_samples, "instants averaged"},

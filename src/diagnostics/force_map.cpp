@@ -1,7 +1,5 @@
 #include "src/diagnostics/force_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,16 +34,23 @@ void ForceMap::sample(double t, GrainCloud grains, std::span<const Vec3> force) 
 
 void ForceMap::write(const std::filesystem::path& file) const {
   if (step_ == 0) return;
-  std::string text = "r_min,r_max,phi_min,phi_max,n,F_x,F_y,F_z,t_start,t_end\n";
+  std::string text = kForceMapTable.header() + "\n";
   const double angle = 360.0 / n_angles;
   for (int b = 0; b < n_angles * n_radii; ++b) {
     const Bin& bin = bins_[static_cast<std::size_t>(b)];
     if (bin.n == 0) continue;
     const int a = b / n_radii, r = b % n_radii;
     const Vec3 mean = (1 / bin.n) * bin.force;
-    text += fmt::format("{:.9g},{:.9g},{:g},{:g},{:.0f},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g}\n",
-                        r * step_, (r + 1) * step_, a * angle, (a + 1) * angle, bin.n, mean.x,
-                        mean.y, mean.z, start_, end_);
+    text += kForceMapTable.line({.r_min = r * step_,
+                                 .r_max = (r + 1) * step_,
+                                 .phi_min = a * angle,
+                                 .phi_max = (a + 1) * angle,
+                                 .n = static_cast<std::int64_t>(bin.n),
+                                 .x = mean.x,
+                                 .y = mean.y,
+                                 .z = mean.z,
+                                 .t_start = start_,
+                                 .t_end = end_});
   }
   write_atomically(file, text);
 }

@@ -1,15 +1,42 @@
 // Mean resultant force on the grains in polar bins about the main dune (force_map.csv).
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
 #include "kernels/math/vec3.hpp"
 #include "src/diagnostics/dune_shape.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
+
+/// One line of force_map.csv: a bin that has grains.
+struct ForceMapRecord {
+  double r_min = 0, r_max = 0, phi_min = 0, phi_max = 0;  // [m], [degree]
+  std::int64_t n = 0;
+  double x = 0, y = 0, z = 0;  // [N]
+  double t_start = 0, t_end = 0;
+};
+inline constexpr std::array kForceMapColumns = [] {
+  using F = ForceMapRecord;
+  return std::to_array<Column<F>>({
+      {"r_min", "m", &F::r_min, "inner distance of the bin from the centroid of the dune"},
+      {"r_max", "m", &F::r_max, "outer distance of the bin"},
+      {"phi_min", "degree", &F::phi_min, "smaller angle of the bin", 6},
+      {"phi_max", "degree", &F::phi_max, "larger angle of the bin", 6},
+      {"n", "-", &F::n, "samples of grains"},
+      {"F_x", "N", &F::x, "mean force along x", 6},
+      {"F_y", "N", &F::y, "mean force upwards", 6},
+      {"F_z", "N", &F::z, "mean force along z", 6},
+      {"t_start", "s", &F::t_start, "time of the first sample, equal in all lines"},
+      {"t_end", "s", &F::t_end, "time of the last sample, equal in all lines"},
+  });
+}();
+inline constexpr CsvTable<ForceMapRecord> kForceMapTable{"force_map.csv", kForceMapColumns};
 
 /// Map of mean forces as in Fig. 13 of Lima et al. (2022): ensemble averages over all grains that
 /// are in a bin at the times of the samples, buried ones included. Bins are polar about the

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/diagnostics/dune_map.hpp"
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -22,10 +22,10 @@ inline constexpr std::array kHeapColumns = [] {
   using H = HeapShare;
   return std::to_array<Column<H>>({
       {"t", "s", &H::t, "time", 10},
-      {"dune", "-", &H::dune, "label as in `dune.csv`; -1: in no dune"},
+      {"dune", "-", &H::dune, "label of the dune as in `dune.csv`; -1: in none"},
       {"heap", "-", &H::heap, "heap of origin, as in `grains.h5`; -1: none"},
       {"n_grains", "-", &H::n_grains, "grains of this heap in this dune"},
-      {"volume", "m3", &H::volume, "sum of pi d^3/6"},
+      {"volume", "m3", &H::volume, "solid volume of these grains, sum of pi d^3/6"},
   });
 }();
 inline constexpr CsvTable<HeapShare> kHeapTable{"heaps.csv", kHeapColumns};

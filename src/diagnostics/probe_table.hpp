@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -22,18 +22,19 @@ inline constexpr std::array kProbeColumns = [] {
   using P = ProbeRecord;
   return std::to_array<Column<P>>({
       {"t", "s", &P::t, "time", 10},
-      {"probe", "-", &P::probe, "number in the case, from 0"},
-      {"point", "-", &P::point, "number on its line, from 0"},
+      {"probe", "-", &P::probe, "number of the probe in the case, from 0"},
+      {"point", "-", &P::point, "number of the point on its line, from 0"},
       {"x", "m", &P::x, "place of the point along the flow"},
-      {"y", "m", &P::y, "its height"},
-      {"z", "m", &P::z, "its place across the flow"},
+      {"y", "m", &P::y, "height of the point"},
+      {"z", "m", &P::z, "place of the point across the flow"},
       {"u", "m/s", &P::u, "velocity of the water along x"},
-      {"v", "m/s", &P::v, "velocity upwards"},
-      {"w", "m/s", &P::w, "velocity along z"},
+      {"v", "m/s", &P::v, "velocity of the water upwards"},
+      {"w", "m/s", &P::w, "velocity of the water along z"},
       {"p", "Pa", &P::p, "pressure without its hydrostatic and driving parts"},
       {"wall_shear_x", "Pa", &P::wall_shear_x,
        "shear stress on the floor below the point, along x"},
-      {"wall_shear_z", "Pa", &P::wall_shear_z, "the same along z"},
+      {"wall_shear_z", "Pa", &P::wall_shear_z,
+       "shear stress on the floor below the point, along z"},
   });
 }();
 inline constexpr CsvTable<ProbeRecord> kProbeTable{"probes.csv", kProbeColumns};

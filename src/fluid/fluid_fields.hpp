@@ -14,10 +14,9 @@ enum FluidFieldUse : unsigned {
   kInFrame = 2,    // fields.h5
 };
 
-/// A field of the flow: its name in files, unit, ghosts, uses and value at rest.
+/// A field of the flow: its name in files, unit, meaning, ghosts, uses and value at rest.
 struct FluidField {
-  const char* name;
-  const char* unit;
+  const char *name, *unit, *meaning;
   Ghosts ghosts;
   unsigned uses;
   Real at_rest = 0;
@@ -28,16 +27,17 @@ struct FluidField {
 template <class State, class Action>
 constexpr void for_each_fluid_field(State&& s, const Action& action) {
   using enum Ghosts;
-  // clang-format off
-  action(s.u,                FluidField{"u",                "m/s",   velocity,       kInRestart | kInFrame});
-  action(s.rate_previous,    FluidField{"rate_previous",    "m/s^2", none,           kInRestart});
-  action(s.du_dt,            FluidField{"du_dt",            "m/s^2", acceleration,   kInRestart});
-  action(s.p,                FluidField{"p",                "Pa",    scalar,         kInRestart | kInFrame});
-  action(s.p_previous,       FluidField{"p_previous",       "Pa",    scalar,         kInRestart});
-  action(s.alpha_f,          FluidField{"alpha_f",          "1",     scalar,         kInRestart | kInFrame, 1});
-  action(s.alpha_f_previous, FluidField{"alpha_f_previous", "1",     scalar,         kInRestart, 1});
-  action(s.nu_t,             FluidField{"nu_t",             "m^2/s", eddy_viscosity, kInRestart | kInFrame});
-  // clang-format on
+  using F = FluidField;
+  constexpr unsigned in_both = kInRestart | kInFrame;
+  action(s.u, F{"u", "m/s", "velocity", velocity, in_both});
+  action(s.rate_previous, F{"rate_previous", "m/s^2", "rate of u a step ago", none, kInRestart});
+  action(s.du_dt, F{"du_dt", "m/s^2", "change of u in the last step", acceleration, kInRestart});
+  action(s.p, F{"p", "Pa", "pressure without its hydrostatic and driving parts", scalar, in_both});
+  action(s.p_previous, F{"p_previous", "Pa", "p a step ago", scalar, kInRestart});
+  action(s.alpha_f, F{"alpha_f", "1", "volume fraction of the fluid", scalar, in_both, 1});
+  action(s.alpha_f_previous,
+         F{"alpha_f_previous", "1", "alpha_f before the last deposit", scalar, kInRestart, 1});
+  action(s.nu_t, F{"nu_t", "m^2/s", "subgrid viscosity", eddy_viscosity, in_both});
 }
 
 }  // namespace barchan

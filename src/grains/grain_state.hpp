@@ -54,13 +54,6 @@ struct ExtraGrainArray {
   Kokkos::View<Real*> values;
 };
 
-/// Force or torque on every grain, in the order of the grains.
-struct NamedForce {
-  std::string name;  // "force_drag", "force_contact_normal", ...
-  Kokkos::View<const Vec3*> values;
-  std::string unit = "N";
-};
-
 /// Value in GrainState::heap of a grain that came from no heap: it was fed.
 inline constexpr std::uint8_t kNoHeap = 255;
 

@@ -16,9 +16,9 @@
 #include "src/grains/grain_state.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/grain_table.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/seal.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

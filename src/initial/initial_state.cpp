@@ -24,7 +24,7 @@
 #include "src/initial/map_flow.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
-#include "src/output/state_file.hpp"
+#include "src/restart/state_file.hpp"
 
 namespace barchan {
 

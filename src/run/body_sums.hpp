@@ -6,7 +6,7 @@
 
 #include "src/coupling/coupled_step.hpp"
 #include "src/diagnostics/body_table.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

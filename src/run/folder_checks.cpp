@@ -9,9 +9,9 @@
 #include "src/base/errors.hpp"
 #include "src/base/words.hpp"
 #include "src/case/resolved.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/folder_lock.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/case_inputs.hpp"
 #include "src/run/run_folder.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 namespace barchan {
 
@@ -35,21 +35,27 @@ inline constexpr std::array kHistoryColumns = [] {
   return std::to_array<Column<H>>({
       {"t", "s", &H::t, "time", 10},
       {"step", "-", &H::step, "fluid step"},
-      {"u_star", "m/s", &H::u_star, "sqrt(nu abs(mean dU/dy)) over the no-slip walls"},
-      {"bulk_velocity", "m/s", &H::bulk_velocity, "sum(alpha_f u V)/sum(alpha_f V)"},
+      {"u_star", "m/s", &H::u_star,
+       "friction velocity, sqrt(nu abs(mean dU/dy)) over the no-slip walls"},
+      {"bulk_velocity", "m/s", &H::bulk_velocity,
+       "mean velocity of the water, sum(alpha_f u V)/sum(alpha_f V)"},
       {"pressure_gradient", "Pa/m", &H::pressure_gradient,
        "driving gradient rho_f f of the last step"},
-      {"fluid_kinetic_energy", "J", &H::fluid_kinetic_energy, "sum(rho_f alpha_f u^2 V)/2"},
-      {"grain_kinetic_energy", "J", &H::grain_kinetic_energy, "of all grains, with spin"},
-      {"cfl", "-", &H::cfl, "largest of the interval, dt (u/dx + v/dy + w/dz)", 6},
+      {"fluid_kinetic_energy", "J", &H::fluid_kinetic_energy,
+       "kinetic energy of the water, sum(rho_f alpha_f u^2 V)/2"},
+      {"grain_kinetic_energy", "J", &H::grain_kinetic_energy,
+       "kinetic energy of all grains, with spin"},
+      {"cfl", "-", &H::cfl, "largest CFL number of the interval, dt (u/dx + v/dy + w/dz)", 6},
       {"continuity_residual", "1/s", &H::continuity_residual,
-       "largest of the interval, abs(div(alpha_f u) + d(alpha_f)/dt)", 6},
-      {"pressure_iterations", "-", &H::pressure_iterations, "mean of the interval", 4},
+       "largest continuity residual of the interval, abs(div(alpha_f u) + d(alpha_f)/dt)", 6},
+      {"pressure_iterations", "-", &H::pressure_iterations,
+       "iterations of the pressure in a step, mean of the interval", 4},
       {"n_grains", "-", &H::n_grains, "grains inside"},
       {"n_contacts", "-", &H::n_contacts, "grain-grain pairs that touch"},
       {"max_overlap", "-", &H::max_overlap, "largest overlap of a pair over the sum of its radii",
        6},
-      {"grain_flux", "m2/s", &H::grain_flux, "sum(V_p u_x) of all grains over the floor's area"},
+      {"grain_flux", "m2/s", &H::grain_flux,
+       "volume flux of all grains, sum(V_p u_x) over the floor's area"},
       {"stress_on_grains", "Pa", &H::stress_on_grains,
        "force of the flow along x on all grains over the floor's area; mean of the interval"},
       {"grain_step_over_stable", "-", &H::grain_step_over_stable,

@@ -7,9 +7,9 @@
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/coupling/grain_forces.hpp"
-#include "src/output/state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/restart/state_file.hpp"
 #include "src/run/case_inputs.hpp"
 #include "src/run/history_table.hpp"
 #include "src/run/watchdog.hpp"
@@ -173,7 +173,7 @@ void ResultsWriter::write_frames() {
   std::optional<std::vector<int>> dunes;
   if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels();
   if (grains) {
-    std::vector<NamedForce> forces;
+    GrainForces forces;
     const CoupledStep& step = run_.coupled_step;
     if (o.grain_forces) forces = grain_forces(now, *step.grain_solver(), step.dt());
     output_.write_grains(*now.grains, t, clock.step, forces, dunes);

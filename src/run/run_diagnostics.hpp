@@ -7,7 +7,7 @@
 #include "src/diagnostics/force_map.hpp"
 #include "src/diagnostics/heap_shares.hpp"
 #include "src/diagnostics/probes.hpp"
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 #include "src/run/run_state.hpp"
 
 namespace barchan {

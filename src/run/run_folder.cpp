@@ -11,16 +11,12 @@
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/case/resolved.hpp"
-#include "src/diagnostics/body_table.hpp"
-#include "src/diagnostics/dune_table.hpp"
-#include "src/diagnostics/heap_shares.hpp"
-#include "src/diagnostics/probe_table.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/case_inputs.hpp"
-#include "src/run/history_table.hpp"
 #include "src/run/ro_crate.hpp"
+#include "src/run/tables.hpp"
 
 namespace barchan {
 
@@ -34,6 +30,7 @@ struct ResultFile {
 };
 constexpr ResultFile kResultFiles[] = {
     {"config.toml", "the case with all defaults"},
+    {kColumnsFile, "units and meanings of the columns of the tables"},
     {kInputsFile, "length and CRC-32 of the files that the case starts from"},
     {"run.json", "summary: status, wall time, extremes, momentum budget"},
     {kCrateFile, "this description of the folder, RO-Crate"},
@@ -58,11 +55,7 @@ constexpr ResultFile kResultFiles[] = {
     {"failure_fields.h5", "flow of the faulty state that stopped the run"},
     {"failure_fields.xdmf", "description of failure_fields.h5 for ParaView"}};
 
-/// Cuts a table that not every run has, if it exists.
-template <class Record>
-void cut_if_there(const fs::path& folder, const CsvTable<Record>& table, double t) {
-  if (fs::exists(folder / table.file)) cut_table(folder / table.file, table.header(), t);
-}
+/// Appends to a table that not every run has; its first line begins it.
 template <class Record>
 void append_or_begin(const fs::path& folder, const CsvTable<Record>& table,
                      std::span<const Record> records) {
@@ -103,11 +96,9 @@ bool is_result_name(const fs::path& name) {
 }
 
 void check_tables(const fs::path& folder) {
-  text_of_table(folder / kHistoryTable.file, kHistoryTable.header());
-  text_of_table(folder / kDuneTable.file, kDuneTable.header());
-  text_of_table(folder / kHeapTable.file, kHeapTable.header());
-  text_of_table(folder / kBodyTable.file, kBodyTable.header());
-  text_of_table(folder / kProbeTable.file, kProbeTable.header());
+  for_each_table([&](const auto& table) {
+    if (table.grows()) text_of_table(folder / table.file, table.header());
+  });
 }
 
 std::string status_in(const fs::path& run_json) {
@@ -138,9 +129,11 @@ fs::path prepare_folder(const fs::path& folder, std::optional<double> restart_ti
     const double t = restart_time.value_or(0);
     cut_table(folder / kHistoryTable.file, kHistoryTable.header(), t);
     cut_table(folder / kDuneTable.file, kDuneTable.header(), t);
-    cut_if_there(folder, kHeapTable, t);
-    cut_if_there(folder, kBodyTable, t);
-    cut_if_there(folder, kProbeTable, t);
+    for_each_table([&](const auto& table) {
+      const fs::path file = folder / table.file;
+      if (table.grows() && fs::exists(file)) cut_table(file, table.header(), t);
+    });
+    write_atomically(folder / kColumnsFile, columns_text());
   }
   synchronise(communicator);
   return folder;

@@ -10,9 +10,9 @@
 #include "src/case/resolved.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/overlaps.hpp"
-#include "src/output/grain_state_file.hpp"
-#include "src/output/state_file.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/restart/grain_state_file.hpp"
+#include "src/restart/state_file.hpp"
 #include "src/run/run_folder.hpp"
 
 namespace barchan {

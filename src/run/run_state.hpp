@@ -7,8 +7,8 @@
 #include "src/coupling/coupled_step.hpp"
 #include "src/diagnostics/dune_shape.hpp"
 #include "src/initial/initial_state.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/parallel/exchange.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/run_clock.hpp"
 
 namespace barchan {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "src/app/info.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan::fuzz {

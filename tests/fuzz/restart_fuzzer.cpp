@@ -11,8 +11,8 @@
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/case/load.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/seal.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/fuzz/hdf5_files.hpp"
 

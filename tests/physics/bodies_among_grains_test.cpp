@@ -48,7 +48,7 @@ InitialGrains bed_around(const BodyConfig& post) {
 /// Force of the flow on all grains, from their arrays.
 Vec3 on_grains(const test::CoupledRun& run) {
   Vec3 sum;
-  for (const NamedForce& force : run.forces()) {
+  for (const test::NamedForce& force : run.forces()) {
     if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
     const auto values = host_copy(force.values);
     for (std::size_t g = 0; g < values.extent(0); ++g) sum += values(g);

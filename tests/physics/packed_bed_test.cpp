@@ -135,7 +135,7 @@ Lift lift_in_bed(const Bed& bed) {
   const FluidState& f = *frozen.run.state.fluid;
   const auto rows = host_copy(frozen.run.state.grains->kin);
   double force = 0, weight = 0;
-  for (const NamedForce& part : frozen.run.forces()) {
+  for (const test::NamedForce& part : frozen.run.forces()) {
     if (part.name != "force_drag" && part.name != "force_pressure_gradient") continue;
     const auto values = host_copy(part.values);
     for (std::size_t g = 0; g < rows.extent(0); ++g) {

@@ -70,7 +70,7 @@ std::vector<BodyLoad> loads_on_grains(const CoupledRun& run) {
                                 "force_stress", "force_added_mass", "force_lift"};
   std::vector<BodyLoad> loads(static_cast<std::size_t>(run.state.grains->n));
   const auto id = host_copy(run.state.grains->id);
-  for (const NamedForce& force : run.forces()) {
+  for (const test::NamedForce& force : run.forces()) {
     const auto values = host_copy(force.values);
     for (int g = 0; g < run.state.grains->n; ++g) {
       BodyLoad& load = loads[static_cast<std::size_t>(id(g) - 1)];

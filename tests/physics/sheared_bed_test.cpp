@@ -114,7 +114,7 @@ Layers program(CouplingScheme scheme, int rows, double smoothing, double lid) {
   result.stress = kMu * (lid - row.back()) / (kHeight / rows / 2);
   const auto kin = host_copy(run.state.grains->kin);
   std::array<double, kLayers> count{};
-  for (const NamedForce& force : run.forces()) {
+  for (const test::NamedForce& force : run.forces()) {
     if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
     const auto values = host_copy(force.values);
     for (std::size_t g = 0; g < values.extent(0); ++g) {
@@ -178,7 +178,7 @@ TEST(ShearedBed, WaterBesideAStepIsNotDrivenBackwards) {
       slowest = std::min(slowest, u(i, j, k));
       if (j == 4) most = std::max(most, u(i, j, k));
     });
-    for (const NamedForce& force : run.forces()) {
+    for (const test::NamedForce& force : run.forces()) {
       if (force.name != "force_drag") continue;
       const auto values = host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) least = std::min(least, values(g).x);
@@ -247,7 +247,7 @@ TEST(ShearedBed, ForceOnGrainsAndFloorIsTheDrive) {
     test::CoupledRun run(c, random_bed());
     run.advance(6000);
     double on_grains = 0;
-    for (const NamedForce& force : run.forces()) {
+    for (const test::NamedForce& force : run.forces()) {
       if (force.name == "force_total" || force.name.starts_with("force_contact")) continue;
       const auto values = host_copy(force.values);
       for (std::size_t g = 0; g < values.extent(0); ++g) on_grains += values(g).x;

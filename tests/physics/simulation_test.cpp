@@ -8,8 +8,8 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/initial/grain_files.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/same_state.hpp"

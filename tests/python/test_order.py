@@ -1,14 +1,12 @@
 """The package: which module may know which, what is written once, and what installs."""
 
 import ast
-import re
 import subprocess
 import sys
 
 from fake_runs import ROOT
 
 from barchan.figures import registry
-from barchan.io import columns
 
 PACKAGE = ROOT / "python/barchan"
 # Each may import itself and those before it.
@@ -56,27 +54,6 @@ def test_mypy_is_content():
     done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--cache-dir=/dev/null"],
                           cwd=ROOT / "python", capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
-
-
-def units_of(page, heading):
-    """{column: unit} of the table under a heading of docs/files.md."""
-    part = page.split(f"\n{heading}\n")[1].split("\n#")[0]
-    return dict(re.findall(r"^\| `(\w+)` \| ([^|]+) \|", part, re.M))
-
-
-def test_units_are_those_of_the_documents():
-    """docs/files.md, which a test of the program compares with what it writes."""
-    page = (ROOT / "docs/files.md").read_text()
-    for heading, ours in (("## history.csv", columns.HISTORY), ("## dune.csv", columns.DUNES),
-                          ("## bodies.csv", columns.BODIES), ("## probes.csv", columns.PROBES),
-                          ("## statistics.csv", columns.STATISTICS),
-                          ("## heaps.csv", columns.HEAPS)):
-        theirs = units_of(page, heading)
-        assert len(theirs) > 4
-        written = {name: {"-": "1", "m/s": "m s-1", "m2/s": "m2 s-1", "1/s": "s-1", "Pa/m": "Pa m-1",
-                          "m2/s2": "m2 s-2"}.get(unit, unit)
-                   for name, unit in theirs.items()}
-        assert written == {name: ours[name][0] for name in ours if not name.endswith("_1s")}
 
 
 def test_the_page_lists_every_figure():

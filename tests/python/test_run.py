@@ -78,7 +78,6 @@ def test_config_and_summary(run):
 def test_grains_of_a_time_and_of_a_frame(run):
     grains = run.grains(t=4.1)
     assert grains.attrs["time"] == 4.0
-    assert grains.attrs["units"]["x"] == "m"
     with h5py.File(run.path / "grains.h5") as file:
         frame = next(file[name] for name in file if file[name].attrs["time"] == 4.0)
         rows = np.argsort(frame["id"][:])

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pandas
 import pytest
+from fake_runs import columns_of_the_page
 
 import barchan
-from barchan.io import columns
 
 LINES = {
     "statistics.csv": "y,y_plus,U,U_plus,uu\n0.001,1.5,0.1,7,1e-4\n0.002,3,0.2,14,2e-4\n",
@@ -22,6 +22,7 @@ LINES = {
 def run(tmp_path):
     for name, text in LINES.items():
         (tmp_path / name).write_text(text)
+    (tmp_path / "columns.json").write_text(columns_of_the_page())
     (tmp_path / "config.toml").write_text("[case]\ntitle = \"made up\"\n")
     (tmp_path / "log.txt").write_text("step 1\n")
     for step in (1200, 8):
@@ -69,8 +70,8 @@ def test_completion_shows_what_is_for_users(run):
 def test_columns_of_these_tables_are_those_that_are_written():
     from barchan.dune import encounters, obstacles
 
-    assert set(encounters.table([])) == set(columns.ENCOUNTERS)
-    assert set(obstacles.table([])) == set(columns.OBSTACLES)
+    assert set(encounters.table([])) == set(encounters.ABOUT)
+    assert set(obstacles.table([])) == set(obstacles.ABOUT)
 
 
 def test_a_python_without_the_packages_says_a_sentence(tmp_path):

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 # Each folder may include itself and those before it. ARCHITECTURE.md draws them.
 kernel_rooms=(math bodies fluid grains coupling diagnostics)
-src_rooms=(base toml parallel io bodies fluid grains coupling output case initial diagnostics run app)
+src_rooms=(base toml parallel io bodies fluid grains coupling restart results case initial diagnostics run app)
 
 max_lines=400          # anywhere
 max_lines_of_program=300  # in src/ and kernels/

@@ -39,6 +39,28 @@ inline Config still_water(std::array<double, 3> size) {
   return c;
 }
 
+/// Force or torque on every grain, by its name in grains.h5.
+struct NamedForce {
+  std::string name;
+  Kokkos::View<const Vec3*> values;
+};
+
+/// Forces that the run has.
+inline std::vector<NamedForce> named(const GrainForces& f) {
+  std::vector<NamedForce> all{{"force_flow", f.flow},
+                              {"torque_flow", f.torque},
+                              {"force_drag", f.drag},
+                              {"force_added_mass", f.added_mass},
+                              {"force_lift", f.lift},
+                              {"force_pressure_gradient", f.pressure_gradient},
+                              {"force_stress", f.stress},
+                              {"force_contact_normal", f.contact_normal},
+                              {"force_contact_tangential", f.contact_tangential},
+                              {"force_total", f.total}};
+  std::erase_if(all, [](const NamedForce& one) { return one.values.size() == 0; });
+  return all;
+}
+
 /// Run that is stepped by hand; with grains alone the fluid is at rest.
 struct CoupledRun {
   Config config;
@@ -58,7 +80,7 @@ struct CoupledRun {
   void fill_ghosts() { step.fluid_solver()->fill_ghosts(*state.fluid); }
   /// Forces on the grains in the last step.
   std::vector<NamedForce> forces() const {
-    return grain_forces(state, *step.grain_solver(), step.dt());
+    return named(grain_forces(state, *step.grain_solver(), step.dt()));
   }
   Vec3 velocity_of(int id) const { return rows()[static_cast<std::size_t>(id)].u; }
 

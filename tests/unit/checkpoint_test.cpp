@@ -1,4 +1,4 @@
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 

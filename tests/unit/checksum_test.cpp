@@ -10,7 +10,7 @@
 
 #include "src/grains/grain_state.hpp"
 #include "src/io/hdf5_handle.hpp"
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

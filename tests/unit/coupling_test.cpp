@@ -368,7 +368,7 @@ TEST(Coupling, PartsOfTheForceAddUp) {
     const auto contact = host_copy(c.state.grains->contact_force);
     const auto n = static_cast<std::size_t>(c.state.grains->n);
     std::vector<Vec3> of_contacts(n), of_all(n), total(n);
-    for (const NamedForce& f : forces) {
+    for (const test::NamedForce& f : forces) {
       const auto values = host_copy(f.values);
       for (std::size_t g = 0; g < n; ++g) {
         if (f.name.starts_with("force_contact")) of_contacts[g] += values(g);

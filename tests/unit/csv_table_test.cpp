@@ -1,19 +1,19 @@
 // Tables whose columns are listed once.
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "src/base/atomic_file.hpp"
-#include "src/diagnostics/body_table.hpp"
-#include "src/diagnostics/dune_table.hpp"
-#include "src/diagnostics/flow_statistics.hpp"
-#include "src/diagnostics/heap_shares.hpp"
-#include "src/diagnostics/probe_table.hpp"
-#include "src/run/history_table.hpp"
+#include "src/diagnostics/flow_average.hpp"
+#include "src/results/grain_outputs.hpp"
+#include "src/run/tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
@@ -36,7 +36,7 @@ TEST(CsvTable, AColumnIsOneLine) {
   EXPECT_EQ(kWeather.line({.t = 1.0 / 3, .rain = M_PI, .frogs = 123456789012}),
             "0.3333333333,3.14,123456789012\n");
   EXPECT_EQ(kWeather.line({.t = std::nan("")}), "nan,0,0\n");
-  EXPECT_EQ(kWeather.page(),
+  EXPECT_EQ(page_of(kWeather.outputs(), "column"),
             "| column | unit | meaning |\n|---|---|---|\n| `t` | s | time |\n"
             "| `rain` | m/s | how fast it falls |\n| `frogs` | - | that fall with it |\n");
   const TemporaryFolder folder;
@@ -61,14 +61,30 @@ TEST(CsvTable, IsCutToTheStep) {
   }
 }
 
-TEST(CsvTable, ThePageHasTheColumnsOfTheProgram) {
+// docs/files.md lists what each file holds, with the words of the program.
+TEST(Outputs, ThePageHasThoseOfTheProgram) {
   const std::string page = read_text(BARCHAN_SOURCE_DIR "/docs/files.md");
-  for (const std::string& columns :
-       {kHistoryTable.page(), kDuneTable.page(), kHeapTable.page(), kBodyTable.page(),
-        kProbeTable.page(), kStatisticsTable.page()}) {
+  const auto expect_in_page = [&](const std::vector<Output>& outputs, const char* heading) {
+    const std::string columns = page_of(outputs, heading);
     EXPECT_NE(page.find("\n" + columns + "\n"), std::string::npos) << "docs/files.md must have:\n"
                                                                    << columns;
-  }
+  };
+  for_each_table([&](const auto& table) { expect_in_page(table.outputs(), "column"); });
+  expect_in_page(grain_outputs(), "array");
+  expect_in_page(flow_moment_outputs(), "array");
+}
+
+// Beside the tables of a run stands what their columns are, for all that read them.
+TEST(Outputs, ColumnsHaveTheirUnitsInAFile) {
+  const auto columns = nlohmann::json::parse(columns_text());
+  EXPECT_EQ(columns.size(), 7u);
+  EXPECT_EQ(columns.at("dune.csv").at("W").at("unit"), "m");
+  EXPECT_EQ(columns.at("dune.csv").at("W").at("meaning"), "width");
+  EXPECT_EQ(columns.at("history.csv").at("step").at("unit"), "1") << "not -";
+  EXPECT_EQ(columns_text().find("]("), std::string::npos) << "links are for the page";
+  for_each_table([&](const auto& table) {
+    EXPECT_EQ(columns.at(table.file).size(), table.columns.size()) << table.file;
+  });
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/output/output_files.hpp"
-#include "src/output/state_file.hpp"
 #include "src/parallel/mirror.hpp"
+#include "src/restart/state_file.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

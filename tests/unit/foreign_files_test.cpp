@@ -6,10 +6,10 @@
 
 #include "src/app/info.hpp"
 #include "src/initial/grain_files.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/io/hdf5_handle.hpp"
 #include "src/io/seal.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

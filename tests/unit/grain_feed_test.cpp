@@ -10,7 +10,7 @@
 
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
-#include "src/output/feed_state_file.hpp"
+#include "src/restart/feed_state_file.hpp"
 #include "src/run/run_accounts.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/temporary_folder.hpp"

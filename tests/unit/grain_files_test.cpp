@@ -7,8 +7,8 @@
 #include "src/grains/grain_state.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/initial/grain_table.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/output_files.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 

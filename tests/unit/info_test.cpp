@@ -7,8 +7,8 @@
 
 #include "src/app/info_path.hpp"
 #include "src/base/atomic_file.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/io/frame_file.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "src/run/history_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 

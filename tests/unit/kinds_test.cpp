@@ -16,8 +16,8 @@
 #include "src/initial/grain_table.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
-#include "src/output/output_files.hpp"
 #include "src/parallel/mirror.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -132,11 +132,20 @@ TEST(Output, ArraysSayWhatTheyAre) {
   OutputFiles output(folder.path(), {});
   output.write_fields(make_flow(), 0, 0);
   const Kokkos::View<Vec3*> force("force", 5);
-  std::vector<NamedForce> forces;
-  for (const char* name : {"drag", "added_mass", "lift", "pressure_gradient", "stress",
-                           "contact_normal", "contact_tangential", "total"})
-    forces.push_back({std::string("force_") + name, force});
-  output.write_grains(make_grains(3), 0, 0, forces, std::vector<int>{0, -1, 1});
+  const GrainForces forces{.flow = force,
+                           .torque = force,
+                           .drag = force,
+                           .added_mass = force,
+                           .lift = force,
+                           .pressure_gradient = force,
+                           .stress = force,
+                           .contact = force,
+                           .contact_normal = force,
+                           .contact_tangential = force,
+                           .total = force};
+  GrainState grains = make_grains(3);
+  add_heaps(grains, {"west", "east"});
+  output.write_grains(grains, 0, 0, forces, std::vector<int>{0, -1, 1});
   output.write_tracks(make_grains(3), 0, 0, std::vector<int>{0, -1, 1});
   expect_described(folder / "fields.h5", "frame_000000");
   expect_described(folder / "fields.h5", "grid");
@@ -151,8 +160,7 @@ TEST(Output, GrainsAreTheOnesInside) {
   OutputFiles output(folder.path(), {});
   const Kokkos::View<Vec3*> drag("drag", 5);
   Kokkos::deep_copy(drag, Vec3{1e-9, 2e-9, 3e-9});
-  const std::vector<NamedForce> forces{{"force_drag", drag}};
-  output.write_grains(make_grains(3), 0.1, 400, forces, std::vector<int>{0, -1, 1});
+  output.write_grains(make_grains(3), 0.1, 400, {.drag = drag}, std::vector<int>{0, -1, 1});
 
   const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
   EXPECT_EQ(file.read<std::int64_t>("frame_000000/id", {3}),

@@ -8,10 +8,10 @@
 #include "src/fluid/domain.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/grains/grain_state.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/output/output_files.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
+#include "src/restart/checkpoint.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/shared_folder.hpp"
 
 namespace barchan {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "src/base/atomic_file.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {

@@ -11,7 +11,6 @@ import numpy as np
 from barchan.dune import detect
 from barchan.dune.shape import Bed
 from barchan.errors import BadInput
-from barchan.io.columns import DUNES
 from barchan.io.frames import Grains
 from barchan.io.labelled import data_frame
 
@@ -72,7 +71,7 @@ def find_dunes(x: ArrayLike, d: ArrayLike, size: Sequence[float],
     bed = Bed((float(lengths[0]), float(lengths[1])), (bool(periodic[0]), bool(periodic[1])))
     label = detect.labels(grains, bed)
     rows = [detect.measure(grains, np.nonzero(label == number)[0], bed) for number in range(label.max() + 1)]
-    return data_frame({name: np.array([row[name] for row in rows]) for name in detect.MEASURED}, DUNES), label
+    return data_frame({name: np.array([row[name] for row in rows]) for name in detect.MEASURED}, detect.MEASURED), label
 
 
 def numbers(name: str, values: ArrayLike) -> np.ndarray:

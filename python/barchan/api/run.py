@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData, optional, seconds
-from barchan.io import columns, labelled
+from barchan.dune import encounters, obstacles
+from barchan.io import horn_lengths, labelled
 from barchan.io.frames import FrameFile, names_of
 from barchan.io.progress import Progress
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import NAME
+from barchan.io.units import About, of_arrays
 
 if TYPE_CHECKING:
     from barchan.api.study import Study
@@ -68,7 +70,7 @@ class Run(RunFolder):
         """history.csv, indexed by t [s]; attrs["units"] and attrs["long_names"] say what the columns are."""
         if self.history_columns is None:
             raise MissingData("needs history.csv with at least one line")
-        return labelled.data_frame(self.history_columns, columns.HISTORY).set_index("t")
+        return labelled.data_frame(self.history_columns, self.about("history.csv")).set_index("t")
 
     @cached_property
     def dunes(self) -> DataFrame:
@@ -80,7 +82,7 @@ class Run(RunFolder):
         if self.dune_columns is None:
             raise MissingData("needs dune.csv with at least one line")
         joined = labelled.together(self.dune_columns, whole="dune")
-        return labelled.data_frame(joined, columns.DUNES).set_index(["dune", "t"])
+        return labelled.data_frame(joined, self.about("dune.csv") | horn_lengths.ABOUT).set_index(["dune", "t"])
 
     @cached_property
     def body_forces(self) -> DataFrame:
@@ -88,7 +90,7 @@ class Run(RunFolder):
         if self.body_columns is None:
             raise MissingData("needs bodies.csv with at least one line")
         joined = labelled.together(self.body_columns, whole="body")
-        return labelled.data_frame(joined, columns.BODIES).set_index(["body", "t"])
+        return labelled.data_frame(joined, self.about("bodies.csv")).set_index(["body", "t"])
 
     @cached_property
     def probes(self) -> DataFrame:
@@ -101,35 +103,34 @@ class Run(RunFolder):
         tables = self.probe_columns
         joined = labelled.together(tables, whole="point")
         joined["probe"] = np.repeat(list(tables), [len(table["t"]) for table in tables.values()])
-        return labelled.data_frame(joined, columns.PROBES).set_index(["probe", "point", "t"]).sort_index()
+        return labelled.data_frame(joined, self.about("probes.csv")).set_index(["probe", "point", "t"]).sort_index()
 
     @cached_property
     def statistics(self) -> DataFrame:
         """statistics.csv, indexed by y [m]: averages over planes and time."""
-        return self._read("statistics.csv", columns.STATISTICS, "[statistics]").set_index("y")
+        return self._read("statistics.csv", "[statistics]").set_index("y")
 
     @cached_property
     def heaps(self) -> DataFrame:
         """heaps.csv, indexed by (dune, heap, t [s]): which grains each dune has."""
-        return self._read("heaps.csv", columns.HEAPS, "[[initial.heap]]").set_index(["dune", "heap", "t"])
+        return self._read("heaps.csv", "[[initial.heap]]").set_index(["dune", "heap", "t"])
 
     @property
     def encounters(self) -> DataFrame:
         """encounters.csv, one line for each; `./barchan plot RUN encounters` writes it."""
-        return self._read("encounters.csv", columns.ENCOUNTERS, "./barchan plot RUN encounters", text=("new_dunes",))
+        return self._read("encounters.csv", "./barchan plot RUN encounters", encounters.ABOUT, text=("new_dunes",))
 
     @property
     def obstacles(self) -> DataFrame:
         """obstacles.csv, one line for each dune and obstacle; `./barchan plot RUN obstacles` writes it."""
-        return self._read("obstacles.csv", columns.OBSTACLES, "./barchan plot RUN obstacles", text=("obstacle",))
+        return self._read("obstacles.csv", "./barchan plot RUN obstacles", obstacles.ABOUT, text=("obstacle",))
 
     @cached_property
     def force_map(self) -> DataFrame:
         """force_map.csv: mean force on the grains in polar bins about the dune."""
-        return self._read("force_map.csv", columns.FORCE_MAP, "statistics.grain_forces = true")
+        return self._read("force_map.csv", "statistics.grain_forces = true")
 
-    def _read(self, name: str, about: dict[str, tuple[str, str]], source: str,
-              text: Sequence[str] = ()) -> DataFrame:
+    def _read(self, name: str, source: str, about: About | None = None, text: Sequence[str] = ()) -> DataFrame:
         """A table that may have words in it. Raises MissingData, with what writes the table."""
         pandas = optional("pandas", "pandas")
         path = self.path / name
@@ -139,7 +140,8 @@ class Run(RunFolder):
             table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=False, na_values=["nan"])
         except ValueError as problem:
             raise BarchanError(f"{path} cannot be read: {problem}") from None
-        return labelled.data_frame({key: table[key].to_numpy() for key in table}, about)
+        return labelled.data_frame({key: table[key].to_numpy() for key in table},
+                                   self.about(name) if about is None else about)
 
     @property
     def restarts(self) -> dict[int, Path]:
@@ -227,7 +229,8 @@ class Run(RunFolder):
             order = np.argsort(group["id"][:])
             found = {key: group[key][:][order] for key in group}
             kinds = names_of(group, "kind")
-        grains = labelled.grains_frame(time, found)
+            about = of_arrays(group, list(found))
+        grains = labelled.grains_frame(time, found, about)
         grains.attrs["kinds"] = kinds
         return grains
 
@@ -267,11 +270,12 @@ class Run(RunFolder):
                 rows = np.nonzero(np.isin(number, wanted))[0]
                 x = content[name]["x"][:][rows].astype(float)
                 parts.append({"id": number[rows], "t": np.full(len(rows), time), **dict(zip("xyz", x.T))})
+            arrays = of_arrays(content[file.frames[-1][1]], ["id", "x"])
         joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
         if wanted.size and not len(joined["id"]):
             raise BarchanError(f"no frame of {file.path} has a grain with one of these ids")
         order = np.lexsort((joined["t"], joined["id"]))
-        about = {"id": columns.GRAINS["id"], "t": ("s", "time"), **columns.AXES}
+        about = {"t": ("s", "time")} | arrays | ({axis: arrays["x"] for axis in "xyz"} if "x" in arrays else {})
         return labelled.data_frame({name: values[order] for name, values in joined.items()}, about)
 
     # --- fields

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from barchan.errors import optional
-from barchan.io import columns
 from barchan.io.study_folder import StudyFolder
 from barchan.api.run import Run, in_seconds
 
@@ -88,8 +87,8 @@ class Study(StudyFolder):
                     part.insert(place, name, value)
                 parts.append(part)
         table = pandas.concat(parts, ignore_index=True) if parts else pandas.DataFrame()
-        table.attrs = {"units": {name: unit for name, (unit, _) in columns.DUNES.items() if name in table},
-                       "long_names": {name: about for name, (_, about) in columns.DUNES.items() if name in table}}
+        table.attrs = {what: {name: words for part in parts for name, words in part.attrs[what].items()}
+                       for what in ("units", "long_names")}
         return table
 
     def _differing(self) -> list[str]:

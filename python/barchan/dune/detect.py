@@ -16,8 +16,21 @@ RIM_COVER = 0.3
 RIM_REACH = 12.0    # how far the rim goes out from a core
 FEWEST = 100        # grains of a dune
 HORN_HEIGHT = 2.0   # of the sand that horn_left_2d and horn_right_2d count
-MEASURED = ("n_grains", "W", "L", "H", "Cx", "Cy", "Cz", "horn_left", "horn_right", "crest_x", "volume",
-            "horn_left_2d", "horn_right_2d")
+MEASURED = {
+    "n_grains": ("1", "grains of the dune"),
+    "W": ("m", "width"),
+    "L": ("m", "length along the centreline"),
+    "H": ("m", "height"),
+    "Cx": ("m", "x of the centroid"),
+    "Cy": ("m", "height of the centroid"),
+    "Cz": ("m", "z of the centroid"),
+    "horn_left": ("m", "length of the horn at z < Cz"),
+    "horn_right": ("m", "length of the horn at z > Cz"),
+    "crest_x": ("m", "crest on the centreline"),
+    "volume": ("m3", "solid volume, sum of pi d^3/6"),
+    "horn_left_2d": ("m", "as horn_left, of sand two grains high or more"),
+    "horn_right_2d": ("m", "as horn_right, of sand two grains high or more"),
+}
 
 
 def labels(grains: Grains, bed: Bed) -> np.ndarray:

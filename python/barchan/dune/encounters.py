@@ -25,6 +25,24 @@ LASTS = 1.0       # [s] for which a new dune must be there to count, and two be 
 PART = 0.1        # of the lighter dune's grains: the least part that counts as a new dune
 EXCHANGED = 0.05  # of the lighter dune's grains: the least exchange of two that touch and part
 
+# Units and meanings of the columns of encounters.csv.
+ABOUT = {
+    "upstream": ("1", "name of the upstream dune"),
+    "downstream": ("1", "name of the downstream dune"),
+    "class": ("1", "how the encounter ended"),
+    "t_start": ("s", "first frame"),
+    "t_end": ("s", "last frame"),
+    "t_split": ("s", "split of the downstream dune before contact"),
+    "t_contact": ("s", "first frame of contact"),
+    "t_apart": ("s", "first frame after the last contact"),
+    "upstream_over_downstream": ("1", "ratio of their grains at the start"),
+    "offset": ("m", "offset across the current at the start"),
+    **{f"distance_{when}": ("m", f"distance along the current: {when}") for when in ("start", "least", "end")},
+    "to_downstream": ("1", "grains that changed to the downstream side"),
+    "to_upstream": ("1", "grains that changed to the upstream side"),
+    "new_dunes": ("1", "names of the new dunes"),
+}
+
 CHASING, MERGING, EXCHANGE = "chasing", "merging", "exchange"
 FRAGMENTATION_CHASING, FRAGMENTATION_EXCHANGE = "fragmentation-chasing", "fragmentation-exchange"
 UNDECIDED = "undecided"

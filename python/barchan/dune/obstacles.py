@@ -27,6 +27,22 @@ SECOND = 1.0      # [s] over which celerities are measured
 FEWEST = 100      # grains of a dune
 SPREAD = 0.8      # of the domain: a heap as long as that is a bed
 
+# Units and meanings of the columns of obstacles.csv.
+ABOUT = {
+    "dune": ("1", "name of the heap, or label of the dune"),
+    "obstacle": ("1", "name of the body, or number of the crater"),
+    "kind": ("1", "body or crater"),
+    "class": ("1", "how the dune met it"),
+    "t_contact": ("s", "first frame of contact"),
+    "t_end": ("s", "last frame"),
+    "n_grains": ("1", "grains of the dune in the first frame"),
+    **{where: ("1", f"share of them {where} at the end") for where in ("upstream", "around", "downstream")},
+    "over": ("1", "share of those downstream that was on top of the obstacle"),
+    "together": ("1", "largest share within 1.5 initial lengths of the dune"),
+    "celerity_before": ("m s-1", "celerity of the median grain before contact"),
+    "celerity_after": ("m s-1", "celerity of the median grain at the end"),
+}
+
 OVER, BYPASS, TRAPPED = "passes over", "bypass", "trapped"
 BLOCKED, DESTROYED, UNDECIDED = "blocked", "destroyed", "undecided"
 

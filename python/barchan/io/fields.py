@@ -13,9 +13,9 @@ from xarray.backends import BackendArray, BackendEntrypoint
 from xarray.core import indexing
 
 from barchan.errors import BarchanError
-from barchan.io.columns import AXES, FIELDS
 from barchan.io.frames import FrameFile
 from barchan.io.hdf5 import patiently
+from barchan.io.units import About, of_arrays
 
 NEEDED = ("u", "v", "alpha_f")
 DIMENSIONS = ("time", "z", "y", "x")
@@ -78,13 +78,14 @@ def dataset(file: FrameFile) -> Any:
     with file.open() as content:
         grid, first = content["grid"], content[file.frames[0][1]]
         axes = {axis: (grid[axis][:], grid[f"{axis}_face"][:]) for axis in "xyz"}
+        about, about_axes = of_arrays(first, list(first)), of_arrays(grid, list("xyz"))
         arrays = {name: FrameArray(file, name, first[name].array.shape, first[name].array.dtype) for name in first}
     coordinates: dict[str, tuple] = {"time": (("time",), file.times, TIME)}
     for axis, (centres, faces) in axes.items():
         bounds = f"{axis}_bnds"
-        coordinates[axis] = ((axis,), centres, {**CF[axis], **attributes(AXES[axis]), "bounds": bounds})
+        coordinates[axis] = ((axis,), centres, {**CF[axis], **attributes(axis, about_axes), "bounds": bounds})
         coordinates[bounds] = ((axis, "bnds"), np.stack([faces[:-1], faces[1:]], axis=1))
-    fields = {name: xarray.Variable(DIMENSIONS, indexing.LazilyIndexedArray(array), attributes(FIELDS.get(name)),
+    fields = {name: xarray.Variable(DIMENSIONS, indexing.LazilyIndexedArray(array), attributes(name, about),
                                     {"preferred_chunks": dict(zip(DIMENSIONS, (1, *array.shape[1:])))})
               for name, array in arrays.items()}
     return xarray.Dataset(fields, coordinates, {"title": file.title, "source": "Barchan", "Conventions": "CF-1.10"})
@@ -97,5 +98,5 @@ def average(file: FrameFile) -> Any:
     return dataset(file).isel(time=-1).assign_attrs(notes)
 
 
-def attributes(about: tuple[str, str] | None) -> dict[str, str]:
-    return {"units": about[0], "long_name": about[1]} if about else {}
+def attributes(name: str, about: About) -> dict[str, str]:
+    return dict(zip(("units", "long_name"), about[name])) if name in about else {}

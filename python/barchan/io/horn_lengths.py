@@ -16,6 +16,9 @@ def name(side: str) -> str:
     return f"horn_{side}_2d_1s"
 
 
+ABOUT = {name(side): ("m", f"median of horn_{side}_2d over the last second") for side in SIDES}
+
+
 def medians(dune: Mapping[str, Any]) -> dict[str, list[float]]:
     """{name(side): [m]} from the columns of one dune (t ascends), if the run has measured them."""
     return {name(side): over_the_last_second(dune["t"], dune[f"horn_{side}_2d"])

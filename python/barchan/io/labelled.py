@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import optional
-from barchan.io.columns import GRAINS
+from barchan.io.units import About
 
 VECTOR_PARTS = {"x": "xyz", "u": "uvw"}  # of others the axis follows the name: omega_x
 
 
-def data_frame(columns: dict[str, np.ndarray], about: dict[str, tuple[str, str]]) -> Any:
+def data_frame(columns: dict[str, np.ndarray], about: About) -> Any:
     """A pandas.DataFrame; attrs["units"] and attrs["long_names"] say what its columns are."""
     frame = optional("pandas", "pandas").DataFrame(columns)
     frame.attrs["units"] = {name: about[name][0] for name in columns if name in about}
@@ -35,10 +35,10 @@ def together(tables: Mapping[Any, dict[str, np.ndarray]], whole: str) -> dict[st
     return {**joined, whole: joined[whole].astype(int)}
 
 
-def grains_frame(time: float, columns: dict[str, np.ndarray]) -> Any:
+def grains_frame(time: float, columns: dict[str, np.ndarray], arrays: About) -> Any:
     """Grains of a frame as a pandas.DataFrame, one column for each part of a vector; attrs["time"] [s]."""
     flat: dict[str, np.ndarray] = {}
-    about: dict[str, tuple[str, str]] = {}
+    about: About = {}
     for name, values in columns.items():
         if values.ndim == 1:
             parts = {name: values}
@@ -46,7 +46,7 @@ def grains_frame(time: float, columns: dict[str, np.ndarray]) -> Any:
             parts = {VECTOR_PARTS[name][axis] if name in VECTOR_PARTS else f"{name}_{'xyz'[axis]}": values[:, axis]
                      for axis in range(3)}
         flat |= parts
-        about |= {part: GRAINS[name] for part in parts if name in GRAINS}
+        about |= {part: arrays[name] for part in parts if name in arrays}
     frame = data_frame(flat, about).set_index("id")
     frame.attrs["time"] = time
     return frame

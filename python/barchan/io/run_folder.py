@@ -15,6 +15,7 @@ from barchan.errors import BarchanError, MissingData
 from barchan.io.frames import Flow, FrameFile, Grains, names_of, with_fed
 from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
+from barchan.io.units import About, of_columns
 
 
 def text_of(path: Path) -> str:
@@ -87,6 +88,14 @@ class RunFolder:
         if self.field_file is None:
             raise MissingData("needs fields.h5 with at least one frame")
         return self.field_file
+
+    @cached_property
+    def _columns(self) -> dict[str, Any]:
+        return json_of(self.path / "columns.json")
+
+    def about(self, table: str) -> About:
+        """Units and meanings of the columns of a table, {} where no file tells."""
+        return of_columns(self._columns.get(table))
 
     def _table(self, name: str) -> dict[str, np.ndarray] | None:
         table = read_columns(self.path / name)

@@ -1,4 +1,4 @@
-#include "src/output/grain_state_file.hpp"
+#include "src/restart/grain_state_file.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +15,11 @@
 
 #include "src/base/words.hpp"
 #include "src/grains/grain_arrays.hpp"
-#include "src/output/feed_state_file.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/decomposition.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
+#include "src/restart/feed_state_file.hpp"
 
 namespace barchan {
 

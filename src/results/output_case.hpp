@@ -41,14 +41,6 @@ struct OutputConfig {
   bool operator==(const OutputConfig&) const = default;
 };
 
-/// [restart]
-struct RestartConfig {
-  double interval = 0;         // simulated seconds, 0: off
-  double wall_interval = 600;  // wall seconds, 0: off
-  int keep = 2;
-  bool operator==(const RestartConfig&) const = default;
-};
-
 /// [statistics]: averages over time; those over planes always. Off without the section.
 struct StatisticsConfig {
   double start = 0;           // [s], required

@@ -1,9 +1,9 @@
-#include "src/output/state_file.hpp"
+#include "src/restart/state_file.hpp"
 
 #include <algorithm>
 
-#include "src/output/grain_state_file.hpp"
 #include "src/parallel/mirror.hpp"
+#include "src/restart/grain_state_file.hpp"
 
 namespace barchan {
 

@@ -12,15 +12,14 @@
 #include <vector>
 
 #include "src/fluid/fluid_state.hpp"
-#include "src/grains/grain_state.hpp"
 #include "src/io/frame_file.hpp"
-#include "src/output/output_case.hpp"
+#include "src/results/grain_outputs.hpp"
+#include "src/results/output_case.hpp"
 
 namespace barchan {
 
 /// A cell-centred field of a frame (a mean, a second moment).
-struct NamedField {
-  std::string name, units;
+struct NamedField : Output {
   const Field* field = nullptr;
 };
 
@@ -43,12 +42,9 @@ class OutputFiles {
   /// The same fields in one layer of cells, slice_NAME.h5.
   void write_slice(const SliceConfig& slice, const FluidState& fluid, double t, std::int64_t step);
 
-  /// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
-  using DuneLabels = std::optional<std::vector<int>>;
-
   /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
   void write_grains(const GrainState& grains, double t, std::int64_t step,
-                    std::span<const NamedForce> forces = {}, const DuneLabels& dunes = {});
+                    const GrainForces& forces = {}, const DuneLabels& dunes = {});
 
   /// tracks.h5: ids, dunes and positions, these in single precision.
   void write_tracks(const GrainState& grains, double t, std::int64_t step,

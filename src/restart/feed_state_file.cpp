@@ -1,4 +1,4 @@
-#include "src/output/feed_state_file.hpp"
+#include "src/restart/feed_state_file.hpp"
 
 #include <span>
 #include <string>

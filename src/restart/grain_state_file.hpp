@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/grains/neighbor_list.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

@@ -6,7 +6,7 @@
 
 #include "src/coupling/system_state.hpp"
 #include "src/grains/neighbor_list.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/restart/checkpoint.hpp"
 
 namespace barchan {
 

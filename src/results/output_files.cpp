@@ -1,37 +1,19 @@
-#include "src/output/output_files.hpp"
+#include "src/results/output_files.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "kernels/diagnostics/frame_values.hpp"
-#include "src/base/words.hpp"
 #include "src/io/xdmf.hpp"
-#include "src/output/long_names.hpp"
 #include "src/parallel/mirror.hpp"
+#include "src/results/flow_outputs.hpp"
 
 namespace barchan {
 
 namespace {
 
 using Cells = Kokkos::MDRangePolicy<Kokkos::Rank<3, Kokkos::Iterate::Left, Kokkos::Iterate::Left>>;
-using Entries = Kokkos::RangePolicy<>;
-
-/// An array of this rank's grains, scalars (n) or vectors (n, 3), among those of all ranks.
-template <class View>
-void write_entries(Hdf5File& file, const std::string& name, const View& view, const char* units,
-                   const Hyperslab& entries) {
-  const auto host = host_copy(view);
-  Extents extents{host.extent(0)};
-  if (View::rank() == 2) extents.push_back(host.extent(1));
-  const std::span<const typename View::non_const_value_type> values(host.data(), host.size());
-  write_named(file, Arrays::grains, name, values, extents, units, slab_of(entries, extents, 0));
-}
-
-auto ids_of(const GrainState& grains) {
-  return Kokkos::subview(grains.id, std::make_pair(0, grains.n));
-}
-
 /// Cells [first, last) along x, y and z.
 struct CellBlock {
   std::array<int, 3> first, last;
@@ -71,28 +53,29 @@ class FieldWriter {
              .first = {place(2, grid.k_begin), place(1, 0), place(0, grid.i_begin)}};
   }
 
-  void centred(const std::string& name, const Field& field, const std::string& units) {
+  void centred(const Field& field, const Output& about) {
     if (field.origin == nullptr) return;  // a run without grains has no use for some
-    average(name, {.face = field, .out = values_}, units);
+    average({.face = field, .out = values_}, about);
   }
-
-  /// The velocity is u, v and w; of others the components are name_x, name_y and name_z.
-  void centred(const std::string& name, const FaceVector& faces, const std::string& units) {
-    const bool velocity = name == "u";
-    average(velocity ? "u" : name + "_x", {.face = faces.x, .di = 1, .out = values_}, units);
-    average(velocity ? "v" : name + "_y", {.face = faces.y, .dj = 1, .out = values_}, units);
-    average(velocity ? "w" : name + "_z", {.face = faces.z, .dk = 1, .out = values_}, units);
+  void centred(const Field& field, const FluidField& about) {
+    centred(field, outputs_of(field, about)[0]);
+  }
+  void centred(const FaceVector& faces, const FluidField& about) {
+    const auto components = outputs_of(faces, about);
+    average({.face = faces.x, .di = 1, .out = values_}, components[0]);
+    average({.face = faces.y, .dj = 1, .out = values_}, components[1]);
+    average({.face = faces.z, .dk = 1, .out = values_}, components[2]);
   }
 
  private:
   static std::uint64_t size(int n) { return static_cast<std::uint64_t>(n); }
 
-  void average(const std::string& name, AverageToFrame functor, const std::string& units) {
+  void average(AverageToFrame functor, const Output& about) {
     functor.i0 = own_.first[0], functor.j0 = own_.first[1], functor.k0 = own_.first[2];
     if (values_.size() > 0) Kokkos::parallel_for("output: average to centres", cells_, functor);
     const auto host = host_copy(values_);
-    write_named(file_, Arrays::flow, group_ + "/" + name,
-                std::span<const float>(host.data(), host.size()), extents_, units, slab_);
+    write_output(file_, group_, about, std::span<const float>(host.data(), host.size()), extents_,
+                 slab_);
   }
 
   Hdf5File& file_;
@@ -104,66 +87,25 @@ class FieldWriter {
   Hyperslab slab_;
 };
 
-void write_labels(Hdf5File& file, const std::string& group, const OutputFiles::DuneLabels& dunes,
-                  const Hyperslab& entries) {
-  if (dunes)
-    write_named(file, Arrays::grains, group + "/dune", std::span<const int>(*dunes),
-                {dunes->size()}, "1", entries);
-}
-
-/// The kind, or heap, of each grain, where there are several, and their names.
-void write_numbers(Hdf5File& file, const std::string& name, int n,
-                   const Kokkos::View<std::uint8_t*>& numbers,
-                   const std::vector<std::string>& names, const Hyperslab& entries) {
-  if (numbers.size() == 0) return;
-  const auto host = host_copy(Kokkos::subview(numbers, std::make_pair(0, n)));
-  std::vector<int> whole(host.data(), host.data() + host.size());
-  std::ranges::replace(whole, int{kNoHeap}, -1);
-  write_named(file, Arrays::grains, name, std::span<const int>(whole), {whole.size()}, "1",
-              entries);
-  file.set_attribute(name, "names", as_lines(names));
-}
-
-/// Appends all of the grains: id, x and d in double precision, the others in single precision.
-void append_grains(FrameFile& frames, const GrainState& grains, const PeriodicBox& box, double t,
-                   std::int64_t step, std::span<const NamedForce> forces,
-                   const OutputFiles::DuneLabels& dunes) {
-  const auto n = static_cast<std::size_t>(grains.n);
-  const Hyperslab entries = slab_of_entries(n, grains.ranks);
-  const Entries range(0, grains.n);
-  const FrameArrays split{.grains = grains.kin,
-                          .d = Kokkos::View<double*>("output: d", n),
-                          .u = FrameVectors<float>("output: u", n),
-                          .omega = FrameVectors<float>("output: omega", n)};
-  Kokkos::parallel_for("output: split grains", range, split);
-  const FramePositions<double> places{grains.kin, box, FrameVectors<double>("output: x", n)};
-  Kokkos::parallel_for("output: positions", range, places);
+/// Appends all of the grains.
+void append_grains(FrameFile& frames, const GrainFrame& grains, double t, std::int64_t step) {
   frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    file.set_attribute(group, "last_id", last_id(grains));
-    write_entries(file, group + "/id", ids_of(grains), "1", entries);
-    write_entries(file, group + "/x", places.x, "m", entries);
-    write_entries(file, group + "/d", split.d, "m", entries);
-    write_entries(file, group + "/u", split.u, "m/s", entries);
-    write_entries(file, group + "/omega", split.omega, "rad/s", entries);
-    for (const auto& force : forces) {
-      const FrameVectors<float> out("output: force", n);
-      Kokkos::parallel_for("output: split force", range, SplitVectors{force.values, out});
-      write_entries(file, group + "/" + force.name, out, force.unit.c_str(), entries);
-    }
-    write_labels(file, group, dunes, entries);
-    write_numbers(file, group + "/kind", grains.n, grains.kind, grains.kind_names, entries);
-    write_numbers(file, group + "/heap", grains.n, grains.heap, grains.heap_names, entries);
+    file.set_attribute(group, "last_id", last_id(grains.grains));
+    write_grain_outputs(file, group, grains);
   });
 }
 
-void write_axis(Hdf5File& file, const std::string& name, const std::vector<double>& all, int first,
-                int last) {
+/// Faces and centres of the cells along an axis; `where` says in words which.
+void write_axis(Hdf5File& file, const std::string& name, const std::string& where,
+                const std::vector<double>& all, int first, int last) {
   const std::vector<double> faces(all.begin() + first, all.begin() + last + 1);
   std::vector<double> centres;
   for (std::size_t i = 1; i < faces.size(); ++i) centres.push_back(0.5 * (faces[i - 1] + faces[i]));
-  write_named(file, Arrays::grid, name + "_face", std::span<const double>(faces), {faces.size()},
-              "m");
-  write_named(file, Arrays::grid, name, std::span<const double>(centres), {centres.size()}, "m");
+  const auto write = [&](const Output& about, const std::vector<double>& values) {
+    write_output(file, "grid", about, std::span(values), {values.size()});
+  };
+  write({name + "_face", "m", "faces of the cells" + where}, faces);
+  write({name, "m", "centres of the cells" + where}, centres);
 }
 
 void write_grid(Hdf5File& file, const Grid& grid, const CellBlock& block) {
@@ -172,9 +114,9 @@ void write_grid(Hdf5File& file, const Grid& grid, const CellBlock& block) {
   for (int k = 0; k <= grid.nz_all; ++k) z.push_back(k * grid.dz);
   const auto y_face = host_copy(grid.y_face_);
   for (int j = 0; j <= grid.ny; ++j) y.push_back(y_face(j + 1));
-  write_axis(file, "grid/x", x, block.first[0], block.last[0]);
-  write_axis(file, "grid/y", y, block.first[1], block.last[1]);
-  write_axis(file, "grid/z", z, block.first[2], block.last[2]);
+  write_axis(file, "x", " along the stream", x, block.first[0], block.last[0]);
+  write_axis(file, "y", ", upwards", y, block.first[1], block.last[1]);
+  write_axis(file, "z", " across the stream", z, block.first[2], block.last[2]);
 }
 
 /// The layer of cells that holds the place of a slice; of a place between two the upper one.
@@ -201,7 +143,7 @@ void append_flow(FrameFile& frames, const FluidState& fluid, const CellBlock& bl
   frames.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     FieldWriter writer(file, group, fluid.grid, block);
     for_each_fluid_field(fluid, [&](const auto& member, const FluidField& field) {
-      if ((field.uses & kInFrame) != 0) writer.centred(field.name, member, field.unit);
+      if ((field.uses & kInFrame) != 0) writer.centred(member, field);
     });
   });
 }
@@ -244,7 +186,7 @@ void OutputFiles::write_average(const Grid& grid, double t, std::int64_t step,
   FrameFile file = anew("flow_average", fields_xdmf);
   file.append(t, step, preamble, [&](Hdf5File& h5, const std::string& group) {
     FieldWriter writer(h5, group, grid, all_cells(grid));
-    for (const auto& one : fields) writer.centred(one.name, *one.field, one.units);
+    for (const auto& one : fields) writer.centred(*one.field, one);
     for (const auto& [name, value] : attributes) h5.set_attribute(group, name, value);
   });
 }
@@ -255,8 +197,8 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   std::vector<std::string> names;
   if (grains != nullptr) {
     FrameFile file = anew("failure_grains", grains_xdmf);
-    const NamedForce contacts{"force_contact", grains->contact_force};
-    append_grains(file, *grains, {}, t, step, std::span(&contacts, 1), {});
+    const GrainForces contacts{.contact = grains->contact_force};
+    append_grains(file, {.grains = *grains, .forces = contacts}, t, step);
     names.emplace_back("failure_grains.xdmf");
   }
   if (fluid != nullptr) {
@@ -269,20 +211,14 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
 
 void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t step,
                                const DuneLabels& dunes) {
-  const auto n = static_cast<std::size_t>(grains.n);
-  const Hyperslab entries = slab_of_entries(n, grains.ranks);
-  const FramePositions<float> places{grains.kin, box_, FrameVectors<float>("output: track", n)};
-  Kokkos::parallel_for("output: positions", Entries(0, grains.n), places);
   tracks_.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
-    write_entries(file, group + "/id", ids_of(grains), "1", entries);
-    write_labels(file, group, dunes, entries);
-    write_entries(file, group + "/x", places.x, "m", entries);
+    write_track_outputs(file, group, {.grains = grains, .box = box_, .dunes = dunes});
   });
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
-                               std::span<const NamedForce> forces, const DuneLabels& dunes) {
-  append_grains(grains_, grains, box_, t, step, forces, dunes);
+                               const GrainForces& forces, const DuneLabels& dunes) {
+  append_grains(grains_, {grains, box_, forces, dunes}, t, step);
 }
 
 }  // namespace barchan

@@ -7,7 +7,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
+
+#include "src/results/outputs.hpp"
 
 namespace barchan {
 
@@ -19,7 +23,7 @@ struct Column {
   const char* name;
   const char* unit;  // "-": none
   Member member;
-  const char* meaning;  // for docs/files.md
+  const char* meaning;  // may have links for docs/files.md
   int digits = 9;
 };
 
@@ -37,12 +41,12 @@ struct CsvTable {
     }
     return text;
   }
-  /// Its columns for docs/files.md, which must hold this text.
-  std::string page() const {
-    std::string text = "| column | unit | meaning |\n|---|---|---|\n";
-    for (const Column<Record>& c : columns)
-      text += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
-    return text;
+  /// A table that grows is cut at a restart.
+  bool grows() const { return std::string_view(columns.front().name) == "t"; }
+  std::vector<Output> outputs() const {
+    std::vector<Output> all;
+    for (const Column<Record>& c : columns) all.push_back({c.name, c.unit, c.meaning});
+    return all;
   }
   /// With its end of line.
   std::string line(const Record& record) const {

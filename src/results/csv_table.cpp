@@ -1,4 +1,4 @@
-#include "src/output/csv_table.hpp"
+#include "src/results/csv_table.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,0 +1,33 @@
+// What grains.h5 and tracks.h5 hold of each grain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/coupling/grain_forces.hpp"
+#include "src/results/outputs.hpp"
+
+namespace barchan {
+
+/// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
+using DuneLabels = std::optional<std::vector<int>>;
+
+/// What the arrays of a frame are computed from.
+struct GrainFrame {
+  const GrainState& grains;
+  PeriodicBox box = {};     // positions are written as the images within
+  GrainForces forces = {};  // empty: not asked for
+  DuneLabels dunes = {};
+};
+
+/// Writes all arrays of grains [0, n) that the run has: grains.h5. Collective over the ranks of the
+/// grains.
+void write_grain_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame);
+/// Only those of tracks.h5.
+void write_track_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame);
+
+/// All arrays of grains.h5, for the page.
+std::vector<Output> grain_outputs();
+
+}  // namespace barchan
