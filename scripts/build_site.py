@@ -18,8 +18,8 @@ import nbconvert
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "build/site-pages"
-SITE = ROOT / "build/site"
-NEW = ROOT / "build/site-new"  # takes its place when it is whole
+SITE = pathlib.Path(os.environ.get("BARCHAN_SITE", ROOT / "build/site"))
+NEW = SITE.with_name(SITE.name + "-new")  # takes its place when it is whole
 TEXTS = {name: name.lower() for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")}
 TEXTS["README.md"] = "index.md"
 WIDE = "template: home.html\nhide:\n  - navigation\n  - toc\n"  # the front page
@@ -155,7 +155,7 @@ def main():
         f'if (location.protocol === "file:") window.__search = {{ index: Promise.resolve({index}) }};\n')
     shutil.rmtree(SITE, ignore_errors=True)
     NEW.rename(SITE)
-    print(f"the site is in {SITE.relative_to(ROOT)}: open {SITE / 'index.html'}")
+    print(f"the site is in {os.path.relpath(SITE, ROOT)}: open {SITE / 'index.html'}")
     return 0
 
 

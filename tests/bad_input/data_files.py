@@ -13,11 +13,6 @@ RESTART = "restart_0000000004.h5"
 AGAIN = f"run case.toml --quiet --out out --restart out/{RESTART}"
 
 
-# An upright cylinder around grain 2 and those above it.
-POST = ('[[body]] name = "post" ;; [[body]] shape = "cylinder" ;; [[body]] centre = [0.0043, 0.003] ;; '
-        "[[body]] radius = 1.5e-4 ;; [[body]] height = 0.004")
-
-
 def table(name, text, says="", edits="", **more):
     return Entry("table: " + name, edits if says else SHORT, says, base=TABLE, files={"grains.csv": text},
                  code=2 if says else 0, **more)
@@ -44,10 +39,7 @@ TABLES = [
     grain("the largest id", "9223372036854775807,2e-4,0.0043,4e-4,0.003"),
     table("two at one place", GOOD + GOOD.splitlines()[-1].replace(GOOD.splitlines()[-1].split(",")[0], "77", 1) + "\n",
           "grains.csv | and 77 are at one place"),
-    grain("inside another", "2,2e-4,0.00405,4e-4,0.003", "grains.csv | grains 1 and 2 overlap by 75 % | at the start"),
     grain("outside", "2,2e-4,0.0043,4e-4,-0.009", "grains.csv | grain 2 | outside the domain | domain.size"),
-    table("inside a body", GOOD, "grains.csv | 4 grains lie in body \"post\" | (grains.max_overlap) | body.1.centre",
-          edits=POST),
     grain("inside the floor", "2,2e-4,0.0043,0,0.003", "grains.csv | grain 2 | the floor"),
 ]
 

@@ -92,8 +92,6 @@ SCRIPTS = [
     study("base missing", STUDY.replace("case.toml", "gone.toml") + VARY, "gone.toml | No such file"),
     study("no cases", STUDY, "study.toml | no cases | [vary]"),
     study("a value, not a list", STUDY + "[vary]\ngrains.rolling_friction = 0.1\n", "must be a list"),
-    study("case with a path for a name", STUDY + '[[case]]\nname = "../a"\n', "study.toml | must be of letters"),
-    study("like a case that is not there", STUDY + '[cases]\na.like = "b"\n', 'study.toml | like "b": no case'),
     study("like what is no name", STUDY + "[cases]\na.like = 3\n", "like must be the name of a case before it"),
     study("a line of cases without keys", STUDY + "[cases]\na = 3\n", "must have a line NAME = { key = value }"),
     study("two cases of one name", STUDY + '[[case]]\nname = "a"\n' * 2, 'two cases are named "a"'),

@@ -1,5 +1,7 @@
 """Figures: each is a matplotlib Figure with its numbers; none writes; axes of the caller's own."""
 
+from functools import lru_cache
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -20,6 +22,12 @@ def run():
 
 
 @pytest.fixture(scope="module")
+def drawn(run):
+    """Figures of the run, each drawn once."""
+    return lru_cache(run.figure)
+
+
+@pytest.fixture(scope="module")
 def study():
     return barchan.Study(fake("--study"))
 
@@ -29,11 +37,11 @@ def files(folder):
 
 
 @pytest.mark.parametrize("name", [name for name, entry in registry.OF_RUN.items() if not entry.writes])
-def test_a_figure_of_a_run(run, name):
+def test_a_figure_of_a_run(run, drawn, name):
     """It is drawn, or says which of its files the run lacks; the folder stays as it is."""
     before = files(run.path)
     try:
-        figure = run.figure(name)
+        figure = drawn(name)
     except barchan.MissingData as reason:
         needs = registry.of_run(name).needs
         assert any(file in str(reason) for need in needs for file in need.split("|")), reason
@@ -45,12 +53,12 @@ def test_a_figure_of_a_run(run, name):
 
 
 @pytest.mark.parametrize("name", PANELS)
-def test_a_figure_in_axes_of_ones_own(run, name):
+def test_a_figure_in_axes_of_ones_own(run, drawn, name):
     """The same curves as in a new figure, and no other axes but colour bars."""
     with style.look():
         mine = Figure()
         axes = mine.subplots(1, PANELS[name], squeeze=False)[0]
-    alone = run.figure(name)
+    alone = drawn(name)
     assert run.figure(name, ax=axes) is mine
     for ours, theirs in zip(axes, alone.axes):
         assert len(ours.lines) == len(theirs.lines)
@@ -67,8 +75,8 @@ def test_a_page_takes_no_axes(run, name):
         run.figure(name, ax=Figure().subplots())
 
 
-def test_numbers_are_those_of_the_run(run):
-    numbers = run.figure("morphology").numbers["morphology"]
+def test_numbers_are_those_of_the_run(run, drawn):
+    numbers = drawn("morphology").numbers["morphology"]
     assert numbers["W"] == run.main_dune_columns["W"].tolist()
 
 
@@ -78,8 +86,8 @@ def test_a_style_stays_with_its_figure(run):
     assert dict(plt.rcParams) == before
 
 
-def test_numbers_are_written_as_tables(run, tmp_path):
-    result.write_numbers(run.figure("morphology"), tmp_path)
+def test_numbers_are_written_as_tables(run, drawn, tmp_path):
+    result.write_numbers(drawn("morphology"), tmp_path)
     lines = (tmp_path / "figures_data/morphology.csv").read_text().splitlines()
     assert lines[0].startswith("t,W,L,H,Cx,Cz,")
     assert len(lines) == 1 + len(run.main_dune_columns["t"])
@@ -126,10 +134,10 @@ def test_a_short_run_has_no_means_over_a_second(run, monkeypatch):
         run.figure("morphodynamics")
 
 
-def test_top_views_fill_their_grid_and_colours_show_the_dune(run):
+def test_top_views_fill_their_grid_and_colours_show_the_dune(run, drawn):
     from barchan.figures import topviews
 
-    figure = run.figure("topviews")
+    figure = drawn("topviews")
     views = [axes for axes in figure.axes if axes.images]
     assert len(views) in topviews.FULL_GRIDS and all(axes.get_visible() for axes in figure.axes)
     frames = topviews.frames_at(run, tuple(topviews.FULL_GRIDS))
@@ -140,8 +148,8 @@ def test_top_views_fill_their_grid_and_colours_show_the_dune(run):
     assert (bar._colorbar.extend == "max") == (highest > later)
 
 
-def test_colours_of_the_flow_are_those_of_what_is_seen(run):
-    figure = run.figure("midplane")
+def test_colours_of_the_flow_are_those_of_what_is_seen(drawn):
+    figure = drawn("midplane")
     image = figure.axes[0].collections[0]
     assert image.norm.vmax < np.nanmax(image.get_array())  # the flow is faster above the dune, out of sight
 

@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 
+import pytest
 from fake_runs import ROOT
 
 from barchan.figures import registry
@@ -50,6 +51,7 @@ def test_modules_know_those_below_them():
     assert not wrong
 
 
+@pytest.mark.nightly
 def test_mypy_is_content():
     done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--cache-dir=/dev/null"],
                           cwd=ROOT / "python", capture_output=True, text=True)

@@ -31,6 +31,7 @@ def study(tmp_path, monkeypatch):
     """main() of a study of the cases `one` and `two` in the folder out."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sweep.signal, "signal", lambda *_: None)  # a Ctrl-C is for pytest
+    monkeypatch.setattr(sweep.time, "sleep", lambda _, sleep=sweep.time.sleep: sleep(0.01))
     program = tmp_path / "program"
     program.write_text(PROGRAM)
     program.chmod(0o755)

@@ -116,9 +116,8 @@ BARCHAN_DEPS="$PWD/deps" CXX=/nonexistent/c++ expect 1 "no C++ compiler that wor
 [ -d deps/kokkos ] || fail "a set-up without a compiler has removed the Kokkos there was"
 
 expect 0 "nothing to do" setup --tests
-start="$(date +%s%N)"
-"$root/barchan" setup > /dev/null 2>&1
-elapsed_ms=$((($(date +%s%N) - start) / 1000000))
-[ "$elapsed_ms" -lt 1000 ] || fail "set-up with nothing to do took $elapsed_ms ms"
+TIMEFORMAT="%U %S"  # of the processor, which other tests do not lengthen
+took="$({ time "$root/barchan" setup > /dev/null 2>&1; } 2>&1 | awk '{ print 1000 * ($1 + $2) }')"
+[ "${took%.*}" -lt 1000 ] || fail "set-up with nothing to do took $took ms"
 
-finish "launcher: fine; set-up with nothing to do took $elapsed_ms ms"
+finish "launcher: fine; set-up with nothing to do took $took ms"

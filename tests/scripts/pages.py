@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -30,6 +31,9 @@ def say(page, text):
 def call(*words, folder):
     return subprocess.run([str(word) for word in words], cwd=folder, capture_output=True, text=True, check=False,
                           env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+
+
+once = lru_cache(call)
 
 
 def last_line(done):
@@ -90,9 +94,13 @@ def check_command(page, line, help_text, folder):
         return None
     if arguments and (ROOT / "configs" / arguments[0]).is_file():  # the launcher looks there, too
         arguments[0] = str(ROOT / "configs" / arguments[0])
+    path = (folder / arguments[0]).resolve() if arguments else ROOT
+    ships = path.is_file() and path.is_relative_to(ROOT / "configs")
     if command in ("run", "check") and arguments and not arguments[0].startswith("-"):
         changes = [word for i, word in enumerate(arguments) if "--set" in (word, arguments[i - 1])]
-        done = call(PROGRAM, "check", arguments[0], "--resolved-only", *changes, folder=folder)
+        done = (once if ships else call)(PROGRAM, "check", arguments[0], "--resolved-only", *changes, folder=folder)
+    elif command == "sweep" and ships:
+        return None  # studies that ship are listed every night
     elif command == "sweep" and arguments:
         done = call(sys.executable, "-m", "barchan", "sweep", PROGRAM, arguments[0], "--list", folder=folder)
     elif command in ("keys", "new"):

@@ -112,9 +112,4 @@ grep -q 'only: failed: .*from another content of .*one.csv' edited || fail "its 
 sweep table.toml --no-pictures --out table --overwrite > anew 2>&1 || fail "anew: $(cat anew)"
 grep -q '^only,.*done' table/study.csv || fail "table: $(cat table/study.csv)"
 
-# --- the studies that ship name cases that load
-grep -lZ '^\[study\]' -r "$root/configs" |
-  xargs -0 -P 2 -I STUDY "$python" -m barchan sweep "$program" STUDY --list > list 2>&1 ||
-  fail "a study that ships: $(cat list)"
-
 finish "sweep: fine"

@@ -1,5 +1,7 @@
 """A real browser without a screen (Chromium), which looks at a page as a reader does, in real time."""
+import atexit
 import base64
+import functools
 import itertools
 import json
 import os
@@ -63,13 +65,13 @@ class Chromium:
         self.process = subprocess.Popen(["sh", "-c", 'exec "$@" 3<&0 4>&1 >/dev/null', "sh", *command],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.numbers, self.heard, self.session = itertools.count(1), b"", {}
+
+    def open_tab(self):
+        self.session = {}
         target = self.ask("Target.createTarget", url="about:blank")["targetId"]
         self.session = {"sessionId": self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]}
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
+    def end(self):
         self.process.kill()
         self.process.communicate()
 
@@ -101,6 +103,16 @@ class Chromium:
                 return said["result"]
 
 
+@functools.cache
+def running():
+    """The browser of all pages; it ends with the test."""
+    profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+    atexit.register(profile.cleanup)
+    browser = Chromium(profile.name)
+    atexit.register(browser.end)
+    return browser
+
+
 def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
     """What `probe` (JavaScript that fills `found`) finds in the page, with `faults`, `too_wide` (pixels that the page
     is wider than the window) and `from_elsewhere` (what it loads by http). The probe waits with `await until(() =>
@@ -110,6 +122,8 @@ def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
         return look(page, probe, width, height, dark, picture)
     except Silent as why:
         print(f"{page}: {why}; once more")
+        running().end()
+        running.cache_clear()
     try:
         return look(page, probe, width, height, dark, picture)
     except Silent as why:
@@ -117,22 +131,24 @@ def visit(page, probe, width=1280, height=1600, dark=False, picture=None):
 
 
 def look(page, probe, width, height, dark, picture):
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, Chromium(profile) as browser:
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        browser.ask("Page.enable")
-        browser.ask("Inspector.enable")
-        browser.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        browser.ask("Emulation.setFocusEmulationEnabled", enabled=True)
-        browser.ask("Emulation.setEmulatedMedia", features=[scheme])
-        browser.ask("Page.addScriptToEvaluateOnNewDocument", source=BEFORE)
-        browser.ask("Page.navigate", url=Path(page).resolve().as_uri())
-        text = PROBE.replace("PROBE", probe).replace("LIMIT", str(LIMIT))
-        said = browser.ask("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in said:
-            raise AssertionError(f"{page}: {said['exceptionDetails']}")
-        if picture:
-            Path(picture).write_bytes(base64.b64decode(browser.ask("Page.captureScreenshot")["data"]))
-        return said["result"]["value"]
+    browser = running()
+    browser.open_tab()
+    scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+    browser.ask("Page.enable")
+    browser.ask("Inspector.enable")
+    browser.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    browser.ask("Emulation.setFocusEmulationEnabled", enabled=True)
+    browser.ask("Emulation.setEmulatedMedia", features=[scheme])
+    browser.ask("Page.addScriptToEvaluateOnNewDocument", source=BEFORE)
+    browser.ask("Page.navigate", url=Path(page).resolve().as_uri())
+    text = PROBE.replace("PROBE", probe).replace("LIMIT", str(LIMIT))
+    said = browser.ask("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
+    if "exceptionDetails" in said:
+        raise AssertionError(f"{page}: {said['exceptionDetails']}")
+    if picture:
+        Path(picture).write_bytes(base64.b64decode(browser.ask("Page.captureScreenshot")["data"]))
+    browser.ask("Page.close")
+    return said["result"]["value"]
 
 
 def problems(name, found):

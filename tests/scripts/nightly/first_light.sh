@@ -3,7 +3,7 @@
 # made-up card with a failing test, a result that differs in one bit and a missing tool, mended one by one.
 set -u
 # shellcheck source=tests/support/script.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/../../support/script.sh"
 real="$(dirname "$BARCHAN_PROGRAM")"
 for program in unit_tests barchan_bench; do
   [ -x "$real/$program" ] || { echo "no $real/$program"; exit 77; }
