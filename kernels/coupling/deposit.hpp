@@ -137,9 +137,9 @@ struct DepositGrains {
     }
   }
   /// Adds J_jf = w_j c_f (J + beta_l dt (u_jf - u_ff) + beta_p dt phi (u_ff - u_f)) to the momentum
-  /// cell of row j at face f, and the conductance c_f C_j to the row below it. Upwards row j gets
-  /// w_j J. A cell that flows faster than the grain sees on average drags it more; over the grain
-  /// the differences add up to nothing. beta_l is beta_p, or the rate of the stresslet.
+  /// cell of row j at face f, and the interlayer drag c_f C_j to the row below it. Upwards row j
+  /// gets w_j J. A cell that flows faster than the grain sees on average drags it more; over the
+  /// grain the differences add up to nothing. beta_l is beta_p, or the rate of the stresslet.
   KOKKOS_INLINE_FUNCTION void to_layers(int g, const GrainRows& rows, const LayerVelocity& u,
                                         const Vec3& impulse, Cache& cache) const {
     const Real beta_dt = of_grain.beta_dt(g);
@@ -150,7 +150,7 @@ struct DepositGrains {
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
-      const Real C_j = rows_dt * conductance_below(rows, j);
+      const Real C_j = rows_dt * interlayer_drag_below(rows, j);
       cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
       for (int side = 0; side < 2; ++side) {
         const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
@@ -158,14 +158,14 @@ struct DepositGrains {
           const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
                               limited_x * (u.mean_of_x[side] - u.mean_x);
           CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
-          cell.conductance_x += deposits.conductance.encode(c_x * C_j);
+          cell.interlayer_drag_x += deposits.interlayer_drag.encode(c_x * C_j);
           cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + faster));
         }
         if (c_z > 0) {
           const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
                               limited_z * (u.mean_of_z[side] - u.mean_z);
           CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
-          cell.conductance_z += deposits.conductance.encode(c_z * C_j);
+          cell.interlayer_drag_z += deposits.interlayer_drag.encode(c_z * C_j);
           cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + faster));
         }
       }
@@ -189,9 +189,9 @@ struct DepositSolid {
       for (int side = 0; side < 2; ++side) {
         const Real of_x = column.x_faces.weight(side), of_z = column.z_faces.weight(side);
         add(exchange.x_face(column, side, rows.row[r]),
-            {.conductance_x = deposits.volume.encode(of_x * volume)});
+            {.interlayer_drag_x = deposits.volume.encode(of_x * volume)});
         add(exchange.z_face(column, side, rows.row[r]),
-            {.conductance_z = deposits.volume.encode(of_z * volume)});
+            {.interlayer_drag_z = deposits.volume.encode(of_z * volume)});
       }
     }
   }

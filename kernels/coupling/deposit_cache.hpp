@@ -10,40 +10,40 @@ namespace barchan {
 /// Deposit in one cell, in fixed point.
 struct CellDeposit {
   std::int64_t volume = 0;
-  std::int64_t conductance_x = 0,
-               conductance_z = 0;  // between layers, for the flow along x, along z
+  std::int64_t interlayer_drag_x = 0,
+               interlayer_drag_z = 0;  // between layers, for the flow along x, along z
   std::int64_t impulse_x = 0, impulse_y = 0, impulse_z = 0;
 
   KOKKOS_FORCEINLINE_FUNCTION CellDeposit& operator+=(const CellDeposit& b) {
     volume += b.volume;
-    conductance_x += b.conductance_x, conductance_z += b.conductance_z;
+    interlayer_drag_x += b.interlayer_drag_x, interlayer_drag_z += b.interlayer_drag_z;
     impulse_x += b.impulse_x, impulse_y += b.impulse_y, impulse_z += b.impulse_z;
     return *this;
   }
 };
 
-/// Sums over all grains, on owned cells and the ghosts beside them. With layers, conductances and
-/// impulses along the floor belong to the momentum cells around the faces.
+/// Sums over all grains, on owned cells and the ghosts beside them. With layers, coefficients of
+/// the interlayer drag and impulses along the floor belong to the momentum cells around the faces.
 struct Deposits {
   enum Quantity {
     kVolume,
-    kConductanceX,
-    kConductanceZ,
+    kInterlayerDragX,
+    kInterlayerDragZ,
     kImpulseX,
     kImpulseY,
     kImpulseZ,
     kQuantities,
-    kSolidX = kConductanceX,  // from DepositSolid, until the deposit
-    kSolidZ = kConductanceZ
+    kSolidX = kInterlayerDragX,  // from DepositSolid, until the deposit
+    kSolidZ = kInterlayerDragZ
   };
   Kokkos::View<std::int64_t* [kQuantities], Kokkos::LayoutLeft> sum;
-  FixedPoint volume, conductance, impulse;
+  FixedPoint volume, interlayer_drag, impulse;
 
   /// Adds while other threads do.
   KOKKOS_INLINE_FUNCTION void add(std::int64_t cell, const CellDeposit& given) const {
     add(cell, kVolume, given.volume);
-    add(cell, kConductanceX, given.conductance_x);
-    add(cell, kConductanceZ, given.conductance_z);
+    add(cell, kInterlayerDragX, given.interlayer_drag_x);
+    add(cell, kInterlayerDragZ, given.interlayer_drag_z);
     add(cell, kImpulseX, given.impulse_x);
     add(cell, kImpulseY, given.impulse_y);
     add(cell, kImpulseZ, given.impulse_z);

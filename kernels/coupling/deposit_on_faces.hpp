@@ -51,12 +51,12 @@ struct SpreadToFaces {
 };
 
 /// Brings the deposits of layers to faces (those along the floor are on theirs already), and the
-/// conductances between layers.
+/// coefficients of the interlayer drag.
 struct LayersToFaces {
   GridRef grid;
   Deposits deposits;
   FaceRef given;
-  FieldRef conductance_x, conductance_z;
+  FieldRef interlayer_drag_x, interlayer_drag_z;
 
   KOKKOS_FORCEINLINE_FUNCTION Real impulse(Deposits::Quantity q, int i, int j, int k) const {
     return density_of_deposit(grid, deposits, deposits.impulse, q, i, j, k);
@@ -70,11 +70,11 @@ struct LayersToFaces {
     given.x(i, j, k) = -lost.x;
     given.y(i, j, k) = -lost.y;
     given.z(i, j, k) = -lost.z;
-    const auto conductance = [&](Deposits::Quantity q) {
-      return density_of_deposit(grid, deposits, deposits.conductance, q, i, j, k);
+    const auto interlayer_drag = [&](Deposits::Quantity q) {
+      return density_of_deposit(grid, deposits, deposits.interlayer_drag, q, i, j, k);
     };
-    conductance_x(i, j, k) = conductance(kConductanceX);
-    conductance_z(i, j, k) = conductance(kConductanceZ);
+    interlayer_drag_x(i, j, k) = interlayer_drag(kInterlayerDragX);
+    interlayer_drag_z(i, j, k) = interlayer_drag(kInterlayerDragZ);
     return over_face_volumes(grid, lost, j);
   }
 };

@@ -29,12 +29,12 @@ struct WallFaces {
 
 /// Fraction alpha_f before it was smoothed, (1 - L^2 lap) alpha_f: undoes the implicit smoothing to
 /// round-off.
-struct UnsmoothedFraction {
+struct RawFraction {
   GridRef grid;
   ConstFieldRef alpha_f;       // with ghosts
   Real length_squared;         // [m^2]
   WallFaces walls_x, walls_z;  // no gradient there
-  FieldRef unsmoothed;
+  FieldRef alpha_raw;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
     const auto slope_x = [&](int ii) {
       return walls_x.has(ii) ? Real(0) : ddx_at_xface(grid, alpha_f, ii, j, k);
@@ -46,7 +46,7 @@ struct UnsmoothedFraction {
     const Real laplacian = (slope_x(i + 1) - slope_x(i)) * (1 / grid.dx) +
                            (slope_y(j + 1) - slope_y(j)) * (1 / grid.dy(j)) +
                            (slope_z(k + 1) - slope_z(k)) * (1 / grid.dz);
-    unsmoothed(i, j, k) = alpha_f(i, j, k) - length_squared * laplacian;
+    alpha_raw(i, j, k) = alpha_f(i, j, k) - length_squared * laplacian;
   }
 };
 
@@ -136,7 +136,7 @@ struct CellVectorRef {
 /// grains as there are share the fluid.
 struct FlowOverCells {
   DepositStencil stencil;
-  ConstFieldRef alpha_f, unsmoothed;
+  ConstFieldRef alpha_f, alpha_raw;
   bool with_pressure = false, with_stress = false;
   CellVectorRef pressure{}, stress{};
   Kokkos::View<const GrainKinematics*> grains;
@@ -148,7 +148,7 @@ struct FlowOverCells {
     Vec3 of_pressure, of_stress;
     for (int q = 0; q < cells.n; ++q) {
       const CellIndex c = cells.cell[q];
-      const Real w = cells.weight(q), here = unsmoothed(c.i, c.j, c.k);
+      const Real w = cells.weight(q), here = alpha_raw(c.i, c.j, c.k);
       mean += w * here;
       own += w * w * volume / stencil.grid.cell_volume(c.j);
       most = Kokkos::max(most, (1 - here) / Kokkos::max(alpha_f(c.i, c.j, c.k), Real(1e-3)));
@@ -178,7 +178,7 @@ struct LayeredFlow {
     const GrainRows rows = over_cells.stencil.rows_of(grain);
     over_cells(g, over_cells.stencil(grain, rows));
     const PointStencil at(over_cells.stencil.grid, box, grain.x, rows.row[0]);
-    const Real dense = solid_per_fluid_at(over_cells.unsmoothed, at, rows);
+    const Real dense = solid_per_fluid_at(over_cells.alpha_raw, at, rows);
     flow.u(g) = of_rows(u, rows, at, dense);
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);

@@ -20,7 +20,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
 /// It is at least as stiff as the drag itself (tests/physics/interlayer_drag_test.cpp). Its sum
 /// over all j is at most kDividedOffsets^2 / 4. Rows must be higher than a sixth of the grain: then
 /// each row between its ends holds a point.
-KOKKOS_INLINE_FUNCTION Real conductance_below(const GrainRows& rows, int j) {
+KOKKOS_INLINE_FUNCTION Real interlayer_drag_below(const GrainRows& rows, int j) {
   Real sum = 0;
   for (int a = 0; a < rows.n; ++a) {
     for (int b = 0; b < rows.n; ++b)

@@ -9,21 +9,21 @@ namespace barchan {
 /// faces of u or w, with the change e* = u* - u that the predictor has made and the change e that
 /// is left of it, per area of floor:
 ///   m_j (e_j - e*_j) = C_j (e_{j-1} - e_j) - C_{j+1} (e_j - e_{j+1}),   m_j = rho alpha dy_j,
-/// C_j the conductance between rows j - 1 and j. Implicit, so stable at any step; no momentum is
-/// lost. The drag at the old velocities is in u* already (docs/theory-coupling.md).
+/// C_j the interlayer drag between rows j - 1 and j. Implicit, so stable at any step; no momentum
+/// is lost. The drag at the old velocities is in u* already (docs/theory-coupling.md).
 struct InterlayerDrag {
   GridRef grid;
-  int rows = 0;               // those above have no conductance
-  ConstFieldRef conductance;  // C_j / dy_j on these faces [kg/m^3]
-  ConstFieldRef alpha;        // with ghosts
-  ConstFieldRef u;            // before the step [m/s]
-  Real density = 0;           // rho
-  bool along_x = true;        // faces of u, or of w
-  FieldRef u_star, pivot;     // predicted velocity; room of the solver
+  int rows = 0;                   // those above have no interlayer drag
+  ConstFieldRef interlayer_drag;  // C_j / dy_j on these faces [kg/m^3]
+  ConstFieldRef alpha;            // with ghosts
+  ConstFieldRef u;                // before the step [m/s]
+  Real density = 0;               // rho
+  bool along_x = true;            // faces of u, or of w
+  FieldRef u_star, pivot;         // predicted velocity; room of the solver
 
   /// C_j [kg/m^2]
   KOKKOS_FORCEINLINE_FUNCTION Real coupling(int i, int j, int k) const {
-    return conductance(i, j, k) * grid.dy(j);
+    return interlayer_drag(i, j, k) * grid.dy(j);
   }
 
   KOKKOS_FUNCTION void operator()(int i, int, int k) const {

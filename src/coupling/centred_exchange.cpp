@@ -54,7 +54,7 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
   Kokkos::parallel_for("coupling: solid at grains", items(grains.n),
                        FlowOverCells{.stencil = grid_.stencil,
                                      .alpha_f = fluid.alpha_f,
-                                     .unsmoothed = fields_.unsmoothed(fluid),
+                                     .alpha_raw = fields_.raw_fraction(fluid),
                                      .grains = grains.kin,
                                      .flow = gather_.flow()});
   Kokkos::parallel_for(

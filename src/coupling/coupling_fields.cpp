@@ -24,13 +24,13 @@ CouplingFields::CouplingFields(const FluidSolver& solver, const CouplingGrid& at
   stress_in_cells = {on_faces.impulse.x, on_faces.impulse.y, on_faces.impulse.z};
 
   if (at.smoothing_length > 0) {
-    alpha_before_smoothing = Field("coupling: fraction before smoothing", at.grid);
+    alpha_raw = Field("coupling: raw fraction", at.grid);
   }
   if (!has_interlayer_drag) return;
-  on_faces.stress_share = alpha_before_smoothing;
-  on_faces.conductance_x = Field("coupling: conductance between layers, x", at.grid);
-  on_faces.conductance_z = Field("coupling: conductance between layers, z", at.grid);
-  solid_x = on_faces.conductance_x, solid_z = on_faces.conductance_z;
+  on_faces.alpha_raw = alpha_raw;
+  on_faces.interlayer_drag_x = Field("coupling: interlayer drag, x", at.grid);
+  on_faces.interlayer_drag_z = Field("coupling: interlayer drag, z", at.grid);
+  solid_x = on_faces.interlayer_drag_x, solid_z = on_faces.interlayer_drag_z;
 }
 
 void CouplingFields::lend_to_gather() const {
@@ -38,13 +38,13 @@ void CouplingFields::lend_to_gather() const {
   poison(convective);
   poison(pressure_in_cells.x, pressure_in_cells.y, pressure_in_cells.z);
   poison(on_faces.impulse);
-  poison(on_faces.conductance_x, on_faces.conductance_z, alpha_before_smoothing);
+  poison(on_faces.interlayer_drag_x, on_faces.interlayer_drag_z, alpha_raw);
 }
 
 void CouplingFields::lend_to_deposit() const {
   poison(impulse_in_cells.x, impulse_in_cells.y, impulse_in_cells.z);
   poison(on_faces.impulse);
-  poison(on_faces.conductance_x, on_faces.conductance_z);
+  poison(on_faces.interlayer_drag_x, on_faces.interlayer_drag_z);
 }
 
 void CouplingFields::give_back() const {

@@ -34,7 +34,7 @@ struct CouplingFields {
   CellVector stress_in_cells;
 
   // Layered gather, what of the solid belongs to the momentum cells around faces, per volume.
-  // Shares memory with the conductances of `on_faces`, likewise.
+  // Shares memory with the coefficients of the interlayer drag of `on_faces`, likewise.
   Field solid_x, solid_z;
 
   // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
@@ -48,12 +48,12 @@ struct CouplingFields {
   Region deposited, of_impulse;
 
   // Kept through the fluid step.
-  Field alpha_before_smoothing;  // set by the gather, within of_flow; empty without
-  ExchangeOnFaces on_faces;      // set by the deposit
+  Field alpha_raw;           // set by the gather, within of_flow; empty without
+  ExchangeOnFaces on_faces;  // set by the deposit
 
   /// The fraction before the smoothing, with ghosts: alpha_f itself without one.
-  const Field& unsmoothed(const FluidState& fluid) const {
-    return alpha_before_smoothing.storage.size() > 0 ? alpha_before_smoothing : fluid.alpha_f;
+  const Field& raw_fraction(const FluidState& fluid) const {
+    return alpha_raw.storage.size() > 0 ? alpha_raw : fluid.alpha_f;
   }
 };
 

@@ -85,11 +85,11 @@ void Deposit::find_cells(const ExchangeSums& sums) {
   fields_.of_flow.fraction.set(of_flow);
   fields_.deposited.set(of_grains.dilated(1).padded_to_blocks());
   if (grid_.smoothing_length == 0) return;
-  Field& before_smoothing = fields_.alpha_before_smoothing;
+  Field& alpha_raw = fields_.alpha_raw;
   const Region& around = fields_.of_flow.fraction.dilated;  // of whose faces both sides are read
-  for_each_cell("coupling: fraction before smoothing", around,
-                OneBeyond{fields_.of_fraction.dilated.ref(), before_smoothing});
-  grid_.boundary.fill_scalars(around, before_smoothing);
+  for_each_cell("coupling: raw fraction", around,
+                OneBeyond{fields_.of_fraction.dilated.ref(), alpha_raw});
+  grid_.boundary.fill_scalars(around, alpha_raw);
 }
 
 /// Columns of the grains and bounds of what they give; with these the fixed points, as one cell can
@@ -100,7 +100,8 @@ void Deposit::fetch_totals(const ExchangeSums& sums) {
   sums.copy_to_host();
   Kokkos::fence("coupling: columns and totals");
   const auto totals = sums.get<GrainTotals>(ExchangeSums::kTotals);
-  deposits_.conductance = fixed_point_for(totals.rows_dt * (kDividedOffsets * kDividedOffsets / 4));
+  deposits_.interlayer_drag =
+      fixed_point_for(totals.rows_dt * (kDividedOffsets * kDividedOffsets / 4));
   deposits_.impulse = fixed_point_for(sums.largest_exchange());
 }
 
@@ -142,8 +143,8 @@ void Deposit::add_solid(const LayerExchange& layers, const GrainState& grains,
   halo_.scatter_add(deposits_.sum);
 }
 
-/// Conductances are decoded where their faces are; their slots hold the solid of momentum cells
-/// until then.
+/// Coefficients of the interlayer drag are decoded where their faces are; their slots hold the
+/// solid of momentum cells until then.
 void Deposit::decode(Deposits::Quantity quantity, const Region& deposited, const Region& cells,
                      Field& density) const {
   const bool volumes = quantity < Deposits::kImpulseX;

@@ -58,17 +58,17 @@ void Gather::undo_smoothing(const FluidState& fluid) {
   const Real length = grid_.smoothing_length;
   if (length == 0) return;
   const Region& cells = fields_.of_fraction.dilated;
-  for_each_cell("coupling: fraction before smoothing", cells,
-                UnsmoothedFraction{.grid = grid_.grid,
-                                   .alpha_f = fluid.alpha_f,
-                                   .length_squared = length * length,
-                                   .walls_x = grid_.wall_faces_x(),
-                                   .walls_z = grid_.wall_faces_z(),
-                                   .unsmoothed = fields_.alpha_before_smoothing});
+  for_each_cell("coupling: raw fraction", cells,
+                RawFraction{.grid = grid_.grid,
+                            .alpha_f = fluid.alpha_f,
+                            .length_squared = length * length,
+                            .walls_x = grid_.wall_faces_x(),
+                            .walls_z = grid_.wall_faces_z(),
+                            .alpha_raw = fields_.alpha_raw});
   if (grid_.smoothing_weight.storage.size() > 0)
     for_each_cell("coupling: fraction beside bodies", cells,
-                  FractionBesideBodies{grid_.smoothing_weight, fields_.alpha_before_smoothing});
-  grid_.boundary.fill_scalars(cells, fields_.alpha_before_smoothing);
+                  FractionBesideBodies{grid_.smoothing_weight, fields_.alpha_raw});
+  grid_.boundary.fill_scalars(cells, fields_.alpha_raw);
 }
 
 void Gather::pressure_on_solid(const FluidState& fluid, const ExchangeSums& sums) const {

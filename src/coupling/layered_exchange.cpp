@@ -45,7 +45,7 @@ LayerExchange LayeredExchange::layers(const FluidState& fluid) const {
   return {.stencil = grid_.stencil,
           .box = grid_.box,
           .u = fluid.u,
-          .alpha_f = fields_.unsmoothed(fluid)};
+          .alpha_f = fields_.raw_fraction(fluid)};
 }
 
 void LayeredExchange::solid_of_momentum_cells(const FluidState& fluid, const GrainState& grains) {
@@ -95,7 +95,7 @@ void LayeredExchange::stress(const FluidState& fluid) {
   const ActiveRegion& where = fields_.of_grains;
   gather_.stress_and_convection(fluid, where.dilated);
   if (!gather_.forces().stress) return;
-  const Field& alpha = fields_.unsmoothed(fluid);
+  const Field& alpha = fields_.raw_fraction(fluid);
   gather_.stress_on_solid(alpha, where, sums_);
   if (grid_.grid.ranks) grid_.fill_ghosts(fields_.stress_in_cells, where.cells);
 }
@@ -103,7 +103,7 @@ void LayeredExchange::stress(const FluidState& fluid) {
 void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& grains) {
   const FlowOverCells over_cells{.stencil = grid_.stencil,
                                  .alpha_f = fluid.alpha_f,
-                                 .unsmoothed = fields_.unsmoothed(fluid),
+                                 .alpha_raw = fields_.raw_fraction(fluid),
                                  .with_pressure = gather_.forces().pressure_gradient,
                                  .with_stress = gather_.forces().stress,
                                  .pressure = fields_.pressure_in_cells,
@@ -115,7 +115,8 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                    oversubscribed_, fields_.solid_x, fields_.solid_z});
 }
 
-/// Brings exchange and conductances to faces; adds up what the fluid loses [N s].
+/// Brings exchange and coefficients of the interlayer drag to faces; adds up what the fluid loses
+/// [N s].
 void LayeredExchange::to_faces() {
   ExchangeOnFaces& on_faces = fields_.on_faces;
   sum_vector("coupling: layers to faces", sums_, ExchangeSums::kTakenFromFluid,
@@ -123,8 +124,8 @@ void LayeredExchange::to_faces() {
              LayersToFaces{.grid = grid_.grid,
                            .deposits = deposit_.sums(),
                            .given = on_faces.impulse,
-                           .conductance_x = on_faces.conductance_x,
-                           .conductance_z = on_faces.conductance_z});
+                           .interlayer_drag_x = on_faces.interlayer_drag_x,
+                           .interlayer_drag_z = on_faces.interlayer_drag_z});
 }
 
 }  // namespace barchan

@@ -123,7 +123,7 @@ void BodiesInFlow::constrain_pressure(Field& f, const DeviceReductions& numbers)
   close(f);
 }
 
-void BodiesInFlow::measure(const FlowStep& step) {
+void BodiesInFlow::after_correct(const FlowStep& step) {
   const FluidState& fluid = step.fluid;
   const LoadOnBody all{.grid = grid_,
                        .faces = faces_.data(),

@@ -42,7 +42,7 @@ class BodiesInFlow : public FlowTerm {
   /// Takes the mean over the fluid away, and sets closed cells to zero. When grains leave, the sum
   /// of the source is not zero, and a periodic box has no pressure for that.
   void constrain_pressure(Field& f, const DeviceReductions& numbers) override;
-  void measure(const FlowStep& step) override;
+  void after_correct(const FlowStep& step) override;
   void report(const DeviceReductions& numbers) override;
   bool stop(FaceVector& u) override;
 

@@ -14,9 +14,10 @@ struct FlowRegions {
 
 /// On faces. Of the impulse wall faces and ghosts are not read.
 struct ExchangeOnFaces {
-  FaceVector impulse;                      // momentum per volume given to the fluid [N s/m^3]
-  Field conductance_x{}, conductance_z{};  // of InterlayerDrag, on faces [kg/m^3]; empty: none
-  Field stress_share{};  // share of the stress that the fluid takes; empty: its old fraction
+  FaceVector impulse;  // momentum per volume given to the fluid [N s/m^3]
+  Field interlayer_drag_x{},
+      interlayer_drag_z{};  // of InterlayerDrag, on faces [kg/m^3]; empty: none
+  Field alpha_raw{};        // share of the stress that the fluid takes; empty: its old fraction
   const FlowRegions* regions = nullptr;  // none: everywhere. Nothing is read elsewhere
 };
 

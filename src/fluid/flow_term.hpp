@@ -48,8 +48,8 @@ class FlowTerm {
   virtual void after_drive_across(const FlowStep&) {}
   /// Projects the source of the pressure, and the pressure, onto what this term allows.
   virtual void constrain_pressure(Field&, const DeviceReductions&) {}
-  /// Adds up numbers of the new velocity and pressure.
-  virtual void measure(const FlowStep&) {}
+  /// Follows the new velocity and pressure, or adds up numbers of them.
+  virtual void after_correct(const FlowStep&) {}
   /// Reads numbers that the host has fetched.
   virtual void report(const DeviceReductions&) {}
 

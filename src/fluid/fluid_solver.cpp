@@ -36,7 +36,7 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
       nowhere_(grid),
       numbers_("fluid: numbers", kOfTerms) {
   nowhere_.exchange.set({}), nowhere_.fraction.set({});
-  if (is_variable(fraction)) grains_ = std::make_unique<GrainsInFlow>(grid, config_.density);
+  if (is_variable(fraction)) grains_ = std::make_shared<GrainsInFlow>(grid, config_.density);
   if (config.bodies.n > 0) add_bodies(Solids(config.bodies));
   list_terms();
   Kokkos::parallel_for("fluid: filter width", grid.ny,
@@ -45,7 +45,7 @@ FluidSolver::FluidSolver(const FluidCase& config, const Grid& grid, Fraction fra
 
 void FluidSolver::add_bodies(const Solids& solids) {
   bodies_ =
-      std::make_unique<BodiesInFlow>(solids, grid_, boundary_.halo(), config_, pressure_->reach());
+      std::make_shared<BodiesInFlow>(solids, grid_, boundary_.halo(), config_, pressure_->reach());
   numbers_ = DeviceReductions("fluid: numbers", kOfTerms + bodies_->numbers());
 }
 
@@ -58,8 +58,8 @@ void FluidSolver::set_solids(const Solids& solids) {
 /// Regions of grains hold those of bodies, and come later.
 void FluidSolver::list_terms() {
   terms_.clear();
-  if (bodies_) terms_.push_back(bodies_.get());
-  if (grains_) terms_.push_back(grains_.get());
+  if (bodies_) terms_.push_back(bodies_);
+  if (grains_) terms_.push_back(grains_);
 }
 
 const std::vector<BodyLoad>& FluidSolver::body_loads() const {
@@ -99,7 +99,7 @@ void FluidSolver::begin(FluidState& fluid, const ExchangeOnFaces* exchange) {
   poison(mobility_.x, mobility_.z, source_);  // mobility_.y is zero on the walls, once and for all
   if (grains_) grains_->set(exchange);
   regions_ = &nowhere_;
-  for (FlowTerm* term : terms_) {
+  for (const auto& term : terms_) {
     if (term->regions() != nullptr) regions_ = term->regions();
     term->correct_fraction(fluid);
   }
@@ -120,7 +120,7 @@ void FluidSolver::remove_divergence(FluidState& fluid) {
   Kokkos::deep_copy(u_star.z.storage, fluid.u.z.storage);
   update_mobility(work);
   if (grains_) grains_->set(nullptr);
-  for (FlowTerm* term : terms_) term->after_predict(step(work, 0));
+  for (const auto& term : terms_) term->after_predict(step(work, 0));
   if (fraction_varies_) boundary_.fill_periodic(mobility_);
   solve_pressure(work, 1);
   correct(work, 1);
@@ -130,7 +130,7 @@ void FluidSolver::flow_around_bodies(FluidState& fluid) {
   const auto bulk = [&] { return Vec2{bulk_velocity(fluid), bulk_velocity_across(fluid)}; };
   const Vec2 before = bulk();
   bool stopped = false;
-  for (FlowTerm* term : terms_) stopped = term->stop(fluid.u) || stopped;
+  for (const auto& term : terms_) stopped = term->stop(fluid.u) || stopped;
   if (!stopped) return;
   remove_divergence(fluid);
   const Vec2 now = bulk();
@@ -147,7 +147,7 @@ void FluidSolver::update_eddy_viscosity(FluidState& fluid) const {
   if (config_.turbulence == Turbulence::none) return;
   for_each_cell("fluid: eddy viscosity", grid_,
                 UpdateEddyViscosity{grid_, fluid.u, fluid.nu_t, c_w_delta_.data()});
-  for (FlowTerm* term : terms_) term->limit_eddies(fluid.nu_t);
+  for (const auto& term : terms_) term->limit_eddies(fluid.nu_t);
   boundary_.fill(fluid.nu_t, FieldKind::eddy_viscosity);
 }
 

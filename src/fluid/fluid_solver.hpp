@@ -123,9 +123,9 @@ class FluidSolver {
   Field source_;                   // right-hand side of the pressure equation
   Kokkos::View<Real*> c_w_delta_;  // of WALE, by row [m]
   std::unique_ptr<PressureSolver> pressure_;
-  std::unique_ptr<BodiesInFlow> bodies_;
-  std::unique_ptr<GrainsInFlow> grains_;
-  std::vector<FlowTerm*> terms_;
+  std::shared_ptr<BodiesInFlow> bodies_;
+  std::shared_ptr<GrainsInFlow> grains_;
+  std::vector<std::shared_ptr<FlowTerm>> terms_;
   FlowRegions everywhere_, nowhere_;
   const FlowRegions* regions_ = &nowhere_;  // of this step
   DeviceReductions numbers_;                // FlowNumber

@@ -34,10 +34,10 @@ void FluidSolver::solve_pressure(FluidState& fluid, Real dt) {
   for_each_cell("fluid: pressure source", grid_,
                 by_region(pressure_source<Fraction::variable>(u_star, fluid, fluid.drive.x, dt),
                           pressure_source<Fraction::uniform>(u_star, fluid, fluid.drive.x, dt)));
-  for (FlowTerm* term : terms_) term->constrain_pressure(source_, numbers_);
+  for (const auto& term : terms_) term->constrain_pressure(source_, numbers_);
   const PressureReport solved =
       pressure_->solve(mobility_, regions_->fraction.cells, source_, fluid.p);
-  for (FlowTerm* term : terms_) term->constrain_pressure(fluid.p, numbers_);
+  for (const auto& term : terms_) term->constrain_pressure(fluid.p, numbers_);
   boundary_.fill(fluid.p, FieldKind::scalar);
   report_.pressure_iterations = solved.iterations;
   report_.pressure_residual = solved.residual;
@@ -71,11 +71,11 @@ void FluidSolver::measure(FluidState& fluid, Real dt) {
   const ContinuityResidual clear{pressure_source<Fraction::uniform>(fluid.u, fluid, 0, dt)};
   max_each_cell("fluid: continuity", numbers_, kContinuity, owned_cells(grid_),
                 by_region(near, clear));
-  for (FlowTerm* term : terms_) term->measure(step(fluid, dt));
+  for (const auto& term : terms_) term->after_correct(step(fluid, dt));
   numbers_.combine(ranks_of(grid_), kContinuity, 2, MPI_MAX);
   numbers_.combine(ranks_of(grid_), kNewRate, 2, MPI_SUM);
   numbers_.fetch();
-  for (FlowTerm* term : terms_) term->report(numbers_);
+  for (const auto& term : terms_) term->report(numbers_);
   report_.continuity_residual = numbers_.get(kContinuity);
   report_.courant = numbers_.get(kCourant);
   if (!fraction_varies_) return;

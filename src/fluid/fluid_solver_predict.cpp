@@ -37,8 +37,8 @@ template <Fraction fraction, bool with_exchange>
 Predict<fraction, with_exchange> FluidSolver::prediction(FluidState& fluid,
                                                          const ExchangeOnFaces& exchange, Real dt) {
   const FaceVector& flux = is_variable(fraction) ? workspace_.flux : fluid.u;
-  const bool shared = exchange.stress_share.storage.size() > 0;
-  const Field& share = shared ? exchange.stress_share : fluid.alpha_f_previous;
+  const bool shared = exchange.alpha_raw.storage.size() > 0;
+  const Field& share = shared ? exchange.alpha_raw : fluid.alpha_f_previous;
   return {.grid = grid_,
           .terms = {{grid_, fluid.u, flux},
                     {{grid_, share}, {grid_, fluid.u, fluid.nu_t, config_.kinematic_viscosity}}},
@@ -60,7 +60,7 @@ void FluidSolver::predict(FluidState& fluid, Real dt) {
   sum_each_cell("fluid: predict", numbers_, kPredictedRate, owned_cells(grid_),
                 ByRegion{regions_->exchange.ref(), with_exchange, by_region(near, in_clear_fluid)});
   update_mobility(fluid);
-  for (FlowTerm* term : terms_) term->after_predict(step(fluid, dt));
+  for (const auto& term : terms_) term->after_predict(step(fluid, dt));
   if (fraction_varies_ && regions_->fraction.dilated.has_ghosts())
     boundary_.fill_periodic(mobility_);
 }
@@ -92,7 +92,7 @@ void FluidSolver::apply_drive(FluidState& fluid, Real dt) {
   report_.bulk_velocity = {flow_.rate.x / flow_.height, flow_.rate.z / flow_.height};
   if (!drive_.along_z()) return;
   for_each_cell("fluid: drive across", grid_, DriveAcross{workspace_.u_star.z, fluid.drive.z * dt});
-  for (FlowTerm* term : terms_) term->after_drive_across(step(fluid, dt));
+  for (const auto& term : terms_) term->after_drive_across(step(fluid, dt));
 }
 
 }  // namespace barchan

@@ -15,14 +15,15 @@ const FlowRegions* GrainsInFlow::regions() const {
 }
 
 void GrainsInFlow::after_predict(const FlowStep& step) {
-  if (exchange_->conductance_x.storage.size() == 0) return;
+  if (exchange_->interlayer_drag_x.storage.size() == 0) return;
   const Region& rows = regions()->exchange;
   for (const bool along_x : {true, false}) {
-    const Field& conductance = along_x ? exchange_->conductance_x : exchange_->conductance_z;
+    const Field& interlayer_drag =
+        along_x ? exchange_->interlayer_drag_x : exchange_->interlayer_drag_z;
     for_each_column("fluid: interlayer drag", rows,
                     InterlayerDrag{.grid = grid_,
                                    .rows = rows.range().j1,
-                                   .conductance = conductance,
+                                   .interlayer_drag = interlayer_drag,
                                    .alpha = step.fluid.alpha_f,
                                    .u = along_x ? step.fluid.u.x : step.fluid.u.z,
                                    .density = density_,

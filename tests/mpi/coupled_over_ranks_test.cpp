@@ -192,7 +192,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     Kokkos::parallel_for("test: gather", there.n,
                          FlowOverCells{.stencil = stencil,
                                        .alpha_f = f,
-                                       .unsmoothed = f,
+                                       .alpha_raw = f,
                                        .with_pressure = true,
                                        .pressure = {f, f, f},
                                        .stress = {f, f, f},

@@ -240,7 +240,7 @@ TEST(FluidOverRanks, FlowThroughAHeapAsOnOneRank) {
       flows.grid.set(flows.there.alpha_f_previous, flows.here.alpha_f_previous, share);
       const auto drag = [&](int i, int j, int k) { return 2e4 * (1 - share(i, j, k)); };
       const auto brake = [&](int i, int j, int k) { return -5 * (1 - share(i, j, k)); };
-      flows.grid.set(on_there.conductance_x, on_here.conductance_x, drag);
+      flows.grid.set(on_there.interlayer_drag_x, on_here.interlayer_drag_x, drag);
       flows.grid.set(on_there.impulse.x, on_here.impulse.x, brake);
     });
     here.fill_ghosts(flows.here);

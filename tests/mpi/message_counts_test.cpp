@@ -116,7 +116,7 @@ MessageCounts scatter_add(const Grid& grid) {
 }
 
 /// Messages of the exchange. Columns that have grains, or less fluid: a map and a height.
-/// Unsmoothed fraction; pressure, it and a component of its force smoothed, the force in cells;
+/// Raw fraction; pressure, it and a component of its force smoothed, the force in cells;
 /// stress on faces, in cells; what the flow gets of each; convective acceleration. Columns again,
 /// the fraction of those that are new; fraction, smoothed; totals, fastest velocity; what the
 /// ledger books.

@@ -39,9 +39,9 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
   }
   const auto exchange_with = [&](const Grid& grid, double elsewhere) {
     ExchangeOnFaces exchange{make_faces("test", grid)};
-    exchange.conductance_x = Field("test: conductance", grid);
-    exchange.conductance_z = Field("test: conductance", grid);
-    exchange.stress_share = Field("test: share", grid);
+    exchange.interlayer_drag_x = Field("test: interlayer drag", grid);
+    exchange.interlayer_drag_z = Field("test: interlayer drag", grid);
+    exchange.alpha_raw = Field("test: share", grid);
     const auto inside = [&](double value, double around) {
       return [=, &mound](int i, int j, int k) {
         return is_in_mound(i, j, k)                  ? value
@@ -51,10 +51,10 @@ TEST(FlowNearGrains, IsTheSameWhereOnlyTheSurroundingsOfGrainsAreLookedAt) {
     };
     for (Field* f : {&exchange.impulse.x, &exchange.impulse.y, &exchange.impulse.z})
       test::set_field(*f, grid, inside(-0.4, 0));
-    for (Field* f : {&exchange.conductance_x, &exchange.conductance_z})
+    for (Field* f : {&exchange.interlayer_drag_x, &exchange.interlayer_drag_z})
       test::set_field(*f, grid, inside(50, 0));
     const ColumnMap share_known = mound.dilated(6);
-    test::set_everywhere(exchange.stress_share, grid, [&](int i, int j, int k) {
+    test::set_everywhere(exchange.alpha_raw, grid, [&](int i, int j, int k) {
       const bool known = i >= 0 && i < 40 && share_known.has(i, (k + 9) % 9) && j < 9;
       return is_in_mound(i, j, k) ? 0.5 : known || elsewhere == 0 ? 1 : elsewhere;
     });

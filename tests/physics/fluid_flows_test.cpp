@@ -60,15 +60,15 @@ TEST(FluidFlow, InterlayerDragSharesAnImpulse) {
   FlowRun run(config);
   const int n = 6;
   ExchangeOnFaces exchange = no_exchange(run.grid);
-  exchange.conductance_x = Field("test: conductance", run.grid);
-  exchange.conductance_z = Field("test: conductance", run.grid);
+  exchange.interlayer_drag_x = Field("test: interlayer drag", run.grid);
+  exchange.interlayer_drag_z = Field("test: interlayer drag", run.grid);
   const auto alpha = [](int, int j, int) { return 0.4 + 0.1 * j; };
   const auto drag = [](int, int j, int) { return j == 0 || j == 4 ? 0 : 600. * j; };  // two blocks
   const auto impulse = [](int, int j, int) { return j == 1 ? 50. : j == 4 ? -30. : 0; };
   test::set_field(run.fluid.alpha_f, run.grid, alpha);
   test::set_field(run.fluid.alpha_f_previous, run.grid, alpha);
-  test::set_field(exchange.conductance_x, run.grid, drag);
-  test::set_field(exchange.conductance_z, run.grid,
+  test::set_field(exchange.interlayer_drag_x, run.grid, drag);
+  test::set_field(exchange.interlayer_drag_z, run.grid,
                   [&](int i, int j, int k) { return 2 * drag(i, j, k); });
   for (Field* f : {&exchange.impulse.x, &exchange.impulse.z})
     test::set_field(*f, run.grid, impulse);
@@ -150,13 +150,13 @@ TEST(FluidFlow, ANewSolverContinuesBitForBit) {
   config.time.fluid_step = 5e-4;
   const Grid grid = make_grid(config);
   ExchangeOnFaces exchange = no_exchange(grid);
-  exchange.conductance_x = exchange.conductance_z = Field("test: conductance", grid);
+  exchange.interlayer_drag_x = exchange.interlayer_drag_z = Field("test: interlayer drag", grid);
   const auto in_corner = [](double value) {
     return [=](int i, int j, int k) { return i < 5 && j < 3 && k > 6 ? value : 0.; };
   };
   for (Field m : {exchange.impulse.x, exchange.impulse.y, exchange.impulse.z})
     test::set_field(m, grid, in_corner(-0.9));
-  test::set_field(exchange.conductance_x, grid, in_corner(300));
+  test::set_field(exchange.interlayer_drag_x, grid, in_corner(300));
   const auto run = [&](bool change_solver) {
     FluidState fluid = make_fluid_state(grid);
     set_flow(TurbulentFlow{}, config, fluid);

@@ -17,7 +17,8 @@ test::HostGrid thick_rows() {
   return test::HostGrid{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 9, 2.6e-4}))};
 }
 
-/// Rows of a grain of 0.2 mm at height y in rows 50 um high, and the conductances between them.
+/// Rows of a grain of 0.2 mm at height y in rows 50 um high, and the coefficients of the interlayer
+/// drag between them.
 struct GrainInThinRows {
   test::HostGrid host{make_grid(7, 5, 0.0112, 0.008, row_faces({0.004, 80, 5e-5}))};
   GridRef grid = host.ref();
@@ -25,8 +26,9 @@ struct GrainInThinRows {
   GrainRows rows(Real y) const { return {grid, y, 1e-4}; }
 };
 
-// Rows exchange D u through a grain, D = diag(w) - w w^T. The chain of conductances is at least as
-// stiff: it takes less for no velocities. With two rows it is the same.
+// Rows exchange D u through a grain, D = diag(w) - w w^T. The chain of coefficients of the
+// interlayer drag is at least as stiff: it takes less for no velocities. With two rows it is the
+// same.
 TEST(InterlayerDrag, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   const GrainInThinRows thin;
   const int n = 80;
@@ -39,7 +41,7 @@ TEST(InterlayerDrag, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
     Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n, n);
     double sum = 0;
     for (int j = 1; j < n; ++j) {
-      const double c = conductance_below(rows, j);
+      const double c = interlayer_drag_below(rows, j);
       chain(j, j) += c, chain(j - 1, j - 1) += c, chain(j, j - 1) -= c, chain(j - 1, j) -= c;
       sum += c;
     }
@@ -55,8 +57,8 @@ TEST(InterlayerDrag, NeighbouringRowsAreCoupledAtLeastAsStiffAsByTheGrain) {
   const test::HostGrid host = thick_rows();
   const GridRef grid = host.ref();
   const GrainRows two(grid, grid.y_face(4), 1e-4);
-  EXPECT_NEAR(conductance_below(two, 4), 19.0 / 29 * 10 / 29, 1e-15);
-  EXPECT_EQ(conductance_below(two, 3) + conductance_below(two, 5), 0);
+  EXPECT_NEAR(interlayer_drag_below(two, 4), 19.0 / 29 * 10 / 29, 1e-15);
+  EXPECT_EQ(interlayer_drag_below(two, 3) + interlayer_drag_below(two, 5), 0);
 }
 
 /// Random numbers on cells, the same for the same seed.
@@ -82,7 +84,7 @@ TEST(InterlayerDrag, SolvesEachColumnOfFaces) {
         grid, [&](int i, int j, int k) { return j > 6 || j == 3 ? 0 : drag.ref()(i, j, k); });
     const InterlayerDrag solve{.grid = grid,
                                .rows = grid.ny,
-                               .conductance = c.ref(),
+                               .interlayer_drag = c.ref(),
                                .alpha = alpha.ref(),
                                .u = u.ref(),
                                .density = 1000,

@@ -190,7 +190,8 @@ TEST(Coupling, RowsThatShareAGrainAreCoupledInItsMomentumCells) {
   test::add_grain(grains, 2e-4, {3.9 * h, 2 * h, 2.1 * h});
   test::CoupledRun run(c, grains);
   const ExchangeOnFaces exchange = exchange_of(run);
-  const auto x = test::to_host(exchange.conductance_x), z = test::to_host(exchange.conductance_z);
+  const auto x = test::to_host(exchange.interlayer_drag_x),
+             z = test::to_host(exchange.interlayer_drag_z);
   const double beta = host_copy(run.state.grains->fluid.beta)(0);
   const double expected = 1e-4 * beta * 19 * 10 / 29 / 29 / (h * h * h);
   test::for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
@@ -206,14 +207,14 @@ TEST(Coupling, TheSmoothingIsUndoneAtWallsOfTheGrains) {
     run.config.coupling.smoothing_length = smoothing;
     test::CoupledRun again(run.config, std::move(run.state));
     if (smoothing == 0) return test::to_host(again.state.fluid->alpha_f);
-    return test::to_host(exchange_of(again).stress_share);
+    return test::to_host(exchange_of(again).alpha_raw);
   };
-  const auto unsmoothed = fraction(3e-4), deposited = fraction(0);
+  const auto alpha_raw = fraction(3e-4), deposited = fraction(0);
   double least = 1;
   for (int k = 0; k < 30; ++k)
     for (int j = 0; j < 4; ++j)
       for (int i = 0; i < 40; ++i) {
-        ASSERT_NEAR(unsmoothed(i, j, k), deposited(i, j, k), 1e-13);
+        ASSERT_NEAR(alpha_raw(i, j, k), deposited(i, j, k), 1e-13);
         least = std::min(least, deposited(i, j, k));
       }
   EXPECT_LT(least, 0.95);
