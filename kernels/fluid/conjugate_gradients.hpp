@@ -19,12 +19,16 @@ enum GradientNumber : int {
   kSumOfD,     // <d, 1>
   kRZBefore,   // <r, z> one iteration before
   kMeanOfB,
-  kBeta,        // the next d is z + beta d,
-  kA,           // the next p is p + a d - surplus
-  kSurplus,     // of the mean of p
-  kEnough,      // <r, r> at which the iterations end
-  kGoesOn,      // 1 until then, 0 after: iterations that were launched ahead change nothing
-  kDirections,  // directions that were taken
+  kBeta,  // the next d is keep z + beta d
+  kKeep,
+  kA,        // the next p is p + a d - surplus
+  kSurplus,  // of the mean of p
+  kEnough,   // <r, r> at which the iterations end
+  kGoesOn,   // 1 until then, 0 after: iterations launched ahead change nothing more
+  kStep,     // a, or 0 after the end: the next r is r - step A d
+  kPending,  // a and surplus of the last direction, which the next one applies to p; 0 after the
+  kPendingSurplus,  // end, as p then waits for AdvancePressure
+  kDirections,      // directions that were taken
   kGradientNumbers
 };
 /// From the sum of b.
@@ -63,7 +67,13 @@ struct FindWhetherDone {
 /// Before the next direction.
 struct FindBeta {
   Real* number;
-  KOKKOS_FUNCTION void operator()(int) const { number[kBeta] = number[kRZ] / number[kRZBefore]; }
+  KOKKOS_FUNCTION void operator()(int) const {
+    const bool goes_on = number[kGoesOn] != 0;
+    number[kKeep] = goes_on ? 1 : 0;
+    number[kBeta] = goes_on ? number[kRZ] / number[kRZBefore] : 1;
+    number[kPending] = goes_on ? number[kA] : 0;
+    number[kPendingSurplus] = goes_on ? number[kSurplus] : 0;
+  }
 };
 /// After the direction d and A d.
 struct FindStep {
@@ -71,8 +81,9 @@ struct FindStep {
   Real height;
   bool is_first;  // later NextDirection has taken off what there was
   KOKKOS_FUNCTION void operator()(int) const {
+    number[kStep] = 0;
     if (number[kGoesOn] == 0) return;
-    number[kA] = number[kRZ] / number[kCurvature];
+    number[kA] = number[kStep] = number[kRZ] / number[kCurvature];
     const Real before = is_first ? number[kSurplus] : 0;
     number[kSurplus] = before + number[kA] * (number[kSumOfD] / height);
     number[kRZBefore] = number[kRZ];
@@ -126,15 +137,14 @@ struct ApplyOperator {
     return value * d(i, j, k) * grid.dy(j);
   }
 };
-/// r -= a q; adds up <r, r>.
+/// r -= step q; adds up <r, r>.
 struct AdvanceResidual {
   GridRef grid;
   ConstFieldRef q;
   FieldRef r;
-  DeviceScalar a, goes_on;
+  DeviceScalar step;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    Real value = r(i, j, k);
-    if (goes_on != 0) value -= a * q(i, j, k);
+    const Real value = r(i, j, k) - step * q(i, j, k);
     r(i, j, k) = value;
     return value * value * grid.dy(j);
   }
@@ -148,17 +158,16 @@ struct AdvancePressure {
     p(i, j, k) += a * d(i, j, k) - surplus;
   }
 };
-/// The same, and then d = z + b d, the next direction; adds up d.
+/// Advances p, then sets the next direction, d = keep z + b d; adds up d.
 struct NextDirection {
   GridRef grid;
   AdvancePressure advance;
   ConstFieldRef z;
-  DeviceScalar b, goes_on;
+  DeviceScalar keep, b;
   FieldRef d;
   KOKKOS_FORCEINLINE_FUNCTION Real operator()(int i, int j, int k) const {
-    if (goes_on == 0) return 0;
     advance(i, j, k);
-    const Real value = z(i, j, k) + b * d(i, j, k);
+    const Real value = keep * z(i, j, k) + b * d(i, j, k);
     d(i, j, k) = value;
     return value * grid.dy(j);
   }

@@ -82,12 +82,11 @@ void ConjugateGradients::find_direction(Field& p, int n) {
     return sum_each_cell("pressure: mean", numbers_, kSumOfD, owned_cells(grid_),
                          HeightSum{grid_, d_});
   }
-  const DeviceScalar a = numbers_.scalar(kA), surplus = numbers_.scalar(kSurplus);
   launch_scalar_kernel("pressure: beta", FindBeta{numbers_.data()});
+  const AdvancePressure advance{d_, p, numbers_.scalar(kPending), numbers_.scalar(kPendingSurplus)};
   sum_each_cell(
       "pressure: direction", numbers_, kSumOfD, owned_cells(grid_),
-      NextDirection{
-          grid_, {d_, p, a, surplus}, z_, numbers_.scalar(kBeta), numbers_.scalar(kGoesOn), d_});
+      NextDirection{grid_, advance, z_, numbers_.scalar(kKeep), numbers_.scalar(kBeta), d_});
 }
 
 PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near, Field& b,
@@ -134,7 +133,7 @@ void ConjugateGradients::iterate(const FaceVector& c, Field& p, int n) {
   launch_scalar_kernel("pressure: step",
                        FindStep{numbers_.data(), grid_.height_of_all_columns(), n == 1});
   sum_each_cell("pressure: advance", numbers_, kRR, *near_,
-                AdvanceResidual{grid_, e_, r_, numbers_.scalar(kA), numbers_.scalar(kGoesOn)});
+                AdvanceResidual{grid_, e_, r_, numbers_.scalar(kStep)});
   numbers_.combine(ranks, kRR, 1, MPI_SUM);
   launch_scalar_kernel("pressure: whether done", FindWhetherDone{numbers_.data()});
 }
