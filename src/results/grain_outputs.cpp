@@ -20,7 +20,7 @@ using HostRows = Kokkos::View<T**, Kokkos::LayoutRight, Kokkos::HostSpace>;
 using GrainValues = std::variant<std::monostate, HostRows<float>, HostRows<double>, HostRows<int>,
                                  HostRows<std::int64_t>>;
 
-/// An array of grains.h5. `values` is the same kind of thing on every rank.
+/// An array of grains.h5. All ranks get values of the same type, or all get nothing.
 struct GrainOutput {
   const char *name, *unit, *meaning;
   GrainValues (*values)(const GrainFrame&);

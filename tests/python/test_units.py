@@ -50,7 +50,7 @@ interval = 0.001
 def test_every_column_of_a_run_has_a_unit_and_a_meaning(run):
     said = json.loads((run.path / "columns.json").read_text())
     for name in "history", "dunes", "probes", "statistics", "force_map":
-        table = getattr(run, name).reset_index()
+        table = getattr(run, name).reset_index().drop(columns="index", errors="ignore")
         file = {"dunes": "dune"}.get(name, name) + ".csv"
         assert len(table) > 0 and set(table.attrs["units"]) == set(table.attrs["long_names"]) == set(table.columns)
         for column, one in said[file].items():

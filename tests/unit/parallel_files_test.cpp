@@ -41,8 +41,7 @@ TEST(ParallelFiles, FramesHoldTheSharesOfAllRanks) {
   const Decomposition pencils(world, nx * ranks, nz);
   const auto n = static_cast<std::size_t>(rank);
   const std::vector<double> all = on_rank_0(world, std::vector<double>(n, rank));
-  const OutputFiles::DuneLabels dunes =
-      from_rank_0(world, std::vector<int>(all.begin(), all.end()), rank);
+  const DuneLabels dunes = from_rank_0(world, std::vector<int>(all.begin(), all.end()), rank);
   {
     OutputFiles output(folder.path(), {.title = "parallel"}, {}, world);
     for (int k = 0; k < 3; ++k) {

@@ -151,15 +151,15 @@ TEST(RunFolder, ANewRunRemovesOnlyResultsAndARestartOnlyAFailure) {
     std::ofstream(folder / name) << "x";
   }
   prepare_folder(folder.path(), 1.0);
-  EXPECT_EQ(
-      files_in(folder.path()),
-      (std::vector<std::string>{"dune.csv", "fields.h5", "fields.xdmf", "history.csv", "log.txt",
-                                "notes.md", "notes.tmp", "picture.png", "restart_0000000100.h5",
-                                "restart_0000000200.h5.tmp", "restart_mine.h5", "run.json"}));
+  EXPECT_EQ(files_in(folder.path()),
+            (std::vector<std::string>{"columns.json", "dune.csv", "fields.h5", "fields.xdmf",
+                                      "history.csv", "log.txt", "notes.md", "notes.tmp",
+                                      "picture.png", "restart_0000000100.h5",
+                                      "restart_0000000200.h5.tmp", "restart_mine.h5", "run.json"}));
   prepare_folder(folder.path(), {});
   EXPECT_EQ(files_in(folder.path()),
-            (std::vector<std::string>{"dune.csv", "history.csv", "notes.md", "notes.tmp",
-                                      "picture.png", "restart_mine.h5", "run.json"}));
+            (std::vector<std::string>{"columns.json", "dune.csv", "history.csv", "notes.md",
+                                      "notes.tmp", "picture.png", "restart_mine.h5", "run.json"}));
   EXPECT_EQ(status_in(folder / "run.json"), "running");
 }
 

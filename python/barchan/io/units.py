@@ -11,7 +11,7 @@ def cf(unit: str) -> str:
     """A unit of a file, "m^2/s" or "m2/s", as CF has it: "m2 s-1"; "1" has no dimension."""
     above, *below = unit.replace("^", "").split("/")
     factors = [factor for factor in above.split() if factor not in ("1", "-")]
-    factors += [re.sub(r"(?<=\D)$", "1", re.sub(r"(?<=[A-Za-z])(?=\d|$)", "-", factor)) for factor in below]
+    factors += [f"{name}-{power or 1}" for name, power in re.findall(r"([A-Za-z]+)(\d*)", " ".join(below))]
     return " ".join(factors) or "1"
 
 
