@@ -1,8 +1,7 @@
 """What each rank sends in a fluid step, and which rank has which grains.
 
-The formulas of the first part are those of tests/mpi/message_counts_test.cpp, which compares them with what
-the program counts. The second part divides a map of columns with grains among the ranks, as
-src/grains/grain_partition.cpp does.
+The first part models the counts that a run writes to run.json; scaling.py --check compares them. The second part
+divides a map of columns with grains among the ranks, as src/grains/grain_partition.cpp does.
 """
 
 import math

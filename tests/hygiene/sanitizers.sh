@@ -13,7 +13,7 @@ set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 here="$root/tests/hygiene"
 # Left out: scripts that run Python alone, or look at sources.
-without='script\.(browser|horn_figures|layers|no_shell|paper_figures|plot|release|report|report_controls|site|validation_figures)$'
+without='script\.(browser|horn_figures|layers|no_shell|paper_figures|plot|release|report|report_controls|site)$'
 
 usage() { sed -n '2,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 

@@ -140,8 +140,6 @@ TEST(ShearedBed, WaterInTheBedIsNotDrivenBackwards) {
   constexpr double lid = 0.26;
   const Layers column = reference_column(lid);
   print("column of 900 rows", column);
-  print("exchange smoothed, 7 rows", program(CouplingScheme::smoothed, 7, 3e-4, lid));
-  print("exchange interpolated, 7 rows", program(CouplingScheme::centred, 7, 3e-4, lid));
   for (const int rows : {6, 7, 9}) {
     for (const double smoothing : {0.0, 3e-4, 6e-4}) {
       const Layers bed = program(CouplingScheme::layered, rows, smoothing, lid);

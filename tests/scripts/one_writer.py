@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Nothing is lost by a habit: a second run in a folder, the same command again, a folder of somebody else's files, two
-cases that share a start. And two runs that fight for one folder while BARCHAN_KILLS (4) of them are killed."""
+cases that share a start. And two runs that fight for one folder while BARCHAN_KILLS (2) of them are killed."""
 import os
 import random
 import shutil
@@ -247,7 +247,7 @@ def notices_what_it_came_from(work):
 
 def survives_a_fight(work):
     """Two at once want a folder, one of them is killed, and again, until one says that it is done."""
-    n, killed, refused = int(os.environ.get("BARCHAN_KILLS", "4")), 0, 0
+    n, killed, refused = int(os.environ.get("BARCHAN_KILLS", "2")), 0, 0
     random.seed(2)
     faults.expect(faults.run(work / "unbroken", faults.OFTEN), 0)
     for fight in range(1000):

@@ -7,9 +7,8 @@ node -e 'require("jsdom")' 2> /dev/null || { echo "SKIPPED: no jsdom (Debian pac
 . "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
 
 fake "$dir/run"
-fake "$dir/heaps" --heaps
-fake "$dir/bodies" --bodies
-for kind in run heaps bodies; do
+fake "$dir/names" --heaps --bodies
+for kind in run names; do
   plot 0 "$dir/$kind" report
   node "$root/tests/support/drive_report.js" "$dir/$kind/report.html" || fail "the page's controls: $kind"
 done

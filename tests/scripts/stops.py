@@ -15,10 +15,14 @@ import same_bits
 LONG = {**faults.OFTEN, "time.end": 0.25, "restart.interval": 0}
 
 
-def wait_for_steps(folder, process):
-    """Until the run is under way."""
+def lines_of(folder):
     table = folder / "history.csv"
-    faults.wait_until(lambda: table.exists() and table.read_text().count("\n") > 4, process, folder)
+    return table.read_text().count("\n") if table.exists() else 1
+
+
+def wait_for_steps(folder, process, before=1):
+    """Until the run is under way, and its history has some lines more than `before`."""
+    faults.wait_until(lambda: lines_of(folder) > before + 3, process, folder)
 
 
 def check_stopped(folder, status, said):
@@ -28,14 +32,18 @@ def check_stopped(folder, status, said):
         faults.fail(f"{folder}: exit code {status}, {summary['status']}, {last}: {said}")
 
 
-def stop(folder, signals):
-    """Stops a run by these signals, one right after the other, and goes on with it."""
-    process = faults.start(folder, LONG)
-    wait_for_steps(folder, process)
-    for which in signals:
-        process.send_signal(which)
-    said = process.communicate(timeout=60)[1]
-    check_stopped(folder, process.returncode, said)
+def stops_and_goes_on(folder, *stops):
+    """A run is stopped again and again, each time by some signals right after one another, and goes on."""
+    for signals in stops:
+        before, last = lines_of(folder), faults.last_restart(folder)
+        process = faults.start(folder, LONG, last)
+        wait_for_steps(folder, process, before)
+        for which in signals:
+            process.send_signal(which)
+        said = process.communicate(timeout=60)[1]
+        check_stopped(folder, process.returncode, said)
+        if faults.last_restart(folder) == last:
+            faults.fail(f"{signals} left no restart file")
     faults.expect(faults.run(folder, LONG, faults.last_restart(folder)), 0)
     faults.same_run(folder.parent / "whole", folder)
 
@@ -52,15 +60,16 @@ def ignores_a_hangup_under_nohup(folder):
 
 def runs_without_readers(work):
     """Standard streams that are closed, and a reader of the output that goes away (`| head`)."""
-    command = faults.command(work / "closed", LONG)
+    faults.expect(faults.run(work / "short", faults.OFTEN), 0)
+    command = faults.command(work / "closed", faults.OFTEN)
     closed = subprocess.run(["sh", "-c", 'exec "$0" "$@" <&- >&- 2>&-', *command], env=faults.ENVIRONMENT)
-    spoken = [word for word in faults.command(work / "unread", LONG) if word != "--quiet"]
+    spoken = [word for word in faults.command(work / "unread", faults.OFTEN) if word != "--quiet"]
     unread = subprocess.Popen(spoken, env=faults.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     unread.stdout.close()
     for folder, status in ((work / "closed", closed.returncode), (work / "unread", unread.wait())):
         if status != 0:
             faults.fail(f"{folder}: exit code {status}")
-        faults.same_run(work / "whole", folder)
+        faults.same_run(work / "short", folder)
 
 
 def goes_on_within_a_ramp(work):
@@ -99,7 +108,7 @@ fluid_step = 2.5e-4
 [domain]
 size = [0.012, 0.006, 0.006]
 """ + FLUID.replace("[60, 40, 24]", "[10, 14, 6]")
-FINE = FALL.format(end=4e-3, step=2e-5) + FLUID + """[initial]
+FINE = FALL.format(end=1e-3, step=2e-5) + FLUID + """[initial]
 grains = "heap.toml"
 fluid = """
 
@@ -171,9 +180,8 @@ def main(work):
     stops_while_it_waits(work / "waits_at_once", signal.SIGTERM, "flow")
     goes_on_within_a_ramp(work)
     faults.expect(faults.run(work / "whole", LONG), 0)
-    for which in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        stop(work / which.name, [which])
-    stop(work / "several", [signal.SIGTERM, signal.SIGTERM, signal.SIGINT])
+    stops_and_goes_on(work / "stopped", [signal.SIGTERM], [signal.SIGINT], [signal.SIGHUP],
+                      [signal.SIGTERM, signal.SIGTERM, signal.SIGINT])
     ignores_a_hangup_under_nohup(work / "nohup")
     runs_without_readers(work)
     folder = work / "limit"

@@ -2,7 +2,7 @@
 # The figures of the validation pages from the results saved in docs/validation; and what bad input says.
 set -u
 # shellcheck source=tests/support/plotting.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../support/plotting.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/../../support/plotting.sh"
 figures=(channel channel_resolved taylor_green contacts grains_and_water convergence beside_cfdem)
 
 # Every saved result says where it comes from.

@@ -13,7 +13,7 @@ import numpy as np
 os.environ.setdefault("OMP_PROC_BIND", "false")
 import faults  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 # Kind, dataset, entry, factor of a change, is it allowed.
 CHANGES = [
     ("step", "fluid/u_x", (3, 3, 3), 1 + 1e-13, True), ("step", "fluid/u_x", (3, 3, 3), 1 + 1e-9, False),

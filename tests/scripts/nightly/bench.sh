@@ -3,7 +3,7 @@
 # compare.py on its records, and against peers that only pretend.
 set -u
 # shellcheck source=tests/support/script.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../support/script.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/../../support/script.sh"
 bench="$(dirname "$BARCHAN_PROGRAM")/barchan_bench"
 [ -x "$bench" ] || { echo "no $bench"; exit 77; }
 export OMP_NUM_THREADS=2 OMP_PROC_BIND=false
