@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The direction of knowledge: kernels know only Kokkos and each other; src knows kernels; tests and perf
 # know both, not each other; a folder of kernels/ or src/ knows itself and the folders before it in the lists
-# below, and no other; no header includes itself in a circle. And no file grows past its limit of lines.
+# below, and no other; no header includes itself in a circle. And no file or class grows past its limit of lines.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -11,6 +11,9 @@ src_rooms=(base toml parallel io bodies fluid grains coupling restart results ca
 
 max_lines=400          # anywhere
 max_lines_of_program=300  # in src/ and kernels/
+max_lines_of_class=500    # its header and its sources together
+# Classes over that limit. The list may only become shorter.
+large_classes=(Hdf5File ConfigReader FluidSolver)
 failures=0
 complain() {
   echo "$*"
@@ -71,6 +74,41 @@ while IFS= read -r -d '' file; do
   [ "$lines" -le "$limit" ] || complain "$file: $lines lines, more than $limit; split it by noun"
 done < <(find barchan src kernels tests perf python scripts packaging cmake -type f \( -name barchan -o \
   -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0 2> /dev/null)
+
+# Prints "lines class" for each class of src/: its header, and each source that defines members of it more than of
+# any other class.
+class_lines() {
+  awk '
+    FNR == 1 { files[++n] = FILENAME }
+    { lines[FILENAME] = FNR }
+    FILENAME ~ /hpp$/ && /^(class|struct) [A-Z][A-Za-z0-9]* .*\{/ { header[$2] = FILENAME }
+    FILENAME ~ /cpp$/ && /^[A-Za-z]/ && match($0, /(^|[ *&])[A-Z][A-Za-z0-9]*::~?[A-Za-z_]+\(/) {
+      name = substr($0, RSTART, RLENGTH)
+      sub(/^[ *&]/, "", name)
+      sub(/::.*/, "", name)
+      members[FILENAME, name]++
+    }
+    END {
+      for (i = 1; i <= n; ++i) {
+        class = ""
+        for (name in header) if (members[files[i], name] > members[files[i], class]) class = name
+        if (class != "") sources[class] += lines[files[i]]
+      }
+      for (name in sources) print sources[name] + lines[header[name]], name
+    }' "$@"
+}
+
+mapfile -d '' sources_of_classes < <(find src \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z)
+classes="$(class_lines "${sources_of_classes[@]}")"
+while read -r lines class; do
+  [[ $lines -le $max_lines_of_class || " ${large_classes[*]} " == *" $class "* ]] ||
+    complain "$class: $lines lines in all its files, more than $max_lines_of_class; give a part of it to another class"
+done <<< "$classes"
+for class in "${large_classes[@]}"; do
+  lines="$(sed -n "s/ $class\$//p" <<< "$classes")"
+  [ "${lines:-0}" -gt "$max_lines_of_class" ] ||
+    complain "$class: ${lines:-0} lines, within the limit: take it off the list in this script"
+done
 
 [ "$failures" -eq 0 ] || { echo "$failures problem(s)"; exit 1; }
 echo "layers: ${#sources[@]} files are in order"
