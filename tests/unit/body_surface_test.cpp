@@ -24,7 +24,7 @@ TEST(BodySurface, BeginsAndEndsWhereTheDistanceIsZeroOrOnTheFloor) {
           const double x = found.x[n] + found.copies[c], z = found.z[n] + found.copies[c + 1];
           const double low = found.bottom[n], high = found.top[n];
           ASSERT_NEAR(body.distance({x, high, z}), 0, 1e-11);
-          ASSERT_NEAR(low > 0 ? body.distance({x, low, z}) : 0, 0, 1e-11);
+          ASSERT_NEAR(low > 1e-15 ? body.distance({x, low, z}) : 0, 0, 1e-11);
           ASSERT_LE(low, high);
           if (high - low < 1e-6) continue;
           ASSERT_LT(body.distance({x, (low + high) / 2, z}), 0);
