@@ -101,7 +101,8 @@ class Body:
         """(bottom, top, share of the way from the middle to the outline) at places; beyond it those at it."""
         if self.across:
             x = (x + 0.0 * z) % self.domain[0]
-            bottom, top = (np.interp(x, self.lattice["x"][:, 0], self.lattice[name][:, 0]) for name in ("bottom", "top"))
+            bottom, top = (np.interp(x, self.lattice["x"][:, 0], self.lattice[name][:, 0])
+                           for name in ("bottom", "top"))
             return bottom, top, 0.0 * x
         s = self._from_part(x, z)
         turn = np.unwrap(np.arctan2(self.rim[:, 1], self.rim[:, 0]))
