@@ -25,7 +25,7 @@ def main(arguments: Sequence[str]) -> int:
     for folder in options.run_dirs:
         try:
             run = RunFolder(folder)
-            for path in write(run, surface_of(bodies_of(run.config))):
+            for path in write(run, surface_of(bodies_of(run))):
                 print(path)
         except BarchanError as error:
             print(f"vtk: {folder}: {error}", file=sys.stderr)

@@ -96,6 +96,9 @@ std::string describe(const std::filesystem::path& path) {
     text += describe_origin(origin);
     if (restart->has("t")) text += fmt::format("time     {:.10g} s\n", restart->real("t"));
     text += "arrays:\n" + describe_group(file, "/");
+  } else if (file.exists("body_0")) {
+    text += "kind     results (bodies)\n" + describe_origin(origin) + "arrays:\n" +
+            describe_group(file, "/");
   } else {
     text += fmt::format("kind     results ({})\n", file.exists("grid") ? "flow" : "grains");
     text += describe_origin(origin) + describe_frames(file, list_frames(file));

@@ -6,6 +6,7 @@
 
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/bodies/body_surface.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
@@ -56,6 +57,8 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& folder, RunState& run,
   } else {
     write_atomically(folder_ / kInputsFile, run.provenance.inputs + "\n");
   }
+  if (!run.config.bodies.empty())
+    write_body_surfaces(folder_ / kBodiesFile, run.config.bodies, run.config.size, run.provenance);
   write_atomically(folder_ / "config.toml", run.provenance.config);
 }
 

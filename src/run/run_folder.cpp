@@ -10,6 +10,7 @@
 #include "barchan_version.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
+#include "src/bodies/body_surface.hpp"
 #include "src/case/resolved.hpp"
 #include "src/io/frame_file.hpp"
 #include "src/parallel/communicator.hpp"
@@ -40,6 +41,7 @@ constexpr ResultFile kResultFiles[] = {
     {kHeapTable.file, "grains of each heap in each dune against time"},
     {kBodyTable.file, "forces and torques on the bodies against time"},
     {kProbeTable.file, "flow at the probes against time"},
+    {kBodiesFile, "surfaces of the bodies"},
     {"encounters.csv", "how dunes met each other"},
     {"statistics.csv", "averages of the flow over planes and time"},
     {"flow_average.h5", "averages of the flow over time in every cell"},

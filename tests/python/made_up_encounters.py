@@ -3,6 +3,7 @@
 import numpy as np
 
 from make_fake_run import open_file, write_frame
+from survey import survey
 
 from barchan.dune.detect import labels
 from barchan.dune.shape import Bed
@@ -132,6 +133,8 @@ def write_run(folder, frames, bed, heap=None, schedule=""):
     config = (f"[domain]\nsize = [{bed.lengths[0]}, 0.02, {bed.lengths[1]}]\n[grains]\nboundary_x = "
               f"\"{'periodic' if bed.periodic[0] else 'exit'}\"\n{schedule}")
     (folder / "config.toml").write_text(config)
+    if "[[body]]" in schedule:
+        survey(folder)
     (folder / "run.json").write_text('{"status": "done", "steps": 3}\n')
     with open_file(folder / "grains.h5") as file:
         for number, frame in enumerate(frames):

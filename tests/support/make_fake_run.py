@@ -19,6 +19,7 @@ import numpy as np
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py  # noqa: E402
+from survey import survey  # noqa: E402
 
 SIZE = (0.1, 0.025, 0.04)  # [m]
 D = 2e-4                   # mean diameter [m]
@@ -305,6 +306,8 @@ def main():
         write_forces(options.out)
     if not options.cut:
         (options.out / "config.toml").write_text(CONFIG + (BODIES if options.bodies else ""))
+        if options.bodies:
+            survey(options.out)
         (options.out / "run.json").write_text('{"status": "done", "title": "synthetic barchan"}\n')
 
 

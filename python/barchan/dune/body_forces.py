@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from barchan.dune.bodies import Body, bodies_of
+from barchan.dune.bodies import NO_FILE, Body, bodies_of
 from barchan.errors import MissingData
 from barchan.io.run_folder import RunFolder
 from barchan.stats import window
@@ -25,10 +25,11 @@ class MeanForce:
 
 def need_bodies(run: RunFolder, files: str) -> tuple[Body, ...]:
     """The bodies of a run; MissingData, with the files that a figure also needs, where it has none."""
-    bodies = bodies_of(run.config)
-    if not bodies:
+    if not run.config.get("body"):
         raise MissingData(f"needs a [[body]] in the case, and {files}")
-    return bodies
+    if run.body_lattices is None:
+        raise MissingData(f"needs {NO_FILE}")
+    return bodies_of(run)
 
 
 def column(of: str, axis: str) -> str:
@@ -60,7 +61,7 @@ def drag_coefficient(run: RunFolder, force: MeanForce) -> float:
     """F over rho U^2 A/2 with the bulk velocity U that is held and the area A of the body seen along x; else NaN."""
     fluid = run.config.get("fluid", {})
     speed, density = run.mean_velocity, fluid.get("density", 1000.0)
-    if not speed or force.axis != "x" or force.of != OF_WATER or force.body.form == "wave":
+    if not speed or force.axis != "x" or force.of != OF_WATER or force.body.shape == "wave":
         return np.nan
     return float(force.mean / (0.5 * density * speed**2 * force.body.frontal_area()))
 

@@ -96,17 +96,17 @@ class Path:
     ends: tuple[float, float]
 
 
-def obstacles_of(config: dict[str, Any]) -> list[Obstacle]:
+def obstacles_of(run: RunFolder) -> list[Obstacle]:
     """Bodies but waves and those through the whole domain along the current, then craters."""
-    found = [_body(body) for body in bodies_of(config) if body.reach[1] - body.reach[0] < body.domain[0]]
-    craters = config.get("initial", {}).get("crater", ())
+    found = [_body(body) for body in bodies_of(run) if body.reach[1] - body.reach[0] < body.domain[0]]
+    craters = run.config.get("initial", {}).get("crater", ())
     return found + [_crater(number, table) for number, table in enumerate(craters)]
 
 
 def _body(body: Body) -> Obstacle:
     return Obstacle(body.name, "body", np.concatenate(body.plan()),
                     lambda x: np.isfinite(body.interval(x[:, 0], x[:, 2])[1]),
-                    lambda x, d: body.distance(x) < 1.5 * d)
+                    lambda x, d: body.touches(x, 1.5 * d))
 
 
 def _crater(number: int, table: dict[str, Any]) -> Obstacle:
@@ -123,7 +123,7 @@ def _crater(number: int, table: dict[str, Any]) -> Obstacle:
 
 def find(run: RunFolder) -> list[Meeting]:
     """Each dune with each obstacle that lies in its way. Raises MissingData where there is nothing to tell."""
-    obstacles = obstacles_of(run.config)
+    obstacles = obstacles_of(run)
     if not obstacles:
         raise MissingData("needs a [[body]] or an [[initial.crater]] in the case, and tracks.h5 or grains.h5")
     source = tracks(run)

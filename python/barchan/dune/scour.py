@@ -4,11 +4,11 @@ Definitions: docs/dune-measures.md, "Scour". Lengths in m, angles about the body
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from barchan.dune.bodies import Body, nearest
+from barchan.dune.bodies import Body
 from barchan.dune.shape import BIN, Bed
 from barchan.io.frames import Grains
 
@@ -49,14 +49,14 @@ class BedMap:
         top = np.zeros(shape)
         np.maximum.at(top, tuple(place[inside].T), (grains.x[:, 1] + 0.5 * grains.d)[inside])
         self.level = float(np.median(top))
-        solid = self.to_bodies(bodies) < 0
+        places = np.stack(np.broadcast_arrays(self.x[:, None], self.level, self.z), axis=-1)
+        solid = np.any([body.holds(places) for body in bodies], axis=0)
         self.covered = float(np.mean(top[~solid] > 0)) if not solid.all() else 0.0
         self.h = np.where(solid, np.nan, self._median(np.where(solid, np.nan, top)))
 
-    def to_bodies(self, bodies: tuple[Body, ...]) -> np.ndarray:
-        """(nx, nz) from the centres of the bins, at the level of the bed, to the nearest of these [m]."""
-        x, z = np.meshgrid(self.x, self.z, indexing="ij")
-        return nearest(bodies, np.stack([x, np.full_like(x, self.level), z], axis=-1))
+    def to_body(self, body: Body) -> np.ndarray:
+        """(nx, nz) from the centres of the bins to its outline from above [m]."""
+        return beside(body, tuple(self.x), tuple(self.z))
 
     def _median(self, top: np.ndarray) -> np.ndarray:
         """Of 3 x 3 bins (nx, nz) without NaN; 0 where all are NaN."""
@@ -72,14 +72,14 @@ class BedMap:
     def far(self) -> float:
         """Median height of the bed that is far from all bodies, or as far as FEWEST of it is [m]."""
         size = max(diameter(body) for body in self.bodies)
-        away = self.to_bodies(self.bodies)
+        away = np.min([self.to_body(body) for body in self.bodies], axis=0)
         free = np.isfinite(self.h)
         limit = min(FAR * size, float(np.quantile(away[free], 1 - FEWEST)))
         return float(np.median(self.h[free & (away >= limit)]))
 
     def scour(self, body: Body, t: float) -> Scour | None:
         """None where the bed shows no bin within NEAR of the body."""
-        near = (self.to_bodies((body,)) <= NEAR * diameter(body)) & np.isfinite(self.h)
+        near = (self.to_body(body) <= NEAR * diameter(body)) & np.isfinite(self.h)
         if not near.any():
             return None
         i, k = np.unravel_index(int(np.argmin(np.where(near, self.h, np.inf))), self.h.shape)
@@ -87,6 +87,12 @@ class BedMap:
         angle = float(np.degrees(np.arctan2(-away[2], away[0])) % 360)
         return Scour(t, self.far - float(self.h[i, k]), self.far, float(self.x[i]), float(self.z[k]), angle,
                      bool(self.h[i, k] <= 0))
+
+
+@lru_cache(maxsize=16)
+def beside(body: Body, x: tuple[float, ...], z: tuple[float, ...]) -> np.ndarray:
+    """(nx, nz) from places to its outline from above [m]: of all frames of a run the same."""
+    return body.beside(*np.meshgrid(x, z, indexing="ij"))
 
 
 def diameter(body: Body) -> float:

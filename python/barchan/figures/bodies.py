@@ -2,15 +2,14 @@
 
 from matplotlib.patches import Polygon
 
-from barchan.dune.bodies import bodies_of
 from barchan.figures import style
 from barchan.io.study_folder import plain
 
 
-def in_window(window, config):
-    """(x0, x1, z0, z1) [m] that holds the bodies of a case too, but for those through the whole domain."""
+def in_window(window, bodies):
+    """(x0, x1, z0, z1) [m] that holds the bodies too, but for those through the whole domain."""
     x0, x1, z0, z1 = window
-    for body in bodies_of(config):
+    for body in bodies:
         a, b, c, d = body.reach
         margin = 0.1 * body.unit[0]
         if b - a < body.domain[0]:

@@ -9,6 +9,7 @@ of a body with water below it.
 import numpy as np
 from matplotlib.colors import ListedColormap
 
+from barchan.dune.bodies import bodies_of
 from barchan.dune.body_forces import need_bodies
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
@@ -49,7 +50,7 @@ def draw(run, ax=None, start=None, end=None):
 
 def title(plane, found):
     size, unit = plane.body.unit
-    if plane.body.form == "wave" and np.isfinite(found.x_r):
+    if plane.body.shape == "wave" and np.isfinite(found.x_r):
         return f"{plain(plane.body.name)}: {in_waves(plane, found)},  {time(plane)}"
     length = (f"bubble of {found.length / size:.2f} ${unit}$" if np.isfinite(found.length) else
               "reversed to the end" if np.isfinite(found.height) else "no reversed flow")
@@ -60,7 +61,7 @@ def view(plane, found):
     """(x0, x1, y0, y1) [m] about the body and its bubble."""
     size = plane.body.unit[0]
     ends = plane.body.reach[0] - plane.body.heart[0], plane.body.reach[1] - plane.body.heart[0]
-    if plane.body.form == "wave":
+    if plane.body.shape == "wave":
         ends = 0.0, plane.body.wavelength
     reached = found.x_r if np.isfinite(found.x_r) else 0.0
     x0 = max(plane.x_face[0], ends[0] - BEFORE * size)
@@ -83,14 +84,14 @@ def draw_plane(axes, run, plane, found, window, limits):
     seen = np.ma.masked_where(~plane.water, plane.u)
     if np.isfinite(found.height):
         axes.contour(1e3 * plane.x, 1e3 * plane.y, seen, [0.0], colors=style.VERMILLION, linewidths=1.2, zorder=2.5)
-    body_pictures.draw_section(axes, body_pictures.bodies_of(run.config), plane.z, shift=-plane.body.heart[0])
+    body_pictures.draw_section(axes, bodies_of(run), plane.z, shift=-plane.body.heart[0])
     if np.isfinite(found.x_r):
         mark_reattachment(axes, plane, found)
     return image
 
 
 def mark_reattachment(axes, plane, found):
-    y, mark = plane.body.base + 0.5 * plane.body.tall, "o"
+    y, mark = plane.body.middle, "o"
     if found.row == "floor":
         at = int(np.argmin(abs(plane.x - found.x_r)))
         y, mark = plane.y_face[np.argmax(plane.water[:, at])], "^"

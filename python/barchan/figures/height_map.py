@@ -39,7 +39,7 @@ def draw(run, ax=None):
     step = style.round_length(1.5 * top / CONTOURS)
     for index, (axes, surface, grains) in enumerate(zip(panels, maps, frames)):
         image, lines = draw_map(axes, surface, top, step)
-        body_pictures.draw_plan(axes, bodies_of(run.config), fill=True)
+        body_pictures.draw_plan(axes, bodies_of(run), fill=True)
         style.panel_label(axes, index)
         axes.set_title(f"$t$ = {grains.time:.3g} s", pad=3)
         centreline = axes.axhline(1e3 * centre_z(grains), color=style.GREY, lw=0.9, ls=(0, (6, 4)),

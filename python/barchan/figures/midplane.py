@@ -30,7 +30,7 @@ def draw(run, ax=None):
         ax, figsize=(style.FULL_WIDTH, 0.9 + 6.4 * (view[3] - view[2]) / (view[1] - view[0])))
     axes.set(xlim=1e3 * np.array(view[:2]), ylim=1e3 * np.array(view[2:]))
     image = draw_flow(axes, flow, *velocity_range(flow, view))
-    body_pictures.draw_section(axes, bodies_of(run.config), flow.z)
+    body_pictures.draw_section(axes, bodies_of(run), flow.z)
     if grains is not None:
         draw_grains(axes, grains, flow.z)
     axes.set(aspect="equal", xlabel="$x$ (mm)", ylabel="$y$ (mm)")

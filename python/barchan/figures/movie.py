@@ -87,8 +87,9 @@ def write_files(run):
         raise MissingData("needs a frame with grains in it")
     top = max(np.percentile(g.x[:, 1] + 0.5 * g.d, 99.9) for g in sample)
     named = max(sample, key=lambda grains: len(grains.groups))
-    window = body_pictures.in_window(frame_window(sample), run.config)
-    scene = Scene(window, top, named, always_along_x(run.config), bodies_of(run.config))
+    bodies = bodies_of(run)
+    window = body_pictures.in_window(frame_window(sample), bodies)
+    scene = Scene(window, top, named, always_along_x(run.config), bodies)
     log = {"frame": [], "t_s": [], "n_grains": []}
     program = shutil.which("ffmpeg")
     pictures = recorded(scene, frames, log)

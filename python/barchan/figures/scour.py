@@ -6,7 +6,7 @@ frame, the cross the deepest point. Definitions: docs/dune-measures.md, "Scour".
 
 import numpy as np
 
-from barchan.dune.bodies import bodies_of
+from barchan.dune.body_forces import need_bodies
 from barchan.dune.scour import COVERED, BedMap, diameter, history
 from barchan.dune.shape import BIN
 from barchan.dune.tracks import bed_of
@@ -22,9 +22,9 @@ MOST = 400  # frames
 
 
 def draw(run, ax=None):
-    bodies = tuple(body for body in bodies_of(run.config) if body.form != "wave")
+    bodies = tuple(body for body in need_bodies(run, "a bed in grains.h5") if body.shape != "wave")
     if not bodies:
-        raise MissingData("needs a [[body]] in the case, and a bed in grains.h5")
+        raise MissingData("needs a [[body]] that is no wave in the case, and a bed in grains.h5")
     file, bed = run.need_grains(), bed_of(run)
     chosen = thin(len(file.frames), MOST)
     frames = (run.frame(index) for index in chosen.tolist())

@@ -57,8 +57,8 @@ def draw(run, ax=None):
     if ax is None and len(frames) > 3 and len(frames) * shape_of(frame_window(frames)) > TALL:
         frames = frames_at(run, tuple(FULL_GRIDS))
         columns = FULL_GRIDS.get(len(frames), 2)
-    bodies = bodies_of(run.config)
-    window = body_pictures.in_window(frame_window(frames), run.config)
+    bodies = bodies_of(run)
+    window = body_pictures.in_window(frame_window(frames), bodies)
     top, ratio = height_range(frames), shape_of(window)
     rows = np.size(ax) if ax is not None else -(-len(frames) // columns)
     panel_width = style.FULL_WIDTH / columns if columns > 1 else 5.2

@@ -77,7 +77,7 @@ def draw(study, key, ax=None):
         raise MissingData("needs a frame with grains in it")
     times, grid = times_shown(times, grid)
     figure = draw_grid(grid, common_window(frames), times,
-                       [case.label_in(key) for case in cases], [bodies_of(case.run.config) for case in cases])
+                       [case.label_in(key) for case in cases], [bodies_of(case.run) for case in cases])
     keep_rows(figure, study, key, cases, times, grid)
     return figure
 

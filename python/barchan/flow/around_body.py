@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from barchan.dune.bodies import Body, bodies_of, nearest
+from barchan.dune.bodies import Body, bodies_of
 from barchan.errors import MissingData
 from barchan.io.flow_average import NAME
 from barchan.io.frames import FrameFile
@@ -73,7 +73,7 @@ def mean_plane(run: RunFolder, body: Body, start: float | None = None, end: floa
     with file.open() as content:
         grid = {key: content["grid"][key][:] for key in ("x", "y", "z", "x_face", "y_face")}
         k = int(np.argmin(abs(grid["z"] - z)))
-        across = slice(None) if all(each.spans for each in bodies_of(run.config)) else slice(k, k + 1)
+        across = slice(None) if all(each.spans for each in bodies_of(run)) else slice(k, k + 1)
         planes = [[content[file.frames[index][1]][name][across].astype(float).mean(axis=0)
                    for name in ("u", "v", "alpha_f")] for index in chosen]
         samples = int(content[file.frames[chosen[-1]][1]].attrs.get("n_samples", len(chosen)))
@@ -85,7 +85,7 @@ def mean_plane(run: RunFolder, body: Body, start: float | None = None, end: floa
     face = np.concatenate([grid["x_face"][first:-1], grid["x_face"][:first + 1] + length])
     origin = x + length * np.round((along[int(UPSTREAM * len(along))] - x) / length)
     places = np.stack(np.broadcast_arrays(along[None, :], grid["y"][:, None], z), axis=-1)
-    solid = nearest(bodies_of(run.config), places) < 0
+    solid = np.any([each.holds(places) for each in bodies_of(run)], axis=0)
     u, v, alpha_f = (np.roll(each, -first, axis=1) for each in (u, v, alpha_f))
     return Plane(body, z, *window, samples, along - origin, grid["y"], face - origin,
                  grid["y_face"], u, v, solid, (alpha_f < CLEAR) & ~solid)
@@ -114,7 +114,7 @@ def bubble(plane: Plane) -> Bubble:
     body = plane.body
     x_lee, gap = _lee(plane)
     if gap:
-        near = plane.u[int(np.argmin(abs(plane.y - (body.base + 0.5 * body.tall))))].copy()
+        near = plane.u[int(np.argmin(abs(plane.y - (body.middle))))].copy()
     else:
         lowest = np.argmax(plane.water, axis=0)
         near = plane.u[lowest, np.arange(len(plane.x))]
@@ -139,7 +139,7 @@ def _turns(x: np.ndarray, u: np.ndarray, i: int) -> float:
 def _lee(plane: Plane) -> tuple[float, bool]:
     """(where the body ends downstream of its middle [m], whether water flows below it)."""
     body = plane.body
-    if body.form == "wave":
+    if body.shape == "wave":
         return 0.0, False
     x, z = body.heart
     low = float(body.interval(np.array(x), np.array(z))[0])
@@ -175,7 +175,7 @@ def sentence(plane: Plane, found: Bubble) -> str:
     seen = f"{plane.frames} samples, {time(plane)}" if plane.frames > 1 else time(plane)
     if np.isfinite(found.length):
         where = "in the lowest row of water" if found.row == "floor" else "at half its height"
-        if plane.body.form == "wave":
+        if plane.body.shape == "wave":
             return f"{plane.body.name}: {in_waves(plane, found)} behind the crest ({where}; {seen})"
         return (f"{plane.body.name}: separation bubble of {found.length / size:.3g} {unit} behind it (x_r = "
                 f"{1e3 * found.x_r:.3g} mm from its middle, {where}; {seen})")

@@ -9,7 +9,6 @@ from barchan.io.frames import FrameFile
 from barchan.io.run_folder import RunFolder
 
 NAME = "flow_average.h5"
-MOMENTS = ("uu", "vv", "ww", "uv", "uw", "vw")
 USED = ("u", "v", "uu", "vv", "uv")
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from barchan.errors import BarchanError, MissingData
 from barchan.io.frames import Flow, FrameFile, Grains, names_of, with_fed
+from barchan.io.hdf5 import open_file
 from barchan.io.horn_lengths import medians
 from barchan.io.tables import read_columns
 from barchan.io.units import About, of_columns
@@ -140,6 +141,15 @@ class RunFolder:
         numbers = np.unique(table["body"]).astype(int)
         return {int(number): {name: column[table["body"] == number] for name, column in table.items()}
                 for number in numbers}
+
+    @cached_property
+    def body_lattices(self) -> list[dict[str, np.ndarray]] | None:
+        """bodies.h5 as {name: values} of each body, None where there is none."""
+        if not (self.path / "bodies.h5").exists():
+            return None
+        with open_file(self.path / "bodies.h5") as file:
+            groups = [file[name] for name in sorted(file)]
+            return [{name: group[name][:] for name in group} for group in groups]
 
     @cached_property
     def probe_columns(self) -> dict[str, dict[str, np.ndarray]] | None:

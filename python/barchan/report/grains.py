@@ -43,7 +43,7 @@ def pack(run, most_frames=MOST_FRAMES, most_grains=MOST_GRAINS):
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
         "window": dune_window(positions, bounds), "colours": colours(), "groups": keys_of(groups),
-        "bodies": bodies(run.config),
+        "bodies": bodies(run),
         "flow": ("fluid" in run.config or "grains" not in run.config) and always_along_x(run.config),
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
@@ -107,13 +107,13 @@ def colours():
     return [matplotlib.colors.to_hex(shade) for shade in shades]
 
 
-def bodies(config):
+def bodies(run):
     """Name, outline from above (x, z) and in the plane through the middle (x, y) of each body [m]."""
     def rounded(outlines):
         return [np.round(outline, 6).tolist() for outline in outlines]
 
     return [{"name": body.name, "plan": rounded(body.plan()), "section": rounded(body.section(body.heart[1])),
-             "top": body.top} for body in bodies_of(config)]
+             "top": body.top} for body in bodies_of(run)]
 
 
 def keys_of(groups):
