@@ -16,10 +16,10 @@ Kokkos::View<Vec3*> grain_vector(const std::string& name, int n) {
 
 }  // namespace
 
-GrainForces grain_forces(const SystemState& state, const GrainSolver& solver, Real dt) {
+ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Real dt) {
   const GrainState& grains = *state.grains;
   const int n = grains.n;
-  GrainForces forces;
+  ForceArrays forces;
   const bool resolved = grains.exchange.resolved_force.size() > 0;
   if (resolved) {
     forces.flow = grains.exchange.resolved_force;

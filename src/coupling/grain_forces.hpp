@@ -8,7 +8,7 @@ namespace barchan {
 
 /// Forces [N] and the torque of the flow [N m] on every grain, in the order of the state. An empty
 /// array: the run has no such force; others have one entry at least, also on a rank without grains.
-struct GrainForces {
+struct ForceArrays {
   using OfGrains = Kokkos::View<const Vec3*>;
   OfGrains flow = {};    // where it is resolved around the grains, else the next five
   OfGrains torque = {};  // of the flow
@@ -18,9 +18,9 @@ struct GrainForces {
   OfGrains total = {};  // the resultant with weight and buoyancy
 };
 
-/// Forces of the last step, without `contact`. `solver` is the one that moved the grains, dt the length of the fluid step
-/// [s].
-GrainForces grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
+/// Forces of the last step, without `contact`. `solver` is the one that moved the grains, dt the
+/// length of the fluid step [s].
+ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
 
 /// Resultant force on each grain [N].
 Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt);

@@ -44,7 +44,7 @@ class FluidSolver {
   FluidSolver(const FluidCase& config, const Grid& grid);
   /// The fluid fraction varies where the state of the flow, or the exchange, says so.
   FluidSolver(const FluidCase& config, const Grid& grid, Fraction fraction);
-  FluidSolver(const FluidSolver&) = delete;
+  FluidSolver(FluidSolver&&) = default;
 
   const Drive& drive() const { return drive_; }
   /// Advances by dt. A fraction that varies is fluid.alpha_f, and alpha_f_previous before the last

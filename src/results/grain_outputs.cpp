@@ -72,7 +72,7 @@ GrainValues positions(const GrainFrame& frame) {
   return rows<T>(frame, PositionOf<T>{frame.grains.kin, frame.box});
 }
 
-using F = GrainForces;
+using F = ForceArrays;
 
 /// The table: one line for each array.
 constexpr GrainOutput kGrainOutputs[] = {

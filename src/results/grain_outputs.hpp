@@ -17,7 +17,7 @@ using DuneLabels = std::optional<std::vector<int>>;
 struct GrainFrame {
   const GrainState& grains;
   PeriodicBox box = {};     // positions are written as the images within
-  GrainForces forces = {};  // empty: not asked for
+  ForceArrays forces = {};  // empty: not asked for
   DuneLabels dunes = {};
 };
 

@@ -197,7 +197,7 @@ std::vector<std::string> OutputFiles::write_failure(const FluidState* fluid,
   std::vector<std::string> names;
   if (grains != nullptr) {
     FrameFile file = anew("failure_grains", grains_xdmf);
-    const GrainForces contacts{.contact = grains->contact_force};
+    const ForceArrays contacts{.contact = grains->contact_force};
     append_grains(file, {.grains = *grains, .forces = contacts}, t, step);
     names.emplace_back("failure_grains.xdmf");
   }
@@ -217,7 +217,7 @@ void OutputFiles::write_tracks(const GrainState& grains, double t, std::int64_t 
 }
 
 void OutputFiles::write_grains(const GrainState& grains, double t, std::int64_t step,
-                               const GrainForces& forces, const DuneLabels& dunes) {
+                               const ForceArrays& forces, const DuneLabels& dunes) {
   append_grains(grains_, {grains, box_, forces, dunes}, t, step);
 }
 

@@ -44,7 +44,7 @@ class OutputFiles {
 
   /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.
   void write_grains(const GrainState& grains, double t, std::int64_t step,
-                    const GrainForces& forces = {}, const DuneLabels& dunes = {});
+                    const ForceArrays& forces = {}, const DuneLabels& dunes = {});
 
   /// tracks.h5: ids, dunes and positions, these in single precision.
   void write_tracks(const GrainState& grains, double t, std::int64_t step,

@@ -176,7 +176,7 @@ void ResultsWriter::write_frames() {
   std::optional<std::vector<int>> dunes;
   if ((grains || tracks) && o.dune_interval > 0) dunes = diagnostics_.dune_labels();
   if (grains) {
-    GrainForces forces;
+    ForceArrays forces;
     const CoupledStep& step = run_.coupled_step;
     if (o.grain_forces) forces = grain_forces(now, *step.grain_solver(), step.dt());
     output_.write_grains(*now.grains, t, clock.step, forces, dunes);

@@ -46,7 +46,7 @@ struct NamedForce {
 };
 
 /// Forces that the run has.
-inline std::vector<NamedForce> named(const GrainForces& f) {
+inline std::vector<NamedForce> named(const ForceArrays& f) {
   std::vector<NamedForce> all{{"force_flow", f.flow},
                               {"torque_flow", f.torque},
                               {"force_drag", f.drag},

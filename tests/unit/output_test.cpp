@@ -132,7 +132,7 @@ TEST(Output, ArraysSayWhatTheyAre) {
   OutputFiles output(folder.path(), {});
   output.write_fields(make_flow(), 0, 0);
   const Kokkos::View<Vec3*> force("force", 5);
-  const GrainForces forces{.flow = force,
+  const ForceArrays forces{.flow = force,
                            .torque = force,
                            .drag = force,
                            .added_mass = force,
